@@ -42,7 +42,8 @@ std::vector<std::string> counters_in(const std::string& names) {
 bool translate(const std::vector<std::string>& arguments, Arguments& result) {
   std::vector<std::string>& translated = result.translated;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const bool is_filter = arguments[i] == "--filter", is_json = arguments[i] == "--json", is_columns = arguments[i] == "--columns";
+    const bool is_filter = arguments[i] == "--filter", is_json = arguments[i] == "--json",
+               is_columns = arguments[i] == "--columns";
     if (!is_filter && !is_json && !is_columns) {
       translated.push_back(arguments[i]);
       continue;
@@ -69,7 +70,9 @@ int main(int count, char** values) {
       return std::puts(rink::game::version_line("rink-bench").c_str()) < 0;
     }
   Arguments ours;
-  if (!translate(arguments, ours)) return std::fputs("rink bench: --filter, --json and --columns need a value\n", stderr), bad_usage;
+  if (!translate(arguments, ours))
+    return std::fputs("rink bench: --filter, --json and --columns need a value\n", stderr),
+           bad_usage;
   std::vector<char*> pointers;
   for (std::string& argument : ours.translated) pointers.push_back(argument.data());
   int pointer_count = static_cast<int>(pointers.size());
@@ -78,6 +81,9 @@ int main(int count, char** values) {
   if (!ours.counters) return benchmark::RunSpecifiedBenchmarks() == 0 ? failed : 0;
   rink::bench::ColumnReporter table(*ours.counters);
   if (benchmark::RunSpecifiedBenchmarks(&table) == 0 || !table.is_sound()) return failed;
-  if (const std::string unknown = table.unknown_counter(); !unknown.empty()) return std::fprintf(stderr, "rink bench: --columns: none of these benchmarks counts %s\n", unknown.c_str()), bad_usage;
+  if (const std::string unknown = table.unknown_counter(); !unknown.empty())
+    return std::fprintf(stderr, "rink bench: --columns: none of these benchmarks counts %s\n",
+                        unknown.c_str()),
+           bad_usage;
   return 0;
 }

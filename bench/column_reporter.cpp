@@ -30,7 +30,9 @@ void ColumnReporter::ReportRuns(const std::vector<Run>& runs) {
     std::vector<std::string> row{name_of(run)};
     std::cerr << row.front() << (run.error_occurred ? ": " + run.error_message : "") << "\n";
     is_sound_ = is_sound_ && !run.error_occurred;
-    row.push_back(run.error_occurred ? "failed" : digits(run.GetAdjustedRealTime()) + " " + benchmark::GetTimeUnitString(run.time_unit));
+    row.push_back(run.error_occurred ? "failed"
+                                     : digits(run.GetAdjustedRealTime()) + " " +
+                                           benchmark::GetTimeUnitString(run.time_unit));
     for (const std::string& counter : counters_) {
       const auto found = run.counters.find(counter);
       row.push_back(found == run.counters.end() ? "-" : digits(found->second.value));
@@ -41,7 +43,8 @@ void ColumnReporter::ReportRuns(const std::vector<Run>& runs) {
 
 std::string ColumnReporter::unknown_counter() const {
   for (std::size_t i = 0; i < counters_.size(); ++i)
-    if (std::ranges::all_of(rows_, [i](const auto& row) { return row[i + 2] == "-"; })) return counters_[i];
+    if (std::ranges::all_of(rows_, [i](const auto& row) { return row[i + 2] == "-"; }))
+      return counters_[i];
   return {};
 }
 
@@ -54,7 +57,8 @@ void ColumnReporter::Finalize() {
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   for (const auto& row : rows_) {
     std::cout << row[0] << std::string(widths[0] - row[0].size(), ' ');
-    for (std::size_t i = 1; i < row.size(); ++i) std::cout << "  " << std::string(widths[i] - row[i].size(), ' ') << row[i];
+    for (std::size_t i = 1; i < row.size(); ++i)
+      std::cout << "  " << std::string(widths[i] - row[i].size(), ' ') << row[i];
     std::cout << "\n";
   }
   std::cout << std::flush;

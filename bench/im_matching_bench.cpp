@@ -1,4 +1,5 @@
-// Times the matching engines beside Boost.Geometry's rtree and CGAL's box_intersection_d on the same regions, every pair and change written to memory.
+// Times the matching engines beside Boost.Geometry's rtree and CGAL's box_intersection_d on the
+// same regions, every pair and change written to memory.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -11,9 +12,9 @@
 #include <vector>
 
 #include "bench/peers/region_peers.h"
-#include "rti/second_core.h"
 #include "im/matching/batch_matcher.h"
 #include "im/schemes/overlap_filter.h"
+#include "rti/second_core.h"
 
 namespace {
 
@@ -23,8 +24,9 @@ using Regions = std::vector<im::Region>;
 constexpr double side = 1000.0;
 constexpr im::Region world{0.0, 0.0, side, side};
 
-/// `count` updates and as many subscriptions, all squares, whose areas add up to `alpha` times the world's. Hotspot: 90 % of them in 1 % of the world. Mixed: one in a hundred is
-/// thirty times as wide as the others.
+/// `count` updates and as many subscriptions, all squares, whose areas add up to `alpha` times the
+/// world's. Hotspot: 90 % of them in 1 % of the world. Mixed: one in a hundred is thirty times as
+/// wide as the others.
 struct Setting {
   std::uint32_t count;
   double alpha;
@@ -42,7 +44,8 @@ class Field {
   void step(double share) {
     const auto stride = static_cast<std::size_t>(std::lround(1.0 / share));
     moved.clear();
-    for (std::size_t i = tick_++ % stride; i < setting_.count; i += stride) moved.push_back(static_cast<std::uint32_t>(i));
+    for (std::size_t i = tick_++ % stride; i < setting_.count; i += stride)
+      moved.push_back(static_cast<std::uint32_t>(i));
     for (Regions* regions : {&updates, &subscriptions})
       for (const std::uint32_t i : moved) shift((*regions)[i]);
   }
@@ -51,18 +54,23 @@ class Field {
   std::vector<std::uint32_t> moved;
 
  private:
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
 
   im::Region draw() {
     const bool is_mixed = setting_.layout == "mixed";
-    const double mean_area = setting_.alpha * side * side / (2.0 * setting_.count), special = between(0.0, 1.0);
-    const double small = std::sqrt(is_mixed ? mean_area / (0.99 + 0.01 * 900.0) : mean_area), width = is_mixed && special < 0.01 ? 30.0 * small : small;
+    const double mean_area = setting_.alpha * side * side / (2.0 * setting_.count),
+                 special = between(0.0, 1.0);
+    const double small = std::sqrt(is_mixed ? mean_area / (0.99 + 0.01 * 900.0) : mean_area),
+                 width = is_mixed && special < 0.01 ? 30.0 * small : small;
     const double spread = setting_.layout == "hotspot" && special < 0.9 ? 0.1 * side : side;
     const double x = between(0.0, spread), y = between(0.0, spread);
     return {x, y, x + width, y + width};
   }
   void shift(im::Region& region) {
-    const double reach = 0.1 * (region.high_x - region.low_x), dx = between(-reach, reach), dy = between(-reach, reach);
+    const double reach = 0.1 * (region.high_x - region.low_x), dx = between(-reach, reach),
+                 dy = between(-reach, reach);
     region = {region.low_x + dx, region.low_y + dy, region.high_x + dx, region.high_y + dy};
   }
 
@@ -102,19 +110,25 @@ std::uint64_t dominated(std::vector<Corner> a, std::vector<Corner> b) {
   std::uint64_t count = 0;
   std::size_t next = 0;
   for (const Corner& corner : b) {
-    for (; next < a.size() && a[next].x < corner.x; ++next) seen.add(static_cast<std::size_t>(std::lower_bound(heights.begin(), heights.end(), a[next].y) - heights.begin()));
-    count += seen.below(static_cast<std::size_t>(std::lower_bound(heights.begin(), heights.end(), corner.y) - heights.begin()));
+    for (; next < a.size() && a[next].x < corner.x; ++next)
+      seen.add(static_cast<std::size_t>(
+          std::lower_bound(heights.begin(), heights.end(), a[next].y) - heights.begin()));
+    count += seen.below(static_cast<std::size_t>(
+        std::lower_bound(heights.begin(), heights.end(), corner.y) - heights.begin()));
   }
   return count;
 }
 
-/// How many pairs overlap, by inclusion and exclusion of those that are apart along x, along y and along both: no pair is ever looked at, ties are exact.
+/// How many pairs overlap, by inclusion and exclusion of those that are apart along x, along y and
+/// along both: no pair is ever looked at, ties are exact.
 std::uint64_t independent_count(const Regions& updates, const Regions& subscriptions) {
   const auto corners = [](const Regions& regions, double sign_x, double sign_y, bool is_first) {
     std::vector<Corner> result;
     for (const im::Region& r : regions) {
-      // The first of two that are apart in the direction of the signs ends with its far edge, the second begins with its near one.
-      const double x = (sign_x > 0.0) == is_first ? r.high_x : r.low_x, y = (sign_y > 0.0) == is_first ? r.high_y : r.low_y;
+      // The first of two that are apart in the direction of the signs ends with its far edge, the
+      // second begins with its near one.
+      const double x = (sign_x > 0.0) == is_first ? r.high_x : r.low_x,
+                   y = (sign_y > 0.0) == is_first ? r.high_y : r.low_y;
       result.push_back({sign_x * x, sign_y * y});
     }
     return result;
@@ -126,18 +140,25 @@ std::uint64_t independent_count(const Regions& updates, const Regions& subscript
   };
   std::uint64_t apart = 0, apart_both = 0;
   for (const double sign : {1.0, -1.0}) {
-    apart += along(corners(updates, sign, sign, true), corners(subscriptions, sign, sign, false), true);
-    apart += along(corners(updates, sign, sign, true), corners(subscriptions, sign, sign, false), false);
-    apart_both += dominated(corners(updates, sign, 1.0, true), corners(subscriptions, sign, 1.0, false));
-    apart_both += dominated(corners(updates, sign, -1.0, true), corners(subscriptions, sign, -1.0, false));
+    apart +=
+        along(corners(updates, sign, sign, true), corners(subscriptions, sign, sign, false), true);
+    apart +=
+        along(corners(updates, sign, sign, true), corners(subscriptions, sign, sign, false), false);
+    apart_both +=
+        dominated(corners(updates, sign, 1.0, true), corners(subscriptions, sign, 1.0, false));
+    apart_both +=
+        dominated(corners(updates, sign, -1.0, true), corners(subscriptions, sign, -1.0, false));
   }
   return std::uint64_t{updates.size()} * subscriptions.size() + apart_both - apart;
 }
 
-double difference(std::uint64_t a, std::uint64_t b) { return static_cast<double>(a > b ? a - b : b - a); }
+double difference(std::uint64_t a, std::uint64_t b) {
+  return static_cast<double>(a > b ? a - b : b - a);
+}
 
-/// What iterations took of the thread's processor time (all matchers but `rink_two_cores` use one thread, and the machine may have other work), in all and at best, and by
-/// the clock on the wall at best.
+/// What iterations took of the thread's processor time (all matchers but `rink_two_cores` use one
+/// thread, and the machine may have other work), in all and at best, and by the clock on the wall
+/// at best.
 struct Clock {
   double seconds = 0.0, least = 1e300, least_on_the_wall = 1e300;
 
@@ -160,7 +181,8 @@ struct Clock {
 };
 
 /// Per iteration: `regions` matched or moved, and `pairs` written.
-void report(benchmark::State& state, const Clock& clock, double regions, double pairs, double mismatches) {
+void report(benchmark::State& state, const Clock& clock, double regions, double pairs,
+            double mismatches) {
   const double iterations = static_cast<double>(state.iterations());
   state.counters["ns_per_region"] = clock.seconds / iterations / regions * 1e9;
   state.counters["best_ns_per_region"] = clock.least / regions * 1e9;
@@ -173,13 +195,16 @@ void report(benchmark::State& state, const Clock& clock, double regions, double 
 template <class Match>
 void run_static(benchmark::State& state, const Setting& setting, const Match& match) {
   const Field field(setting);
-  // Whoever matches at every tick keeps his memory; what the first one takes more, pages that were never touched above all, is told apart, of everybody.
+  // Whoever matches at every tick keeps his memory; what the first one takes more, pages that were
+  // never touched above all, is told apart, of everybody.
   const double start = Clock::now();
   std::uint64_t pairs = match(field.updates, field.subscriptions);
   state.counters["first_ns_per_region"] = (Clock::now() - start) / (2.0 * setting.count) * 1e9;
   Clock clock;
-  for (auto _ : state) pairs = clock.time(state, [&] { return match(field.updates, field.subscriptions); });
-  report(state, clock, 2.0 * setting.count, static_cast<double>(pairs), difference(pairs, independent_count(field.updates, field.subscriptions)));
+  for (auto _ : state)
+    pairs = clock.time(state, [&] { return match(field.updates, field.subscriptions); });
+  report(state, clock, 2.0 * setting.count, static_cast<double>(pairs),
+         difference(pairs, independent_count(field.updates, field.subscriptions)));
 }
 
 void rink_static(benchmark::State& state, const Setting& setting, bool has_second_core) {
@@ -216,13 +241,16 @@ void run_dynamic(benchmark::State& state, double share, Field& field, const Foll
     const std::span<const im::Change> news = clock.time(state, [&] { return follow(field); });
     moves += 2.0 * static_cast<double>(field.moved.size());
     changes += static_cast<double>(news.size());
-    for (const im::Change& change : news) standing += change.transition == im::Transition::entered ? 1u : ~std::uint64_t{0};
+    for (const im::Change& change : news)
+      standing += change.transition == im::Transition::entered ? 1u : ~std::uint64_t{0};
   }
   const double iterations = static_cast<double>(state.iterations());
-  report(state, clock, moves / iterations, changes / iterations, difference(standing, independent_count(field.updates, field.subscriptions)));
+  report(state, clock, moves / iterations, changes / iterations,
+         difference(standing, independent_count(field.updates, field.subscriptions)));
 }
 
-void rink_dynamic(benchmark::State& state, const Setting& setting, double share, bool has_second_core) {
+void rink_dynamic(benchmark::State& state, const Setting& setting, double share,
+                  bool has_second_core) {
   Field field(setting);
   std::optional<rti::SecondCore> second_core;
   im::OverlapFilter filter(world);
@@ -250,34 +278,47 @@ void rtree_dynamic(benchmark::State& state, const Setting& setting, double share
   run_dynamic(state, share, field, [&](const Field& now) {
     changes.clear();
     for (const std::uint32_t i : now.moved) trees->move_update(i, now.updates[i], changes);
-    for (const std::uint32_t i : now.moved) trees->move_subscription(i, now.subscriptions[i], changes);
+    for (const std::uint32_t i : now.moved)
+      trees->move_subscription(i, now.subscriptions[i], changes);
     return std::span<const im::Change>(changes);
   });
 }
 
-std::string name_of(const char* kind, const char* matcher, const Setting& setting, const std::string& rest) {
-  const std::string alpha = std::to_string(static_cast<int>(setting.alpha)), layout = setting.layout == "uniform" ? "" : "/layout:" + setting.layout;
-  return std::string("im/") + kind + "/" + matcher + "/n:" + std::to_string(setting.count) + "/alpha:" + alpha + rest + layout;
+std::string name_of(const char* kind, const char* matcher, const Setting& setting,
+                    const std::string& rest) {
+  const std::string alpha = std::to_string(static_cast<int>(setting.alpha)),
+                    layout = setting.layout == "uniform" ? "" : "/layout:" + setting.layout;
+  return std::string("im/") + kind + "/" + matcher + "/n:" + std::to_string(setting.count) +
+         "/alpha:" + alpha + rest + layout;
 }
 
 template <class... Arguments>
 void add(const std::string& name, const Setting& setting, Arguments... arguments) {
   auto* const bench = benchmark::RegisterBenchmark(name.c_str(), arguments...);
   // The trees need seconds for what is measured.
-  bench->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(setting.count >= 1'000'000 ? 3 : setting.count >= 100'000 ? 8 : 100);
+  bench->UseManualTime()
+      ->Unit(benchmark::kMillisecond)
+      ->Iterations(setting.count >= 1'000'000 ? 3
+                   : setting.count >= 100'000 ? 8
+                                              : 100);
 }
 
 void add_static(const Setting& setting) {
   add(name_of("static", "rink", setting, ""), setting, rink_static, setting, false);
   add(name_of("static", "rink_two_cores", setting, ""), setting, rink_static, setting, true);
-  add(name_of("static", "boost_rtree", setting, ""), setting, peer_static, setting, bench::match_by_rtree);
-  add(name_of("static", "cgal", setting, ""), setting, peer_static, setting, bench::match_by_box_intersection);
+  add(name_of("static", "boost_rtree", setting, ""), setting, peer_static, setting,
+      bench::match_by_rtree);
+  add(name_of("static", "cgal", setting, ""), setting, peer_static, setting,
+      bench::match_by_box_intersection);
 }
 
 void add_dynamic(const Setting& setting, const char* moved) {
-  add(name_of("dynamic", "rink", setting, std::string("/moved:") + moved), setting, rink_dynamic, setting, std::stod(moved), false);
-  add(name_of("dynamic", "rink_two_cores", setting, std::string("/moved:") + moved), setting, rink_dynamic, setting, std::stod(moved), true);
-  add(name_of("dynamic", "boost_rtree", setting, std::string("/moved:") + moved), setting, rtree_dynamic, setting, std::stod(moved));
+  add(name_of("dynamic", "rink", setting, std::string("/moved:") + moved), setting, rink_dynamic,
+      setting, std::stod(moved), false);
+  add(name_of("dynamic", "rink_two_cores", setting, std::string("/moved:") + moved), setting,
+      rink_dynamic, setting, std::stod(moved), true);
+  add(name_of("dynamic", "boost_rtree", setting, std::string("/moved:") + moved), setting,
+      rtree_dynamic, setting, std::stod(moved));
 }
 
 const bool is_registered = [] {

@@ -1,4 +1,5 @@
-// Shows from how many regions, and movers where few move, waking a second core pays: the same matches alone and shared, however few they are, one after the other, by the wall.
+// Shows from how many regions, and movers where few move, waking a second core pays: the same
+// matches alone and shared, however few they are, one after the other, by the wall.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -10,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "rti/second_core.h"
 #include "im/matching/batch_matcher.h"
 #include "im/schemes/overlap_filter.h"
+#include "rti/second_core.h"
 
 namespace {
 
@@ -26,7 +27,8 @@ template <class Work>
 double wall_us(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
-  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+      .count();
 }
 
 double quantile(std::vector<double>& values, double share) {
@@ -37,7 +39,10 @@ double quantile(std::vector<double>& values, double share) {
 /// Half of them updates, half subscriptions; all squares of one size, one pair per region.
 class Field {
  public:
-  explicit Field(std::size_t regions) : updates(regions / 2), subscriptions(regions / 2), width_(side / std::sqrt(static_cast<double>(regions))) {
+  explicit Field(std::size_t regions)
+      : updates(regions / 2),
+        subscriptions(regions / 2),
+        width_(side / std::sqrt(static_cast<double>(regions))) {
     for (Regions* all : {&updates, &subscriptions})
       for (im::Region& region : *all) {
         const double x = between(0.0, side), y = between(0.0, side);
@@ -47,7 +52,8 @@ class Field {
   /// Moves so many of each half, others each time, by up to a tenth of their side.
   void step(std::size_t movers) {
     moved.clear();
-    for (std::size_t i = 0; i < movers; ++i) moved.push_back(static_cast<std::uint32_t>((first_ + i) % updates.size()));
+    for (std::size_t i = 0; i < movers; ++i)
+      moved.push_back(static_cast<std::uint32_t>((first_ + i) % updates.size()));
     first_ = (first_ + movers) % updates.size();
     for (Regions* all : {&updates, &subscriptions})
       for (const std::uint32_t id : moved) {
@@ -57,14 +63,18 @@ class Field {
       }
   }
   void tell(im::Filter& filter) const {
-    for (const std::uint32_t id : moved) filter.set_update_region(id, updates[id]), filter.set_subscription_region(id, subscriptions[id]);
+    for (const std::uint32_t id : moved)
+      filter.set_update_region(id, updates[id]),
+          filter.set_subscription_region(id, subscriptions[id]);
   }
 
   Regions updates, subscriptions;
   std::vector<std::uint32_t> moved;
 
  private:
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
 
   double width_;
   std::size_t first_ = 0;
@@ -77,7 +87,8 @@ struct EagerCore {
   rti::SecondCore core;
 };
 
-void report(benchmark::State& state, std::vector<double>& alone, std::vector<double>& shared, std::size_t mismatches) {
+void report(benchmark::State& state, std::vector<double>& alone, std::vector<double>& shared,
+            std::size_t mismatches) {
   state.counters["alone_us"] = quantile(alone, 0.5);
   state.counters["shared_us"] = quantile(shared, 0.5);
   state.counters["shared_p90_us"] = quantile(shared, 0.9);
@@ -114,7 +125,8 @@ void match_dynamic(benchmark::State& state, std::size_t regions, std::size_t mov
     field.tell(alone), field.tell(shared);
     alone_us.push_back(wall_us([&] { changes = alone.match(); }));
     shared_us.push_back(wall_us([&] { others = shared.match(); }));
-    mismatches += std::equal(changes.begin(), changes.end(), others.begin(), others.end()) ? 0u : 1u;
+    mismatches +=
+        std::equal(changes.begin(), changes.end(), others.begin(), others.end()) ? 0u : 1u;
   };
   pass(regions / 2), pass(movers);
   alone_us.clear(), shared_us.clear();
@@ -126,13 +138,21 @@ void match_dynamic(benchmark::State& state, std::size_t regions, std::size_t mov
 }
 
 const bool is_registered = [] {
-  const auto add = [](const std::string& name, auto run) { benchmark::RegisterBenchmark(name.c_str(), run)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(300); };
+  const auto add = [](const std::string& name, auto run) {
+    benchmark::RegisterBenchmark(name.c_str(), run)
+        ->UseManualTime()
+        ->Unit(benchmark::kMicrosecond)
+        ->Iterations(300);
+  };
   for (const std::size_t regions : {2'048u, 8'192u, 16'384u, 32'768u, 65'536u, 131'072u}) {
-    add("im/second_core/static/n:" + std::to_string(regions), [=](benchmark::State& state) { match_static(state, regions); });
-    add("im/second_core/all_move/n:" + std::to_string(regions), [=](benchmark::State& state) { match_dynamic(state, regions, regions / 2); });
+    add("im/second_core/static/n:" + std::to_string(regions),
+        [=](benchmark::State& state) { match_static(state, regions); });
+    add("im/second_core/all_move/n:" + std::to_string(regions),
+        [=](benchmark::State& state) { match_dynamic(state, regions, regions / 2); });
   }
   for (const std::size_t movers : {512u, 2'048u, 4'096u, 8'192u, 16'384u})
-    add("im/second_core/few_move/n:131072/movers:" + std::to_string(movers), [=](benchmark::State& state) { match_dynamic(state, 131'072, movers); });
+    add("im/second_core/few_move/n:131072/movers:" + std::to_string(movers),
+        [=](benchmark::State& state) { match_dynamic(state, 131'072, movers); });
   return true;
 }();
 

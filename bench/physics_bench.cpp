@@ -1,4 +1,5 @@
-// Disc impacts per second of the exact rink: alone, among bats, posts and goals, and among bodies at rest; each with the error it makes.
+// Disc impacts per second of the exact rink: alone, among bats, posts and goals, and among bodies
+// at rest; each with the error it makes.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -27,22 +28,28 @@ using rink::physics::WorldSpec;
 struct Seeded : rink::physics::collision::reference::Seeded {
   /// Isotropic, mean 1 m/s.
   Vector2 velocity() {
-    const double angle = uniform(0.0, 2.0 * std::numbers::pi), speed = std::sqrt(-std::log1p(-uniform(0.0, 0.999))) * 2.0 / std::sqrt(std::numbers::pi);
+    const double angle = uniform(0.0, 2.0 * std::numbers::pi),
+                 speed = std::sqrt(-std::log1p(-uniform(0.0, 0.999))) * 2.0 /
+                         std::sqrt(std::numbers::pi);
     return Vector2(std::cos(angle), std::sin(angle)) * speed;
   }
 };
 
 constexpr double radius = 0.04;  // m
 
-double side_of(int count, double packing) { return std::sqrt(count * std::numbers::pi * radius * radius / packing); }
+double side_of(int count, double packing) {
+  return std::sqrt(count * std::numbers::pi * radius * radius / packing);
+}
 
 /// Collisions per disc and second at mean speed 1 by Enskog's theory, for choosing how long to run.
 double collision_rate(double packing) {
-  const double density = packing / (std::numbers::pi * radius * radius), crowding = (1.0 - 7.0 / 16.0 * packing) / std::pow(1.0 - packing, 2);
+  const double density = packing / (std::numbers::pi * radius * radius),
+               crowding = (1.0 - 7.0 / 16.0 * packing) / std::pow(1.0 - packing, 2);
   return std::sqrt(2.0) * 2.0 * radius * density * crowding;
 }
 
-/// `count` pucks on a square lattice that fills a square field at `packing`, after four collisions each.
+/// `count` pucks on a square lattice that fills a square field at `packing`, after four collisions
+/// each.
 World gas(int count, double packing) {
   WorldSpec spec;
   const double side = spec.field.length = spec.field.width = side_of(count, packing);
@@ -59,7 +66,8 @@ World gas(int count, double packing) {
   return world;
 }
 
-/// The same gas with one bat and one post per hundred pucks, and two goals; no drag and no thrust, so that energy is kept. Pucks that score come back where there is room.
+/// The same gas with one bat and one post per hundred pucks, and two goals; no drag and no thrust,
+/// so that energy is kept. Pucks that score come back where there is room.
 class Match {
  public:
   Match(int count, double packing) : world_(spec_of(count, packing)) {
@@ -95,7 +103,8 @@ class Match {
     while (!out_.empty()) {
       const Vector2 place = anywhere(world_.spec().field.length);
       if (!world_.is_free(place, radius)) break;
-      const double speed = world_.velocity(out_.back()).norm(), angle = seeded_.uniform(0.0, 2.0 * std::numbers::pi);
+      const double speed = world_.velocity(out_.back()).norm(),
+                   angle = seeded_.uniform(0.0, 2.0 * std::numbers::pi);
       world_.place(out_.back(), place, Vector2(std::cos(angle), std::sin(angle)) * speed);
       out_.pop_back();
     }
@@ -103,7 +112,8 @@ class Match {
   /// Of the pucks that wait outside as well.
   double energy() const {
     double sum = world_.kinetic_energy();
-    for (const BodyId puck : out_) sum += 0.5 * world_.mass(puck) * world_.velocity(puck).squaredNorm();
+    for (const BodyId puck : out_)
+      sum += 0.5 * world_.mass(puck) * world_.velocity(puck).squaredNorm();
     return sum;
   }
 
@@ -114,16 +124,20 @@ class Match {
     spec.field.goal_width = 0.5;
     return spec;
   }
-  Vector2 anywhere(double side) { return {seeded_.uniform(0.15, side - 0.15), seeded_.uniform(0.15, side - 0.15)}; }
+  Vector2 anywhere(double side) {
+    return {seeded_.uniform(0.15, side - 0.15), seeded_.uniform(0.15, side - 0.15)};
+  }
 
   World world_;
   Seeded seeded_{3};
   std::vector<BodyId> out_;
 };
 
-/// Pucks of radius 0.04 on a lattice of 0.2 m; `moving` of them in a corner move, fenced in by a row of posts, the rest lie still.
+/// Pucks of radius 0.04 on a lattice of 0.2 m; `moving` of them in a corner move, fenced in by a
+/// row of posts, the rest lie still.
 World resting(int count, int moving) {
-  const int columns = static_cast<int>(std::ceil(std::sqrt(count))), pen = static_cast<int>(std::ceil(std::sqrt(moving)));
+  const int columns = static_cast<int>(std::ceil(std::sqrt(count))),
+            pen = static_cast<int>(std::ceil(std::sqrt(moving)));
   WorldSpec spec;
   spec.field.length = spec.field.width = 0.2 * columns + 0.2;
   spec.cell_size = 0.25;  // the same cells around the pen, however large the field is
@@ -133,7 +147,8 @@ World resting(int count, int moving) {
   for (int k = 0; k < count; ++k) {
     PuckSpec puck;
     puck.position = {place(k % columns), place(k / columns)};
-    if (k % columns < pen && k / columns * pen + k % columns < moving) puck.velocity = seeded.velocity();
+    if (k % columns < pen && k / columns * pen + k % columns < moving)
+      puck.velocity = seeded.velocity();
     world.add(puck);
   }
   const double fence = 0.2 * pen + 0.1;
@@ -149,7 +164,8 @@ World resting(int count, int moving) {
   return world;
 }
 
-/// The last world that was asked for, kept between the runs in which a benchmark finds its number of iterations: to make one of a million bodies takes seconds.
+/// The last world that was asked for, kept between the runs in which a benchmark finds its number
+/// of iterations: to make one of a million bodies takes seconds.
 template <class Key, class Value, class Make>
 Value& kept(const Key& key, Make&& make) {
   static std::unique_ptr<std::pair<Key, Value>> last;
@@ -162,7 +178,8 @@ Value& kept(const Key& key, Make&& make) {
 
 /// Items are disc impacts, 2,000 or so per step.
 void events(benchmark::State& state, int count, double packing) {
-  World& world = kept<std::pair<int, double>, World>({count, packing}, [&] { return gas(count, packing); });
+  World& world =
+      kept<std::pair<int, double>, World>({count, packing}, [&] { return gas(count, packing); });
   const double energy = world.kinetic_energy(), step = 4000.0 / (count * collision_rate(packing));
   const std::uint64_t before = world.counters().disc_impacts;
   for (auto _ : state) world.advance(world.now() + step);
@@ -173,7 +190,8 @@ void events(benchmark::State& state, int count, double packing) {
 
 /// Items are impacts of any kind.
 void match_events(benchmark::State& state, int count, double packing) {
-  const auto match = kept<std::pair<int, double>, std::shared_ptr<Match>>({count, packing}, [&] { return std::make_shared<Match>(count, packing); });
+  const auto match = kept<std::pair<int, double>, std::shared_ptr<Match>>(
+      {count, packing}, [&] { return std::make_shared<Match>(count, packing); });
   World& world = match->world();
   const double energy = match->energy(), step = 4000.0 / (count * collision_rate(packing));
   const std::uint64_t before = world.counters().impacts();
@@ -183,7 +201,8 @@ void match_events(benchmark::State& state, int count, double packing) {
   state.counters["max_overlap"] = world.max_overlap();
 }
 
-/// One step is 10 ms. The counters are those of the first simulated second: equal for equal movers, whoever else lies on the field.
+/// One step is 10 ms. The counters are those of the first simulated second: equal for equal movers,
+/// whoever else lies on the field.
 void at_rest(benchmark::State& state, int count, int moving) {
   World world = resting(count, moving);
   const Counters before = world.counters();
@@ -191,7 +210,8 @@ void at_rest(benchmark::State& state, int count, int moving) {
   const Counters& after = world.counters();
   state.counters["events"] = static_cast<double>(after.events() - before.events());
   state.counters["predictions"] = static_cast<double>(after.predictions - before.predictions);
-  state.counters["bodies_touched"] = static_cast<double>(after.bodies_touched - before.bodies_touched);
+  state.counters["bodies_touched"] =
+      static_cast<double>(after.bodies_touched - before.bodies_touched);
   for (auto _ : state) world.advance(world.now() + 0.01);
   state.counters["max_overlap"] = world.max_overlap();
 }
@@ -207,7 +227,8 @@ void energy_drift(benchmark::State& state, int count, double packing) {
   state.counters["energy_error"] = world.kinetic_energy() / energy - 1.0;
 }
 
-/// A frame of 1/60 s of a match for two: a puck, two bats under keys that change ten times per second, drag, goals.
+/// A frame of 1/60 s of a match for two: a puck, two bats under keys that change ten times per
+/// second, drag, goals.
 void two_player_step(benchmark::State& state) {
   WorldSpec spec;
   spec.field.length = 2.0;
@@ -243,12 +264,14 @@ void two_player_step(benchmark::State& state) {
     const double until = world.now() + 1.0 / 60.0;
     while (world.advance(until)) {
     }
-    if (!world.is_in_play(id) && world.is_free({1.0, 0.5}, puck.radius)) world.place(id, {1.0, 0.5}, {seeded.uniform(-1.0, 1.0), seeded.uniform(-1.0, 1.0)});
+    if (!world.is_in_play(id) && world.is_free({1.0, 0.5}, puck.radius))
+      world.place(id, {1.0, 0.5}, {seeded.uniform(-1.0, 1.0), seeded.uniform(-1.0, 1.0)});
   }
   state.counters["max_overlap"] = world.max_overlap();
 }
 
-/// One simulated second of 1,000 pucks and 100 bats on 200 m^2, a key changing ten times per bat and second; cpu_share is the part of a core it takes in real time.
+/// One simulated second of 1,000 pucks and 100 bats on 200 m^2, a key changing ten times per bat
+/// and second; cpu_share is the part of a core it takes in real time.
 void crowd(benchmark::State& state) {
   WorldSpec spec;
   spec.field.length = 20.0;
@@ -282,7 +305,9 @@ void crowd(benchmark::State& state) {
       world.set_thrust(bats[seeded.bits() % bats.size()], {x, y});
     }
   state.SetItemsProcessed(static_cast<std::int64_t>(world.counters().disc_impacts - before));
-  state.counters["cpu_share"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["cpu_share"] =
+      benchmark::Counter(static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["max_overlap"] = world.max_overlap();
 }
 
@@ -291,21 +316,36 @@ const bool registered = [] {
   for (const int count : {1'000, 10'000, 100'000, 1'000'000})
     for (const double packing : {0.05, 0.2, 0.5, 0.7}) {
       std::snprintf(name, sizeof name, "physics/events/rink/n:%d/packing:%g", count, packing);
-      benchmark::RegisterBenchmark(name, [=](benchmark::State& state) { events(state, count, packing); })->UseRealTime();
+      benchmark::RegisterBenchmark(name, [=](benchmark::State& state) {
+        events(state, count, packing);
+      })->UseRealTime();
     }
   for (const int count : {1'000, 10'000, 100'000})
     for (const double packing : {0.05, 0.2}) {
       std::snprintf(name, sizeof name, "physics/match_events/rink/n:%d/packing:%g", count, packing);
-      benchmark::RegisterBenchmark(name, [=](benchmark::State& state) { match_events(state, count, packing); })->UseRealTime();
+      benchmark::RegisterBenchmark(name, [=](benchmark::State& state) {
+        match_events(state, count, packing);
+      })->UseRealTime();
     }
-  for (const auto& [count, moving] : {std::pair(1'000, 100), std::pair(1'000'000, 100), std::pair(100'000, 1'000), std::pair(100'000, 100'000)}) {
+  for (const auto& [count, moving] : {std::pair(1'000, 100), std::pair(1'000'000, 100),
+                                      std::pair(100'000, 1'000), std::pair(100'000, 100'000)}) {
     std::snprintf(name, sizeof name, "physics/resting/rink/n:%d/moving:%d", count, moving);
-    benchmark::RegisterBenchmark(name, [count = count, moving = moving](benchmark::State& state) { at_rest(state, count, moving); })->UseRealTime()->Unit(benchmark::kMicrosecond);
+    benchmark::RegisterBenchmark(name,
+                                 [count = count, moving = moving](benchmark::State& state) {
+                                   at_rest(state, count, moving);
+                                 })
+        ->UseRealTime()
+        ->Unit(benchmark::kMicrosecond);
   }
-  benchmark::RegisterBenchmark("physics/energy_drift/rink/n:1000/packing:0.5", [](benchmark::State& state) { energy_drift(state, 1000, 0.5); })
-      ->UseRealTime()->Iterations(1)->Unit(benchmark::kSecond);
+  benchmark::RegisterBenchmark("physics/energy_drift/rink/n:1000/packing:0.5",
+                               [](benchmark::State& state) { energy_drift(state, 1000, 0.5); })
+      ->UseRealTime()
+      ->Iterations(1)
+      ->Unit(benchmark::kSecond);
   benchmark::RegisterBenchmark("physics/two_player_step", two_player_step)->UseRealTime();
-  benchmark::RegisterBenchmark("physics/crowd/rink/pucks:1000/bats:100", crowd)->UseRealTime()->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("physics/crowd/rink/pucks:1000/bats:100", crowd)
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
   return true;
 }();
 

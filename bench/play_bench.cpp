@@ -1,4 +1,5 @@
-// What a player is shown of a match over a delayed network, beside the truth (docs/play.md): errors, visible corrections and bytes are the counters.
+// What a player is shown of a match over a delayed network, beside the truth (docs/play.md):
+// errors, visible corrections and bytes are the counters.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -12,13 +13,16 @@ namespace {
 
 using namespace rink;
 
-/// Two minutes between two chasers, each on what it is shown; the time is that of server, network and both clients together.
+/// Two minutes between two chasers, each on what it is shown; the time is that of server, network
+/// and both clients together.
 void feel(benchmark::State& state, double delay_s, double jitter_s) {
   const rti::Fom fom = game::load_rink_fom(game::fom_file());
   const game::Scene scene = game::load_scene("match");
   loadgen::Feel feel;
   for (auto _ : state)
-    feel = loadgen::feel_of(fom, scene, game::scene_text("match"), {.delay_s = delay_s, .jitter_s = jitter_s, .players = {"chaser", "chaser"}}, 120.0);
+    feel = loadgen::feel_of(
+        fom, scene, game::scene_text("match"),
+        {.delay_s = delay_s, .jitter_s = jitter_s, .players = {"chaser", "chaser"}}, 120.0);
   if (!feel.is_replayed) state.SkipWithError("the record led to another hash");
   state.counters["played_s"] = feel.played_s;
   state.counters["own_p50_mm"] = 1e3 * feel.own.p50;
@@ -46,7 +50,11 @@ const bool registered = [] {
     for (const int jitter_ms : {0, 20}) {
       char text[96];
       std::snprintf(text, sizeof text, "play/feel/delay_ms:%d/jitter_ms:%d", delay_ms, jitter_ms);
-      benchmark::RegisterBenchmark(text, [=](benchmark::State& state) { feel(state, 1e-3 * delay_ms, 1e-3 * jitter_ms); })->Iterations(1)->UseRealTime()->Unit(benchmark::kMillisecond);
+      benchmark::RegisterBenchmark(
+          text, [=](benchmark::State& state) { feel(state, 1e-3 * delay_ms, 1e-3 * jitter_ms); })
+          ->Iterations(1)
+          ->UseRealTime()
+          ->Unit(benchmark::kMillisecond);
     }
   return true;
 }();

@@ -1,22 +1,25 @@
-// What a simulated second costs, 60 frames of it, beside other libraries on the same gas, each with the error it makes.
+// What a simulated second costs, 60 frames of it, beside other libraries on the same gas, each with
+// the error it makes.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
 #include <memory>
 #include <string>
 
+#include "bench/peers/peers.h"
 #include "bench/trials/contender.h"
 #include "bench/trials/diagram_trials.h"
-#include "bench/peers/peers.h"
 
 namespace {
 
 using rink::accuracy::at_frame;
 using rink::accuracy::frame;
 
-/// Each iteration is the second that follows the first tenth of one, for making a world and finding its first events is not what a second costs.
+/// Each iteration is the second that follows the first tenth of one, for making a world and finding
+/// its first events is not what a second costs.
 void second(benchmark::State& state, const std::string& engine, int count, double packing) {
-  const rink::accuracy::Trial trial = rink::accuracy::gas(static_cast<std::uint32_t>(count), packing);
+  const rink::accuracy::Trial trial =
+      rink::accuracy::gas(static_cast<std::uint32_t>(count), packing);
   double energy_error = 0.0, overlap = 0.0, impacts = 0.0;
   for (auto _ : state) {
     state.PauseTiming();
@@ -41,7 +44,10 @@ void second(benchmark::State& state, const std::string& engine, int count, doubl
 void add(const char* name, const std::string& engine, int count, double packing) {
   char text[96];
   std::snprintf(text, sizeof text, "physics/second/%s/n:%d/packing:%g", name, count, packing);
-  benchmark::RegisterBenchmark(text, [=](benchmark::State& state) { second(state, engine, count, packing); })->UseRealTime()->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark(
+      text, [=](benchmark::State& state) { second(state, engine, count, packing); })
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
 }
 
 const bool registered = [] {

@@ -1,4 +1,5 @@
-// A whole federation advancing in lockstep: steps per second over TCP and in process; every figure counts grants that arrived.
+// A whole federation advancing in lockstep: steps per second over TCP and in process; every figure
+// counts grants that arrived.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -26,13 +27,16 @@ using namespace std::chrono_literals;
 
 /// Nothing is said but when to go on.
 const Fom& empty_model() {
-  static const Fom fom = Fom::parse("<objectModel><objects><objectClass><name>Root</name></objectClass></objects>"
-                                    "<interactions><interactionClass><name>Root</name></interactionClass></interactions></objectModel>",
-                                    "bench");
+  static const Fom fom = Fom::parse(
+      "<objectModel><objects><objectClass><name>Root</name></objectClass></objects>"
+      "<interactions><interactionClass><name>Root</name></interactionClass></interactions></"
+      "objectModel>",
+      "bench");
   return fom;
 }
 
-/// Regulating and constrained, with a lookahead of one step, so that nobody can be a step ahead of anybody.
+/// Regulating and constrained, with a lookahead of one step, so that nobody can be a step ahead of
+/// anybody.
 struct Stepper : FederateAmbassador {
   static constexpr double step = 1.0;
   Ambassador ambassador{empty_model(), *this};
@@ -102,13 +106,16 @@ void measure_steps(benchmark::State& state, Crowd& crowd, Turn turn) {
       if (crowd.is_lost()) return state.SkipWithError("a federate was lost");
     }
   }
-  state.counters["steps_per_s"] = benchmark::Counter(static_cast<double>(steps), benchmark::Counter::kIsRate);
+  state.counters["steps_per_s"] =
+      benchmark::Counter(static_cast<double>(steps), benchmark::Counter::kIsRate);
   state.counters["grants_arrived"] = static_cast<double>(crowd.grants());
 }
 
-/// The RTI in one thread and all federates in another, over the two ends of `Carriers`, whose polls wait for at most `longest_wait`; with zero, both spin.
+/// The RTI in one thread and all federates in another, over the two ends of `Carriers`, whose polls
+/// wait for at most `longest_wait`; with zero, both spin.
 template <class Carriers>
-void time_advance_over(benchmark::State& state, Carriers& carriers, std::chrono::nanoseconds longest_wait) {
+void time_advance_over(benchmark::State& state, Carriers& carriers,
+                       std::chrono::nanoseconds longest_wait) {
   const int count = static_cast<int>(state.range(0));
   ensure_file_limit(static_cast<std::size_t>(2 * count) + 64);
   std::atomic<bool> is_over{false}, is_listening{false};
@@ -135,7 +142,8 @@ void time_advance_over(benchmark::State& state, Carriers& carriers, std::chrono:
 
 /// A TCP connection for each federate.
 struct Sockets {
-  explicit Sockets(std::chrono::nanoseconds spin = {}) : server(TcpSettings{.spin = spin}), federates(TcpSettings{.spin = spin}) {}
+  explicit Sockets(std::chrono::nanoseconds spin = {})
+      : server(TcpSettings{.spin = spin}), federates(TcpSettings{.spin = spin}) {}
   void listen() { port = server.listen("127.0.0.1", 0); }
   Transport& server_end() { return server; }
   Transport& federates_end() { return federates; }
@@ -161,7 +169,8 @@ struct Bundled {
 
 /// Rings in shared memory, a pair for each federate.
 struct Rings {
-  explicit Rings(std::chrono::nanoseconds spin) : server(SharedMemorySettings{.spin = spin}), federates(SharedMemorySettings{.spin = spin}) {}
+  explicit Rings(std::chrono::nanoseconds spin)
+      : server(SharedMemorySettings{.spin = spin}), federates(SharedMemorySettings{.spin = spin}) {}
   void listen() { server.listen(name); }
   Transport& server_end() { return server; }
   Transport& federates_end() { return federates; }
@@ -174,7 +183,8 @@ constexpr std::chrono::nanoseconds blocking = 10ms, spinning = 0ms;
 constexpr std::chrono::nanoseconds spin_first = 50us;  ///< and then block
 
 template <class Carriers>
-void advance(benchmark::State& state, std::chrono::nanoseconds longest_wait, std::chrono::nanoseconds spin) {
+void advance(benchmark::State& state, std::chrono::nanoseconds longest_wait,
+             std::chrono::nanoseconds spin) {
   Carriers carriers{spin};
   time_advance_over(state, carriers, longest_wait);
 }
@@ -197,8 +207,17 @@ void time_advance_in_process(benchmark::State& state) {
   });
 }
 
-void register_rows(const char* name, void (*run)(benchmark::State&, std::chrono::nanoseconds, std::chrono::nanoseconds), std::chrono::nanoseconds longest_wait, std::chrono::nanoseconds spin) {
-  benchmark::RegisterBenchmark(name, run, longest_wait, spin)->ArgName("federates")->Arg(2)->Arg(8)->Arg(64)->UseRealTime()->MinTime(0.5);
+void register_rows(const char* name,
+                   void (*run)(benchmark::State&, std::chrono::nanoseconds,
+                               std::chrono::nanoseconds),
+                   std::chrono::nanoseconds longest_wait, std::chrono::nanoseconds spin) {
+  benchmark::RegisterBenchmark(name, run, longest_wait, spin)
+      ->ArgName("federates")
+      ->Arg(2)
+      ->Arg(8)
+      ->Arg(64)
+      ->UseRealTime()
+      ->MinTime(0.5);
 }
 
 const bool are_registered = [] {
@@ -212,6 +231,14 @@ const bool are_registered = [] {
   return true;
 }();
 
-BENCHMARK(time_advance_in_process)->Name("rti/time_advance_in_process")->ArgName("federates")->Arg(2)->Arg(8)->Arg(64)->Arg(1000)->UseRealTime()->MinTime(0.5);
+BENCHMARK(time_advance_in_process)
+    ->Name("rti/time_advance_in_process")
+    ->ArgName("federates")
+    ->Arg(2)
+    ->Arg(8)
+    ->Arg(64)
+    ->Arg(1000)
+    ->UseRealTime()
+    ->MinTime(0.5);
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Frames of the window, drawn offscreen at 1280x720: the lit match, and crowds from above; alone, and with menus, words and overlay as `rink play` draws them. In software these run on the
-// calling thread alone.
+// Frames of the window, drawn offscreen at 1280x720: the lit match, and crowds from above; alone,
+// and with menus, words and overlay as `rink play` draws them. In software these run on the calling
+// thread alone.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -37,12 +38,14 @@ class Stage {
   bool is_there() const { return renderer_ != nullptr; }
   void draw(Application& application, double now_s) {
     if (!interface_) interface_ = std::make_unique<Interface>();
-    application.draw(*interface_, renderer_.get(), {width, height, 1.0}, {target_.framebuffer(), 0, 0, width, height}, now_s);
+    application.draw(*interface_, renderer_.get(), {width, height, 1.0},
+                     {target_.framebuffer(), 0, 0, width, height}, now_s);
     glFinish();
   }
   bool is_settled() const { return renderer_->is_settled(); }
   void draw(const MatchSight& sight, const ViewChoice& choice, const Overlay& overlay = {}) {
-    renderer_->draw(picture_of(sight, overlay, choice, aspect), {target_.framebuffer(), 0, 0, width, height});
+    renderer_->draw(picture_of(sight, overlay, choice, aspect),
+                    {target_.framebuffer(), 0, 0, width, height});
     glFinish();
   }
 
@@ -67,7 +70,8 @@ MatchSight match_sight() {
   return sight;
 }
 
-/// Pucks that cover a quarter of a field twice as long as wide, and one bat for each hundred of them.
+/// Pucks that cover a quarter of a field twice as long as wide, and one bat for each hundred of
+/// them.
 MatchSight crowd_sight(std::uint32_t count) {
   MatchSight sight;
   const double side = std::sqrt(count * 3.14159 * 0.04 * 0.04 / 0.25 / 2.0);
@@ -78,7 +82,9 @@ MatchSight crowd_sight(std::uint32_t count) {
     const bool is_bat = i >= count;
     const Vector2 place(random.uniform(0.0, 2.0 * side), random.uniform(0.0, side));
     const Vector2 half_extent = is_bat ? Vector2(0.05, 0.15) : Vector2(0.04, 0.04);
-    sight.things.push_back({i, is_bat ? physics::BodyKind::bat : physics::BodyKind::puck, is_bat ? game::Team::left : game::Team::none, place, random.in_disc(), half_extent});
+    sight.things.push_back({i, is_bat ? physics::BodyKind::bat : physics::BodyKind::puck,
+                            is_bat ? game::Team::left : game::Team::none, place, random.in_disc(),
+                            half_extent});
   }
   return sight;
 }
@@ -87,12 +93,15 @@ void move(MatchSight& sight) {
   for (Thing& thing : sight.things) {
     if (thing.kind == physics::BodyKind::post) continue;
     thing.position += thing.velocity / 120.0;
-    if (thing.position.x() < 0.05 || thing.position.x() > sight.field.length - 0.05) thing.velocity.x() = -thing.velocity.x();
-    if (thing.position.y() < 0.05 || thing.position.y() > sight.field.width - 0.05) thing.velocity.y() = -thing.velocity.y();
+    if (thing.position.x() < 0.05 || thing.position.x() > sight.field.length - 0.05)
+      thing.velocity.x() = -thing.velocity.x();
+    if (thing.position.y() < 0.05 || thing.position.y() > sight.field.width - 0.05)
+      thing.velocity.y() = -thing.velocity.y();
   }
 }
 
-void frames(benchmark::State& state, MatchSight sight, ViewChoice choice, double centre_step = 0.0, const Overlay& overlay = {}) {
+void frames(benchmark::State& state, MatchSight sight, ViewChoice choice, double centre_step = 0.0,
+            const Overlay& overlay = {}) {
   Stage stage(state);
   if (!stage.is_there()) return;
   do stage.draw(sight, choice, overlay);
@@ -103,35 +112,72 @@ void frames(benchmark::State& state, MatchSight sight, ViewChoice choice, double
     if (choice.centre.x() > 0.7 || choice.centre.x() < 0.3) centre_step = -centre_step;
     stage.draw(sight, choice, overlay);
   }
-  state.counters["frames_per_s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["frames_per_s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
   state.SetLabel(graphics_name());
 }
 
 void view_match(benchmark::State& state) {
-  constexpr Viewpoint viewpoints[] = {Viewpoint::side, Viewpoint::left_end, Viewpoint::right_end, Viewpoint::above};
+  constexpr Viewpoint viewpoints[] = {Viewpoint::side, Viewpoint::left_end, Viewpoint::right_end,
+                                      Viewpoint::above};
   frames(state, match_sight(), {.viewpoint = viewpoints[state.range(0)]});
 }
-BENCHMARK(view_match)->Name("view/match")->DenseRange(0, 3)->ArgName("viewpoint")->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(view_match)
+    ->Name("view/match")
+    ->DenseRange(0, 3)
+    ->ArgName("viewpoint")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
-void view_crowd(benchmark::State& state) { frames(state, crowd_sight(static_cast<std::uint32_t>(state.range(0))), {.viewpoint = Viewpoint::above}); }
-BENCHMARK(view_crowd)->Name("view/crowd")->Arg(1'000)->Arg(10'000)->Arg(50'000)->ArgName("discs")->UseRealTime()->Unit(benchmark::kMillisecond);
+void view_crowd(benchmark::State& state) {
+  frames(state, crowd_sight(static_cast<std::uint32_t>(state.range(0))),
+         {.viewpoint = Viewpoint::above});
+}
+BENCHMARK(view_crowd)
+    ->Name("view/crowd")
+    ->Arg(1'000)
+    ->Arg(10'000)
+    ->Arg(50'000)
+    ->ArgName("discs")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 /// The camera moves with every frame, so nothing of the table can be kept.
-void view_follow(benchmark::State& state) { frames(state, crowd_sight(static_cast<std::uint32_t>(state.range(0))), {.viewpoint = Viewpoint::above, .zoom = 2.0}, 0.001); }
-BENCHMARK(view_follow)->Name("view/crowd_followed")->Arg(10'000)->ArgName("discs")->UseRealTime()->Unit(benchmark::kMillisecond);
+void view_follow(benchmark::State& state) {
+  frames(state, crowd_sight(static_cast<std::uint32_t>(state.range(0))),
+         {.viewpoint = Viewpoint::above, .zoom = 2.0}, 0.001);
+}
+BENCHMARK(view_follow)
+    ->Name("view/crowd_followed")
+    ->Arg(10'000)
+    ->ArgName("discs")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 /// With a grid, a subscription region, and a ring around every disc in it.
 void view_overlay(benchmark::State& state) {
   const MatchSight sight = crowd_sight(static_cast<std::uint32_t>(state.range(0)));
   Overlay overlay{.cell_size = 1.0, .rectangles = {}, .discs = {}, .lines = {}};
   const double middle = 0.5 * sight.field.width;
-  overlay.rectangles.push_back({middle, 0.3 * middle, 2.0 * middle, 1.3 * middle, {0.2f, 0.8f, 0.4f, 0.2f}, {0.1f, 0.6f, 0.2f, 1.0f}});
+  overlay.rectangles.push_back({middle,
+                                0.3 * middle,
+                                2.0 * middle,
+                                1.3 * middle,
+                                {0.2f, 0.8f, 0.4f, 0.2f},
+                                {0.1f, 0.6f, 0.2f, 1.0f}});
   for (const Thing& thing : sight.things)
-    if (thing.position.x() > middle && thing.position.x() < 2.0 * middle && thing.position.y() > 0.3 * middle && thing.position.y() < 1.3 * middle)
-      overlay.discs.push_back({thing.position.x(), thing.position.y(), 0.05, {0.1f, 0.7f, 0.25f, 1.0f}, false});
+    if (thing.position.x() > middle && thing.position.x() < 2.0 * middle &&
+        thing.position.y() > 0.3 * middle && thing.position.y() < 1.3 * middle)
+      overlay.discs.push_back(
+          {thing.position.x(), thing.position.y(), 0.05, {0.1f, 0.7f, 0.25f, 1.0f}, false});
   frames(state, sight, {.viewpoint = Viewpoint::above}, 0.0, overlay);
 }
-BENCHMARK(view_overlay)->Name("view/crowd_overlay")->Arg(10'000)->ArgName("discs")->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(view_overlay)
+    ->Name("view/crowd_overlay")
+    ->Arg(10'000)
+    ->ArgName("discs")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 /// Moves by itself.
 class MovingMatch final : public MatchSource {
@@ -155,44 +201,67 @@ game::InterestSeen decided(const MatchSight& sight) {
   game::InterestSeen seen{.cell_size = 1.0f, .views = {}, .heard = {}};
   const Thing* asked = nullptr;
   for (const Thing& thing : sight.things)
-    if (thing.kind == physics::BodyKind::bat && (asked == nullptr || (thing.position - middle).norm() < (asked->position - middle).norm())) asked = &thing;
+    if (thing.kind == physics::BodyKind::bat &&
+        (asked == nullptr || (thing.position - middle).norm() < (asked->position - middle).norm()))
+      asked = &thing;
   seen.asked = asked->id;
   for (const Thing& thing : sight.things) {
     const bool is_near = (thing.position - asked->position).cwiseAbs().maxCoeff() < half;
     if (is_near) seen.heard.push_back(thing.id);
-    const Eigen::Array2f low = (thing.position.array() - half).cast<float>(), high = (thing.position.array() + half).cast<float>();
-    if (thing.kind == physics::BodyKind::bat) seen.views.push_back({thing.id, is_near, low.x(), low.y(), high.x(), high.y()});
+    const Eigen::Array2f low = (thing.position.array() - half).cast<float>(),
+                         high = (thing.position.array() + half).cast<float>();
+    if (thing.kind == physics::BodyKind::bat)
+      seen.views.push_back({thing.id, is_near, low.x(), low.y(), high.x(), high.y()});
   }
   return seen;
 }
 
-/// All of it: `rink play --figures` at a match, split or with one camera, and at a crowd, with and without the overlay of interest.
+/// All of it: `rink play --figures` at a match, split or with one camera, and at a crowd, with and
+/// without the overlay of interest.
 void view_played(benchmark::State& state, const MatchSight& sight, bool is_split) {
   Stage stage(state);
   if (!stage.is_there()) return;
   Settings settings;
   settings.is_split = is_split;
-  Application application({.make_match = [&](const MatchWish&) { return std::make_unique<MovingMatch>(sight); }}, settings);
+  Application application(
+      {.make_match = [&](const MatchWish&) { return std::make_unique<MovingMatch>(sight); }},
+      settings);
   application.play({.kind = MatchWish::Kind::two, .address = {}});
   application.show_figures();
   double now_s = 0.0;
   for (int i = 0; i < 3 || !stage.is_settled(); ++i) stage.draw(application, now_s += 1.0 / 120.0);
   for (auto _ : state) stage.draw(application, now_s += 1.0 / 120.0);
-  state.counters["frames_per_s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["frames_per_s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
   state.SetLabel(graphics_name());
 }
 
-void view_played_match(benchmark::State& state) { view_played(state, match_sight(), state.range(0) != 0); }
-BENCHMARK(view_played_match)->Name("view/played_match")->Arg(0)->Arg(1)->ArgName("split")->UseRealTime()->Unit(benchmark::kMillisecond);
+void view_played_match(benchmark::State& state) {
+  view_played(state, match_sight(), state.range(0) != 0);
+}
+BENCHMARK(view_played_match)
+    ->Name("view/played_match")
+    ->Arg(0)
+    ->Arg(1)
+    ->ArgName("split")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 void view_played_crowd(benchmark::State& state) {
   MatchSight sight = crowd_sight(10'000);
   if (state.range(0) != 0) sight.interest = decided(sight);
   view_played(state, sight, false);
 }
-BENCHMARK(view_played_crowd)->Name("view/played_crowd")->Arg(0)->Arg(1)->ArgName("interest")->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(view_played_crowd)
+    ->Name("view/played_crowd")
+    ->Arg(0)
+    ->Arg(1)
+    ->ArgName("interest")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
-/// The longest of the frames after the camera changed to one that nothing was kept of: each time the table is a little longer.
+/// The longest of the frames after the camera changed to one that nothing was kept of: each time
+/// the table is a little longer.
 void view_cut(benchmark::State& state) {
   Stage stage(state);
   if (!stage.is_there()) return;

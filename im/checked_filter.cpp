@@ -7,7 +7,9 @@
 namespace rink::im {
 namespace {
 
-bool contains(const std::vector<bool>& present, std::uint32_t id) { return id < present.size() && present[id]; }
+bool contains(const std::vector<bool>& present, std::uint32_t id) {
+  return id < present.size() && present[id];
+}
 
 /// With numbers up to this, no place of a flight within as many seconds overflows.
 constexpr double flight_max = 1e150;
@@ -20,13 +22,16 @@ std::optional<Fault> fault_of(std::initializer_list<double> numbers) {
   return std::nullopt;
 }
 
-std::optional<Fault> fault_of(const Flight& flight) { return fault_of({flight.x, flight.y, flight.velocity_x, flight.velocity_y, flight.time}); }
+std::optional<Fault> fault_of(const Flight& flight) {
+  return fault_of({flight.x, flight.y, flight.velocity_x, flight.velocity_y, flight.time});
+}
 
 }  // namespace
 
 std::optional<Rejection> check(const FilterSettings& settings) {
   if (auto rejection = check_world(settings.world)) return rejection;
-  if (!(settings.cell_size > 0.0) || !std::isfinite(settings.cell_size)) return Rejection{Fault::bad_cell_size, Subject::cells};
+  if (!(settings.cell_size > 0.0) || !std::isfinite(settings.cell_size))
+    return Rejection{Fault::bad_cell_size, Subject::cells};
   return std::nullopt;
 }
 
@@ -35,7 +40,8 @@ void CheckedFilter::hand_in(Subject subject, std::uint32_t id, const Region& reg
   else filter_->set_subscription_region(id, region);
 }
 
-std::optional<Rejection> CheckedFilter::add(Subject subject, Presence& present, std::uint32_t id, const Region& region) {
+std::optional<Rejection> CheckedFilter::add(Subject subject, Presence& present, std::uint32_t id,
+                                            const Region& region) {
   if (contains(present, id)) return Rejection{Fault::doubled_id, subject, id};
   if (id >= id_limit_) return Rejection{Fault::id_too_large, subject, id};
   if (const auto fault = fault_of(region)) return Rejection{*fault, subject, id};
@@ -45,14 +51,16 @@ std::optional<Rejection> CheckedFilter::add(Subject subject, Presence& present, 
   return std::nullopt;
 }
 
-std::optional<Rejection> CheckedFilter::move(Subject subject, Presence& present, std::uint32_t id, const Region& region) {
+std::optional<Rejection> CheckedFilter::move(Subject subject, Presence& present, std::uint32_t id,
+                                             const Region& region) {
   if (!contains(present, id)) return Rejection{Fault::unknown_id, subject, id};
   if (const auto fault = fault_of(region)) return Rejection{*fault, subject, id};
   hand_in(subject, id, region);
   return std::nullopt;
 }
 
-std::optional<Rejection> CheckedFilter::take_away(Subject subject, Presence& present, std::uint32_t id) {
+std::optional<Rejection> CheckedFilter::take_away(Subject subject, Presence& present,
+                                                  std::uint32_t id) {
   if (!contains(present, id)) return Rejection{Fault::unknown_id, subject, id};
   present[id] = false;
   return std::nullopt;
@@ -71,34 +79,43 @@ std::optional<Rejection> CheckedFilter::remove_subscriber(Subscriber subscriber)
 }
 
 std::optional<Rejection> CheckedFilter::turn(Subscriber subscriber, const Heading& heading) {
-  if (!contains(subscribers_, subscriber)) return Rejection{Fault::unknown_id, Subject::subscription_region, subscriber};
-  if (!std::isfinite(heading.x) || !std::isfinite(heading.y)) return Rejection{Fault::not_finite, Subject::heading, subscriber};
+  if (!contains(subscribers_, subscriber))
+    return Rejection{Fault::unknown_id, Subject::subscription_region, subscriber};
+  if (!std::isfinite(heading.x) || !std::isfinite(heading.y))
+    return Rejection{Fault::not_finite, Subject::heading, subscriber};
   filter_->set_heading(subscriber, heading);
   return std::nullopt;
 }
 
 std::optional<Rejection> CheckedFilter::set_entity_role(Entity entity, const Role& role) {
-  if (!contains(entities_, entity)) return Rejection{Fault::unknown_id, Subject::update_region, entity};
+  if (!contains(entities_, entity))
+    return Rejection{Fault::unknown_id, Subject::update_region, entity};
   filter_->set_entity_role(entity, role);
   return std::nullopt;
 }
 
-std::optional<Rejection> CheckedFilter::set_subscriber_role(Subscriber subscriber, const Role& role) {
-  if (!contains(subscribers_, subscriber)) return Rejection{Fault::unknown_id, Subject::subscription_region, subscriber};
+std::optional<Rejection> CheckedFilter::set_subscriber_role(Subscriber subscriber,
+                                                            const Role& role) {
+  if (!contains(subscribers_, subscriber))
+    return Rejection{Fault::unknown_id, Subject::subscription_region, subscriber};
   filter_->set_subscriber_role(subscriber, role);
   return std::nullopt;
 }
 
 std::optional<Rejection> CheckedFilter::fly_entity(Entity entity, const Flight& flight) {
-  if (!contains(entities_, entity)) return Rejection{Fault::unknown_id, Subject::update_region, entity};
+  if (!contains(entities_, entity))
+    return Rejection{Fault::unknown_id, Subject::update_region, entity};
   if (const auto fault = fault_of(flight)) return Rejection{*fault, Subject::entity_flight, entity};
   filter_->set_flight(entity, flight);
   return std::nullopt;
 }
 
-std::optional<Rejection> CheckedFilter::fly_subscriber(Subscriber subscriber, const Flight& flight) {
-  if (!contains(subscribers_, subscriber)) return Rejection{Fault::unknown_id, Subject::subscription_region, subscriber};
-  if (const auto fault = fault_of(flight)) return Rejection{*fault, Subject::subscriber_flight, subscriber};
+std::optional<Rejection> CheckedFilter::fly_subscriber(Subscriber subscriber,
+                                                       const Flight& flight) {
+  if (!contains(subscribers_, subscriber))
+    return Rejection{Fault::unknown_id, Subject::subscription_region, subscriber};
+  if (const auto fault = fault_of(flight))
+    return Rejection{*fault, Subject::subscriber_flight, subscriber};
   filter_->set_subscriber_flight(subscriber, flight);
   return std::nullopt;
 }

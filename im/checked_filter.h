@@ -1,4 +1,5 @@
-// A filter for callers that are not trusted: what is wrong is rejected by name, and the filter goes on as if it had not been said.
+// A filter for callers that are not trusted: what is wrong is rejected by name, and the filter goes
+// on as if it had not been said.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +14,33 @@
 
 namespace rink::im {
 
-/// Nothing if a scheme with cells can start with `settings`: a world with an area, and a cell size that is positive and finite. For expressions and all else that
-/// settings hold: `complaint_about`.
+/// Nothing if a scheme with cells can start with `settings`: a world with an area, and a cell size
+/// that is positive and finite. For expressions and all else that settings hold: `complaint_about`.
 std::optional<Rejection> check(const FilterSettings& settings);
 
-/// Wraps a scheme. Each call says what was wrong with it, or nothing; a call that is rejected changes nothing. `Filter` itself asserts its preconditions.
+/// Wraps a scheme. Each call says what was wrong with it, or nothing; a call that is rejected
+/// changes nothing. `Filter` itself asserts its preconditions.
 class CheckedFilter {
  public:
-  /// Ids are less than `id_limit`: memory grows with the largest one, so a stranger may not choose as he likes.
-  CheckedFilter(std::unique_ptr<Filter> filter, std::uint32_t id_limit) : filter_(std::move(filter)), id_limit_(id_limit) {}
+  /// Ids are less than `id_limit`: memory grows with the largest one, so a stranger may not choose
+  /// as he likes.
+  CheckedFilter(std::unique_ptr<Filter> filter, std::uint32_t id_limit)
+      : filter_(std::move(filter)), id_limit_(id_limit) {}
 
   /// Rejected if it is there already, its id is not below the limit, or its region is bad.
-  std::optional<Rejection> add_entity(Entity entity, const Region& region) { return add(Subject::update_region, entities_, entity, region); }
-  std::optional<Rejection> add_subscriber(Subscriber subscriber, const Region& region) { return add(Subject::subscription_region, subscribers_, subscriber, region); }
+  std::optional<Rejection> add_entity(Entity entity, const Region& region) {
+    return add(Subject::update_region, entities_, entity, region);
+  }
+  std::optional<Rejection> add_subscriber(Subscriber subscriber, const Region& region) {
+    return add(Subject::subscription_region, subscribers_, subscriber, region);
+  }
   /// Rejected if it is not there, or its region is bad.
-  std::optional<Rejection> move_entity(Entity entity, const Region& region) { return move(Subject::update_region, entities_, entity, region); }
-  std::optional<Rejection> move_subscriber(Subscriber subscriber, const Region& region) { return move(Subject::subscription_region, subscribers_, subscriber, region); }
+  std::optional<Rejection> move_entity(Entity entity, const Region& region) {
+    return move(Subject::update_region, entities_, entity, region);
+  }
+  std::optional<Rejection> move_subscriber(Subscriber subscriber, const Region& region) {
+    return move(Subject::subscription_region, subscribers_, subscriber, region);
+  }
   /// Rejected if it is not there.
   std::optional<Rejection> remove_entity(Entity entity);
   std::optional<Rejection> remove_subscriber(Subscriber subscriber);
@@ -50,8 +62,10 @@ class CheckedFilter {
 
  private:
   using Presence = std::vector<bool>;
-  std::optional<Rejection> add(Subject subject, Presence& present, std::uint32_t id, const Region& region);
-  std::optional<Rejection> move(Subject subject, Presence& present, std::uint32_t id, const Region& region);
+  std::optional<Rejection> add(Subject subject, Presence& present, std::uint32_t id,
+                               const Region& region);
+  std::optional<Rejection> move(Subject subject, Presence& present, std::uint32_t id,
+                                const Region& region);
   static std::optional<Rejection> take_away(Subject subject, Presence& present, std::uint32_t id);
   void hand_in(Subject subject, std::uint32_t id, const Region& region);
 

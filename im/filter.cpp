@@ -5,7 +5,8 @@
 
 #include "im/composition/schemes.h"
 
-// A new scheme adds its line here, in alphabetical order, and defines make_NAME_filter in its own file.
+// A new scheme adds its line here, in alphabetical order, and defines make_NAME_filter in its own
+// file.
 #define RINK_SCHEMES(SCHEME) \
   SCHEME(always)             \
   SCHEME(aura)               \
@@ -24,7 +25,8 @@
 
 namespace rink::im {
 
-#define RINK_DECLARE(name) std::unique_ptr<Filter> make_##name##_filter(const FilterSettings& settings);
+#define RINK_DECLARE(name) \
+  std::unique_ptr<Filter> make_##name##_filter(const FilterSettings& settings);
 RINK_SCHEMES(RINK_DECLARE)
 #undef RINK_DECLARE
 
@@ -42,7 +44,8 @@ constexpr Scheme schemes[] = {RINK_SCHEMES(RINK_REGISTER)};
 }  // namespace
 
 bool is_valid(const Region& region) {
-  return std::isfinite(region.low_x) && std::isfinite(region.low_y) && std::isfinite(region.high_x) && std::isfinite(region.high_y) &&
+  return std::isfinite(region.low_x) && std::isfinite(region.low_y) &&
+         std::isfinite(region.high_x) && std::isfinite(region.high_y) &&
          region.low_x <= region.high_x && region.low_y <= region.high_y;
 }
 

@@ -1,11 +1,13 @@
-// Somebody on another core who can take half of a job. Handed in, for `im` has no threads of its own.
+// Somebody on another core who can take half of a job. Handed in, for `im` has no threads of its
+// own.
 #pragma once
 
 #include <cstddef>
 
 namespace rink::im {
 
-/// Below so many a job is done alone: regions of a match in which all are looked at, and movers of one in which few move.
+/// Below so many a job is done alone: regions of a match in which all are looked at, and movers of
+/// one in which few move.
 struct WorthSharing {
   std::size_t regions = 32768, movers = 8192;
 };
@@ -23,10 +25,15 @@ class Worker {
 };
 
 /// `worker`, if there is one and so many are worth it.
-inline Worker* for_regions(Worker* worker, std::size_t count) { return worker != nullptr && count >= worker->worth_sharing.regions ? worker : nullptr; }
-inline Worker* for_movers(Worker* worker, std::size_t count) { return worker != nullptr && count >= worker->worth_sharing.movers ? worker : nullptr; }
+inline Worker* for_regions(Worker* worker, std::size_t count) {
+  return worker != nullptr && count >= worker->worth_sharing.regions ? worker : nullptr;
+}
+inline Worker* for_movers(Worker* worker, std::size_t count) {
+  return worker != nullptr && count >= worker->worth_sharing.movers ? worker : nullptr;
+}
 
-/// Runs `own` here and `other` by `worker`, or one after the other without one. Neither may write what the other reads.
+/// Runs `own` here and `other` by `worker`, or one after the other without one. Neither may write
+/// what the other reads.
 template <class Own, class Other>
 void run_both(Worker* worker, Own own, Other other) {
   if (worker == nullptr) return own(), other();

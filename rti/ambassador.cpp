@@ -15,14 +15,20 @@ namespace rink::rti {
 
 void AmbassadorParts::require_parameters(Bytes parameters) {
   if (parameters.size() > parameters_max)
-    throw RtiException(HlaError::rti_internal_error, "the parameters of an interaction have " + std::to_string(parameters.size()) + " bytes; allowed are at most " + std::to_string(parameters_max));
+    throw RtiException(HlaError::rti_internal_error, "the parameters of an interaction have " +
+                                                         std::to_string(parameters.size()) +
+                                                         " bytes; allowed are at most " +
+                                                         std::to_string(parameters_max));
 }
 
 void AmbassadorParts::require_stamp(const Stamp& stamp) {
-  if (!std::isfinite(stamp.time)) throw RtiException(HlaError::invalid_logical_time, "a time stamp is a finite number of seconds");
+  if (!std::isfinite(stamp.time))
+    throw RtiException(HlaError::invalid_logical_time,
+                       "a time stamp is a finite number of seconds");
 }
 
-AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience, CallbackModel model)
+AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
+                                 const Patience& patience, CallbackModel model)
     : FomLookup(fom),
       queue_(model == CallbackModel::evoked ? std::make_unique<CallbackQueue>(callbacks) : nullptr),
       callbacks_(queue_ ? *queue_ : callbacks),
@@ -32,16 +38,23 @@ AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, 
       outgoing_(frame_max_to_rti),
       arrivals_(fom) {}
 
-Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience, CallbackModel model)
+Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience,
+                       CallbackModel model)
     : AmbassadorParts(fom, callbacks, patience, model) {}
 
-ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class, std::string_view name) {
-  if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
-  if (object_class.value >= declared_.objects.size()) throw RtiException(HlaError::object_class_not_defined, "class " + std::to_string(object_class.value));
-  if (declared_.objects[object_class.value].published.is_empty()) throw RtiException(HlaError::object_class_not_published, "class " + fom_.at(object_class).name);
+ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class,
+                                                  std::string_view name) {
+  if (phase_ != Phase::joined)
+    throw RtiException(HlaError::federate_not_execution_member, "join first");
+  if (object_class.value >= declared_.objects.size())
+    throw RtiException(HlaError::object_class_not_defined,
+                       "class " + std::to_string(object_class.value));
+  if (declared_.objects[object_class.value].published.is_empty())
+    throw RtiException(HlaError::object_class_not_published, "class " + fom_.at(object_class).name);
   if (!name.empty()) {
     require_name(name);
-    if (names_.find(name)) throw RtiException(HlaError::object_instance_name_in_use, "'" + std::string(name) + "'");
+    if (names_.find(name))
+      throw RtiException(HlaError::object_instance_name_in_use, "'" + std::string(name) + "'");
   }
   if (objects_registered_ == object_block && !further_block_) return {};
   if (objects_registered_ == object_block) begin_further_block();
@@ -53,12 +66,15 @@ ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class
   return object;
 }
 
-bool AmbassadorParts::was_ours(ObjectHandle object) const { return std::ranges::find(former_blocks_, object.value / object_block) != former_blocks_.end(); }
+bool AmbassadorParts::was_ours(ObjectHandle object) const {
+  return std::ranges::find(former_blocks_, object.value / object_block) != former_blocks_.end();
+}
 
 /// Memory follows what is left of the used block, not what it held.
 void AmbassadorParts::begin_further_block() {
   for (std::uint32_t number = 0; number < own_.size(); ++number)
-    if (own_[number].object_class != KnownObject::unknown) known_[ObjectHandle{object_block_ * object_block + number}] = own_[number];
+    if (own_[number].object_class != KnownObject::unknown)
+      known_[ObjectHandle{object_block_ * object_block + number}] = own_[number];
   own_.clear();
   former_blocks_.push_back(object_block_);
   object_block_ = *std::exchange(further_block_, std::nullopt);
@@ -67,22 +83,27 @@ void AmbassadorParts::begin_further_block() {
 
 bool AmbassadorParts::take_further_block(Reader& reader) {
   FurtherBlockMessage message;
-  if (!exchange(reader, message) || further_block_ || message.object_block == object_block_) return false;
+  if (!exchange(reader, message) || further_block_ || message.object_block == object_block_)
+    return false;
   further_block_ = message.object_block;
   return true;
 }
 
 void Ambassador::delete_object_instance(ObjectHandle object) {
   const KnownObject& known = known_or_throw(object, {});
-  if (!owned_of(object, known).contains(privilege_to_delete_object)) throw RtiException(HlaError::delete_privilege_not_held, "object " + std::to_string(object.value));
+  if (!owned_of(object, known).contains(privilege_to_delete_object))
+    throw RtiException(HlaError::delete_privilege_not_held,
+                       "object " + std::to_string(object.value));
   forget(object);
   if (!is_ours(object) && !was_ours(object)) gone_.push_back({object});
   say(DeleteObjectMessage{object.value});
 }
 
-void AmbassadorParts::begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp) {
+void AmbassadorParts::begin_updates(ObjectClassHandle object_class, AttributeSet attributes,
+                                    const Stamp& stamp) {
   declared_.note_sent(object_class, attributes, stamp);
-  if (!outgoing_.is_open() || stamped_frame_ != outgoing_.frame_count() || said_stamp_ != stamp) say(StampMessage{stamp});
+  if (!outgoing_.is_open() || stamped_frame_ != outgoing_.frame_count() || said_stamp_ != stamp)
+    say(StampMessage{stamp});
   said_stamp_ = stamp;
   stamped_frame_ = outgoing_.frame_count();
   const UpdatesMessage header{static_cast<std::uint16_t>(object_class.value), attributes.bits};
@@ -91,25 +112,41 @@ void AmbassadorParts::begin_updates(ObjectClassHandle object_class, AttributeSet
   open_ = {true, object_class, attributes, stamp, 0};
 }
 
-void AmbassadorParts::require_values(ObjectClassHandle object_class, AttributeSet attributes, Bytes values) const {
-  if (!fom_.attributes(object_class).includes(attributes)) throw RtiException(HlaError::attribute_not_defined, "class " + fom_.at(object_class).name + " lacks an attribute of the update");
-  if (values.size() > values_max) throw RtiException(HlaError::rti_internal_error, "the values of an update have " + std::to_string(values.size()) + " bytes; allowed are at most " + std::to_string(values_max));
+void AmbassadorParts::require_values(ObjectClassHandle object_class, AttributeSet attributes,
+                                     Bytes values) const {
+  if (!fom_.attributes(object_class).includes(attributes))
+    throw RtiException(HlaError::attribute_not_defined,
+                       "class " + fom_.at(object_class).name + " lacks an attribute of the update");
+  if (values.size() > values_max)
+    throw RtiException(HlaError::rti_internal_error,
+                       "the values of an update have " + std::to_string(values.size()) +
+                           " bytes; allowed are at most " + std::to_string(values_max));
   if (fom_.values_fit(object_class, attributes, values)) return;
   std::string names;
-  attributes.for_each([&](AttributeHandle each) { names += (names.empty() ? "" : ", ") + fom_.at(object_class).attributes[each.value].name; });
-  throw RtiException(HlaError::rti_internal_error, std::to_string(values.size()) + " bytes are not the values of " + fom_.at(object_class).name + "'s " + names);
+  attributes.for_each([&](AttributeHandle each) {
+    names += (names.empty() ? "" : ", ") + fom_.at(object_class).attributes[each.value].name;
+  });
+  throw RtiException(HlaError::rti_internal_error, std::to_string(values.size()) +
+                                                       " bytes are not the values of " +
+                                                       fom_.at(object_class).name + "'s " + names);
 }
 
-void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp) {
+void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values,
+                                         const Stamp& stamp) {
   const KnownObject* known = find(object);
-  if (phase_ != Phase::joined || known == nullptr || !known->is_own) check_update(object, attributes);
+  if (phase_ != Phase::joined || known == nullptr || !known->is_own)
+    check_update(object, attributes);
   const ObjectClassHandle object_class{known->object_class};
   require_values(object_class, attributes, values);
   require_stamp(stamp);
   if (known->is_own && !declared_.objects[object_class.value].published.includes(attributes))
-    throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + ": an attribute of the update is not published");
+    throw RtiException(
+        HlaError::attribute_not_owned,
+        "object " + std::to_string(object.value) + ": an attribute of the update is not published");
   if (attributes.is_empty()) return;
-  if (declared_.is_special(object_class, attributes) && spare(object, *known, attributes, values, stamp)) return;
+  if (declared_.is_special(object_class, attributes) &&
+      spare(object, *known, attributes, values, stamp))
+    return;
   if (is_coded(fom_.at(object_class), attributes)) {
     coded_.clear();
     encode(fom_.at(object_class), attributes, values, stamp.time, coded_);
@@ -119,12 +156,14 @@ void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attri
   if (!attributes.is_empty()) say_update(object, object_class, attributes, values, stamp);
 }
 
-void AmbassadorParts::say_update(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes values, const Stamp& stamp) {
+void AmbassadorParts::say_update(ObjectHandle object, ObjectClassHandle object_class,
+                                 AttributeSet attributes, Bytes values, const Stamp& stamp) {
   assert(values.size() <= values_max);
   if (outbox_) before_stream(object, object_class, attributes);
   // Stamp, header with two numbers of at most 5 bytes, step to the handle, end.
   constexpr std::size_t header_size_max = StampMessage::size_max + 1 + 5 + 5, rest_max = 5 + 1;
-  if (!open_.is_open || open_.object_class != object_class || open_.attributes != attributes || open_.stamp != stamp || !outgoing_.has_room(rest_max + values.size())) {
+  if (!open_.is_open || open_.object_class != object_class || open_.attributes != attributes ||
+      open_.stamp != stamp || !outgoing_.has_room(rest_max + values.size())) {
     if (!outgoing_.has_room(header_size_max + rest_max + values.size())) outgoing_.close_frame();
     begin_updates(object_class, attributes, stamp);
   }
@@ -139,16 +178,20 @@ void AmbassadorParts::say_update(ObjectHandle object, ObjectClassHandle object_c
   ++counters_.updates_sent;
 }
 
-void Ambassador::send_interaction(InteractionClassHandle interaction_class, Bytes parameters, const Stamp& stamp) {
+void Ambassador::send_interaction(InteractionClassHandle interaction_class, Bytes parameters,
+                                  const Stamp& stamp) {
   send_directed_interaction(interaction_class, {}, parameters, stamp);
 }
 
-void Ambassador::send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, const Stamp& stamp) {
+void Ambassador::send_directed_interaction(InteractionClassHandle interaction_class,
+                                           FederateHandle receiver, Bytes parameters,
+                                           const Stamp& stamp) {
   require_published(interaction_class);
   require_parameters(parameters);
   require_stamp(stamp);
   if (spares_interaction(interaction_class)) return;
-  say(InteractionMessage{static_cast<std::uint16_t>(interaction_class.value), receiver.value, stamp, parameters});
+  say(InteractionMessage{static_cast<std::uint16_t>(interaction_class.value), receiver.value, stamp,
+                         parameters});
   ++counters_.interactions_sent;
 }
 
@@ -171,8 +214,10 @@ void Ambassador::advance_clock(double now) {
   if (outbox_ && phase_ == Phase::joined) repair_best_effort();
   if (!postponed_.empty()) release_postponed();
   if (phase_ != Phase::joined && phase_ != Phase::joining) return;
-  if (receipts_.is_due() && now - receipts_due_since_ >= DatagramReceipts::longest_delay_s) acknowledge_datagrams();
-  if (now - last_heard_ > patience_.lost_after_s) return lose("the RTI has been silent for too long");
+  if (receipts_.is_due() && now - receipts_due_since_ >= DatagramReceipts::longest_delay_s)
+    acknowledge_datagrams();
+  if (now - last_heard_ > patience_.lost_after_s)
+    return lose("the RTI has been silent for too long");
   if (phase_ == Phase::joined && now - last_said_ >= patience_.heartbeat_s) {
     say(HeartbeatMessage{});
     last_said_ = now;
@@ -193,7 +238,9 @@ void AmbassadorParts::forget(ObjectHandle object) {
 KnownObject* AmbassadorParts::find(ObjectHandle object) {
   if (!is_ours(object)) {
     KnownObject* known = known_.find(object);
-    return known != nullptr && known->object_class != KnownObject::unknown ? known : nullptr;  // else it is being deleted by us
+    return known != nullptr && known->object_class != KnownObject::unknown
+               ? known
+               : nullptr;  // else it is being deleted by us
   }
   const std::uint32_t number = object.value % object_block;
   const bool is_known = number < own_.size() && own_[number].object_class != KnownObject::unknown;
@@ -201,10 +248,13 @@ KnownObject* AmbassadorParts::find(ObjectHandle object) {
 }
 
 std::size_t Ambassador::memory_bytes() const {
-  const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
-  return waiting + holdings_.memory_bytes() + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + names_.memory_bytes() + regions_.memory_bytes() +
-         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() + keyframes_.memory_bytes() + arrivals_.memory_bytes() +
-         declared_.memory_bytes() + (outbox_ ? outbox_->memory_bytes() : 0);
+  const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() +
+                              (queue_ ? queue_->memory_bytes() : 0);
+  return waiting + holdings_.memory_bytes() + own_.capacity() * sizeof own_[0] +
+         known_.memory_bytes() + names_.memory_bytes() + regions_.memory_bytes() +
+         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() +
+         keyframes_.memory_bytes() + arrivals_.memory_bytes() + declared_.memory_bytes() +
+         (outbox_ ? outbox_->memory_bytes() : 0);
 }
 
 }  // namespace rink::rti

@@ -12,32 +12,44 @@
 
 namespace rink::rti {
 
-/// One federate. No I/O, no clock, no thread: its owner carries `outgoing` to the RTI and what comes back to `receive`, and hands in the time.
-/// Services assert on the programmer's mistakes (an object of somebody else, an undeclared class).
+/// One federate. No I/O, no clock, no thread: its owner carries `outgoing` to the RTI and what
+/// comes back to `receive`, and hands in the time. Services assert on the programmer's mistakes (an
+/// object of somebody else, an undeclared class).
 class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
  public:
   /// Both must outlive the ambassador.
-  Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {}, CallbackModel model = CallbackModel::immediate);
+  Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {},
+             CallbackModel model = CallbackModel::immediate);
 
-  /// Federation management. These three ask the host, before the join; answered by `federation_execution_created`, `…_destroyed` and
-  /// `report_federation_executions`. The new execution has this ambassador's object model, which the host must offer. Throw FederateAlreadyExecutionMember.
-  void create_federation_execution(std::string_view federation) { create_federation_execution(federation, fom_); }
+  /// Federation management. These three ask the host, before the join; answered by
+  /// `federation_execution_created`, `…_destroyed` and `report_federation_executions`. The new
+  /// execution has this ambassador's object model, which the host must offer. Throw
+  /// FederateAlreadyExecutionMember.
+  void create_federation_execution(std::string_view federation) {
+    create_federation_execution(federation, fom_);
+  }
   /// The same with another model that the host offers.
   void create_federation_execution(std::string_view federation, const Fom& model);
   void destroy_federation_execution(std::string_view federation);
   void list_federation_executions();
-  /// Asks for the counters of the management object model, answered by `report_management`: before the join about every execution of the host, after it about one's own.
+  /// Asks for the counters of the management object model, answered by `report_management`: before
+  /// the join about every execution of the host, after it about one's own.
   void query_management();
-  /// `join` ends with `joined` or `join_refused`. Declarations and regions may follow `join` at once; objects and interactions only `joined`.
-  /// Throws FederateAlreadyExecutionMember. After `resign` nothing may be called but `outgoing` and `clear_outgoing`; its objects are deleted.
-  void join(std::string_view federation, std::string_view federate_name, std::string_view federate_type);
+  /// `join` ends with `joined` or `join_refused`. Declarations and regions may follow `join` at
+  /// once; objects and interactions only `joined`. Throws FederateAlreadyExecutionMember. After
+  /// `resign` nothing may be called but `outgoing` and `clear_outgoing`; its objects are deleted.
+  void join(std::string_view federation, std::string_view federate_name,
+            std::string_view federate_type);
   void resign();
   bool is_joined() const { return phase_ == Phase::joined; }
   FederateHandle federate() const { return federate_; }
-  /// `synchronization_point_registration_succeeded` or `…_failed` follows. Who is in `members` is told and must achieve it; an empty set is all who are joined,
-  /// those included who join before it is reached. Who leaves is no longer waited for. Label at most 255 bytes, tag 1,024.
-  void register_synchronization_point(std::string_view label, Bytes tag = {}, std::span<const FederateHandle> members = {});
-  /// Once for each announced label; throws SynchronizationPointLabelNotAnnounced. Without success the federate is among those that failed.
+  /// `synchronization_point_registration_succeeded` or `…_failed` follows. Who is in `members` is
+  /// told and must achieve it; an empty set is all who are joined, those included who join before
+  /// it is reached. Who leaves is no longer waited for. Label at most 255 bytes, tag 1,024.
+  void register_synchronization_point(std::string_view label, Bytes tag = {},
+                                      std::span<const FederateHandle> members = {});
+  /// Once for each announced label; throws SynchronizationPointLabelNotAnnounced. Without success
+  /// the federate is among those that failed.
   void synchronization_point_achieved(std::string_view label, bool is_success = true);
   /// Asks to be told who is there, who comes and who goes.
   void watch_federates();
@@ -45,70 +57,102 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   /// Declaration management. A later call for the same class (and region) replaces the earlier one.
   void publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes);
   void unpublish_object_class(ObjectClassHandle object_class);
-  /// Without a region: the default region, that is everything. Who subscribes passively hears as much, but counts for no advisory.
-  void subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region = {}, bool is_active = true);
+  /// Without a region: the default region, that is everything. Who subscribes passively hears as
+  /// much, but counts for no advisory.
+  void subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes,
+                                         RegionHandle region = {}, bool is_active = true);
   void unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region = {});
   void publish_interaction_class(InteractionClassHandle interaction_class);
   void unpublish_interaction_class(InteractionClassHandle interaction_class);
   void subscribe_interaction_class(InteractionClassHandle interaction_class, bool is_active = true);
   void unsubscribe_interaction_class(InteractionClassHandle interaction_class);
 
-  /// Ownership management (clause 7). The privilege to delete an object is its attribute `privilege_to_delete_object`. The RTI decides and answers by callbacks;
-  /// a federate loses an attribute by its own word only. Throws `RtiException`: ObjectInstanceNotKnown, AttributeNotDefined, AttributeNotOwned and those named.
-  /// Tags have at most 1,024 bytes. Successive calls that differ in the object only travel as one block.
+  /// Ownership management (clause 7). The privilege to delete an object is its attribute
+  /// `privilege_to_delete_object`. The RTI decides and answers by callbacks; a federate loses an
+  /// attribute by its own word only. Throws `RtiException`: ObjectInstanceNotKnown,
+  /// AttributeNotDefined, AttributeNotOwned and those named. Tags have at most 1,024 bytes.
+  /// Successive calls that differ in the object only travel as one block.
   void unconditional_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes);
-  /// Keeps them until somebody takes them, `request_divestiture_confirmation` says so and it is confirmed. AttributeAlreadyBeingDivested.
-  void negotiated_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
-  /// From now on they are not owned; should whoever wanted them have gone meanwhile, `attribute_ownership_kept` gives them back.
-  /// AttributeDivestitureWasNotRequested, NoAcquisitionPending.
+  /// Keeps them until somebody takes them, `request_divestiture_confirmation` says so and it is
+  /// confirmed. AttributeAlreadyBeingDivested.
+  void negotiated_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes,
+                                                  Bytes tag = {});
+  /// From now on they are not owned; should whoever wanted them have gone meanwhile,
+  /// `attribute_ownership_kept` gives them back. AttributeDivestitureWasNotRequested,
+  /// NoAcquisitionPending.
   void confirm_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
-  void cancel_negotiated_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes);  ///< AttributeDivestitureWasNotRequested
+  void cancel_negotiated_attribute_ownership_divestiture(
+      ObjectHandle object, AttributeSet attributes);  ///< AttributeDivestitureWasNotRequested
   void attribute_ownership_release_denied(ObjectHandle object, AttributeSet attributes);
-  /// What the standard returns comes by `attribute_ownership_divested` and `attribute_ownership_kept`; until then they are not owned.
+  /// What the standard returns comes by `attribute_ownership_divested` and
+  /// `attribute_ownership_kept`; until then they are not owned.
   void attribute_ownership_divestiture_if_wanted(ObjectHandle object, AttributeSet attributes);
-  /// ObjectClassNotPublished, AttributeNotPublished, FederateOwnsAttributes; the second also AttributeAlreadyBeingAcquired.
-  void attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
+  /// ObjectClassNotPublished, AttributeNotPublished, FederateOwnsAttributes; the second also
+  /// AttributeAlreadyBeingAcquired.
+  void attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes,
+                                       Bytes tag = {});
   void attribute_ownership_acquisition_if_available(ObjectHandle object, AttributeSet attributes);
-  /// Ends with the confirmation of the cancellation, or with the acquisition. AttributeAlreadyOwned, AttributeAcquisitionWasNotRequested.
+  /// Ends with the confirmation of the cancellation, or with the acquisition.
+  /// AttributeAlreadyOwned, AttributeAcquisitionWasNotRequested.
   void cancel_attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes);
   /// Answered by `inform_attribute_ownership` or `attribute_is_not_owned`.
   void query_attribute_ownership(ObjectHandle object, AttributeHandle attribute);
   bool is_attribute_owned_by_federate(ObjectHandle object, AttributeHandle attribute);
   /// What becomes of its objects should it be lost (10.4); at first cancel_then_delete_then_divest.
   void set_automatic_resign_directive(ResignAction action);
-  /// Resigns so. OwnershipAcquisitionPending, FederateOwnsAttributes if the action leaves any of these.
+  /// Resigns so. OwnershipAcquisitionPending, FederateOwnsAttributes if the action leaves any of
+  /// these.
   void resign(ResignAction action);
 
-  /// Object management. The handle is usable at once; empty if the block is used up before the RTI has given a further one, which it does once half is used
-  /// (rti/wire/message.h). A name that was not reserved is reserved by this; if it is not free, `object_instance_name_reservation_failed` tells so and the object goes by its
-  /// default name. IllegalName, ObjectInstanceNameInUse if that is known here.
+  /// Object management. The handle is usable at once; empty if the block is used up before the RTI
+  /// has given a further one, which it does once half is used (rti/wire/message.h). A name that was
+  /// not reserved is reserved by this; if it is not free, `object_instance_name_reservation_failed`
+  /// tells so and the object goes by its default name. IllegalName, ObjectInstanceNameInUse if that
+  /// is known here.
   ObjectHandle register_object_instance(ObjectClassHandle object_class, std::string_view name = {});
   void delete_object_instance(ObjectHandle object);
-  /// As if it had never been discovered: it will be when it next comes into scope. FederateOwnsAttributes, OwnershipAcquisitionPending.
+  /// As if it had never been discovered: it will be when it next comes into scope.
+  /// FederateOwnsAttributes, OwnershipAcquisitionPending.
   void local_delete_object_instance(ObjectHandle object);
-  /// Answered by `object_instance_name_reservation_succeeded` or `…_failed`, a set as one. IllegalName, NameSetWasEmpty; a release that is none throws ObjectInstanceNameNotReserved.
+  /// Answered by `object_instance_name_reservation_succeeded` or `…_failed`, a set as one.
+  /// IllegalName, NameSetWasEmpty; a release that is none throws ObjectInstanceNameNotReserved.
   void reserve_object_instance_name(std::string_view name);
   void reserve_multiple_object_instance_names(std::span<const std::string_view> names);
-  void release_object_instance_name(std::string_view name) { release_multiple_object_instance_names(std::span(&name, 1)); }
+  void release_object_instance_name(std::string_view name) {
+    release_multiple_object_instance_names(std::span(&name, 1));
+  }
   void release_multiple_object_instance_names(std::span<const std::string_view> names);
-  /// Asks the owners for values: `provide_attribute_value_update`, with the tag of at most 1,024 bytes.
-  void request_attribute_value_update(ObjectClassHandle object_class, AttributeSet attributes, Bytes tag = {});
+  /// Asks the owners for values: `provide_attribute_value_update`, with the tag of at most 1,024
+  /// bytes.
+  void request_attribute_value_update(ObjectClassHandle object_class, AttributeSet attributes,
+                                      Bytes tag = {});
   void request_attribute_value_update(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
-  /// Confirmed by a callback, as what is asked for is answered by one (6.23 to 6.30). AttributeNotOwned, InteractionClassNotPublished.
-  void request_attribute_transportation_type_change(ObjectHandle object, AttributeSet attributes, Transportation transportation);
+  /// Confirmed by a callback, as what is asked for is answered by one (6.23 to 6.30).
+  /// AttributeNotOwned, InteractionClassNotPublished.
+  void request_attribute_transportation_type_change(ObjectHandle object, AttributeSet attributes,
+                                                    Transportation transportation);
   void query_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute);
-  void request_interaction_transportation_type_change(InteractionClassHandle interaction_class, Transportation transportation);
-  void query_interaction_transportation_type(FederateHandle federate, InteractionClassHandle interaction_class);
-  /// `values` as in `reflect_attribute_values`. Successive updates of one class, set and stamp travel as one block.
-  void update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp);
+  void request_interaction_transportation_type_change(InteractionClassHandle interaction_class,
+                                                      Transportation transportation);
+  void query_interaction_transportation_type(FederateHandle federate,
+                                             InteractionClassHandle interaction_class);
+  /// `values` as in `reflect_attribute_values`. Successive updates of one class, set and stamp
+  /// travel as one block.
+  void update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values,
+                               const Stamp& stamp);
   /// To all who subscribe to the class, never back to the sender. At most 32 KiB.
-  void send_interaction(InteractionClassHandle interaction_class, Bytes parameters, const Stamp& stamp);
+  void send_interaction(InteractionClassHandle interaction_class, Bytes parameters,
+                        const Stamp& stamp);
   /// The same to one federate only, if it subscribes.
-  void send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, const Stamp& stamp);
+  void send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver,
+                                 Bytes parameters, const Stamp& stamp);
 
-  /// Data distribution management (ambassador_regions.cpp); docs/rti.md, "Regions". What is set is local; a commit takes effect at the RTI's next match. The same region may serve
-  /// subscriptions and updates; one that was never committed overlaps nothing. Without dimensions a region is over X and Y [m], needs no such dimensions in the model, and holds for
-  /// whole objects; the services with `pairs` are the standard's: each attribute must have all dimensions of its regions. Empty if all `region_max` regions are in use.
+  /// Data distribution management (ambassador_regions.cpp); docs/rti.md, "Regions". What is set is
+  /// local; a commit takes effect at the RTI's next match. The same region may serve subscriptions
+  /// and updates; one that was never committed overlaps nothing. Without dimensions a region is
+  /// over X and Y [m], needs no such dimensions in the model, and holds for whole objects; the
+  /// services with `pairs` are the standard's: each attribute must have all dimensions of its
+  /// regions. Empty if all `region_max` regions are in use.
   RegionHandle create_region();
   RegionHandle create_region(DimensionSet dimensions);
   void set_region(RegionHandle region, const im::Region& bounds);
@@ -124,19 +168,32 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   /// Replaces all regions of the object; an empty handle gives it back to the default region.
   void associate_regions_for_updates(ObjectHandle object, RegionHandle region);
   void associate_regions_for_updates(ObjectHandle object, std::span<const AttributeRegions> pairs);
-  void unassociate_regions_for_updates(ObjectHandle object, std::span<const AttributeRegions> pairs);
-  ObjectHandle register_object_instance_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, std::string_view name = {});
+  void unassociate_regions_for_updates(ObjectHandle object,
+                                       std::span<const AttributeRegions> pairs);
+  ObjectHandle register_object_instance_with_regions(ObjectClassHandle object_class,
+                                                     std::span<const AttributeRegions> pairs,
+                                                     std::string_view name = {});
   /// Adds to what is subscribed to already.
-  void subscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_active = true);
-  void unsubscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs);
-  void subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, bool is_active = true);
-  void unsubscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions);
+  void subscribe_object_class_attributes_with_regions(ObjectClassHandle object_class,
+                                                      std::span<const AttributeRegions> pairs,
+                                                      bool is_active = true);
+  void unsubscribe_object_class_attributes_with_regions(ObjectClassHandle object_class,
+                                                        std::span<const AttributeRegions> pairs);
+  void subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class,
+                                                std::span<const RegionHandle> regions,
+                                                bool is_active = true);
+  void unsubscribe_interaction_class_with_regions(InteractionClassHandle interaction_class,
+                                                  std::span<const RegionHandle> regions);
   /// To all who subscribe to the class without a region, or with one that overlaps one of these.
-  void send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters, std::span<const RegionHandle> regions, const Stamp& stamp);
-  /// Asks the owners of attributes whose regions overlap those of a pair, or that are of the default region, for an update: `provide_attribute_value_update`.
-  void request_attribute_value_update_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs);
+  void send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters,
+                                     std::span<const RegionHandle> regions, const Stamp& stamp);
+  /// Asks the owners of attributes whose regions overlap those of a pair, or that are of the
+  /// default region, for an update: `provide_attribute_value_update`.
+  void request_attribute_value_update_with_regions(ObjectClassHandle object_class,
+                                                   std::span<const AttributeRegions> pairs);
 
-  /// Look-ups beyond those of the object model; NameNotFound. Federates are known from `watch_federates`, and oneself.
+  /// Look-ups beyond those of the object model; NameNotFound. Federates are known from
+  /// `watch_federates`, and oneself.
   FederateHandle get_federate_handle(std::string_view name) const;
   const std::string& get_federate_name(FederateHandle federate) const;
   /// Of objects that are known or own; ObjectInstanceNotKnown.
@@ -144,26 +201,35 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   std::string get_object_instance_name(ObjectHandle object) const;
   ObjectClassHandle get_known_object_class_handle(ObjectHandle object) const;
 
-  /// Callbacks. In the evoked model the federate is told nothing until it asks; these tell it the oldest, or up to `count_max` in their order, and return whether more
-  /// wait. In the immediate model they do nothing. Who lets more than `waiting_callbacks_max` bytes wait loses its connection. Throw CallNotAllowedFromWithinCallback.
+  /// Callbacks. In the evoked model the federate is told nothing until it asks; these tell it the
+  /// oldest, or up to `count_max` in their order, and return whether more wait. In the immediate
+  /// model they do nothing. Who lets more than `waiting_callbacks_max` bytes wait loses its
+  /// connection. Throw CallNotAllowedFromWithinCallback.
   bool evoke_callback();
   bool evoke_multiple_callbacks(std::size_t count_max = ~std::size_t{0});
-  /// From now on the federate is told nothing, in either model, until callbacks are enabled again: in the immediate model all at once, within this call.
+  /// From now on the federate is told nothing, in either model, until callbacks are enabled again:
+  /// in the immediate model all at once, within this call.
   void disable_callbacks();
   void enable_callbacks();
 
-  /// Time management: docs/rti.md. Every federate begins at logical time 0, neither regulating nor constrained. Refused by the errors that `FederateClock` names.
+  /// Time management: docs/rti.md. Every federate begins at logical time 0, neither regulating nor
+  /// constrained. Refused by the errors that `FederateClock` names.
   void enable_time_regulation(double lookahead);
   void disable_time_regulation();
   void enable_time_constrained();
   void disable_time_constrained();
   void time_advance_request(LogicalTime time) { request_advance(AdvanceKind::time_advance, time); }
-  void time_advance_request_available(LogicalTime time) { request_advance(AdvanceKind::time_advance_available, time); }
+  void time_advance_request_available(LogicalTime time) {
+    request_advance(AdvanceKind::time_advance_available, time);
+  }
   void next_message_request(LogicalTime time) { request_advance(AdvanceKind::next_message, time); }
-  void next_message_request_available(LogicalTime time) { request_advance(AdvanceKind::next_message_available, time); }
+  void next_message_request_available(LogicalTime time) {
+    request_advance(AdvanceKind::next_message_available, time);
+  }
   void flush_queue_request(LogicalTime time) { request_advance(AdvanceKind::flush_queue, time); }
   void modify_lookahead(double lookahead);
-  /// While granted, a constrained federate gets messages in receive order only if this is on; else they wait for its next request.
+  /// While granted, a constrained federate gets messages in receive order only if this is on; else
+  /// they wait for its next request.
   void enable_asynchronous_delivery() { clock_.ask_asynchronous(true); }
   void disable_asynchronous_delivery() { clock_.ask_asynchronous(false); }
   LogicalTime query_logical_time() const { return LogicalTime(clock_.time()); }
@@ -171,31 +237,44 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   /// Asks the RTI for GALT and LITS; `time_bounds` answers.
   void query_time_bounds();
   const FederateClock& clock() const { return clock_; }
-  /// The same as the services without a time, but in time-stamp order where that is what the object model or `change_..._order_type` says and the federate regulates: only then
-  /// is there a handle. What of an update goes in receive order goes at once, stamped with that time.
-  RetractionHandle update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, LogicalTime time, std::uint64_t tag = 0);
-  RetractionHandle send_interaction(InteractionClassHandle interaction_class, Bytes parameters, LogicalTime time, std::uint64_t tag = 0);
-  RetractionHandle send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, LogicalTime time, std::uint64_t tag = 0);
-  RetractionHandle delete_object_instance(ObjectHandle object, LogicalTime time, std::uint64_t tag = 0);
-  /// Takes back what was sent in time-stamp order. A deletion that is taken back gives the object back.
+  /// The same as the services without a time, but in time-stamp order where that is what the object
+  /// model or `change_..._order_type` says and the federate regulates: only then is there a handle.
+  /// What of an update goes in receive order goes at once, stamped with that time.
+  RetractionHandle update_attribute_values(ObjectHandle object, AttributeSet attributes,
+                                           Bytes values, LogicalTime time, std::uint64_t tag = 0);
+  RetractionHandle send_interaction(InteractionClassHandle interaction_class, Bytes parameters,
+                                    LogicalTime time, std::uint64_t tag = 0);
+  RetractionHandle send_directed_interaction(InteractionClassHandle interaction_class,
+                                             FederateHandle receiver, Bytes parameters,
+                                             LogicalTime time, std::uint64_t tag = 0);
+  RetractionHandle delete_object_instance(ObjectHandle object, LogicalTime time,
+                                          std::uint64_t tag = 0);
+  /// Takes back what was sent in time-stamp order. A deletion that is taken back gives the object
+  /// back.
   void retract(const RetractionHandle& handle);
   void change_attribute_order_type(ObjectHandle object, AttributeSet attributes, Order order);
   void change_interaction_order_type(InteractionClassHandle interaction_class, Order order);
 
-  /// Bytes from the RTI, cut anywhere. False after a protocol error, which `connection_lost` has explained: close the connection.
+  /// Bytes from the RTI, cut anywhere. False after a protocol error, which `connection_lost` has
+  /// explained: close the connection.
   bool receive(Bytes bytes);
-  /// A datagram of the RTI, whole; in any order, doubled or not at all. One that makes no sense is counted and otherwise ignored.
+  /// A datagram of the RTI, whole; in any order, doubled or not at all. One that makes no sense is
+  /// counted and otherwise ignored.
   void receive_datagram(Bytes datagram);
-  /// There is a way for datagrams: from now on the order of frames matters too, for an older datagram may come after them.
-  /// `size_max`: the most bytes that one may have now; 0 while there is none. Best-effort updates go by it, unless this federate keeps time or leaves objects behind.
+  /// There is a way for datagrams: from now on the order of frames matters too, for an older
+  /// datagram may come after them. `size_max`: the most bytes that one may have now; 0 while there
+  /// is none. Best-effort updates go by it, unless this federate keeps time or leaves objects
+  /// behind.
   void expect_datagrams(std::size_t size_max);
-  /// The datagrams that must go to the RTI, behind `outgoing` or beside it, and that they have gone. `clear_outgoing` says no word of them. Valid until then.
+  /// The datagrams that must go to the RTI, behind `outgoing` or beside it, and that they have
+  /// gone. `clear_outgoing` says no word of them. Valid until then.
   std::span<const Datagram> outgoing_datagrams();
   void clear_outgoing_datagrams();
   /// What must go to the RTI, and that it has gone.
   Bytes outgoing() const { return outgoing_.bytes(); }
   void clear_outgoing();
-  /// `now` [s] never decreases; the origin is free. Says that we live when idle, notices a silent RTI.
+  /// `now` [s] never decreases; the origin is free. Says that we live when idle, notices a silent
+  /// RTI.
   void advance_clock(double now);
   /// The connection is gone: `connection_lost` follows unless the federate resigned or was refused.
   void disconnected(std::string_view why);

@@ -1,4 +1,5 @@
-// What a host of transports talks to: the RTI's central component, whether it holds one federation execution or many.
+// What a host of transports talks to: the RTI's central component, whether it holds one federation
+// execution or many.
 #pragma once
 
 #include <cstddef>
@@ -17,15 +18,19 @@ class Outlet {
   virtual void send(ConnectionId connection, std::span<const Bytes> parts) = 0;
   /// Bytes that its sends have left to wait because it doesn't take them.
   virtual std::size_t waiting_bytes(ConnectionId) const { return 0; }
-  /// The most bytes that a datagram to this destination may have now; 0 where there is no way for them.
+  /// The most bytes that a datagram to this destination may have now; 0 where there is no way for
+  /// them.
   virtual std::size_t datagram_max(ConnectionId) const { return 0; }
-  /// At most once per flush and destination, before its `send`, beside one more to ask if a way is open again. Valid during the call.
+  /// At most once per flush and destination, before its `send`, beside one more to ask if a way is
+  /// open again. Valid during the call.
   virtual void send_datagrams(ConnectionId, std::span<const Datagram>) {}
-  /// Close it once the bytes sent before are on their way; the central component has forgotten it already.
+  /// Close it once the bytes sent before are on their way; the central component has forgotten it
+  /// already.
   virtual void drop(ConnectionId connection, std::string_view why) = 0;
 };
 
-/// Bytes and time in, bytes out; no I/O, no clock, no thread. A tick is any number of `receive`, then `match`, then `flush`.
+/// Bytes and time in, bytes out; no I/O, no clock, no thread. A tick is any number of `receive`,
+/// then `match`, then `flush`.
 class CentralComponent {
  public:
   virtual ~CentralComponent() = default;

@@ -9,12 +9,12 @@
 
 #include "rti/fom/attribute_set.h"
 #include "rti/fom/fom.h"
-#include "rti/wire/bytes.h"
 #include "rti/handles.h"
 #include "rti/hla_error.h"
 #include "rti/management/federation_report.h"
 #include "rti/membership.h"
 #include "rti/time/logical_time.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 
@@ -29,18 +29,21 @@ struct Stamp {
 struct FederationExecutionInformation {
   std::string federation, model;  ///< its name and that of its object model
   std::uint32_t federates = 0;    ///< joined now
-  friend bool operator==(const FederationExecutionInformation&, const FederationExecutionInformation&) = default;
+  friend bool operator==(const FederationExecutionInformation&,
+                         const FederationExecutionInformation&) = default;
 };
 
 /// What comes with a message that was sent in time-stamp order.
 struct TimedStamp {
   Stamp stamp;
-  bool is_in_order = false;  ///< received in time-stamp order too; else its receiver was not constrained, and it came as soon as it could
+  bool is_in_order = false;  ///< received in time-stamp order too; else its receiver was not
+                             ///< constrained, and it came as soon as it could
   RetractionHandle handle;   ///< what `request_retraction` will name
 };
 
-/// All bodies are empty: override what matters. Views handed in are valid during the call. Callbacks may call any service of the ambassador
-/// except `receive`, `advance_clock` and `clear_outgoing`.
+/// All bodies are empty: override what matters. Views handed in are valid during the call.
+/// Callbacks may call any service of the ambassador except `receive`, `advance_clock` and
+/// `clear_outgoing`.
 class FederateAmbassador {
  public:
   virtual ~FederateAmbassador() = default;
@@ -50,7 +53,8 @@ class FederateAmbassador {
   /// The RTI is silent or gone, or sent what nobody understands; nothing more will arrive.
   virtual void connection_lost(std::string_view /*why*/) {}
 
-  /// Federation management: what became of `create_federation_execution` and `destroy_federation_execution`; `HlaError::none` if it was done.
+  /// Federation management: what became of `create_federation_execution` and
+  /// `destroy_federation_execution`; `HlaError::none` if it was done.
   virtual void federation_execution_created(std::string_view /*federation*/, HlaError) {}
   virtual void federation_execution_destroyed(std::string_view /*federation*/, HlaError) {}
   /// Answers `query_management`.
@@ -58,63 +62,89 @@ class FederateAmbassador {
   /// Answers `list_federation_executions`.
   virtual void report_federation_executions(const std::vector<FederationExecutionInformation>&) {}
   virtual void synchronization_point_registration_succeeded(std::string_view /*label*/) {}
-  virtual void synchronization_point_registration_failed(std::string_view /*label*/, SynchronizationFailure) {}
+  virtual void synchronization_point_registration_failed(std::string_view /*label*/,
+                                                         SynchronizationFailure) {}
   virtual void announce_synchronization_point(std::string_view /*label*/, Bytes /*tag*/) {}
   /// `failed` are those of the set who said that they could not achieve it.
-  virtual void federation_synchronized(std::string_view /*label*/, std::span<const FederateHandle> /*failed*/) {}
+  virtual void federation_synchronized(std::string_view /*label*/,
+                                       std::span<const FederateHandle> /*failed*/) {}
 
-  /// Told after `Ambassador::watch_federates`: first of all who are there (the watcher too), then of those who come and go.
-  virtual void federate_joined(FederateHandle, std::string_view /*name*/, std::string_view /*type*/) {}
-  virtual void federate_resigned(FederateHandle, std::string_view /*name*/, std::string_view /*type*/, ResignReason) {}
+  /// Told after `Ambassador::watch_federates`: first of all who are there (the watcher too), then
+  /// of those who come and go.
+  virtual void federate_joined(FederateHandle, std::string_view /*name*/,
+                               std::string_view /*type*/) {}
+  virtual void federate_resigned(FederateHandle, std::string_view /*name*/,
+                                 std::string_view /*type*/, ResignReason) {}
 
-  /// Declaration management: somebody subscribes actively to what this federate publishes of the class, or nobody does any more.
+  /// Declaration management: somebody subscribes actively to what this federate publishes of the
+  /// class, or nobody does any more.
   virtual void start_registration_for_object_class(ObjectClassHandle) {}
   virtual void stop_registration_for_object_class(ObjectClassHandle) {}
   virtual void turn_interactions_on(InteractionClassHandle) {}
   virtual void turn_interactions_off(InteractionClassHandle) {}
-  /// Told if the switch for attribute relevance is on: these attributes of an own object are in the scope of some active subscriber, or of none any more.
+  /// Told if the switch for attribute relevance is on: these attributes of an own object are in the
+  /// scope of some active subscriber, or of none any more.
   virtual void turn_updates_on_for_object_instance(ObjectHandle, AttributeSet) {}
   virtual void turn_updates_off_for_object_instance(ObjectHandle, AttributeSet) {}
 
-  /// Names of objects. A failure also tells that an object which was registered by a name that is not free goes by its default name.
+  /// Names of objects. A failure also tells that an object which was registered by a name that is
+  /// not free goes by its default name.
   virtual void object_instance_name_reservation_succeeded(std::string_view /*name*/) {}
   virtual void object_instance_name_reservation_failed(std::string_view /*name*/) {}
-  virtual void multiple_object_instance_name_reservation_succeeded(const std::vector<std::string>& /*names*/) {}
-  virtual void multiple_object_instance_name_reservation_failed(const std::vector<std::string>& /*names*/) {}
-  virtual void confirm_attribute_transportation_type_change(ObjectHandle, AttributeSet, Transportation) {}
-  virtual void report_attribute_transportation_type(ObjectHandle, AttributeHandle, Transportation) {}
-  virtual void confirm_interaction_transportation_type_change(InteractionClassHandle, Transportation) {}
-  virtual void report_interaction_transportation_type(FederateHandle, InteractionClassHandle, Transportation) {}
+  virtual void multiple_object_instance_name_reservation_succeeded(
+      const std::vector<std::string>& /*names*/) {}
+  virtual void multiple_object_instance_name_reservation_failed(
+      const std::vector<std::string>& /*names*/) {}
+  virtual void confirm_attribute_transportation_type_change(ObjectHandle, AttributeSet,
+                                                            Transportation) {}
+  virtual void report_attribute_transportation_type(ObjectHandle, AttributeHandle, Transportation) {
+  }
+  virtual void confirm_interaction_transportation_type_change(InteractionClassHandle,
+                                                              Transportation) {}
+  virtual void report_interaction_transportation_type(FederateHandle, InteractionClassHandle,
+                                                      Transportation) {}
 
-  /// At most once per object. The class is the one it was registered with, which may inherit from the subscribed one.
-  virtual void discover_object_instance(ObjectHandle, ObjectClassHandle, std::string_view /*name*/) {}
-  /// `values` are concatenated in the order of the attributes; one of variable size is preceded by its length [bytes] as a little-endian u32.
-  virtual void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes /*values*/, const Stamp&) {}
+  /// At most once per object. The class is the one it was registered with, which may inherit from
+  /// the subscribed one.
+  virtual void discover_object_instance(ObjectHandle, ObjectClassHandle,
+                                        std::string_view /*name*/) {}
+  /// `values` are concatenated in the order of the attributes; one of variable size is preceded by
+  /// its length [bytes] as a little-endian u32.
+  virtual void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes /*values*/,
+                                        const Stamp&) {}
   virtual void attributes_in_scope(ObjectHandle) {}
   virtual void attributes_out_of_scope(ObjectHandle) {}
   /// Somebody asks for these attributes of an own object.
-  virtual void provide_attribute_value_update(ObjectHandle, AttributeSet, Bytes /*tag of the request*/) {}
+  virtual void provide_attribute_value_update(ObjectHandle, AttributeSet,
+                                              Bytes /*tag of the request*/) {}
   virtual void remove_object_instance(ObjectHandle) {}
 
-  /// Ownership management. These attributes look for an owner: acquire them, if available, or let them be.
-  virtual void request_attribute_ownership_assumption(ObjectHandle, AttributeSet, Bytes /*tag of the offer*/) {}
+  /// Ownership management. These attributes look for an owner: acquire them, if available, or let
+  /// them be.
+  virtual void request_attribute_ownership_assumption(ObjectHandle, AttributeSet,
+                                                      Bytes /*tag of the offer*/) {}
   /// Somebody takes what this federate offered: it may confirm.
   virtual void request_divestiture_confirmation(ObjectHandle, AttributeSet) {}
-  virtual void attribute_ownership_acquisition_notification(ObjectHandle, AttributeSet, Bytes /*tag of the confirmation*/) {}
+  virtual void attribute_ownership_acquisition_notification(ObjectHandle, AttributeSet,
+                                                            Bytes /*tag of the confirmation*/) {}
   virtual void attribute_ownership_unavailable(ObjectHandle, AttributeSet) {}
   /// Somebody wants what this federate owns: it may divest, offer or deny, or let it wait.
-  virtual void request_attribute_ownership_release(ObjectHandle, AttributeSet, Bytes /*tag of the acquisition*/) {}
+  virtual void request_attribute_ownership_release(ObjectHandle, AttributeSet,
+                                                   Bytes /*tag of the acquisition*/) {}
   virtual void confirm_attribute_ownership_acquisition_cancellation(ObjectHandle, AttributeSet) {}
   virtual void inform_attribute_ownership(ObjectHandle, AttributeHandle, FederateHandle) {}
   virtual void attribute_is_not_owned(ObjectHandle, AttributeHandle) {}
-  /// Beyond the standard, where services don't wait: which attributes a divestiture if wanted gave away; and which it, or a confirmation that came after the other had
-  /// lost interest, left here: they are owned again.
+  /// Beyond the standard, where services don't wait: which attributes a divestiture if wanted gave
+  /// away; and which it, or a confirmation that came after the other had lost interest, left here:
+  /// they are owned again.
   virtual void attribute_ownership_divested(ObjectHandle, AttributeSet) {}
   virtual void attribute_ownership_kept(ObjectHandle, AttributeSet) {}
 
-  virtual void receive_interaction(InteractionClassHandle, Bytes /*parameters*/, FederateHandle /*sender*/, const Stamp&) {}
+  virtual void receive_interaction(InteractionClassHandle, Bytes /*parameters*/,
+                                   FederateHandle /*sender*/, const Stamp&) {}
 
-  /// Time management. Grants and what is enabled come once for each service that asked; all messages that belong to a grant come before it.
+  /// Time management. Grants and what is enabled come once for each service that asked; all
+  /// messages that belong to a grant come before it.
   virtual void time_regulation_enabled(LogicalTime) {}
   virtual void time_constrained_enabled(LogicalTime) {}
   virtual void time_advance_grant(LogicalTime) {}
@@ -123,13 +153,18 @@ class FederateAmbassador {
   /// The answer to `query_time_bounds`: GALT and LITS [s], infinite where nobody sets a bound.
   virtual void time_bounds(double /*galt*/, double /*lits*/) {}
   /// What was sent in time-stamp order. Who does not tell it apart gets it as any other.
-  virtual void reflect_attribute_values_with_time(ObjectHandle object, AttributeSet attributes, Bytes values, const TimedStamp& timed) {
+  virtual void reflect_attribute_values_with_time(ObjectHandle object, AttributeSet attributes,
+                                                  Bytes values, const TimedStamp& timed) {
     reflect_attribute_values(object, attributes, values, timed.stamp);
   }
-  virtual void receive_interaction_with_time(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle sender, const TimedStamp& timed) {
+  virtual void receive_interaction_with_time(InteractionClassHandle interaction_class,
+                                             Bytes parameters, FederateHandle sender,
+                                             const TimedStamp& timed) {
     receive_interaction(interaction_class, parameters, sender, timed.stamp);
   }
-  virtual void remove_object_instance_with_time(ObjectHandle object, const TimedStamp&) { remove_object_instance(object); }
+  virtual void remove_object_instance_with_time(ObjectHandle object, const TimedStamp&) {
+    remove_object_instance(object);
+  }
 };
 
 }  // namespace rink::rti

@@ -15,10 +15,18 @@ namespace rink::rti {
 class FederationDirectory::Usher final : public Outlet {
  public:
   Usher(FederationDirectory& directory, Outlet& outlet) : directory_(directory), outlet_(outlet) {}
-  void send(ConnectionId connection, std::span<const Bytes> parts) override { outlet_.send(connection, parts); }
-  std::size_t waiting_bytes(ConnectionId connection) const override { return outlet_.waiting_bytes(connection); }
-  std::size_t datagram_max(ConnectionId connection) const override { return outlet_.datagram_max(connection); }
-  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override { outlet_.send_datagrams(connection, datagrams); }
+  void send(ConnectionId connection, std::span<const Bytes> parts) override {
+    outlet_.send(connection, parts);
+  }
+  std::size_t waiting_bytes(ConnectionId connection) const override {
+    return outlet_.waiting_bytes(connection);
+  }
+  std::size_t datagram_max(ConnectionId connection) const override {
+    return outlet_.datagram_max(connection);
+  }
+  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override {
+    outlet_.send_datagrams(connection, datagrams);
+  }
   void drop(ConnectionId connection, std::string_view why) override {
     directory_.connections_[connection] = {};
     outlet_.drop(connection, why);
@@ -29,7 +37,8 @@ class FederationDirectory::Usher final : public Outlet {
   Outlet& outlet_;
 };
 
-FederationDirectory::FederationDirectory(DirectorySettings settings) : settings_(std::move(settings)) {}
+FederationDirectory::FederationDirectory(DirectorySettings settings)
+    : settings_(std::move(settings)) {}
 FederationDirectory::~FederationDirectory() = default;
 
 void FederationDirectory::offer(const Fom& fom) { models_.push_back(&fom); }
@@ -44,17 +53,20 @@ HlaError FederationDirectory::create(std::string_view federation, std::uint64_t 
   if (federation.empty()) return HlaError::illegal_name;
   if (find(federation) != nullptr) return HlaError::federation_execution_already_exists;
   if (executions_.size() >= settings_.execution_max) return HlaError::rti_internal_error;
-  const auto model = std::find_if(models_.begin(), models_.end(), [&](const Fom* each) { return each->hash() == fom_hash; });
+  const auto model = std::find_if(models_.begin(), models_.end(),
+                                  [&](const Fom* each) { return each->hash() == fom_hash; });
   if (model == models_.end()) return HlaError::could_not_open_fdd;
   FederationSettings settings = settings_.federation;
   settings.federation = federation;
-  executions_.push_back(std::make_unique<FederationExecution>(**model, settings, settings_.services));
+  executions_.push_back(
+      std::make_unique<FederationExecution>(**model, settings, settings_.services));
   executions_.back()->advance_clock(now_);
   return HlaError::none;
 }
 
 HlaError FederationDirectory::destroy(std::string_view federation) {
-  const auto place = std::find_if(executions_.begin(), executions_.end(), [&](const auto& each) { return each->name() == federation; });
+  const auto place = std::find_if(executions_.begin(), executions_.end(),
+                                  [&](const auto& each) { return each->name() == federation; });
   if (place == executions_.end()) return HlaError::federation_execution_does_not_exist;
   if ((*place)->federate_count() > 0) return HlaError::federates_currently_joined;
   destroyed_.push_back(std::move(*place));  // its last words go out with the next flush
@@ -64,7 +76,9 @@ HlaError FederationDirectory::destroy(std::string_view federation) {
 
 std::vector<FederationExecutionInformation> FederationDirectory::list() const {
   std::vector<FederationExecutionInformation> list;
-  for (const auto& execution : executions_) list.push_back({execution->name(), execution->fom().name(), static_cast<std::uint32_t>(execution->federate_count())});
+  for (const auto& execution : executions_)
+    list.push_back({execution->name(), execution->fom().name(),
+                    static_cast<std::uint32_t>(execution->federate_count())});
   return list;
 }
 
@@ -83,7 +97,8 @@ void FederationDirectory::receive(ConnectionId id, Bytes bytes) {
   if (!take_waiting(id)) drop(id);
 }
 
-/// False if a frame broke a rule. A batch of bytes is bounded by its transport, and no frame that is not whole is kept beyond what a stranger may send.
+/// False if a frame broke a rule. A batch of bytes is bounded by its transport, and no frame that
+/// is not whole is kept beyond what a stranger may send.
 bool FederationDirectory::take_waiting(ConnectionId id) {
   Connection& connection = connections_[id];
   std::size_t taken = 0;
@@ -120,21 +135,27 @@ bool FederationDirectory::take_frame(ConnectionId id, Bytes frame) {
     switch (static_cast<MessageKind>(kind)) {
       case MessageKind::create_federation_execution:
         if (!exchange(reader, creation)) return false;
-        answer(id, FederationExecutionCreatedMessage{creation.federation, static_cast<std::uint8_t>(create(creation.federation, creation.fom_hash))});
+        answer(id, FederationExecutionCreatedMessage{
+                       creation.federation,
+                       static_cast<std::uint8_t>(create(creation.federation, creation.fom_hash))});
         break;
       case MessageKind::destroy_federation_execution:
         if (!exchange(reader, destruction)) return false;
-        answer(id, FederationExecutionDestroyedMessage{destruction.federation, static_cast<std::uint8_t>(destroy(destruction.federation))});
+        answer(id, FederationExecutionDestroyedMessage{
+                       destruction.federation,
+                       static_cast<std::uint8_t>(destroy(destruction.federation))});
         break;
       case MessageKind::list_federation_executions:
         if (std::exchange(questions.wants_list, true)) break;
-        for (const FederationExecutionInformation& each : list()) answer(id, FederationExecutionMessage{0, each.federation, each.model, each.federates});
+        for (const FederationExecutionInformation& each : list())
+          answer(id, FederationExecutionMessage{0, each.federation, each.model, each.federates});
         answer(id, FederationExecutionMessage{1, {}, {}, 0});
         break;
       case MessageKind::query_management:
         if (!std::exchange(questions.wants_report, true)) management_queries_.push_back(id);
         break;
-      default: return false;
+      default:
+        return false;
     }
   }
   return true;
@@ -146,9 +167,11 @@ bool FederationDirectory::lead(ConnectionId id, Bytes frame) {
   JoinMessage message;
   if (!exchange(reader, message)) return false;
   if (message.version != protocol_version)
-    return refuse(id, Refusal::wrong_version, refused_version(message.version, protocol_version)), true;
+    return refuse(id, Refusal::wrong_version, refused_version(message.version, protocol_version)),
+           true;
   FederationExecution* execution = find(message.federation);
-  if (execution == nullptr) return refuse(id, Refusal::wrong_federation, to_string(Refusal::wrong_federation)), true;
+  if (execution == nullptr)
+    return refuse(id, Refusal::wrong_federation, to_string(Refusal::wrong_federation)), true;
   connections_[id].execution = execution;
   execution->connect(id);
   return true;
@@ -161,7 +184,8 @@ void FederationDirectory::refuse(ConnectionId id, Refusal refusal, const std::st
 
 template <class Message>
 void FederationDirectory::answer(ConnectionId id, Message message) {
-  if (answers_.empty() || answers_.back().connection != id || answers_.back().is_last) answers_.push_back({id, {}});
+  if (answers_.empty() || answers_.back().connection != id || answers_.back().is_last)
+    answers_.push_back({id, {}});
   const std::vector<std::byte> bytes = framed(message);
   answers_.back().bytes.insert(answers_.back().bytes.end(), bytes.begin(), bytes.end());
 }
@@ -173,7 +197,8 @@ void FederationDirectory::drop(ConnectionId id) {
 }
 
 void FederationDirectory::receive_datagram(ConnectionId id, Bytes datagram) {
-  if (id < connections_.size() && connections_[id].execution != nullptr) connections_[id].execution->receive_datagram(id, datagram);
+  if (id < connections_.size() && connections_[id].execution != nullptr)
+    connections_[id].execution->receive_datagram(id, datagram);
 }
 
 void FederationDirectory::disconnect(ConnectionId id, std::string_view why) {
@@ -229,7 +254,9 @@ void FederationDirectory::flush(Outlet& outlet) {
   for (const auto& execution : executions_) execution->flush(usher);
   for (const auto& execution : destroyed_) execution->flush(usher);
   for (ConnectionId id = 0; !destroyed_.empty() && id < connections_.size(); ++id)
-    if (connections_[id].execution != nullptr && std::any_of(destroyed_.begin(), destroyed_.end(), [&](const auto& each) { return each.get() == connections_[id].execution; }))
+    if (connections_[id].execution != nullptr &&
+        std::any_of(destroyed_.begin(), destroyed_.end(),
+                    [&](const auto& each) { return each.get() == connections_[id].execution; }))
       usher.drop(id, "its federation execution was destroyed");
   destroyed_.clear();
 }

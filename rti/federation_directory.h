@@ -1,4 +1,5 @@
-// Several federation executions in one central component: created, listed and destroyed by name, each connection led to the one that it joins.
+// Several federation executions in one central component: created, listed and destroyed by name,
+// each connection led to the one that it joins.
 #pragma once
 
 #include <memory>
@@ -12,22 +13,25 @@
 namespace rink::rti {
 
 struct DirectorySettings {
-  FederationSettings federation;         ///< of every execution; the name is replaced
-  FederationServices services;           ///< likewise: its parts
-  std::size_t execution_max = 64;        ///< that exist at once
+  FederationSettings federation;   ///< of every execution; the name is replaced
+  FederationServices services;     ///< likewise: its parts
+  std::size_t execution_max = 64;  ///< that exist at once
 };
 
-/// A host of one fixed federation uses a `FederationExecution` instead and pays nothing for this. Here a federate pays one look-up per batch of bytes.
-/// Executions know nothing of each other: federates of one name, their handles and objects may be in several.
+/// A host of one fixed federation uses a `FederationExecution` instead and pays nothing for this.
+/// Here a federate pays one look-up per batch of bytes. Executions know nothing of each other:
+/// federates of one name, their handles and objects may be in several.
 class FederationDirectory final : public CentralComponent {
  public:
   explicit FederationDirectory(DirectorySettings settings = {});
   ~FederationDirectory() override;
 
-  /// Executions may be created with this object model from now on; it must outlive the directory. A federate names it by its hash.
+  /// Executions may be created with this object model from now on; it must outlive the directory. A
+  /// federate names it by its hash.
   void offer(const Fom& fom);
-  /// What federates ask for, also to be called by the host itself. FederationExecutionAlreadyExists, CouldNotOpenFDD if no such model is offered, IllegalName for an
-  /// empty name, RTIinternalError beyond `execution_max`.
+  /// What federates ask for, also to be called by the host itself.
+  /// FederationExecutionAlreadyExists, CouldNotOpenFDD if no such model is offered, IllegalName for
+  /// an empty name, RTIinternalError beyond `execution_max`.
   HlaError create(std::string_view federation, std::uint64_t fom_hash);
   /// FederationExecutionDoesNotExist, FederatesCurrentlyJoined. The name is free at once.
   HlaError destroy(std::string_view federation);

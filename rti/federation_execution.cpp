@@ -10,32 +10,52 @@ namespace rink::rti {
 
 const char* to_string(Violation violation) {
   switch (violation) {
-    case Violation::malformed: return "malformed";
-    case Violation::oversized: return "oversized";
-    case Violation::wrong_phase: return "wrong phase";
-    case Violation::unknown_name: return "unknown name";
-    case Violation::undeclared: return "undeclared";
-    case Violation::not_owned: return "not owned";
-    case Violation::over_limit: return "over limit";
-    case Violation::silent: return "silent";
-    case Violation::refused: return "refused";
-    case Violation::untimely: return "untimely";
+    case Violation::malformed:
+      return "malformed";
+    case Violation::oversized:
+      return "oversized";
+    case Violation::wrong_phase:
+      return "wrong phase";
+    case Violation::unknown_name:
+      return "unknown name";
+    case Violation::undeclared:
+      return "undeclared";
+    case Violation::not_owned:
+      return "not owned";
+    case Violation::over_limit:
+      return "over limit";
+    case Violation::silent:
+      return "silent";
+    case Violation::refused:
+      return "refused";
+    case Violation::untimely:
+      return "untimely";
   }
   return "unknown violation";
 }
 
 const char* explain(Violation violation) {
   switch (violation) {
-    case Violation::malformed: return "it sent bytes that are no message, or a value out of its range";
-    case Violation::oversized: return "it sent a frame longer than allowed";
-    case Violation::wrong_phase: return "it asked to join a second time";
-    case Violation::unknown_name: return "it named a class, attribute, object, region or label that does not exist";
-    case Violation::undeclared: return "it used a class or an attribute that it had not published";
-    case Violation::not_owned: return "it updated or deleted what another federate owns";
-    case Violation::over_limit: return "it registered or sent more than the federation allows";
-    case Violation::silent: return "it was silent for too long";
-    case Violation::refused: return "its join was refused";
-    case Violation::untimely: return "it used a time that its logical time forbids";
+    case Violation::malformed:
+      return "it sent bytes that are no message, or a value out of its range";
+    case Violation::oversized:
+      return "it sent a frame longer than allowed";
+    case Violation::wrong_phase:
+      return "it asked to join a second time";
+    case Violation::unknown_name:
+      return "it named a class, attribute, object, region or label that does not exist";
+    case Violation::undeclared:
+      return "it used a class or an attribute that it had not published";
+    case Violation::not_owned:
+      return "it updated or deleted what another federate owns";
+    case Violation::over_limit:
+      return "it registered or sent more than the federation allows";
+    case Violation::silent:
+      return "it was silent for too long";
+    case Violation::refused:
+      return "its join was refused";
+    case Violation::untimely:
+      return "it used a time that its logical time forbids";
   }
   return "it broke a rule of the protocol";
 }
@@ -43,7 +63,8 @@ const char* explain(Violation violation) {
 namespace {
 
 std::unique_ptr<im::Filter> filter_called(const FederationSettings& settings) {
-  if (const auto complaint = im::complaint_about(settings.filter, settings.filter_settings)) throw std::invalid_argument("filter '" + settings.filter + "': " + *complaint);
+  if (const auto complaint = im::complaint_about(settings.filter, settings.filter_settings))
+    throw std::invalid_argument("filter '" + settings.filter + "': " + *complaint);
   auto filter = im::make_filter(settings.filter, settings.filter_settings);
   filter->share_with(settings.match_worker);
   return filter;
@@ -51,15 +72,22 @@ std::unique_ptr<im::Filter> filter_called(const FederationSettings& settings) {
 
 }  // namespace
 
-FederationExecution::FederationExecution(const Fom& fom, const FederationSettings& settings, const FederationServices& services)
+FederationExecution::FederationExecution(const Fom& fom, const FederationSettings& settings,
+                                         const FederationServices& services)
     : parts_(std::make_unique<Parts>(fom, settings, services, filter_called(settings))) {}
 FederationExecution::~FederationExecution() = default;
 FederationExecution::Parts::~Parts() = default;
 
 void FederationExecution::connect(ConnectionId connection) { parts_->connect(connection); }
-void FederationExecution::receive(ConnectionId connection, Bytes bytes) { parts_->receive(connection, bytes); }
-void FederationExecution::receive_datagram(ConnectionId connection, Bytes datagram) { parts_->receive_datagram(connection, datagram); }
-void FederationExecution::disconnect(ConnectionId connection, std::string_view why) { parts_->disconnect(connection, why); }
+void FederationExecution::receive(ConnectionId connection, Bytes bytes) {
+  parts_->receive(connection, bytes);
+}
+void FederationExecution::receive_datagram(ConnectionId connection, Bytes datagram) {
+  parts_->receive_datagram(connection, datagram);
+}
+void FederationExecution::disconnect(ConnectionId connection, std::string_view why) {
+  parts_->disconnect(connection, why);
+}
 void FederationExecution::advance_clock(double now) { parts_->advance_clock(now); }
 
 void FederationExecution::match() {
@@ -74,11 +102,14 @@ void FederationExecution::set_object_role(ObjectHandle object, const im::Role& r
 }
 
 void FederationExecution::set_federate_role(FederateHandle federate, const im::Role& role) {
-  if (const auto slot = parts_->joined_slot(federate)) parts_->interest_.set_federate_role(*slot, role);
+  if (const auto slot = parts_->joined_slot(federate))
+    parts_->interest_.set_federate_role(*slot, role);
 }
 
-void FederationExecution::set_federate_heading(FederateHandle federate, const im::Heading& heading) {
-  if (const auto slot = parts_->joined_slot(federate)) parts_->interest_.set_federate_heading(*slot, heading);
+void FederationExecution::set_federate_heading(FederateHandle federate,
+                                               const im::Heading& heading) {
+  if (const auto slot = parts_->joined_slot(federate))
+    parts_->interest_.set_federate_heading(*slot, heading);
 }
 
 void FederationExecution::set_object_flight(ObjectHandle object, const im::Flight& flight) {
@@ -99,26 +130,33 @@ const Fom& FederationExecution::fom() const { return parts_->fom_; }
 std::size_t FederationExecution::federate_count() const { return parts_->federate_count_; }
 std::size_t FederationExecution::object_count() const { return parts_->objects_.size(); }
 const FederationCounters& FederationExecution::counters() const { return parts_->counters_; }
-const BaselineCounters& FederationExecution::baseline_counters() const { return parts_->baselines_.counters(); }
+const BaselineCounters& FederationExecution::baseline_counters() const {
+  return parts_->baselines_.counters();
+}
 const im::Filter& FederationExecution::filter() const { return parts_->interest_.filter(); }
 const DataDistribution& FederationExecution::distribution() const { return parts_->interest_; }
 
 bool FederationExecution::is_in_scope(FederateHandle federate, ObjectHandle object) const {
   const ObjectSlot slot = parts_->objects_.find(object);
   const auto federate_slot = parts_->joined_slot(federate);
-  return slot != no_object && federate_slot && parts_->interest_.of(*federate_slot).in_scope.contains(slot);
+  return slot != no_object && federate_slot &&
+         parts_->interest_.of(*federate_slot).in_scope.contains(slot);
 }
 
-void FederationExecution::list_scope(FederateHandle federate, std::vector<ObjectHandle>& objects) const {
+void FederationExecution::list_scope(FederateHandle federate,
+                                     std::vector<ObjectHandle>& objects) const {
   const auto federate_slot = parts_->joined_slot(federate);
   if (!federate_slot) return;
-  parts_->interest_.of(*federate_slot).in_scope.for_each([&](ObjectSlot slot) { objects.push_back(parts_->objects_[slot].handle); });
+  parts_->interest_.of(*federate_slot).in_scope.for_each([&](ObjectSlot slot) {
+    objects.push_back(parts_->objects_[slot].handle);
+  });
 }
 
 void FederationExecution::list_subscribed_regions(std::vector<SubscribedRegion>& regions) const {
   std::vector<RegionOfInterest> found;
   parts_->interest_.list_regions_of_interest(found);
-  for (const RegionOfInterest& each : found) regions.push_back({parts_->federates_[each.federate].handle, each.bounds});
+  for (const RegionOfInterest& each : found)
+    regions.push_back({parts_->federates_[each.federate].handle, each.bounds});
 }
 
 }  // namespace rink::rti

@@ -13,18 +13,24 @@
 
 namespace rink::rti {
 
-/// How each part is made; empty: the one that comes with the RTI. A maker is called once, by the execution's constructor if nothing else is said, and what it is handed outlives what it makes.
+/// How each part is made; empty: the one that comes with the RTI. A maker is called once, by the
+/// execution's constructor if nothing else is said, and what it is handed outlives what it makes.
 struct FederationServices {
   /// Who hears of what. `filter` is the one that the settings name.
-  std::function<std::unique_ptr<DataDistribution>(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)> data_distribution;
+  std::function<std::unique_ptr<DataDistribution>(const Fom& fom, const ObjectTable& objects,
+                                                  const Ownership& ownership,
+                                                  std::unique_ptr<im::Filter> filter)>
+      data_distribution;
 
   /// Whom an interaction reaches of those who subscribe to its class (rti/groups/member_lists.h).
   std::function<std::unique_ptr<GroupCommunication>()> group_communication;
 
-  /// How updates are collected, and who is told the newest state instead (rti/buffering/newest_state.h).
+  /// How updates are collected, and who is told the newest state instead
+  /// (rti/buffering/newest_state.h).
   std::function<std::unique_ptr<Buffering>()> buffering;
 
-  /// When who may advance. Made when the first federate asks for it, so a federation without has none.
+  /// When who may advance. Made when the first federate asks for it, so a federation without has
+  /// none.
   std::function<std::unique_ptr<TimeManagement>()> time_management;
 };
 

@@ -7,7 +7,8 @@
 
 namespace rink::rti {
 
-/// A small dense number that can't be mistaken for a handle of another kind. Equal handles name the same thing within one federation execution.
+/// A small dense number that can't be mistaken for a handle of another kind. Equal handles name the
+/// same thing within one federation execution.
 template <class Tag>
 struct Handle {
   static constexpr std::uint32_t none = 0xffffffffu;
@@ -18,7 +19,8 @@ struct Handle {
 
 using FederateHandle = Handle<struct FederateTag>;
 using ObjectClassHandle = Handle<struct ObjectClassTag>;
-using AttributeHandle = Handle<struct AttributeTag>;  ///< index within its class, inherited attributes first
+using AttributeHandle =
+    Handle<struct AttributeTag>;  ///< index within its class, inherited attributes first
 using InteractionClassHandle = Handle<struct InteractionClassTag>;
 using ParameterHandle = Handle<struct ParameterTag>;  ///< index within its class
 using DimensionHandle = Handle<struct DimensionTag>;

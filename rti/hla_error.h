@@ -1,4 +1,5 @@
-// The errors of IEEE 1516.1-2010 by name: what a service that can't be done says, at the federate's side and at the RTI's.
+// The errors of IEEE 1516.1-2010 by name: what a service that can't be done says, at the federate's
+// side and at the RTI's.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,8 @@
 
 namespace rink::rti {
 
-/// Exceptions of IEEE 1516.1-2010, annex A, as far as Rink refuses for these reasons. The numbers are those on the wire.
+/// Exceptions of IEEE 1516.1-2010, annex A, as far as Rink refuses for these reasons. The numbers
+/// are those on the wire.
 enum class HlaError : std::uint8_t {
   none,
   already_connected,
@@ -82,10 +84,13 @@ enum class HlaError : std::uint8_t {
 /// The standard's own spelling, "AttributeNotOwned"; "" for none.
 const char* to_string(HlaError error);
 
-/// Thrown by services of the federate's side that can't be done, before anything is sent or changed; `what` names the error, the thing and what was expected.
+/// Thrown by services of the federate's side that can't be done, before anything is sent or
+/// changed; `what` names the error, the thing and what was expected.
 class RtiException : public std::logic_error {
  public:
-  RtiException(HlaError error, std::string_view about) : std::logic_error(std::string(to_string(error)) + ": " + std::string(about)), error_(error) {}
+  RtiException(HlaError error, std::string_view about)
+      : std::logic_error(std::string(to_string(error)) + ": " + std::string(about)),
+        error_(error) {}
   HlaError error() const { return error_; }
 
  private:

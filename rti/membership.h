@@ -9,26 +9,29 @@ namespace rink::rti {
 
 /// Why a join failed; the numbers are those on the wire.
 enum class Refusal : std::uint8_t {
-  wrong_version = 1,   ///< the two ends speak different protocol versions
-  wrong_fom,           ///< the two ends loaded object models that differ
-  wrong_federation,    ///< no federation execution of that name here
-  name_taken,          ///< a federate of that name has joined
-  federation_full,     ///< the federation execution has its greatest number of federates
-  bad_name,            ///< the federate's name is empty
-  not_admitted,        ///< the RTI asks for a shared key, and got no proof of it
-  not_listed,          ///< the federation's members are listed, and the federate is none of them
+  wrong_version = 1,  ///< the two ends speak different protocol versions
+  wrong_fom,          ///< the two ends loaded object models that differ
+  wrong_federation,   ///< no federation execution of that name here
+  name_taken,         ///< a federate of that name has joined
+  federation_full,    ///< the federation execution has its greatest number of federates
+  bad_name,           ///< the federate's name is empty
+  not_admitted,       ///< the RTI asks for a shared key, and got no proof of it
+  not_listed,         ///< the federation's members are listed, and the federate is none of them
 };
 /// A sentence that tells a user what is wrong, or "unknown refusal".
 const char* to_string(Refusal refusal);
-/// The standard's name for it (4.9), to switch on: InconsistentFDD, FederationExecutionDoesNotExist, FederateNameAlreadyInUse, IllegalName, Unauthorized; RTIinternalError for what the
-/// standard does not know: another version, a federation that is full.
+/// The standard's name for it (4.9), to switch on: InconsistentFDD,
+/// FederationExecutionDoesNotExist, FederateNameAlreadyInUse, IllegalName, Unauthorized;
+/// RTIinternalError for what the standard does not know: another version, a federation that is
+/// full.
 HlaError error_of(Refusal refusal);
 
 /// Why a synchronisation point was not registered; the numbers are those on the wire.
 enum class SynchronizationFailure : std::uint8_t {
   label_not_unique = 1,  ///< a point of that label has not been reached yet
   member_not_joined,     ///< the set names one who is not joined
-  over_limit,            ///< the federate has registered as many points as it may that are not reached yet; Rink's own, for the standard knows no limit
+  over_limit,  ///< the federate has registered as many points as it may that are not reached yet;
+               ///< Rink's own, for the standard knows no limit
 };
 /// The standard's words, "label not unique".
 const char* to_string(SynchronizationFailure failure);

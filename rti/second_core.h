@@ -1,4 +1,5 @@
-// A thread that waits for half of a match to do: what `im` is handed where a second core is to spare.
+// A thread that waits for half of a match to do: what `im` is handed where a second core is to
+// spare.
 #pragma once
 
 #include <condition_variable>

@@ -19,9 +19,12 @@ class CommandTest : public testing::Test {
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   std::string content(const std::string& name) const { return text_of(folder_ / name); }
 
-  /// The exit status of `rink ARGUMENTS`; what it prints is in `printed_`, what it says on standard error in `said_`.
+  /// The exit status of `rink ARGUMENTS`; what it prints is in `printed_`, what it says on standard
+  /// error in `said_`.
   int run(const std::string& arguments) {
-    const int status = std::system((test::binary_folder() + "/bin/rink-" + arguments + " >" + file("printed") + " 2>" + file("said")).c_str());
+    const int status = std::system((test::binary_folder() + "/bin/rink-" + arguments + " >" +
+                                    file("printed") + " 2>" + file("said"))
+                                       .c_str());
     printed_ = content("printed");
     said_ = content("said");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -1,4 +1,5 @@
-// Where the tests' sources and the programs under test lie. They are told to one source file alone, so that the others' objects are the same in every folder.
+// Where the tests' sources and the programs under test lie. They are told to one source file alone,
+// so that the others' objects are the same in every folder.
 #pragma once
 
 #include <string>

@@ -32,7 +32,9 @@ class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& name) {
     std::string pattern = testing::TempDir() + "rink-" + name + "-XXXXXX";
-    if (mkdtemp(pattern.data()) == nullptr) throw std::filesystem::filesystem_error("no folder for the test", pattern, std::error_code(errno, std::generic_category()));
+    if (mkdtemp(pattern.data()) == nullptr)
+      throw std::filesystem::filesystem_error("no folder for the test", pattern,
+                                              std::error_code(errno, std::generic_category()));
     path_ = pattern;
   }
   ~TemporaryFolder() {
@@ -43,7 +45,9 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  operator const std::filesystem::path&() const { return path_; }  // NOLINT: it is used as a path everywhere
+  operator const std::filesystem::path&() const {
+    return path_;
+  }  // NOLINT: it is used as a path everywhere
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
  private:

@@ -13,10 +13,8 @@ inline std::string words(std::string_view text) {
   std::string name;
   for (const char character : text) {
     const bool is_word = std::isalnum(static_cast<unsigned char>(character)) != 0;
-    if (is_word)
-      name += character;
-    else if (!name.empty() && name.back() != '_')
-      name += '_';
+    if (is_word) name += character;
+    else if (!name.empty() && name.back() != '_') name += '_';
   }
   while (name.ends_with('_')) name.pop_back();
   return name;

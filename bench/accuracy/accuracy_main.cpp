@@ -1,4 +1,5 @@
-// rink accuracy: run time against error, and who survives what, for Rink's engines and other libraries in the same run.
+// rink accuracy: run time against error, and who survives what, for Rink's engines and other
+// libraries in the same run.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -12,9 +13,9 @@
 #include <iostream>
 
 #include "bench/accuracy/accuracy_report.h"
-#include "bench/trials/stability_trials.h"
 #include "bench/accuracy/tables.h"
 #include "bench/peers/peers.h"
+#include "bench/trials/stability_trials.h"
 #include "game/version/version.h"
 #include "loadgen/report/provenance.h"
 
@@ -56,7 +57,12 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 CLI::Validator one_of(const std::vector<std::string>& names) {
-  return {[names](const std::string& name) { return std::ranges::find(names, name) != names.end() ? std::string() : name + ": expected one of " + listed(names); }, "", ""};
+  return {[names](const std::string& name) {
+            return std::ranges::find(names, name) != names.end()
+                       ? std::string()
+                       : name + ": expected one of " + listed(names);
+          },
+          "", ""};
 }
 
 template <class Trials, class Name>
@@ -73,12 +79,14 @@ fs::path free_folder() {
   return path;
 }
 
-/// Made before anything is measured, so that a long run does not end in a folder that cannot be written.
+/// Made before anything is measured, so that a long run does not end in a folder that cannot be
+/// written.
 fs::path made_folder(const std::string& out) {
   const fs::path path = out.empty() ? free_folder() : fs::path(out);
   std::error_code error;
   if (fs::exists(path, error) && !(fs::is_directory(path, error) && fs::is_empty(path, error)))
-    throw OutputError(path.string() + ": already there; choose another --out, nothing is ever overwritten");
+    throw OutputError(path.string() +
+                      ": already there; choose another --out, nothing is ever overwritten");
   fs::create_directories(path / "plots", error);
   if (error) throw OutputError(path.string() + ": cannot be made a folder: " + error.message());
   return path;
@@ -88,7 +96,9 @@ void write(const fs::path& file, const std::string& content) {
   errno = 0;
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << content << std::flush;
-  if (!stream) throw OutputError(file.string() + ": cannot be written: " + (errno != 0 ? std::strerror(errno) : "unknown reason"));
+  if (!stream)
+    throw OutputError(file.string() + ": cannot be written: " +
+                      (errno != 0 ? std::strerror(errno) : "unknown reason"));
 }
 
 /// One line that is overwritten in place on a terminal, nothing elsewhere.
@@ -96,7 +106,9 @@ void show_progress(const std::string& text) {
   if (isatty(STDERR_FILENO) != 0) std::cerr << "\r\033[K" << text << std::flush;
 }
 
-bool is_wanted(const std::vector<std::string>& wanted, const std::string& name) { return wanted.empty() || std::ranges::find(wanted, name) != wanted.end(); }
+bool is_wanted(const std::vector<std::string>& wanted, const std::string& name) {
+  return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
+}
 
 Effort effort_of(const Options& options) {
   if (options.is_quick) return {.run_max_s = 0.02, .repeats = 3, .limit_s = 5.0};
@@ -112,7 +124,8 @@ void measure_diagram(const Options& options, Findings& findings) {
     Panel& panel = findings.panels.emplace_back(Panel{std::move(trial)});
     for (const Contender& contender : all) {
       show_progress(panel.trial.trial.name + ": " + contender.name());
-      Series series = measure_series(panel.trial, truth, contender, effort_of(options), is_interrupted);
+      Series series =
+          measure_series(panel.trial, truth, contender, effort_of(options), is_interrupted);
       if (!series.points.empty() || !is_interrupted) panel.series.push_back(std::move(series));
       if (is_interrupted) break;
     }
@@ -130,19 +143,23 @@ void measure_stability(const Options& options, Findings& findings) {
     Ordeal& ordeal = findings.ordeals.emplace_back(Ordeal{std::move(trial)});
     for (const Contender& contender : all) {
       show_progress(ordeal.trial.name + ": " + contender.name());
-      Survival survival = try_to_survive(ordeal.trial, contender, options.dt, limit_s, is_interrupted);
+      Survival survival =
+          try_to_survive(ordeal.trial, contender, options.dt, limit_s, is_interrupted);
       if (is_interrupted) break;
       ordeal.survivals.push_back(std::move(survival));
     }
     show_progress("");
     std::cout << text_of(ordeal) << std::endl;
   }
-  std::cout << ordeal_legend << "steps of " << options.dt << " s; at most " << limit_s << " s of real time each\n";
+  std::cout << ordeal_legend << "steps of " << options.dt << " s; at most " << limit_s
+            << " s of real time each\n";
 }
 
 rink::loadgen::Provenance provenance_with_peers(const std::vector<std::string>& command_line) {
-  rink::loadgen::Provenance provenance = rink::loadgen::provenance_of(command_line, rink::loadgen::wake_up_lateness());
-  for (const char* peer : {"chipmunk", "box2d"}) provenance.facts.emplace_back(peer, rink::peers::version_of(peer));
+  rink::loadgen::Provenance provenance =
+      rink::loadgen::provenance_of(command_line, rink::loadgen::wake_up_lateness());
+  for (const char* peer : {"chipmunk", "box2d"})
+    provenance.facts.emplace_back(peer, rink::peers::version_of(peer));
   return provenance;
 }
 
@@ -156,11 +173,14 @@ int run(const Options& options, const std::vector<std::string>& command_line) {
   for (const std::string& absence : findings.absences) std::cout << absence << "\n";
   const rink::loadgen::Provenance provenance = provenance_with_peers(command_line);
   const rink::loadgen::Report report = report_of(findings, provenance);
-  for (const rink::loadgen::PlotTable& table : report.tables) write(folder / "plots" / (table.name + ".csv"), to_csv(table, provenance));
-  if (options.is_stability) write(folder / "stability.csv", to_csv(stability_table(findings.ordeals), provenance));
+  for (const rink::loadgen::PlotTable& table : report.tables)
+    write(folder / "plots" / (table.name + ".csv"), to_csv(table, provenance));
+  if (options.is_stability)
+    write(folder / "stability.csv", to_csv(stability_table(findings.ordeals), provenance));
   else write(folder / "points.csv", to_csv(points_table("points", findings.panels), provenance));
   write(folder / "report.html", report.html);
-  std::cout << (is_interrupted ? "interrupted; what was measured is in " : "report: ") << (folder / "report.html").string() << std::endl;
+  std::cout << (is_interrupted ? "interrupted; what was measured is in " : "report: ")
+            << (folder / "report.html").string() << std::endl;
   return is_interrupted ? interrupted : success;
 }
 
@@ -168,25 +188,48 @@ int run(const Options& options, const std::vector<std::string>& command_line) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Measures run time against error for every engine, integrator and step, with Chipmunk and Box2D beside them, or who survives what is hard.", "rink accuracy");
+  CLI::App app(
+      "Measures run time against error for every engine, integrator and step, with Chipmunk and "
+      "Box2D beside them, or who survives what is hard.",
+      "rink accuracy");
   app.set_version_flag("--version", rink::game::version_line("rink-accuracy"));
-  const auto diagram_names = names_of(diagram_trials(), [](const DiagramTrial& trial) { return trial.trial.name; });
-  const auto stability_names = names_of(stability_trials(), [](const Trial& trial) { return trial.name; });
-  app.add_flag("--stability", options.is_stability, "the stability table instead: overlap, escapes, energy error, events, survived or not");
-  app.add_option("--out", options.out, "folder for the report, made if it is not there, refused if it holds anything (default: accuracy, or the first free of accuracy-2, ...)");
-  app.add_option("--scenes", options.scenes, "only these, separated by commas (default: all)")->delimiter(',');
-  app.add_option("--engines", options.engines, "only these, separated by commas: " + listed(contender_engines()) + " (default: all)")->delimiter(',')->check(one_of(contender_engines()));
-  app.add_option("--integrators", options.integrators, "of paper and naive, separated by commas: " + listed(rink::physics::integrator_names()) + " (default: all)")
+  const auto diagram_names =
+      names_of(diagram_trials(), [](const DiagramTrial& trial) { return trial.trial.name; });
+  const auto stability_names =
+      names_of(stability_trials(), [](const Trial& trial) { return trial.name; });
+  app.add_flag(
+      "--stability", options.is_stability,
+      "the stability table instead: overlap, escapes, energy error, events, survived or not");
+  app.add_option("--out", options.out,
+                 "folder for the report, made if it is not there, refused if it holds anything "
+                 "(default: accuracy, or the first free of accuracy-2, ...)");
+  app.add_option("--scenes", options.scenes, "only these, separated by commas (default: all)")
+      ->delimiter(',');
+  app.add_option(
+         "--engines", options.engines,
+         "only these, separated by commas: " + listed(contender_engines()) + " (default: all)")
+      ->delimiter(',')
+      ->check(one_of(contender_engines()));
+  app.add_option("--integrators", options.integrators,
+                 "of paper and naive, separated by commas: " +
+                     listed(rink::physics::integrator_names()) + " (default: all)")
       ->delimiter(',')
       ->check(one_of(rink::physics::integrator_names()));
   CLI::Option* quick = app.add_flag("--quick", options.is_quick, "short runs: half a minute");
-  app.add_flag("--full", options.is_full, "steps until a run takes 2 s: about twenty minutes")->excludes(quick);
-  app.add_option("--dt", options.dt, "step of the stepping engines with --stability [s] (default: 1/60)")->check(CLI::Range(1e-6, 1.0));
+  app.add_flag("--full", options.is_full, "steps until a run takes 2 s: about twenty minutes")
+      ->excludes(quick);
+  app.add_option("--dt", options.dt,
+                 "step of the stepping engines with --stability [s] (default: 1/60)")
+      ->check(CLI::Range(1e-6, 1.0));
   app.footer(footer);
   try {
     app.parse(argc, argv);
     for (const std::string& scene : options.scenes)
-      if (const std::string objection = one_of(options.is_stability ? stability_names : diagram_names)(const_cast<std::string&>(scene)); !objection.empty()) throw CLI::ValidationError("--scenes", objection);
+      if (const std::string objection =
+              one_of(options.is_stability ? stability_names
+                                          : diagram_names)(const_cast<std::string&>(scene));
+          !objection.empty())
+        throw CLI::ValidationError("--scenes", objection);
     struct sigaction action {};
     action.sa_handler = [](int) { is_interrupted.store(true); };
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);

@@ -25,34 +25,46 @@ Timed run(const Trial& trial, const Contender& contender, double dt) {
   const auto start = std::chrono::steady_clock::now();
   Play play(trial, *timed.world);
   play.advance(trial.horizon);
-  for (std::size_t i = trial.first_mover(); i < trial.body_count(); ++i) timed.places.push_back(timed.world->position({static_cast<std::uint32_t>(i)}));
+  for (std::size_t i = trial.first_mover(); i < trial.body_count(); ++i)
+    timed.places.push_back(timed.world->position({static_cast<std::uint32_t>(i)}));
   timed.run_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return timed;
 }
 
 }  // namespace
 
-Point measure(const DiagramTrial& trial, const std::vector<Vector2>& true_places, const Contender& contender, double dt, const Effort& effort) {
+Point measure(const DiagramTrial& trial, const std::vector<Vector2>& true_places,
+              const Contender& contender, double dt, const Effort& effort) {
   std::vector<double> times;
   Timed last;
   do {
     last = run(trial.trial, contender, dt);
     times.push_back(last.run_s);
-  } while (static_cast<int>(times.size()) < (last.run_s > effort.run_max_s / 5.0 ? (effort.repeats + 1) / 2 : effort.repeats));
+  } while (static_cast<int>(times.size()) <
+           (last.run_s > effort.run_max_s / 5.0 ? (effort.repeats + 1) / 2 : effort.repeats));
   std::ranges::sort(times);
-  Point point{.dt = contender.is_stepped() ? dt : 0.0, .run_s = times[times.size() / 2], .fastest_s = times.front(), .slowest_s = times.back(), .repeats = static_cast<int>(times.size())};
+  Point point{.dt = contender.is_stepped() ? dt : 0.0,
+              .run_s = times[times.size() / 2],
+              .fastest_s = times.front(),
+              .slowest_s = times.back(),
+              .repeats = static_cast<int>(times.size())};
   point.error = position_error(last.places, true_places);
-  point.energy_error = last.start_energy > 0.0 ? last.world->kinetic_energy() / last.start_energy - 1.0 : 0.0;
+  point.energy_error =
+      last.start_energy > 0.0 ? last.world->kinetic_energy() / last.start_energy - 1.0 : 0.0;
   point.overlap = last.world->max_overlap();
   point.escapes = physics::escape_count(*last.world);
   return point;
 }
 
-Series measure_series(const DiagramTrial& trial, const std::vector<Vector2>& true_places, const Contender& contender, const Effort& effort, const std::atomic<bool>& is_interrupted) {
+Series measure_series(const DiagramTrial& trial, const std::vector<Vector2>& true_places,
+                      const Contender& contender, const Effort& effort,
+                      const std::atomic<bool>& is_interrupted) {
   Series series{contender};
   double dt = frame;
   for (int halving = 0; halving <= halvings_max; ++halving, dt /= 2.0) {
-    const Outcome outcome = guarded([&] { return to_bytes(measure(trial, true_places, contender, dt, effort)); }, effort.limit_s, &is_interrupted);
+    const Outcome outcome =
+        guarded([&] { return to_bytes(measure(trial, true_places, contender, dt, effort)); },
+                effort.limit_s, &is_interrupted);
     const auto point = outcome.output ? from_bytes<Point>(*outcome.output) : std::nullopt;
     if (!point) {
       series.why_not_finer = outcome.why_not;
@@ -67,12 +79,16 @@ Series measure_series(const DiagramTrial& trial, const std::vector<Vector2>& tru
 std::optional<TimeAtError> time_at_error(std::span<const Point> points, double error) {
   if (points.empty()) return std::nullopt;
   using Kind = TimeAtError::Kind;
-  const auto too_far = std::find_if(points.rbegin(), points.rend(), [error](const Point& point) { return !(point.error.p90 <= error); });
+  const auto too_far = std::find_if(points.rbegin(), points.rend(), [error](const Point& point) {
+    return !(point.error.p90 <= error);
+  });
   if (too_far == points.rend()) return TimeAtError{Kind::faster, points.front().run_s};
   if (too_far == points.rbegin()) return TimeAtError{Kind::never, points.back().run_s};
   const Point &before = *too_far, &after = *std::prev(too_far);
-  if (!std::isfinite(before.error.p90) || after.error.p90 <= 0.0) return TimeAtError{Kind::met, after.run_s};
-  const double share = std::log(before.error.p90 / error) / std::log(before.error.p90 / after.error.p90);
+  if (!std::isfinite(before.error.p90) || after.error.p90 <= 0.0)
+    return TimeAtError{Kind::met, after.run_s};
+  const double share =
+      std::log(before.error.p90 / error) / std::log(before.error.p90 / after.error.p90);
   return TimeAtError{Kind::met, before.run_s * std::pow(after.run_s / before.run_s, share)};
 }
 

@@ -8,24 +8,28 @@
 #include <string>
 #include <vector>
 
+#include "bench/accuracy/position_error.h"
 #include "bench/trials/contender.h"
 #include "bench/trials/diagram_trials.h"
-#include "bench/accuracy/position_error.h"
 
 namespace rink::accuracy {
 
-/// One contender in one trial at one step. Times are of advancing to the horizon, pushes and reading all places at its end included, making the world and its bodies not.
+/// One contender in one trial at one step. Times are of advancing to the horizon, pushes and
+/// reading all places at its end included, making the world and its bodies not.
 struct Point {
-  double dt = 0.0;                                      ///< s; 0 for an engine without steps
-  double run_s = 0.0, fastest_s = 0.0, slowest_s = 0.0; ///< median, least and most of `repeats` real times
+  double dt = 0.0;  ///< s; 0 for an engine without steps
+  double run_s = 0.0, fastest_s = 0.0,
+         slowest_s = 0.0;  ///< median, least and most of `repeats` real times
   int repeats = 0;
   PositionError error{};
-  double energy_error = 0.0;  ///< relative change of the kinetic energy; meaningful for a conservative trial
-  double overlap = 0.0;       ///< the deepest at the horizon [m]
+  double energy_error =
+      0.0;  ///< relative change of the kinetic energy; meaningful for a conservative trial
+  double overlap = 0.0;  ///< the deepest at the horizon [m]
   std::uint32_t escapes = 0;
 };
 
-/// A contender's points in one trial from the longest step to the shortest, and why there are no more.
+/// A contender's points in one trial from the longest step to the shortest, and why there are no
+/// more.
 struct Series {
   Contender contender;
   std::vector<Point> points{};
@@ -45,22 +49,27 @@ struct Effort {
 };
 
 /// Runs `contender` at `dt` once per repeat in this process.
-Point measure(const DiagramTrial& trial, const std::vector<Vector2>& true_places, const Contender& contender, double dt, const Effort& effort);
+Point measure(const DiagramTrial& trial, const std::vector<Vector2>& true_places,
+              const Contender& contender, double dt, const Effort& effort);
 
 /// Halves the step from a sixtieth of a second on. Each point has a process of its own (guarded.h).
-Series measure_series(const DiagramTrial& trial, const std::vector<Vector2>& true_places, const Contender& contender, const Effort& effort, const std::atomic<bool>& is_interrupted);
+Series measure_series(const DiagramTrial& trial, const std::vector<Vector2>& true_places,
+                      const Contender& contender, const Effort& effort,
+                      const std::atomic<bool>& is_interrupted);
 
 /// When a series gets to an error.
 struct TimeAtError {
   enum class Kind : std::uint8_t { met, faster, never };
   Kind kind = Kind::never;
-  double run_s = 0.0;  ///< met: between the points around `error`, on logarithmic axes; faster: of its first point, which is better already; never: of its last
+  double run_s = 0.0;  ///< met: between the points around `error`, on logarithmic axes; faster: of
+                       ///< its first point, which is better already; never: of its last
 };
-/// Nothing if `points` is empty. The last crossing counts: a step that is right by chance, between others that are not, is not an answer.
+/// Nothing if `points` is empty. The last crossing counts: a step that is right by chance, between
+/// others that are not, is not an answer.
 std::optional<TimeAtError> time_at_error(std::span<const Point> points, double error);
 
-/// The order of convergence: the slope of log error over log step by least squares, from the first step whose error is below a tenth of the first's on; nothing for fewer than
-/// three such points.
+/// The order of convergence: the slope of log error over log step by least squares, from the first
+/// step whose error is below a tenth of the first's on; nothing for fewer than three such points.
 std::optional<double> order_of(std::span<const Point> points);
 
 }  // namespace rink::accuracy

@@ -25,7 +25,8 @@ using Clock = std::chrono::steady_clock;
 constexpr rlim_t memory_max = rlim_t{4} << 30;
 
 void limit_memory() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes that they never use
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // these reserve terabytes that they never use
   const rlimit limit{memory_max, memory_max};
   setrlimit(RLIMIT_AS, &limit);
 #endif
@@ -34,8 +35,10 @@ void limit_memory() {
 [[noreturn]] void be_child(const std::function<std::string()>& work, int output, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, number == SIGTERM ? SIG_DFL : SIG_IGN);  // the parent decides
-  if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, STDERR_FILENO), dup2(nowhere, STDOUT_FILENO);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(number, number == SIGTERM ? SIG_DFL : SIG_IGN);  // the parent decides
+  if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0)
+    dup2(nowhere, STDERR_FILENO), dup2(nowhere, STDOUT_FILENO);
   limit_memory();
   std::string bytes;
   try {
@@ -66,7 +69,8 @@ Outcome collected(int input, double limit_s, const std::atomic<bool>* is_interru
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) return {{}, limit_text(limit_s)};
     pollfd waiting{input, POLLIN, 0};
-    if (poll(&waiting, 1, static_cast<int>(std::min<long>(left, 200))) <= 0) continue;  // interrupted, or nothing yet
+    if (poll(&waiting, 1, static_cast<int>(std::min<long>(left, 200))) <= 0)
+      continue;  // interrupted, or nothing yet
     std::array<char, 4096> part;
     const ssize_t count = read(input, part.data(), part.size());
     if (count == 0) return outcome;
@@ -76,9 +80,11 @@ Outcome collected(int input, double limit_s, const std::atomic<bool>* is_interru
 
 }  // namespace
 
-Outcome guarded(const std::function<std::string()>& work, double limit_s, const std::atomic<bool>* is_interrupted) {
+Outcome guarded(const std::function<std::string()>& work, double limit_s,
+                const std::atomic<bool>* is_interrupted) {
   std::array<int, 2> ends;
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "no pipe to a process of its own");
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), "no pipe to a process of its own");
   const pid_t parent = getpid(), child = fork();
   if (child < 0) throw std::system_error(errno, std::generic_category(), "no process of its own");
   if (child == 0) close(ends[0]), be_child(work, ends[1], parent);
@@ -90,7 +96,10 @@ Outcome guarded(const std::function<std::string()>& work, double limit_s, const 
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!outcome.output) return outcome;
-  if (WIFSIGNALED(status)) return {{}, "signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")"};
+  if (WIFSIGNALED(status))
+    return {
+        {},
+        "signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")"};
   if (WEXITSTATUS(status) != 0) return {{}, "gave up"};
   return outcome;
 }

@@ -14,9 +14,11 @@ struct Outcome {
   std::string why_not;  ///< e.g. "longer than 5 s", "signal 11 (Segmentation fault)", "interrupted"
 };
 
-/// Runs `work` in a child process that is ended after `limit_s` [s], when `is_interrupted` gets true, or with this process. What it says on standard error is dropped, and
-/// it may use 4 GB of memory. There must be no other thread. Throws std::system_error if no process can be had.
-Outcome guarded(const std::function<std::string()>& work, double limit_s, const std::atomic<bool>* is_interrupted = nullptr);
+/// Runs `work` in a child process that is ended after `limit_s` [s], when `is_interrupted` gets
+/// true, or with this process. What it says on standard error is dropped, and it may use 4 GB of
+/// memory. There must be no other thread. Throws std::system_error if no process can be had.
+Outcome guarded(const std::function<std::string()>& work, double limit_s,
+                const std::atomic<bool>* is_interrupted = nullptr);
 
 /// The bytes of a plain value, to come through a pipe and back.
 template <class Value>

@@ -9,7 +9,8 @@
 
 namespace rink::accuracy {
 
-PositionError position_error(std::span<const physics::Vector2> places, std::span<const physics::Vector2> true_places) {
+PositionError position_error(std::span<const physics::Vector2> places,
+                             std::span<const physics::Vector2> true_places) {
   assert(places.size() == true_places.size() && !places.empty());
   std::vector<double> distances;
   for (std::size_t i = 0; i < places.size(); ++i) {

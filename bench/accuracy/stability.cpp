@@ -18,31 +18,41 @@ std::vector<peers::Outline> outlines_of(const Simulator& world) {
   std::vector<peers::Outline> outlines;
   for (BodyId body; body.index < world.body_count(); ++body.index) {
     const bool is_bat = world.kind(body) == physics::BodyKind::bat;
-    outlines.push_back({world.kind(body), world.radius(body), is_bat ? world.half_extent(body) : Vector2(0.0, 0.0), world.mass(body)});
+    outlines.push_back({world.kind(body), world.radius(body),
+                        is_bat ? world.half_extent(body) : Vector2(0.0, 0.0), world.mass(body)});
   }
   return outlines;
 }
 
 std::vector<Vector2> places_of(const Simulator& world) {
   std::vector<Vector2> places;
-  for (BodyId body; body.index < world.body_count(); ++body.index) places.push_back(world.position(body));
+  for (BodyId body; body.index < world.body_count(); ++body.index)
+    places.push_back(world.position(body));
   return places;
 }
 
 /// Follows energy and work from look to look.
 class Balance {
  public:
-  Balance(const Simulator& world, bool is_conservative) : world_(world), places_(places_of(world)), is_conservative_(is_conservative), start_(world.kinetic_energy()), scale_(start_) {}
+  Balance(const Simulator& world, bool is_conservative)
+      : world_(world),
+        places_(places_of(world)),
+        is_conservative_(is_conservative),
+        start_(world.kinetic_energy()),
+        scale_(start_) {}
 
   /// `thrusts` were acting since the last look.
   void look(const std::vector<Vector2>& thrusts, std::vector<Vector2> places) {
     double work = 0.0;
     for (std::size_t i = 0; i < places.size(); ++i)
-      if (!thrusts[i].isZero(0.0)) work += world_.mass({static_cast<std::uint32_t>(i)}) * thrusts[i].dot(places[i] - places_[i]);
+      if (!thrusts[i].isZero(0.0))
+        work +=
+            world_.mass({static_cast<std::uint32_t>(i)}) * thrusts[i].dot(places[i] - places_[i]);
     work_ += work;
     scale_ += std::abs(work);
     places_ = std::move(places);
-    const double gain = world_.kinetic_energy() - start_ - work_, error = is_conservative_ ? std::abs(gain) : std::max(gain, 0.0);
+    const double gain = world_.kinetic_energy() - start_ - work_,
+                 error = is_conservative_ ? std::abs(gain) : std::max(gain, 0.0);
     worst_ = std::max(worst_, error);
     is_finite_ = is_finite_ && std::isfinite(gain);
   }
@@ -77,7 +87,8 @@ Wear endure(const Trial& trial, const Contender& contender, double dt) {
     wear.run_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::vector<Vector2> places = places_of(*world);
     wear.is_finite = wear.is_finite && are_finite(places);
-    wear.overlap = std::max(wear.overlap, peers::deepest_overlap(trial.world.field, outlines, places));
+    wear.overlap =
+        std::max(wear.overlap, peers::deepest_overlap(trial.world.field, outlines, places));
     balance.look(play.thrusts(), std::move(places));
   }
   wear.run_s /= trial.horizon;
@@ -88,8 +99,10 @@ Wear endure(const Trial& trial, const Contender& contender, double dt) {
   return wear;
 }
 
-Survival try_to_survive(const Trial& trial, const Contender& contender, double dt, double limit_s, const std::atomic<bool>& is_interrupted) {
-  const Outcome outcome = guarded([&] { return to_bytes(endure(trial, contender, dt)); }, limit_s, &is_interrupted);
+Survival try_to_survive(const Trial& trial, const Contender& contender, double dt, double limit_s,
+                        const std::atomic<bool>& is_interrupted) {
+  const Outcome outcome =
+      guarded([&] { return to_bytes(endure(trial, contender, dt)); }, limit_s, &is_interrupted);
   Survival survival{.contender = contender, .dt = contender.is_stepped() ? dt : 0.0};
   const auto wear = outcome.output ? from_bytes<Wear>(*outcome.output) : std::nullopt;
   if (wear) survival.is_done = true, survival.wear = *wear;

@@ -17,7 +17,8 @@ using loadgen::exact_number;
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
 #endif
-std::string formatted(const char* format, ...) {
+std::string
+formatted(const char* format, ...) {
   char text[400];
   va_list values;
   va_start(values, format);
@@ -39,38 +40,56 @@ const Point* exact_point(const Panel& panel) {
 
 std::string target_text(double target) { return three_digits(1e3 * target) + " mm"; }
 
-bool is_peer(const Contender& contender) { return std::ranges::find(peers::peer_names(), contender.engine) != peers::peer_names().end(); }
+bool is_peer(const Contender& contender) {
+  return std::ranges::find(peers::peer_names(), contender.engine) != peers::peer_names().end();
+}
 
 std::string line_of(const Panel& panel, const Series& series) {
   const std::string name = series.contender.name();
-  if (series.points.empty()) return formatted("%-20s %s\n", name.c_str(), series.why_not_finer.c_str());
+  if (series.points.empty())
+    return formatted("%-20s %s\n", name.c_str(), series.why_not_finer.c_str());
   const Point &first = series.points.front(), &last = series.points.back();
   const Standing standing = standing_of(panel, series);
   const bool is_stepped = series.contender.is_stepped();
   const auto order = order_of(series.points);
-  std::string line = formatted("%-20s %9s %9s %10s %9s %9s %9s %6s %9s %9s\n", name.c_str(), is_stepped ? three_digits(1e3 * first.run_s).c_str() : "-",
-                               is_stepped ? metres(first.error.p90).c_str() : "-", is_stepped ? three_digits(1e6 * last.dt).c_str() : "-", three_digits(1e3 * last.run_s).c_str(),
-                               metres(last.error.p90).c_str(), metres(last.error.max).c_str(), order ? formatted("%.2f", *order).c_str() : "-", standing.run_ms.c_str(), standing.ratio.c_str());
-  if (!series.why_not_finer.empty()) line += formatted("%-20s no finer step: %s\n", "", series.why_not_finer.c_str());
+  std::string line =
+      formatted("%-20s %9s %9s %10s %9s %9s %9s %6s %9s %9s\n", name.c_str(),
+                is_stepped ? three_digits(1e3 * first.run_s).c_str() : "-",
+                is_stepped ? metres(first.error.p90).c_str() : "-",
+                is_stepped ? three_digits(1e6 * last.dt).c_str() : "-",
+                three_digits(1e3 * last.run_s).c_str(), metres(last.error.p90).c_str(),
+                metres(last.error.max).c_str(), order ? formatted("%.2f", *order).c_str() : "-",
+                standing.run_ms.c_str(), standing.ratio.c_str());
+  if (!series.why_not_finer.empty())
+    line += formatted("%-20s no finer step: %s\n", "", series.why_not_finer.c_str());
   return line;
 }
 
 }  // namespace
 
 const char* const panel_legend =
-    "run: real time of the simulated time, median; p90, max: distance of the moving bodies from their true places; finest: the shortest step within the time for a run;\n"
-    "order: of convergence; times: run time over the exact engine's; >: no step got there; <: the longest step is better already\n";
+    "run: real time of the simulated time, median; p90, max: distance of the moving bodies from "
+    "their true places; finest: the shortest step within the time for a run;\n"
+    "order: of convergence; times: run time over the exact engine's; >: no step got there; <: the "
+    "longest step is better already\n";
 const char* const ordeal_legend =
-    "overlap: the deepest seen at any sixtieth of a second; energy: largest error (gain, without drag and loss also loss) relative to all energy there was or was put in;\n"
-    "events: physical events, for others than exact new contacts, per simulated second; run: real time per simulated second\n";
+    "overlap: the deepest seen at any sixtieth of a second; energy: largest error (gain, without "
+    "drag and loss also loss) relative to all energy there was or was put in;\n"
+    "events: physical events, for others than exact new contacts, per simulated second; run: real "
+    "time per simulated second\n";
 
-std::string metres(double value) { return !std::isfinite(value) ? "-" : value == 0.0 ? "0" : formatted("%.1e", value); }
+std::string metres(double value) {
+  return !std::isfinite(value) ? "-" : value == 0.0 ? "0" : formatted("%.1e", value);
+}
 
 Standing standing_of(const Panel& panel, const Series& series) {
   const auto time = time_at_error(series.points, panel.trial.target);
   if (!time) return {"-", "-", {}};
-  const char* sign = time->kind == TimeAtError::Kind::met || !series.contender.is_stepped() ? "" : time->kind == TimeAtError::Kind::faster ? "< " : "> ";
-  Standing standing{sign + three_digits(1e3 * time->run_s), "-", {}, time->kind == TimeAtError::Kind::never};
+  const char* sign = time->kind == TimeAtError::Kind::met || !series.contender.is_stepped() ? ""
+                     : time->kind == TimeAtError::Kind::faster                              ? "< "
+                                                                                            : "> ";
+  Standing standing{
+      sign + three_digits(1e3 * time->run_s), "-", {}, time->kind == TimeAtError::Kind::never};
   const Point* exact = exact_point(panel);
   if (exact == nullptr || exact->error.p90 > panel.trial.target) return standing;
   standing.least_ratio = time->run_s / exact->run_s;
@@ -80,21 +99,27 @@ Standing standing_of(const Panel& panel, const Series& series) {
 
 std::string text_of(const Panel& panel) {
   const Trial& trial = panel.trial.trial;
-  std::string text = trial.name + ": " + trial.about + "; after " + three_digits(trial.horizon) + " s; truth: " + panel.trial.truth + "\n";
-  text += formatted("%-20s %19s %40s %6s %19s\n", "", "step 1/60 s", "finest step", "", ("to err by " + target_text(panel.trial.target)).c_str());
-  text += formatted("%-20s %9s %9s %10s %9s %9s %9s %6s %9s %9s\n", "engine", "run, ms", "p90, m", "step, us", "run, ms", "p90, m", "max, m", "order", "run, ms", "times");
+  std::string text = trial.name + ": " + trial.about + "; after " + three_digits(trial.horizon) +
+                     " s; truth: " + panel.trial.truth + "\n";
+  text += formatted("%-20s %19s %40s %6s %19s\n", "", "step 1/60 s", "finest step", "",
+                    ("to err by " + target_text(panel.trial.target)).c_str());
+  text += formatted("%-20s %9s %9s %10s %9s %9s %9s %6s %9s %9s\n", "engine", "run, ms", "p90, m",
+                    "step, us", "run, ms", "p90, m", "max, m", "order", "run, ms", "times");
   for (const Series& series : panel.series) text += line_of(panel, series);
   return text;
 }
 
 std::string text_of(const Ordeal& ordeal) {
-  std::string text = ordeal.trial.name + ": " + ordeal.trial.about + "; for " + three_digits(ordeal.trial.horizon) + " s\n";
-  text += formatted("%-20s %-34s %10s %8s %10s %10s %12s\n", "engine", "survived", "overlap, m", "escapes", "energy", "events/s", "run, ms/s");
+  std::string text = ordeal.trial.name + ": " + ordeal.trial.about + "; for " +
+                     three_digits(ordeal.trial.horizon) + " s\n";
+  text += formatted("%-20s %-34s %10s %8s %10s %10s %12s\n", "engine", "survived", "overlap, m",
+                    "escapes", "energy", "events/s", "run, ms/s");
   for (const Survival& survival : ordeal.survivals) {
     const Wear& wear = survival.wear;
     text += formatted("%-20s %-34s", survival.contender.name().c_str(), survival.verdict().c_str());
     if (survival.is_done)
-      text += formatted(" %10s %8u %10s %10s %12s", metres(wear.overlap).c_str(), wear.escapes, metres(wear.energy_error).c_str(), three_digits(wear.events_per_s).c_str(),
+      text += formatted(" %10s %8u %10s %10s %12s", metres(wear.overlap).c_str(), wear.escapes,
+                        metres(wear.energy_error).c_str(), three_digits(wear.events_per_s).c_str(),
                         three_digits(1e3 * wear.run_s).c_str());
     text += "\n";
   }
@@ -106,35 +131,54 @@ std::string headline_of(const Panel& panel) {
   std::string rivals;
   for (const Series& series : panel.series) {
     const Standing standing = standing_of(panel, series);
-    if (is_peer(series.contender) && standing.least_ratio) rivals += (rivals.empty() ? "" : ", ") + series.contender.name() + " " + standing.ratio;
+    if (is_peer(series.contender) && standing.least_ratio)
+      rivals += (rivals.empty() ? "" : ", ") + series.contender.name() + " " + standing.ratio;
   }
   if (exact == nullptr || rivals.empty()) return "";
-  return panel.trial.trial.name + ": to place nine tenths of all bodies within " + target_text(panel.trial.target) + " after " + three_digits(panel.trial.trial.horizon) +
-         " s takes, in run times of the exact engine (which errs by " + metres(exact->error.p90) + " m): " + rivals;
+  return panel.trial.trial.name + ": to place nine tenths of all bodies within " +
+         target_text(panel.trial.target) + " after " + three_digits(panel.trial.trial.horizon) +
+         " s takes, in run times of the exact engine (which errs by " + metres(exact->error.p90) +
+         " m): " + rivals;
 }
 
 loadgen::PlotTable points_table(const std::string& name, std::span<const Panel> panels) {
-  loadgen::PlotTable table{name, "Run time against error: a row per scene, engine, integrator and step; errors are distances from the true places at the horizon",
-                           {"scene", "engine", "integrator", "dt_s", "horizon_s", "run_s_median", "run_s_min", "run_s_max", "repeats", "error_p90_m", "error_max_m", "energy_error", "overlap_m", "escapes"}};
+  loadgen::PlotTable table{name,
+                           "Run time against error: a row per scene, engine, integrator and step; "
+                           "errors are distances from the true places at the horizon",
+                           {"scene", "engine", "integrator", "dt_s", "horizon_s", "run_s_median",
+                            "run_s_min", "run_s_max", "repeats", "error_p90_m", "error_max_m",
+                            "energy_error", "overlap_m", "escapes"}};
   for (const Panel& panel : panels)
     for (const Series& series : panel.series)
       for (const Point& point : series.points)
-        table.rows.push_back({panel.trial.trial.name, series.contender.engine, series.contender.integrator, exact_number(point.dt), exact_number(panel.trial.trial.horizon), exact_number(point.run_s),
-                              exact_number(point.fastest_s), exact_number(point.slowest_s), std::to_string(point.repeats), exact_number(point.error.p90), exact_number(point.error.max),
-                              panel.trial.trial.is_conservative() ? exact_number(point.energy_error) : "", exact_number(point.overlap), std::to_string(point.escapes)});
+        table.rows.push_back(
+            {panel.trial.trial.name, series.contender.engine, series.contender.integrator,
+             exact_number(point.dt), exact_number(panel.trial.trial.horizon),
+             exact_number(point.run_s), exact_number(point.fastest_s),
+             exact_number(point.slowest_s), std::to_string(point.repeats),
+             exact_number(point.error.p90), exact_number(point.error.max),
+             panel.trial.trial.is_conservative() ? exact_number(point.energy_error) : "",
+             exact_number(point.overlap), std::to_string(point.escapes)});
   return table;
 }
 
 loadgen::PlotTable stability_table(std::span<const Ordeal> ordeals) {
-  loadgen::PlotTable table{"stability", "Whether engines come through what is hard: a row per scene and engine",
-                           {"scene", "engine", "integrator", "dt_s", "survived", "overlap_m", "start_overlap_m", "escapes", "energy_error", "events_per_s", "run_s_per_s"}};
+  loadgen::PlotTable table{
+      "stability",
+      "Whether engines come through what is hard: a row per scene and engine",
+      {"scene", "engine", "integrator", "dt_s", "survived", "overlap_m", "start_overlap_m",
+       "escapes", "energy_error", "events_per_s", "run_s_per_s"}};
   for (const Ordeal& ordeal : ordeals)
     for (const Survival& survival : ordeal.survivals) {
       const Wear& wear = survival.wear;
-      std::vector<std::string> row{ordeal.trial.name, survival.contender.engine, survival.contender.integrator, exact_number(survival.dt), survival.verdict()};
+      std::vector<std::string> row{ordeal.trial.name, survival.contender.engine,
+                                   survival.contender.integrator, exact_number(survival.dt),
+                                   survival.verdict()};
       if (survival.is_done)
-        for (const std::string& value : {exact_number(wear.overlap), exact_number(wear.start_overlap), std::to_string(wear.escapes), exact_number(wear.energy_error), exact_number(wear.events_per_s),
-                                         exact_number(wear.run_s)})
+        for (const std::string& value :
+             {exact_number(wear.overlap), exact_number(wear.start_overlap),
+              std::to_string(wear.escapes), exact_number(wear.energy_error),
+              exact_number(wear.events_per_s), exact_number(wear.run_s)})
           row.push_back(value);
       row.resize(table.columns.size());
       table.rows.push_back(std::move(row));

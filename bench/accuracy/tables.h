@@ -11,10 +11,12 @@
 
 namespace rink::accuracy {
 
-/// What a contender needs to err by no more than the panel's target, in words and relative to the exact engine's run time in the same panel.
+/// What a contender needs to err by no more than the panel's target, in words and relative to the
+/// exact engine's run time in the same panel.
 struct Standing {
-  std::string run_ms;                   ///< "12.3", "< 0.4" if its longest step is better already, "> 300" if no step got there, "-" if it has no point
-  std::string ratio;                    ///< likewise; "-" without the exact engine beside it
+  std::string run_ms;  ///< "12.3", "< 0.4" if its longest step is better already, "> 300" if no
+                       ///< step got there, "-" if it has no point
+  std::string ratio;   ///< likewise; "-" without the exact engine beside it
   std::optional<double> least_ratio{};  ///< the ratio is this, or more where is_bound
   bool is_bound = false;                ///< no step got there: the ratio is at least this
 };

@@ -5,6 +5,9 @@ namespace rink::bench {
 
 extern const RegionMatch match_by_rtree = nullptr;
 
-std::unique_ptr<MovingRegions> make_moving_rtrees(std::span<const im::Region>, std::span<const im::Region>) { return nullptr; }
+std::unique_ptr<MovingRegions> make_moving_rtrees(std::span<const im::Region>,
+                                                  std::span<const im::Region>) {
+  return nullptr;
+}
 
 }  // namespace rink::bench

@@ -1,4 +1,5 @@
-// Box2D 2.4 (Erin Catto; Debian: libbox2d-dev) as a peer: floats, frames, continuous collision if wanted.
+// Box2D 2.4 (Erin Catto; Debian: libbox2d-dev) as a peer: floats, frames, continuous collision if
+// wanted.
 #pragma once
 
 #include <memory>
@@ -8,8 +9,10 @@
 
 namespace rink::peers {
 
-/// `are_bullets`: continuous collision for every disc and bat against everything; otherwise against nothing. `speed_max`: see make_peer().
-std::unique_ptr<physics::Simulator> make_box2d(const physics::WorldSpec& spec, bool are_bullets, double dt, double speed_max);
+/// `are_bullets`: continuous collision for every disc and bat against everything; otherwise against
+/// nothing. `speed_max`: see make_peer().
+std::unique_ptr<physics::Simulator> make_box2d(const physics::WorldSpec& spec, bool are_bullets,
+                                               double dt, double speed_max);
 std::string box2d_version();
 
 }  // namespace rink::peers

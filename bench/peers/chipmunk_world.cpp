@@ -1,4 +1,5 @@
-// Settings that are right for a frictionless rink; whatever is not named here is Chipmunk's own default.
+// Settings that are right for a frictionless rink; whatever is not named here is Chipmunk's own
+// default.
 #include "bench/peers/chipmunk_world.h"
 
 #include <chipmunk/chipmunk.h>
@@ -21,14 +22,21 @@ Vector2 to_vector(const cpVect& vect) { return {vect.x, vect.y}; }
 class ChipmunkWorld final : public PeerWorld {
  public:
   ChipmunkWorld(const physics::WorldSpec& spec, double dt)
-      : PeerWorld(spec, dt), space_(cpSpaceNew()), elasticity_(std::sqrt(spec.restitution(0, 0))), bat_damping_(std::exp(-spec.bat_drag * dt)) {
+      : PeerWorld(spec, dt),
+        space_(cpSpaceNew()),
+        elasticity_(std::sqrt(spec.restitution(0, 0))),
+        bat_damping_(std::exp(-spec.bat_drag * dt)) {
     cpSpaceSetDamping(space_, std::exp(-spec.puck_drag));
     cpSpaceSetCollisionSlop(space_, 0.0);  // its default of 0.1 is in pixels
     cpCollisionHandler* handler = cpSpaceAddDefaultCollisionHandler(space_);
     handler->beginFunc = on_begin;
     handler->userData = this;
     const double l = spec.field.length, w = spec.field.width, t = wall_thickness;
-    for (const auto& [from, to] : std::array<std::array<cpVect, 2>, 4>{{{{{-t, -t}, {-t, w + t}}}, {{{l + t, -t}, {l + t, w + t}}}, {{{-t, -t}, {l + t, -t}}}, {{{-t, w + t}, {l + t, w + t}}}}})
+    for (const auto& [from, to] :
+         std::array<std::array<cpVect, 2>, 4>{{{{{-t, -t}, {-t, w + t}}},
+                                               {{{l + t, -t}, {l + t, w + t}}},
+                                               {{{-t, -t}, {l + t, -t}}},
+                                               {{{-t, w + t}, {l + t, w + t}}}}})
       add_shape(cpSegmentShapeNew(cpSpaceGetStaticBody(space_), from, to, t), wall_type);
   }
   ChipmunkWorld(const ChipmunkWorld&) = delete;
@@ -42,22 +50,27 @@ class ChipmunkWorld final : public PeerWorld {
   }
 
  private:
-  /// What a bat's own law of motion needs, since Chipmunk knows one drag for all and forgets a force after each frame.
+  /// What a bat's own law of motion needs, since Chipmunk knows one drag for all and forgets a
+  /// force after each frame.
   struct Driven {
     const ChipmunkWorld* world;
     std::size_t index;
   };
 
-  void make(std::size_t index, const Outline& outline, const Vector2& position, const Vector2& velocity) override {
+  void make(std::size_t index, const Outline& outline, const Vector2& position,
+            const Vector2& velocity) override {
     const bool is_fixed = !std::isfinite(outline.mass);
     // An infinite moment: without friction nothing makes a body turn, and a bat must not.
-    cpBody* body = is_fixed ? cpBodyNewStatic() : cpBodyNew(outline.mass, std::numeric_limits<double>::infinity());
+    cpBody* body = is_fixed ? cpBodyNewStatic()
+                            : cpBodyNew(outline.mass, std::numeric_limits<double>::infinity());
     cpBodySetPosition(body, to_vect(position));
     if (!is_fixed) cpBodySetVelocity(body, to_vect(velocity));
     cpSpaceAddBody(space_, body);
     bodies_.push_back(body);
     const Vector2 size = 2.0 * outline.half_extent;
-    add_shape(outline.kind == BodyKind::bat ? cpBoxShapeNew(body, size.x(), size.y(), 0.0) : cpCircleShapeNew(body, outline.radius, cpvzero), static_cast<cpCollisionType>(outline.kind));
+    add_shape(outline.kind == BodyKind::bat ? cpBoxShapeNew(body, size.x(), size.y(), 0.0)
+                                            : cpCircleShapeNew(body, outline.radius, cpvzero),
+              static_cast<cpCollisionType>(outline.kind));
     if (outline.kind != BodyKind::bat) return;
     cpBodySetUserData(body, &driven_.emplace_back(this, index));
     cpBodySetVelocityUpdateFunc(body, drive);
@@ -72,8 +85,12 @@ class ChipmunkWorld final : public PeerWorld {
     bodies_[index] = nullptr;
   }
 
-  Vector2 place_of(std::size_t index) const override { return to_vector(cpBodyGetPosition(bodies_[index])); }
-  Vector2 velocity_of(std::size_t index) const override { return to_vector(cpBodyGetVelocity(bodies_[index])); }
+  Vector2 place_of(std::size_t index) const override {
+    return to_vector(cpBodyGetPosition(bodies_[index]));
+  }
+  Vector2 velocity_of(std::size_t index) const override {
+    return to_vector(cpBodyGetVelocity(bodies_[index]));
+  }
   void step() override { cpSpaceStep(space_, dt()); }
 
   void add_shape(cpShape* shape, cpCollisionType type) {
@@ -91,7 +108,8 @@ class ChipmunkWorld final : public PeerWorld {
 
   static void drive(cpBody* body, cpVect, cpFloat, cpFloat dt) {
     const auto& driven = *static_cast<const Driven*>(cpBodyGetUserData(body));
-    cpBodyUpdateVelocity(body, to_vect(driven.world->thrust_of(driven.index)), driven.world->bat_damping_, dt);
+    cpBodyUpdateVelocity(body, to_vect(driven.world->thrust_of(driven.index)),
+                         driven.world->bat_damping_, dt);
   }
 
   static cpBool on_begin(cpArbiter* arbiter, cpSpace*, cpDataPointer self) {
@@ -115,7 +133,9 @@ class ChipmunkWorld final : public PeerWorld {
 
 }  // namespace
 
-std::unique_ptr<physics::Simulator> make_chipmunk(const physics::WorldSpec& spec, double dt) { return std::make_unique<ChipmunkWorld>(spec, dt); }
+std::unique_ptr<physics::Simulator> make_chipmunk(const physics::WorldSpec& spec, double dt) {
+  return std::make_unique<ChipmunkWorld>(spec, dt);
+}
 
 std::string chipmunk_version() { return cpVersionString; }
 

@@ -1,4 +1,5 @@
-// Chipmunk 7 (Scott Lembcke; Debian: libchipmunk-dev) as a peer: doubles, frames, no continuous collision.
+// Chipmunk 7 (Scott Lembcke; Debian: libchipmunk-dev) as a peer: doubles, frames, no continuous
+// collision.
 #pragma once
 
 #include <memory>

@@ -9,11 +9,14 @@ namespace rink::peers {
 namespace {
 
 bool is_within(const physics::Field& field, const Vector2& place) {
-  return place.x() >= 0.0 && place.x() <= field.length && place.y() >= 0.0 && place.y() <= field.width;
+  return place.x() >= 0.0 && place.x() <= field.length && place.y() >= 0.0 &&
+         place.y() <= field.width;
 }
 
 double depth_in_walls(const physics::Field& field, const Outline& body, const Vector2& place) {
-  const Vector2 reach = body.reach(), beyond = (place + reach - Vector2(field.length, field.width)).cwiseMax(reach - place);
+  const Vector2 reach = body.reach(),
+                beyond =
+                    (place + reach - Vector2(field.length, field.width)).cwiseMax(reach - place);
   return beyond.maxCoeff();
 }
 
@@ -22,12 +25,14 @@ double depth_in_walls(const physics::Field& field, const Outline& body, const Ve
 double depth(const Outline& a, const Outline& b, const Vector2& offset) {
   const Vector2 apart = offset.cwiseAbs() - a.half_extent - b.half_extent;
   const double radius = a.radius + b.radius;
-  // Within the rectangle the way out is the shorter of the two axes, elsewhere the distance to its nearest point counts.
+  // Within the rectangle the way out is the shorter of the two axes, elsewhere the distance to its
+  // nearest point counts.
   if (apart.maxCoeff() <= 0.0) return radius - apart.maxCoeff();
   return radius - apart.cwiseMax(0.0).norm();
 }
 
-double deepest_overlap(const physics::Field& field, std::span<const Outline> outlines, std::span<const Vector2> places) {
+double deepest_overlap(const physics::Field& field, std::span<const Outline> outlines,
+                       std::span<const Vector2> places) {
   assert(outlines.size() == places.size());
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < places.size(); ++i)

@@ -14,12 +14,19 @@ using physics::PuckSpec;
 
 PeerWorld::PeerWorld(const physics::WorldSpec& spec, double dt) : spec_(spec), dt_(dt) {
   assert(dt > 0.0 && std::isfinite(dt));
-  assert(spec.restitution.material_count() == 1 && spec.field.goal_width == 0.0 && !spec.field.bats_keep_to_half);
+  assert(spec.restitution.material_count() == 1 && spec.field.goal_width == 0.0 &&
+         !spec.field.bats_keep_to_half);
 }
 
-BodyId PeerWorld::add(const PuckSpec& spec) { return add({BodyKind::puck, spec.radius, {0.0, 0.0}, spec.mass}, spec.position, spec.velocity); }
-BodyId PeerWorld::add(const BatSpec& spec) { return add({BodyKind::bat, 0.0, spec.half_extent, spec.mass}, spec.position, spec.velocity); }
-BodyId PeerWorld::add(const PostSpec& spec) { return add({.kind = BodyKind::post, .radius = spec.radius}, spec.position, {0.0, 0.0}); }
+BodyId PeerWorld::add(const PuckSpec& spec) {
+  return add({BodyKind::puck, spec.radius, {0.0, 0.0}, spec.mass}, spec.position, spec.velocity);
+}
+BodyId PeerWorld::add(const BatSpec& spec) {
+  return add({BodyKind::bat, 0.0, spec.half_extent, spec.mass}, spec.position, spec.velocity);
+}
+BodyId PeerWorld::add(const PostSpec& spec) {
+  return add({.kind = BodyKind::post, .radius = spec.radius}, spec.position, {0.0, 0.0});
+}
 
 BodyId PeerWorld::add(const Outline& outline, const Vector2& position, const Vector2& velocity) {
   const std::size_t index = outlines_.size();
@@ -37,21 +44,30 @@ void PeerWorld::remove(BodyId body) {
   is_removed_[body.index] = true;
 }
 
-void PeerWorld::place(BodyId, const Vector2&, const Vector2&) { assert(false && "a peer has no goals"); }
+void PeerWorld::place(BodyId, const Vector2&, const Vector2&) {
+  assert(false && "a peer has no goals");
+}
 
 std::optional<physics::Goal> PeerWorld::advance(double until) {
-  // To the nearest frame, for an instant that is a frame's end in decimal digits may lie a rounding error beside it in binary ones.
+  // To the nearest frame, for an instant that is a frame's end in decimal digits may lie a rounding
+  // error beside it in binary ones.
   const auto target = static_cast<std::uint64_t>(std::llround(until / dt_));
   for (; frames_ < target; ++frames_) step();
   return std::nullopt;
 }
 
-bool PeerWorld::is_free(const Vector2& centre, double radius) const { return is_clear(centre, {.radius = radius}); }
-bool PeerWorld::is_free(const Vector2& centre, const Vector2& half_extent) const { return is_clear(centre, {.kind = BodyKind::bat, .half_extent = half_extent}); }
+bool PeerWorld::is_free(const Vector2& centre, double radius) const {
+  return is_clear(centre, {.radius = radius});
+}
+bool PeerWorld::is_free(const Vector2& centre, const Vector2& half_extent) const {
+  return is_clear(centre, {.kind = BodyKind::bat, .half_extent = half_extent});
+}
 
 bool PeerWorld::is_clear(const Vector2& centre, const Outline& outline) const {
   const Vector2 reach = outline.reach();
-  if ((centre - reach).minCoeff() < 0.0 || centre.x() + reach.x() > spec_.field.length || centre.y() + reach.y() > spec_.field.width) return false;
+  if ((centre - reach).minCoeff() < 0.0 || centre.x() + reach.x() > spec_.field.length ||
+      centre.y() + reach.y() > spec_.field.width)
+    return false;
   for (std::size_t i = 0; i < outlines_.size(); ++i)
     if (!is_removed_[i] && depth(outline, outlines_[i], place_of(i) - centre) > 0.0) return false;
   return true;
@@ -60,14 +76,16 @@ bool PeerWorld::is_clear(const Vector2& centre, const Outline& outline) const {
 double PeerWorld::kinetic_energy() const {
   double energy = 0.0;
   for (std::size_t i = 0; i < outlines_.size(); ++i)
-    if (!is_removed_[i] && std::isfinite(outlines_[i].mass)) energy += 0.5 * outlines_[i].mass * velocity_of(i).squaredNorm();
+    if (!is_removed_[i] && std::isfinite(outlines_[i].mass))
+      energy += 0.5 * outlines_[i].mass * velocity_of(i).squaredNorm();
   return energy;
 }
 
 Vector2 PeerWorld::momentum() const {
   Vector2 sum(0.0, 0.0);
   for (std::size_t i = 0; i < outlines_.size(); ++i)
-    if (!is_removed_[i] && std::isfinite(outlines_[i].mass)) sum += outlines_[i].mass * velocity_of(i);
+    if (!is_removed_[i] && std::isfinite(outlines_[i].mass))
+      sum += outlines_[i].mass * velocity_of(i);
   return sum;
 }
 
@@ -81,7 +99,9 @@ double PeerWorld::max_overlap() const {
 
 std::uint64_t PeerWorld::hash() const {
   game::StateHash hash;
-  for (std::size_t i = 0; i < outlines_.size(); ++i) hash.add(position({static_cast<std::uint32_t>(i)})), hash.add(velocity({static_cast<std::uint32_t>(i)}));
+  for (std::size_t i = 0; i < outlines_.size(); ++i)
+    hash.add(position({static_cast<std::uint32_t>(i)})),
+        hash.add(velocity({static_cast<std::uint32_t>(i)}));
   return hash.value();
 }
 

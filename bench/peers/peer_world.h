@@ -9,10 +9,12 @@
 
 namespace rink::peers {
 
-/// Half of it [m]: thin walls would let through what Chipmunk, which looks only at the ends of frames, sees on neither side.
+/// Half of it [m]: thin walls would let through what Chipmunk, which looks only at the ends of
+/// frames, sees on neither side.
 inline constexpr double wall_thickness = 1.0;
 
-/// A library's world as a Simulator. A peer says how bodies are made, moved and asked; the rest is here.
+/// A library's world as a Simulator. A peer says how bodies are made, moved and asked; the rest is
+/// here.
 class PeerWorld : public physics::Simulator {
  public:
   PeerWorld(const physics::WorldSpec& spec, double dt);
@@ -21,7 +23,9 @@ class PeerWorld : public physics::Simulator {
   BodyId add(const physics::BatSpec& spec) final;
   BodyId add(const physics::PostSpec& spec) final;
   void remove(BodyId body) final;
-  void set_thrust(BodyId bat, const Vector2& acceleration) final { thrusts_[bat.index] = acceleration; }
+  void set_thrust(BodyId bat, const Vector2& acceleration) final {
+    thrusts_[bat.index] = acceleration;
+  }
   /// Peers have no goals, so no puck ever waits to be placed (asserted).
   void place(BodyId puck, const Vector2& position, const Vector2& velocity) final;
   std::optional<physics::Goal> advance(double until) final;
@@ -39,8 +43,12 @@ class PeerWorld : public physics::Simulator {
   Vector2 half_extent(BodyId body) const final { return outlines_[body.index].reach(); }
   double mass(BodyId body) const final { return outlines_[body.index].mass; }
   bool is_in_play(BodyId body) const final { return !is_removed_[body.index]; }
-  Vector2 position(BodyId body) const final { return is_removed_[body.index] ? last_places_[body.index] : place_of(body.index); }
-  Vector2 velocity(BodyId body) const final { return is_removed_[body.index] ? Vector2(0.0, 0.0) : velocity_of(body.index); }
+  Vector2 position(BodyId body) const final {
+    return is_removed_[body.index] ? last_places_[body.index] : place_of(body.index);
+  }
+  Vector2 velocity(BodyId body) const final {
+    return is_removed_[body.index] ? Vector2(0.0, 0.0) : velocity_of(body.index);
+  }
   bool is_free(const Vector2& centre, double radius) const final;
   bool is_free(const Vector2& centre, const Vector2& half_extent) const final;
 
@@ -51,8 +59,10 @@ class PeerWorld : public physics::Simulator {
   std::uint64_t hash() const final;
 
  protected:
-  /// Body number `index`, counted from 0 in order of creation, of this outline; infinite mass never moves.
-  virtual void make(std::size_t index, const Outline& outline, const Vector2& position, const Vector2& velocity) = 0;
+  /// Body number `index`, counted from 0 in order of creation, of this outline; infinite mass never
+  /// moves.
+  virtual void make(std::size_t index, const Outline& outline, const Vector2& position,
+                    const Vector2& velocity) = 0;
   virtual void destroy(std::size_t index) = 0;
   virtual Vector2 place_of(std::size_t index) const = 0;
   virtual Vector2 velocity_of(std::size_t index) const = 0;
@@ -60,7 +70,9 @@ class PeerWorld : public physics::Simulator {
   virtual void step() = 0;
 
   double dt() const { return dt_; }
-  double drag_of(BodyKind kind) const { return kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag; }
+  double drag_of(BodyKind kind) const {
+    return kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag;
+  }
   const std::vector<Vector2>& thrusts() const { return thrusts_; }
   const Vector2& thrust_of(std::size_t index) const { return thrusts_[index]; }
   /// A new contact between two kinds of bodies, or of a body and a wall.

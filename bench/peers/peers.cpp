@@ -1,4 +1,5 @@
-// Which peers were found when this was built; RINK_HAS_CHIPMUNK and RINK_HAS_BOX2D come from bench/peers/CMakeLists.txt.
+// Which peers were found when this was built; RINK_HAS_CHIPMUNK and RINK_HAS_BOX2D come from
+// bench/peers/CMakeLists.txt.
 #include "bench/peers/peers.h"
 
 #include <algorithm>
@@ -24,7 +25,9 @@ const std::vector<std::string>& peer_names() {
   return names;
 }
 
-const char* package_of(const std::string& name) { return name == chipmunk ? "libchipmunk-dev" : "libbox2d-dev"; }
+const char* package_of(const std::string& name) {
+  return name == chipmunk ? "libchipmunk-dev" : "libbox2d-dev";
+}
 
 bool is_built_in(const std::string& name) { return version_of(name) != "absent"; }
 
@@ -38,13 +41,16 @@ std::string version_of([[maybe_unused]] const std::string& name) {
   return "absent";
 }
 
-std::unique_ptr<physics::Simulator> make_peer([[maybe_unused]] const physics::WorldSpec& spec, [[maybe_unused]] const std::string& name, [[maybe_unused]] double dt,
+std::unique_ptr<physics::Simulator> make_peer([[maybe_unused]] const physics::WorldSpec& spec,
+                                              [[maybe_unused]] const std::string& name,
+                                              [[maybe_unused]] double dt,
                                               [[maybe_unused]] double speed_max) {
 #ifdef RINK_HAS_CHIPMUNK
   if (name == chipmunk) return make_chipmunk(spec, dt);
 #endif
 #ifdef RINK_HAS_BOX2D
-  if (name == box2d || name == box2d_bullets) return make_box2d(spec, name == box2d_bullets, dt, speed_max);
+  if (name == box2d || name == box2d_bullets)
+    return make_box2d(spec, name == box2d_bullets, dt, speed_max);
 #endif
   return nullptr;
 }

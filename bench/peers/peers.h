@@ -10,7 +10,8 @@
 
 namespace rink::peers {
 
-/// chipmunk, box2d (continuous collision off) and box2d-bullets (on: every disc and bat is a bullet), whether or not they were built in.
+/// chipmunk, box2d (continuous collision off) and box2d-bullets (on: every disc and bat is a
+/// bullet), whether or not they were built in.
 const std::vector<std::string>& peer_names();
 
 /// The Debian package that the peer `name` comes from.
@@ -22,9 +23,13 @@ bool is_built_in(const std::string& name);
 /// The version of the library behind `name`, or "absent".
 std::string version_of(const std::string& name);
 
-/// A world of the peer `name` that moves in frames of `dt` [s]; null if it was not built in. It has one material, no goals and no halfway line (asserted), bodies neither turn
-/// nor rub, and advance() goes to the frame nearest to the instant it is given. Bodies should stay below `speed_max` [m/s], by which the unit of
-/// length is chosen where it matters. Settings and their reasons: docs/accuracy.md.
-std::unique_ptr<physics::Simulator> make_peer(const physics::WorldSpec& spec, const std::string& name, double dt, double speed_max = 10.0);
+/// A world of the peer `name` that moves in frames of `dt` [s]; null if it was not built in. It has
+/// one material, no goals and no halfway line (asserted), bodies neither turn nor rub, and
+/// advance() goes to the frame nearest to the instant it is given. Bodies should stay below
+/// `speed_max` [m/s], by which the unit of length is chosen where it matters. Settings and their
+/// reasons: docs/accuracy.md.
+std::unique_ptr<physics::Simulator> make_peer(const physics::WorldSpec& spec,
+                                              const std::string& name, double dt,
+                                              double speed_max = 10.0);
 
 }  // namespace rink::peers

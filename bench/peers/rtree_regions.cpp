@@ -1,8 +1,8 @@
 // Boost.Geometry's rtree as a matcher of rectangles, static and moving.
 #define BOOST_ALLOW_DEPRECATED_HEADERS  // which Boost.Geometry 1.74 itself includes
-#include <boost/iterator/function_output_iterator.hpp>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
 
 #include "bench/peers/region_peers.h"
 
@@ -15,7 +15,9 @@ using Box = geometry::model::box<Point>;
 using Value = std::pair<Box, std::uint32_t>;
 using Tree = geometry::index::rtree<Value, geometry::index::quadratic<16>>;
 
-Box box(const im::Region& region) { return {{region.low_x, region.low_y}, {region.high_x, region.high_y}}; }
+Box box(const im::Region& region) {
+  return {{region.low_x, region.low_y}, {region.high_x, region.high_y}};
+}
 
 /// By the packing algorithm.
 Tree tree_of(std::span<const im::Region> regions) {
@@ -27,24 +29,37 @@ Tree tree_of(std::span<const im::Region> regions) {
 
 template <class Take>
 void ask(const Tree& tree, const Box& where, const Take& take) {
-  tree.query(geometry::index::intersects(where), boost::make_function_output_iterator([&](const Value& value) { take(value.first, value.second); }));
+  tree.query(geometry::index::intersects(where),
+             boost::make_function_output_iterator(
+                 [&](const Value& value) { take(value.first, value.second); }));
 }
 
-void match_in_tree(std::span<const im::Region> updates, std::span<const im::Region> subscriptions, std::vector<RegionPair>& pairs) {
+void match_in_tree(std::span<const im::Region> updates, std::span<const im::Region> subscriptions,
+                   std::vector<RegionPair>& pairs) {
   const Tree tree = tree_of(updates);
-  for (std::uint32_t id = 0; id < subscriptions.size(); ++id) ask(tree, box(subscriptions[id]), [&](const Box&, std::uint32_t update) { pairs.push_back({id, update}); });
+  for (std::uint32_t id = 0; id < subscriptions.size(); ++id)
+    ask(tree, box(subscriptions[id]), [&](const Box&, std::uint32_t update) {
+      pairs.push_back({id, update});
+    });
 }
 
 class MovingTrees final : public MovingRegions {
  public:
   MovingTrees(std::span<const im::Region> updates, std::span<const im::Region> subscriptions)
-      : updates_{tree_of(updates), {updates.begin(), updates.end()}}, subscriptions_{tree_of(subscriptions), {subscriptions.begin(), subscriptions.end()}} {}
+      : updates_{tree_of(updates), {updates.begin(), updates.end()}},
+        subscriptions_{tree_of(subscriptions), {subscriptions.begin(), subscriptions.end()}} {}
 
-  void move_update(std::uint32_t id, const im::Region& region, std::vector<im::Change>& changes) override {
-    move(updates_, subscriptions_, id, region, [&](std::uint32_t other, im::Transition transition) { changes.push_back({other, id, transition}); });
+  void move_update(std::uint32_t id, const im::Region& region,
+                   std::vector<im::Change>& changes) override {
+    move(updates_, subscriptions_, id, region, [&](std::uint32_t other, im::Transition transition) {
+      changes.push_back({other, id, transition});
+    });
   }
-  void move_subscription(std::uint32_t id, const im::Region& region, std::vector<im::Change>& changes) override {
-    move(subscriptions_, updates_, id, region, [&](std::uint32_t other, im::Transition transition) { changes.push_back({id, other, transition}); });
+  void move_subscription(std::uint32_t id, const im::Region& region,
+                         std::vector<im::Change>& changes) override {
+    move(subscriptions_, updates_, id, region, [&](std::uint32_t other, im::Transition transition) {
+      changes.push_back({id, other, transition});
+    });
   }
 
  private:
@@ -54,7 +69,8 @@ class MovingTrees final : public MovingRegions {
   };
 
   template <class Report>
-  static void move(Side& own, const Side& other, std::uint32_t id, const im::Region& region, const Report& report) {
+  static void move(Side& own, const Side& other, std::uint32_t id, const im::Region& region,
+                   const Report& report) {
     const Box before = box(own.regions[id]), now = box(region);
     own.tree.remove(Value{before, id});
     own.tree.insert(Value{now, id});
@@ -62,7 +78,8 @@ class MovingTrees final : public MovingRegions {
     Box hull = before;
     geometry::expand(hull, now);
     ask(other.tree, hull, [&](const Box& found, std::uint32_t found_id) {
-      const bool was_in = geometry::intersects(found, before), is_in = geometry::intersects(found, now);
+      const bool was_in = geometry::intersects(found, before),
+                 is_in = geometry::intersects(found, now);
       if (was_in != is_in) report(found_id, is_in ? im::Transition::entered : im::Transition::left);
     });
   }
@@ -74,7 +91,8 @@ class MovingTrees final : public MovingRegions {
 
 extern const RegionMatch match_by_rtree = match_in_tree;
 
-std::unique_ptr<MovingRegions> make_moving_rtrees(std::span<const im::Region> updates, std::span<const im::Region> subscriptions) {
+std::unique_ptr<MovingRegions> make_moving_rtrees(std::span<const im::Region> updates,
+                                                  std::span<const im::Region> subscriptions) {
   return std::make_unique<MovingTrees>(updates, subscriptions);
 }
 

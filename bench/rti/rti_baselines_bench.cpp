@@ -1,4 +1,5 @@
-// Periodic state of a crowd through the RTI, in bytes and processor time: every double, quantised, and as differences to acknowledged baselines. No transport.
+// Periodic state of a crowd through the RTI, in bytes and processor time: every double, quantised,
+// and as differences to acknowledged baselines. No transport.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -16,22 +17,32 @@ using namespace rink::rti;
 
 enum class Telling { doubles, quantised, baselines };
 
-/// The same record in three ways: ranges are what makes it quantised, Periodic what gives it baselines.
+/// The same record in three ways: ranges are what makes it quantised, Periodic what gives it
+/// baselines.
 Fom model(Telling telling) {
   const std::string type = telling == Telling::baselines ? "<updateType>Periodic</updateType>" : "";
   const auto simple = [&](const char* name, const char* resolution) {
-    return "<simpleData" + std::string(telling == Telling::doubles ? "" : " notes=\"of" + std::string(name) + "\"") + "><name>" + name +
-           "</name><representation>HLAfloat64LE</representation><resolution>" + resolution + "</resolution></simpleData>";
+    return "<simpleData" +
+           std::string(telling == Telling::doubles ? ""
+                                                   : " notes=\"of" + std::string(name) + "\"") +
+           "><name>" + name + "</name><representation>HLAfloat64LE</representation><resolution>" +
+           resolution + "</resolution></simpleData>";
   };
-  const std::string xml = "<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name><attribute><name>state</name><dataType>State</dataType>" + type +
-                          "</attribute></objectClass></objectClass></objects><dataTypes><simpleDataTypes>" + simple("Place", "0.0005") + simple("Pace", "0.004") +
-                          R"(</simpleDataTypes><fixedRecordDataTypes><fixedRecordData><name>State</name>
+  const std::string xml =
+      "<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</"
+      "name><attribute><name>state</name><dataType>State</dataType>" +
+      type + "</attribute></objectClass></objectClass></objects><dataTypes><simpleDataTypes>" +
+      simple("Place", "0.0005") + simple("Pace", "0.004") +
+      R"(</simpleDataTypes><fixedRecordDataTypes><fixedRecordData><name>State</name>
 <field><name>x</name><dataType>Place</dataType></field><field><name>y</name><dataType>Place</dataType></field>
 <field notes="alongX"><name>u</name><dataType>Pace</dataType></field><field notes="alongY"><name>v</name><dataType>Pace</dataType></field>
 </fixedRecordData></fixedRecordDataTypes></dataTypes><notes><note><label>ofPlace</label><semantics>range -16 1007</semantics></note>
 <note><label>ofPace</label><semantics>range -64 63.9</semantics></note>)" +
-                          (telling == Telling::doubles ? "" : "<note><label>alongX</label><semantics>rate of x</semantics></note><note><label>alongY</label><semantics>rate of y</semantics></note>") +
-                          "</notes></objectModel>";
+      (telling == Telling::doubles ? ""
+                                   : "<note><label>alongX</label><semantics>rate of "
+                                     "x</semantics></note><note><label>alongY</"
+                                     "label><semantics>rate of y</semantics></note>") +
+      "</notes></objectModel>";
   return Fom::parse(xml, "bench");
 }
 
@@ -46,19 +57,23 @@ struct Client : FederateAmbassador {
   const std::vector<State>& truth;
   double greatest_error = 0.0;
   std::uint64_t heard = 0;
-  void reflect_attribute_values(ObjectHandle object, AttributeSet, Bytes values, const Stamp&) override {
+  void reflect_attribute_values(ObjectHandle object, AttributeSet, Bytes values,
+                                const Stamp&) override {
     State state;
     std::memcpy(&state, values.data(), sizeof state);
     const State& said = truth[object.value % object_block];
-    greatest_error = std::max({greatest_error, std::abs(state.x - said.x), std::abs(state.y - said.y)});
+    greatest_error =
+        std::max({greatest_error, std::abs(state.x - said.x), std::abs(state.y - said.y)});
     ++heard;
   }
 };
 
-/// 1,000 pucks with drag that are hit 1.4 times a second and 100 bats that change their thrust 2.5 times a second, 60 ticks a second.
+/// 1,000 pucks with drag that are hit 1.4 times a second and 100 bats that change their thrust 2.5
+/// times a second, 60 ticks a second.
 class Crowd : public Outlet {
  public:
-  Crowd(Telling telling, std::size_t clients) : fom_(model(telling)), execution_(fom_, {}), owner_(fom_, nobody_) {
+  Crowd(Telling telling, std::size_t clients)
+      : fom_(model(telling)), execution_(fom_, {}), owner_(fom_, nobody_) {
     const ObjectClassHandle entity = *fom_.object_class("Entity");
     execution_.connect(0);
     owner_.join("rink", "owner", "bench");
@@ -83,7 +98,8 @@ class Crowd : public Outlet {
     time_ += dt;
     for (std::size_t i = 0; i < states_.size(); ++i) {
       move(states_[i], i);
-      owner_.update_attribute_values(objects_[i], AttributeSet(1), std::as_bytes(std::span(&states_[i], 1)), {time_, 0});
+      owner_.update_attribute_values(objects_[i], AttributeSet(1),
+                                     std::as_bytes(std::span(&states_[i], 1)), {time_, 0});
     }
     pass();
   }
@@ -111,8 +127,12 @@ class Crowd : public Outlet {
   static constexpr double dt = 1.0 / 60.0;
 
  private:
-  static double seconds_since(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
-  double draw(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  static double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  double draw(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
   void hit(State& state) {
     state.u = draw(-1.5, 1.5);
     state.v = draw(-1.5, 1.5);
@@ -121,7 +141,8 @@ class Crowd : public Outlet {
     if (i >= thrusts_.size()) {
       if (draw(0.0, 1.0) < 1.4 * dt) hit(state);
     } else if (draw(0.0, 1.0) < 2.5 * dt) {
-      thrusts_[i].u = 6.0 * std::floor(draw(-1.0, 2.0)), thrusts_[i].v = 6.0 * std::floor(draw(-1.0, 2.0));
+      thrusts_[i].u = 6.0 * std::floor(draw(-1.0, 2.0)),
+      thrusts_[i].v = 6.0 * std::floor(draw(-1.0, 2.0));
     }
     const double drag = i < thrusts_.size() ? 3.0 : 0.25;
     const State thrust = i < thrusts_.size() ? thrusts_[i] : State{};
@@ -132,7 +153,8 @@ class Crowd : public Outlet {
   }
   void send(ConnectionId connection, std::span<const Bytes> parts) override {
     if (connection >= frames_.size()) frames_.resize(connection + 1);
-    for (const Bytes part : parts) frames_[connection].insert(frames_[connection].end(), part.begin(), part.end());
+    for (const Bytes part : parts)
+      frames_[connection].insert(frames_[connection].end(), part.begin(), part.end());
   }
   void drop(ConnectionId, std::string_view) override {}
 
@@ -153,19 +175,40 @@ void tell(benchmark::State& state, Telling telling) {
   const std::uint64_t before = crowd.bytes_to_clients();
   crowd.flush_s = crowd.receive_s = 0.0;
   for (auto _ : state) crowd.tick();
-  const auto ticks = static_cast<double>(state.iterations()), clients = static_cast<double>(state.range(0));
-  state.counters["kB_per_client_s"] = 1e-3 * static_cast<double>(crowd.bytes_to_clients() - before) / clients / (ticks * Crowd::dt);
+  const auto ticks = static_cast<double>(state.iterations()),
+             clients = static_cast<double>(state.range(0));
+  state.counters["kB_per_client_s"] =
+      1e-3 * static_cast<double>(crowd.bytes_to_clients() - before) / clients / (ticks * Crowd::dt);
   state.counters["flush_us"] = 1e6 * crowd.flush_s / ticks;
   state.counters["receive_us_per_client"] = 1e6 * crowd.receive_s / ticks / clients;
   double error = 0.0;
   std::uint64_t heard = 0;
-  for (const Client& client : crowd.clients()) error = std::max(error, client.greatest_error), heard += client.heard;
+  for (const Client& client : crowd.clients())
+    error = std::max(error, client.greatest_error), heard += client.heard;
   state.counters["error_max_mm"] = 1e3 * error;
   state.counters["heard"] = static_cast<double>(heard);
 }
 
-BENCHMARK_CAPTURE(tell, doubles, Telling::doubles)->Name("rti/periodic/doubles")->ArgName("clients")->Arg(1)->Arg(100)->UseRealTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(tell, quantised, Telling::quantised)->Name("rti/periodic/quantised")->ArgName("clients")->Arg(1)->Arg(100)->UseRealTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(tell, baselines, Telling::baselines)->Name("rti/periodic/baselines")->ArgName("clients")->Arg(1)->Arg(100)->UseRealTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(tell, doubles, Telling::doubles)
+    ->Name("rti/periodic/doubles")
+    ->ArgName("clients")
+    ->Arg(1)
+    ->Arg(100)
+    ->UseRealTime()
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(tell, quantised, Telling::quantised)
+    ->Name("rti/periodic/quantised")
+    ->ArgName("clients")
+    ->Arg(1)
+    ->Arg(100)
+    ->UseRealTime()
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(tell, baselines, Telling::baselines)
+    ->Name("rti/periodic/baselines")
+    ->ArgName("clients")
+    ->Arg(1)
+    ->Arg(100)
+    ->UseRealTime()
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -25,7 +25,8 @@ using namespace rink::rti;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
+constexpr const char* model_xml =
+    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
 <attribute><name>position</name><dataType>HLAfloat64LE</dataType></attribute>
 </objectClass></objectClass></objects></objectModel>)";
 
@@ -38,7 +39,9 @@ const Fom& model() {
 struct Federate : FederateAmbassador {
   Ambassador ambassador{model(), *this};
   std::uint64_t updates = 0;
-  void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes, const Stamp&) override { ++updates; }
+  void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes, const Stamp&) override {
+    ++updates;
+  }
 };
 
 double thread_seconds() {
@@ -71,7 +74,8 @@ class Sinks {
         if (are_federates) links.flush(0.0);
         tcp.poll(1ms, are_federates ? static_cast<TransportListener&>(links) : raw);
         std::uint64_t sum = raw.bytes;
-        for (const Federate& federate : federates) sum += federate.ambassador.counters().bytes_received;
+        for (const Federate& federate : federates)
+          sum += federate.ambassador.counters().bytes_received;
         received_ = sum;
       }
     });
@@ -94,7 +98,8 @@ class Sinks {
   std::thread thread_;
 };
 
-/// Ticks of 275 positions to each client; the figure is the sender's processor time per client and tick.
+/// Ticks of 275 positions to each client; the figure is the sender's processor time per client and
+/// tick.
 void rink_tick_send(benchmark::State& state) {
   const int clients = static_cast<int>(state.range(0));
   ensure_file_limit(static_cast<std::size_t>(2 * clients) + 64);
@@ -127,14 +132,19 @@ void rink_tick_send(benchmark::State& state) {
   Sinks sinks(tcp.listen("127.0.0.1", 0), clients, true);
   while (execution.federate_count() < static_cast<std::size_t>(clients) + 1) tick();
   std::vector<ObjectHandle> objects;
-  for (int i = 0; i < seen_count; ++i) objects.push_back(federate.ambassador.register_object_instance(entity));
+  for (int i = 0; i < seen_count; ++i)
+    objects.push_back(federate.ambassador.register_object_instance(entity));
   const std::array<std::byte, 8> value{};
   double busy_s = 0.0;
-  const auto arrived = [&] { return sinks.received() >= execution.counters().bytes_sent - federate.ambassador.counters().bytes_received; };
+  const auto arrived = [&] {
+    return sinks.received() >=
+           execution.counters().bytes_sent - federate.ambassador.counters().bytes_received;
+  };
   for (int i = 0; i < 10; ++i) tick();
   const std::uint64_t bytes_before = sinks.received();
   for (auto _ : state) {
-    for (const ObjectHandle object : objects) federate.ambassador.update_attribute_values(object, position, value, {busy_s, 1});
+    for (const ObjectHandle object : objects)
+      federate.ambassador.update_attribute_values(object, position, value, {busy_s, 1});
     const double start = thread_seconds();
     tick();
     busy_s += thread_seconds() - start;
@@ -142,7 +152,8 @@ void rink_tick_send(benchmark::State& state) {
   }
   const double ticks = static_cast<double>(state.iterations());
   state.counters["cpu_us_per_client"] = 1e6 * busy_s / ticks / clients;
-  state.counters["bytes_per_client"] = static_cast<double>(sinks.received() - bytes_before) / ticks / clients;
+  state.counters["bytes_per_client"] =
+      static_cast<double>(sinks.received() - bytes_before) / ticks / clients;
 }
 
 /// The same bytes by one raw send per client.
@@ -157,12 +168,16 @@ void raw_tick_send(benchmark::State& state) {
     sockets.push_back(acceptor.accept());
     sockets.back().set_option(asio::ip::tcp::no_delay(true));
   }
-  const std::vector<std::byte> message(4 + 21 + seen_count * 9);  // as long as Rink's: frame, stamp and block, then a step and 8 bytes for each
+  const std::vector<std::byte> message(
+      4 + 21 +
+      seen_count *
+          9);  // as long as Rink's: frame, stamp and block, then a step and 8 bytes for each
   double busy_s = 0.0;
   std::uint64_t sent = 0;
   for (auto _ : state) {
     const double start = thread_seconds();
-    for (asio::ip::tcp::socket& socket : sockets) sent += asio::write(socket, asio::buffer(message));
+    for (asio::ip::tcp::socket& socket : sockets)
+      sent += asio::write(socket, asio::buffer(message));
     busy_s += thread_seconds() - start;
     while (sinks.received() < sent) std::this_thread::sleep_for(100us);
   }
@@ -171,7 +186,21 @@ void raw_tick_send(benchmark::State& state) {
   state.counters["bytes_per_client"] = static_cast<double>(sinks.received()) / ticks / clients;
 }
 
-BENCHMARK(raw_tick_send)->Name("rti/tick_send/raw_tcp")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
-BENCHMARK(rink_tick_send)->Name("rti/tick_send/rink")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
+BENCHMARK(raw_tick_send)
+    ->Name("rti/tick_send/raw_tcp")
+    ->ArgName("clients")
+    ->Arg(100)
+    ->Arg(1000)
+    ->UseRealTime()
+    ->Iterations(60)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(rink_tick_send)
+    ->Name("rti/tick_send/rink")
+    ->ArgName("clients")
+    ->Arg(100)
+    ->Arg(1000)
+    ->UseRealTime()
+    ->Iterations(60)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace {
 
 using namespace rink::rti;
 
-constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
+constexpr const char* model_xml =
+    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
 <attribute><name>position</name><dataType>HLAfloat64LE</dataType></attribute></objectClass></objectClass></objects></objectModel>)";
 
 /// 5,500 updates of a tick taken in, sealed and forgotten.
@@ -19,12 +20,14 @@ void collect(benchmark::State& state) {
   const Fom fom = Fom::parse(model_xml, "bench");
   const ObjectClassHandle entity = *fom.object_class("Entity");
   ObjectTable objects(fom);
-  for (std::uint32_t i = 0; i < object_count; ++i) objects.insert({i}, 0, static_cast<std::uint16_t>(entity.value), "");
+  for (std::uint32_t i = 0; i < object_count; ++i)
+    objects.insert({i}, 0, static_cast<std::uint16_t>(entity.value), "");
   NewestState buffering;
   const std::array<std::byte, 8> value{};
   std::size_t bytes = 0;
   for (auto _ : state) {
-    for (ObjectSlot slot = 0; slot < object_count; ++slot) buffering.append(0, slot, objects[slot], fom.attributes(entity), {1.0, 0}, value);
+    for (ObjectSlot slot = 0; slot < object_count; ++slot)
+      buffering.append(0, slot, objects[slot], fom.attributes(entity), {1.0, 0}, value);
     bytes = buffering.seal().front().message.size();
     buffering.clear();
   }
@@ -38,7 +41,8 @@ void judge(benchmark::State& state) {
   NewestState buffering;
   std::size_t held = 0;
   for (auto _ : state)
-    for (std::uint32_t federate = 0; federate < federate_count; ++federate) held += buffering.holds_back(federate, federate % 10 == 0 ? 1u << 20 : 0) ? 1 : 0;
+    for (std::uint32_t federate = 0; federate < federate_count; ++federate)
+      held += buffering.holds_back(federate, federate % 10 == 0 ? 1u << 20 : 0) ? 1 : 0;
   state.SetItemsProcessed(state.iterations() * federate_count);
   state.counters["held"] = static_cast<double>(held) / static_cast<double>(state.iterations());
 }

@@ -1,4 +1,5 @@
-// One tick of best-effort updates to many clients by UDP, beside a raw batched sender; every figure counts what arrived.
+// One tick of best-effort updates to many clients by UDP, beside a raw batched sender; every figure
+// counts what arrived.
 #include <arpa/inet.h>
 #include <benchmark/benchmark.h>
 #include <netinet/udp.h>
@@ -17,10 +18,10 @@
 
 #include "rti/ambassador.h"
 #include "rti/federation_execution.h"
-#include "rti/transport/udp/datagram_socket.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
 #include "rti/transport/in_process.h"
+#include "rti/transport/udp/datagram_socket.h"
 #include "rti/transport/udp/udp.h"
 
 namespace {
@@ -29,7 +30,8 @@ using namespace rink::rti;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
+constexpr const char* model_xml =
+    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
 <attribute><name>position</name><dataType>HLAfloat64LE</dataType><transportation>HLAbestEffort</transportation></attribute>
 </objectClass></objectClass></objects></objectModel>)";
 
@@ -45,12 +47,16 @@ double thread_seconds() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
-double wall_seconds() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
+double wall_seconds() {
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
 
 struct Federate : FederateAmbassador {
   Ambassador ambassador{model(), *this};
   std::uint64_t updates = 0;
-  void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes, const Stamp&) override { ++updates; }
+  void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes, const Stamp&) override {
+    ++updates;
+  }
 };
 
 /// Runs `work(is_over)` in a thread of its own until the end of its scope.
@@ -78,10 +84,12 @@ void report(benchmark::State& state, double busy_s, int clients, double arrived,
 /// Waits until as much has arrived, but not for ever: what UDP has lost has not.
 template <class Arrived>
 void await(std::uint64_t wanted, Arrived arrived) {
-  for (const auto start = Clock::now(); arrived() < wanted && Clock::now() - start < 200ms;) std::this_thread::sleep_for(100us);
+  for (const auto start = Clock::now(); arrived() < wanted && Clock::now() - start < 200ms;)
+    std::this_thread::sleep_for(100us);
 }
 
-/// The bytes of a tick in datagrams of 1,200 by sendmmsg and segmentation offload, to as many sockets; nothing else.
+/// The bytes of a tick in datagrams of 1,200 by sendmmsg and segmentation offload, to as many
+/// sockets; nothing else.
 void raw_udp_tick_send(benchmark::State& state) {
   const int clients = static_cast<int>(state.range(0));
   ensure_file_limit(static_cast<std::size_t>(2 * clients) + 64);
@@ -105,13 +113,16 @@ void raw_udp_tick_send(benchmark::State& state) {
     std::uint64_t sum = 0;
     while (!is_over) {
       readiness.ask(1ms, {});
-      while (const auto event = readiness.next()) datagrams.read(sinks[event->number].number(), [&](const SocketAddress&, Bytes bytes) { sum += bytes.size(); });
+      while (const auto event = readiness.next())
+        datagrams.read(sinks[event->number].number(),
+                       [&](const SocketAddress&, Bytes bytes) { sum += bytes.size(); });
       received = sum;
     }
   });
   const File sender(::socket(AF_INET, SOCK_DGRAM, 0));
   prepare_datagram_socket(sender.number(), false);
-  std::vector<std::byte> message(2 * 1200 + 185);  // what the RTI sends, with the heads of its datagrams
+  std::vector<std::byte> message(2 * 1200 +
+                                 185);  // what the RTI sends, with the heads of its datagrams
   iovec vector{message.data(), message.size()};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(std::uint16_t))> control{};
   auto* segments = reinterpret_cast<cmsghdr*>(control.data());
@@ -122,14 +133,21 @@ void raw_udp_tick_send(benchmark::State& state) {
   std::memcpy(CMSG_DATA(segments), &segment, sizeof segment);
   std::vector<mmsghdr> headers(addresses.size());
   for (std::size_t i = 0; i < headers.size(); ++i)
-    headers[i].msg_hdr = {.msg_name = &addresses[i], .msg_namelen = sizeof addresses[i], .msg_iov = &vector, .msg_iovlen = 1, .msg_control = control.data(),
-                          .msg_controllen = control.size(), .msg_flags = 0};
+    headers[i].msg_hdr = {.msg_name = &addresses[i],
+                          .msg_namelen = sizeof addresses[i],
+                          .msg_iov = &vector,
+                          .msg_iovlen = 1,
+                          .msg_control = control.data(),
+                          .msg_controllen = control.size(),
+                          .msg_flags = 0};
   double busy_s = 0.0;
   std::uint64_t sent = 0;
   for (auto _ : state) {
     const double start = thread_seconds();
     for (std::size_t from = 0; from < headers.size();) {
-      const int count = ::sendmmsg(sender.number(), headers.data() + from, static_cast<unsigned>(std::min<std::size_t>(64, headers.size() - from)), 0);
+      const int count =
+          ::sendmmsg(sender.number(), headers.data() + from,
+                     static_cast<unsigned>(std::min<std::size_t>(64, headers.size() - from)), 0);
       if (count <= 0) return state.SkipWithError("the kernel does not cut datagrams");
       from += static_cast<std::size_t>(count);
     }
@@ -178,7 +196,8 @@ void rink_udp_tick_send(benchmark::State& state) {
     std::deque<FederateLink> ends;
     for (int i = 0; i < clients; ++i) {
       Federate& client = federates.emplace_back();
-      ends_of_all.add(ends.emplace_back(client.ambassador, transport, transport.connect("127.0.0.1", port)));
+      ends_of_all.add(
+          ends.emplace_back(client.ambassador, transport, transport.connect("127.0.0.1", port)));
       client.ambassador.join("rink", "client " + std::to_string(i), "client");
       client.ambassador.subscribe_object_class_attributes(entity, position);
     }
@@ -187,19 +206,22 @@ void rink_udp_tick_send(benchmark::State& state) {
       ends_of_all.flush(wall_seconds() - origin);
       transport.poll(1ms, ends_of_all);
       std::uint64_t datagrams = 0, sum = 0;
-      for (const Federate& client : federates) datagrams += client.ambassador.counters().datagrams_received, sum += client.updates;
+      for (const Federate& client : federates)
+        datagrams += client.ambassador.counters().datagrams_received, sum += client.updates;
       received = datagrams;
       updates = sum;
     }
   });
   const double origin = wall_seconds();
-  while (execution.federate_count() < static_cast<std::size_t>(clients) + 1 || udp.udp_counters().ways_opened < static_cast<std::uint64_t>(clients)) {
+  while (execution.federate_count() < static_cast<std::size_t>(clients) + 1 ||
+         udp.udp_counters().ways_opened < static_cast<std::uint64_t>(clients)) {
     now = wall_seconds() - origin;
     tick();
     if (now > 20.0) return state.SkipWithError("not all ways opened");
   }
   std::vector<ObjectHandle> objects;
-  for (int i = 0; i < seen_count; ++i) objects.push_back(federate.ambassador.register_object_instance(entity));
+  for (int i = 0; i < seen_count; ++i)
+    objects.push_back(federate.ambassador.register_object_instance(entity));
   const std::array<std::byte, 8> value{};
   for (int i = 0; i < 10; ++i) tick();
   double busy_s = 0.0;
@@ -207,21 +229,43 @@ void rink_udp_tick_send(benchmark::State& state) {
   const std::uint64_t datagrams_before = received, updates_before = updates;
   for (auto _ : state) {
     now = wall_seconds() - origin;
-    for (const ObjectHandle object : objects) federate.ambassador.update_attribute_values(object, position, value, {busy_s, 1});
+    for (const ObjectHandle object : objects)
+      federate.ambassador.update_attribute_values(object, position, value, {busy_s, 1});
     const double start = thread_seconds();
     host.advance_clock(now);
     tick();
     busy_s += thread_seconds() - start;
-    await(datagrams_before + execution.counters().datagrams_sent - before.datagrams_sent, [&] { return received.load(); });
+    await(datagrams_before + execution.counters().datagrams_sent - before.datagrams_sent,
+          [&] { return received.load(); });
   }
-  const double sent = static_cast<double>(execution.counters().datagrams_sent - before.datagrams_sent), arrived = static_cast<double>(received - datagrams_before);
-  const double bytes = static_cast<double>(execution.counters().update_bytes_sent - before.update_bytes_sent) + 9.0 * sent;
+  const double sent =
+                   static_cast<double>(execution.counters().datagrams_sent - before.datagrams_sent),
+               arrived = static_cast<double>(received - datagrams_before);
+  const double bytes =
+      static_cast<double>(execution.counters().update_bytes_sent - before.update_bytes_sent) +
+      9.0 * sent;
   report(state, busy_s, clients, bytes * arrived / sent, bytes);
-  state.counters["updates_per_client"] = static_cast<double>(updates - updates_before) / static_cast<double>(state.iterations()) / clients;
-  state.counters["repaired"] = static_cast<double>(execution.counters().updates_repaired - before.updates_repaired);
+  state.counters["updates_per_client"] = static_cast<double>(updates - updates_before) /
+                                         static_cast<double>(state.iterations()) / clients;
+  state.counters["repaired"] =
+      static_cast<double>(execution.counters().updates_repaired - before.updates_repaired);
 }
 
-BENCHMARK(raw_udp_tick_send)->Name("rti/tick_send/raw_udp")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
-BENCHMARK(rink_udp_tick_send)->Name("rti/tick_send/rink_udp")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
+BENCHMARK(raw_udp_tick_send)
+    ->Name("rti/tick_send/raw_udp")
+    ->ArgName("clients")
+    ->Arg(100)
+    ->Arg(1000)
+    ->UseRealTime()
+    ->Iterations(60)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(rink_udp_tick_send)
+    ->Name("rti/tick_send/rink_udp")
+    ->ArgName("clients")
+    ->Arg(100)
+    ->Arg(1000)
+    ->UseRealTime()
+    ->Iterations(60)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

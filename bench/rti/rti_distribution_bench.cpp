@@ -1,4 +1,5 @@
-// Times the RTI's data distribution alone: regions move, a match follows; the pairs in scope are recounted by brute force.
+// Times the RTI's data distribution alone: regions move, a match follows; the pairs in scope are
+// recounted by brute force.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,22 +14,30 @@ namespace {
 using namespace rink;
 using namespace rink::rti;
 
-constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
+constexpr const char* model_xml =
+    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
 <attribute><name>position</name><dataType>HLAfloat64LE</dataType></attribute></objectClass></objectClass></objects>
 <dimensions><dimension><name>X</name></dimension><dimension><name>Y</name></dimension><dimension><name>Altitude</name></dimension><dimension><name>Channel</name></dimension></dimensions>
 </objectModel>)";
 constexpr std::uint16_t entity = 1;
 constexpr AttributeSet position{1u};
 
-/// Federate 0 owns all entities, each with `regions_each` regions; the others subscribe with one each, 5 % of a square of 100 m. Regions are over the first `dimensions` of X, Y, Altitude, Channel;
-/// in the last two, entities and subscriptions lie on one of four levels.
+/// Federate 0 owns all entities, each with `regions_each` regions; the others subscribe with one
+/// each, 5 % of a square of 100 m. Regions are over the first `dimensions` of X, Y, Altitude,
+/// Channel; in the last two, entities and subscriptions lie on one of four levels.
 class Field {
  public:
   static constexpr double side = 100.0, seen = 11.2;
-  Field(std::uint32_t entities, std::uint32_t subscribers, std::uint32_t dimensions, std::uint32_t regions_each)
-      : dimension_count_(dimensions), regions_each_(regions_each), subscribers_(subscribers), distribution_(fom_, objects_, ownership_, im::make_filter("region", {{0.0, 0.0, side, side}, 0.0})) {
+  Field(std::uint32_t entities, std::uint32_t subscribers, std::uint32_t dimensions,
+        std::uint32_t regions_each)
+      : dimension_count_(dimensions),
+        regions_each_(regions_each),
+        subscribers_(subscribers),
+        distribution_(fom_, objects_, ownership_,
+                      im::make_filter("region", {{0.0, 0.0, side, side}, 0.0})) {
     const DimensionSet set((std::uint64_t{1} << dimensions) - 1);
-    for (std::uint32_t federate = 0; federate <= subscribers; ++federate) distribution_.add_federate(federate);
+    for (std::uint32_t federate = 0; federate <= subscribers; ++federate)
+      distribution_.add_federate(federate);
     for (std::uint32_t i = 0; i < entities; ++i) {
       slots_.push_back(objects_.insert({i}, 0, entity, ""));
       distribution_.object_registered(slots_.back());
@@ -52,8 +61,10 @@ class Field {
   /// Every `stride`-th region of either kind drifts; returns how many.
   std::uint32_t move(std::uint32_t stride, double at) {
     std::uint32_t moved = 0;
-    for (std::uint32_t i = 0; i < updates_.size(); i += stride, ++moved) distribution_.modify_region(0, {i}, updates_[i] = ranges(i, at, 0.0));
-    for (std::uint32_t i = 0; i < views_.size(); i += stride, ++moved) distribution_.modify_region(i + 1, {0}, views_[i] = ranges(7919 * (i + 1), at, seen));
+    for (std::uint32_t i = 0; i < updates_.size(); i += stride, ++moved)
+      distribution_.modify_region(0, {i}, updates_[i] = ranges(i, at, 0.0));
+    for (std::uint32_t i = 0; i < views_.size(); i += stride, ++moved)
+      distribution_.modify_region(i + 1, {0}, views_[i] = ranges(7919 * (i + 1), at, seen));
     return moved;
   }
   void match() { distribution_.match(); }
@@ -71,7 +82,8 @@ class Field {
     for (std::uint32_t view = 0; view < views_.size(); ++view)
       for (std::uint32_t i = 0; i < slots_.size(); ++i) {
         bool is_due = false;
-        for (std::uint32_t k = 0; k < regions_each_; ++k) is_due |= overlap(updates_[i * regions_each_ + k], views_[view]);
+        for (std::uint32_t k = 0; k < regions_each_; ++k)
+          is_due |= overlap(updates_[i * regions_each_ + k], views_[view]);
         if (distribution_.of(view + 1).in_scope.contains(slots_[i]) != is_due) return false;
       }
     return true;
@@ -80,9 +92,11 @@ class Field {
 
  private:
   std::vector<Range> ranges(std::uint32_t number, double at, double half) const {
-    const double x = side * (0.5 + 0.5 * std::sin(0.61803 * number + 0.05 * at)), y = side * (0.5 + 0.5 * std::cos(1.41421 * number + 0.05 * at));
+    const double x = side * (0.5 + 0.5 * std::sin(0.61803 * number + 0.05 * at)),
+                 y = side * (0.5 + 0.5 * std::cos(1.41421 * number + 0.05 * at));
     const double level = std::floor(4.0 * (0.5 + 0.499 * std::sin(2.71828 * number + 0.02 * at)));
-    std::vector<Range> all{{x - half, x + half}, {y - half, y + half}, {level, level}, {3.0 - level, 3.0 - level}};
+    std::vector<Range> all{
+        {x - half, x + half}, {y - half, y + half}, {level, level}, {3.0 - level, 3.0 - level}};
     all.resize(dimension_count_);
     return all;
   }
@@ -103,7 +117,9 @@ class Field {
 
 /// Arguments: dimensions of each region, regions of each entity, and of how many regions one moves.
 void distribution_match(benchmark::State& state) {
-  const auto dimensions = static_cast<std::uint32_t>(state.range(0)), regions_each = static_cast<std::uint32_t>(state.range(1)), stride = static_cast<std::uint32_t>(state.range(2));
+  const auto dimensions = static_cast<std::uint32_t>(state.range(0)),
+             regions_each = static_cast<std::uint32_t>(state.range(1)),
+             stride = static_cast<std::uint32_t>(state.range(2));
   Field field(5500 / regions_each, 500, dimensions, regions_each);
   field.match();
   field.flush();
@@ -119,8 +135,11 @@ void distribution_match(benchmark::State& state) {
   }
   if (!field.is_right()) state.SkipWithError("the pairs in scope are not those of brute force");
   const DistributionCounters& after = field.counters();
-  const auto per_move = [&](std::uint64_t count) { return static_cast<double>(count) / static_cast<double>(moved); };
-  state.counters["ns_per_moved_region"] = benchmark::Counter(static_cast<double>(moved) * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  const auto per_move = [&](std::uint64_t count) {
+    return static_cast<double>(count) / static_cast<double>(moved);
+  };
+  state.counters["ns_per_moved_region"] = benchmark::Counter(
+      static_cast<double>(moved) * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["changes"] = per_move(after.entries - before.entries + after.exits - before.exits);
   state.counters["reconsidered"] = per_move(after.pairs_reconsidered - before.pairs_reconsidered);
   state.counters["ranges_tested"] = per_move(after.ranges_tested - before.ranges_tested);

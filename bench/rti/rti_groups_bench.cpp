@@ -1,4 +1,5 @@
-// What group communication costs: a message to a group of 500, by one outside and by a member, and 1,000 federates that come and go.
+// What group communication costs: a message to a group of 500, by one outside and by a member, and
+// 1,000 federates that come and go.
 #include <benchmark/benchmark.h>
 
 #include "rti/groups/member_lists.h"
@@ -18,7 +19,8 @@ void reach(benchmark::State& state, std::uint32_t sender) {
     reached += receivers.size();
     benchmark::DoNotOptimize(receivers.back());
   }
-  state.counters["reached"] = static_cast<double>(reached) / static_cast<double>(state.iterations());
+  state.counters["reached"] =
+      static_cast<double>(reached) / static_cast<double>(state.iterations());
 }
 
 void come_and_go(benchmark::State& state) {
@@ -28,7 +30,8 @@ void come_and_go(benchmark::State& state) {
     MemberLists groups;
     for (std::uint32_t federate = 0; federate < federate_count; ++federate)
       for (std::uint32_t group = 0; group < group_count; group += 4) groups.join(group, federate);
-    for (std::uint32_t federate = 0; federate < federate_count; ++federate) groups.remove_federate(federate);
+    for (std::uint32_t federate = 0; federate < federate_count; ++federate)
+      groups.remove_federate(federate);
     left += groups.receivers(0, federate_count).size();
   }
   state.SetItemsProcessed(state.iterations() * federate_count);

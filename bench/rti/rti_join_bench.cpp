@@ -1,4 +1,5 @@
-// Joins of many federates, and what each costs the server in memory while it is idle; their own ends live in processes of their own, so that nothing of theirs is counted.
+// Joins of many federates, and what each costs the server in memory while it is idle; their own
+// ends live in processes of their own, so that nothing of theirs is counted.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 #include <sys/prctl.h>
@@ -23,7 +24,8 @@ namespace {
 using namespace rink::rti;
 using namespace std::chrono_literals;
 
-constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
+constexpr const char* model_xml =
+    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
 <attribute><name>position</name><dataType>HLAfloat64LE</dataType><transportation>HLAbestEffort</transportation></attribute>
 </objectClass></objectClass></objects></objectModel>)";
 
@@ -32,13 +34,16 @@ const Fom& model() {
   return fom;
 }
 
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// Memory of this process that is not in files or shared [bytes].
 double own_bytes() {
   long pages = 0, resident = 0, shared = 0;
   std::FILE* file = std::fopen("/proc/self/statm", "r");
-  if (file == nullptr || std::fscanf(file, "%ld %ld %ld", &pages, &resident, &shared) != 3) resident = shared = 0;
+  if (file == nullptr || std::fscanf(file, "%ld %ld %ld", &pages, &resident, &shared) != 3)
+    resident = shared = 0;
   if (file != nullptr) std::fclose(file);
   return static_cast<double>(resident - shared) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
@@ -57,7 +62,8 @@ double own_bytes() {
   const ObjectClassHandle entity = *model().object_class("Entity");
   for (int i = 0; i < count; ++i) {
     Federate& federate = federates.emplace_back();
-    links.add(ends.emplace_back(federate.ambassador, transport.get(), transport.connect("127.0.0.1", port)));
+    links.add(ends.emplace_back(federate.ambassador, transport.get(),
+                                transport.connect("127.0.0.1", port)));
     federate.ambassador.join("rink", "client " + std::to_string(first + i), "client");
     federate.ambassador.subscribe_object_class_attributes(entity, model().attributes(entity));
     if (i % 256 == 255) transport.get().poll(0ms, links), links.flush(seconds());
@@ -99,18 +105,35 @@ void join(benchmark::State& state, const char* kind) {
       host.flush();
     };
     const double give_up_s = seconds() + 120.0;
-    while (execution.federate_count() < static_cast<std::size_t>(count) && seconds() < give_up_s) round();
+    while (execution.federate_count() < static_cast<std::size_t>(count) && seconds() < give_up_s)
+      round();
     state.PauseTiming();
-    for (const double until_s = seconds() + 3.0; seconds() < until_s;) round();  // ways open, buffers come to rest
+    for (const double until_s = seconds() + 3.0; seconds() < until_s;)
+      round();  // ways open, buffers come to rest
     after = own_bytes();
-    if (execution.federate_count() < static_cast<std::size_t>(count)) state.SkipWithError("not all joined");
+    if (execution.federate_count() < static_cast<std::size_t>(count))
+      state.SkipWithError("not all joined");
     for (const pid_t child : children) kill(child, SIGKILL), waitpid(child, nullptr, 0);
     state.ResumeTiming();
   }
   state.counters["bytes_per_client"] = (after - before) / count;
 }
 
-BENCHMARK_CAPTURE(join, tcp, "tcp")->Name("rti/join")->ArgName("federates")->Arg(1000)->Arg(10'000)->UseRealTime()->Iterations(1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(join, udp, "udp")->Name("rti/join_udp")->ArgName("federates")->Arg(1000)->Arg(10'000)->UseRealTime()->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(join, tcp, "tcp")
+    ->Name("rti/join")
+    ->ArgName("federates")
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->UseRealTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(join, udp, "udp")
+    ->Name("rti/join_udp")
+    ->ArgName("federates")
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->UseRealTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Bodies that change hands: what a hand-over costs in each of the ways of clause 7, with every notification that arrived counted.
+// Bodies that change hands: what a hand-over costs in each of the ways of clause 7, with every
+// notification that arrived counted.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -20,7 +21,8 @@ namespace {
 using namespace rink::rti;
 using namespace std::chrono_literals;
 
-constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Body</name>
+constexpr const char* model_xml =
+    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Body</name>
 <attribute><name>place</name><dataType>HLAfloat64LE</dataType></attribute><attribute><name>pace</name><dataType>HLAfloat64LE</dataType></attribute>
 </objectClass></objectClass></objects></objectModel>)";
 
@@ -34,10 +36,19 @@ struct Peer : FederateAmbassador {
   Ambassador ambassador{model(), *this};
   std::vector<ObjectHandle> known;
   std::uint64_t acquired = 0;
-  void discover_object_instance(ObjectHandle object, ObjectClassHandle, std::string_view) override { known.push_back(object); }
-  void attribute_ownership_acquisition_notification(ObjectHandle, AttributeSet, Bytes) override { ++acquired; }
-  void request_attribute_ownership_release(ObjectHandle object, AttributeSet attributes, Bytes) override { ambassador.attribute_ownership_divestiture_if_wanted(object, attributes); }
-  void request_divestiture_confirmation(ObjectHandle object, AttributeSet attributes) override { ambassador.confirm_divestiture(object, attributes); }
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle, std::string_view) override {
+    known.push_back(object);
+  }
+  void attribute_ownership_acquisition_notification(ObjectHandle, AttributeSet, Bytes) override {
+    ++acquired;
+  }
+  void request_attribute_ownership_release(ObjectHandle object, AttributeSet attributes,
+                                           Bytes) override {
+    ambassador.attribute_ownership_divestiture_if_wanted(object, attributes);
+  }
+  void request_divestiture_confirmation(ObjectHandle object, AttributeSet attributes) override {
+    ambassador.confirm_divestiture(object, attributes);
+  }
 };
 
 enum class Way { asked_for, offered, let_go };
@@ -73,7 +84,8 @@ struct Neighbours {
 
   Transport& peers_end;
   const ObjectClassHandle body = *model().object_class("Body");
-  const AttributeSet own = model().attributes(body), all = own | AttributeSet{privilege_to_delete_object};
+  const AttributeSet own = model().attributes(body),
+                     all = own | AttributeSet{privilege_to_delete_object};
   FederationExecution execution{model(), {}};
   FederationHost host{execution};
   Peer peers[2];
@@ -84,17 +96,26 @@ struct Neighbours {
 /// All bodies go from one peer to the other, and back in the next iteration.
 void hand_over(benchmark::State& state, Neighbours& neighbours, Way way) {
   const auto count = static_cast<std::uint64_t>(state.range(0));
-  if (!neighbours.until([&] { return neighbours.peers[0].ambassador.is_joined() && neighbours.peers[1].ambassador.is_joined(); })) return state.SkipWithError("nobody joined");
+  if (!neighbours.until([&] {
+        return neighbours.peers[0].ambassador.is_joined() &&
+               neighbours.peers[1].ambassador.is_joined();
+      }))
+    return state.SkipWithError("nobody joined");
   std::vector<ObjectHandle> bodies;
-  for (std::uint64_t i = 0; i < count; ++i) bodies.push_back(neighbours.peers[0].ambassador.register_object_instance(neighbours.body));
-  if (!neighbours.until([&] { return neighbours.peers[1].known.size() == count; })) return state.SkipWithError("not all were discovered");
+  for (std::uint64_t i = 0; i < count; ++i)
+    bodies.push_back(neighbours.peers[0].ambassador.register_object_instance(neighbours.body));
+  if (!neighbours.until([&] { return neighbours.peers[1].known.size() == count; }))
+    return state.SkipWithError("not all were discovered");
   std::uint64_t expected[2] = {0, 0};
   int from = 0;
   for (auto _ : state) {
-    Ambassador &giver = neighbours.peers[from].ambassador, &taker = neighbours.peers[1 - from].ambassador;
+    Ambassador &giver = neighbours.peers[from].ambassador,
+               &taker = neighbours.peers[1 - from].ambassador;
     for (const ObjectHandle each : bodies) {
-      if (way == Way::let_go) giver.unconditional_attribute_ownership_divestiture(each, neighbours.all);
-      if (way == Way::offered) giver.negotiated_attribute_ownership_divestiture(each, neighbours.all);
+      if (way == Way::let_go)
+        giver.unconditional_attribute_ownership_divestiture(each, neighbours.all);
+      if (way == Way::offered)
+        giver.negotiated_attribute_ownership_divestiture(each, neighbours.all);
     }
     if (way != Way::asked_for) neighbours.links.flush(0.0), neighbours.host.poll(0ms);
     for (const ObjectHandle each : bodies) {
@@ -102,11 +123,14 @@ void hand_over(benchmark::State& state, Neighbours& neighbours, Way way) {
       else taker.attribute_ownership_acquisition_if_available(each, neighbours.all);
     }
     expected[1 - from] += count;
-    if (!neighbours.until([&] { return neighbours.peers[1 - from].acquired == expected[1 - from]; })) return state.SkipWithError("not all changed hands");
+    if (!neighbours.until(
+            [&] { return neighbours.peers[1 - from].acquired == expected[1 - from]; }))
+      return state.SkipWithError("not all changed hands");
     from = 1 - from;
   }
   const std::uint64_t arrived = neighbours.peers[0].acquired + neighbours.peers[1].acquired;
-  state.counters["handed_over_per_s"] = benchmark::Counter(static_cast<double>(arrived), benchmark::Counter::kIsRate);
+  state.counters["handed_over_per_s"] =
+      benchmark::Counter(static_cast<double>(arrived), benchmark::Counter::kIsRate);
   state.counters["arrived"] = static_cast<double>(arrived);
   state.counters["dropped"] = static_cast<double>(neighbours.execution.federate_count() != 2);
 }
@@ -127,9 +151,23 @@ void over_tcp(benchmark::State& state, Way way) {
 }
 
 const bool are_registered = [] {
-  for (const auto& [name, way] : {std::pair{"asked_for", Way::asked_for}, {"offered", Way::offered}, {"let_go", Way::let_go}}) {
-    benchmark::RegisterBenchmark(("rti/ownership/" + std::string(name) + "/in_process").c_str(), in_process, way)->ArgName("objects")->Arg(1)->Arg(1000)->UseRealTime()->MinTime(0.3);
-    benchmark::RegisterBenchmark(("rti/ownership/" + std::string(name) + "/tcp").c_str(), over_tcp, way)->ArgName("objects")->Arg(1)->Arg(1000)->UseRealTime()->MinTime(0.3);
+  for (const auto& [name, way] : {std::pair{"asked_for", Way::asked_for},
+                                  {"offered", Way::offered},
+                                  {"let_go", Way::let_go}}) {
+    benchmark::RegisterBenchmark(("rti/ownership/" + std::string(name) + "/in_process").c_str(),
+                                 in_process, way)
+        ->ArgName("objects")
+        ->Arg(1)
+        ->Arg(1000)
+        ->UseRealTime()
+        ->MinTime(0.3);
+    benchmark::RegisterBenchmark(("rti/ownership/" + std::string(name) + "/tcp").c_str(), over_tcp,
+                                 way)
+        ->ArgName("objects")
+        ->Arg(1)
+        ->Arg(1000)
+        ->UseRealTime()
+        ->MinTime(0.3);
   }
   return true;
 }();

@@ -24,7 +24,8 @@ using namespace rink::rti;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name></objectClass></objects>
+constexpr const char* model_xml =
+    R"(<objectModel><objects><objectClass><name>Root</name></objectClass></objects>
 <interactions><interactionClass><name>Ping</name></interactionClass><interactionClass><name>Pong</name></interactionClass></interactions></objectModel>)";
 
 const Fom& model() {
@@ -84,14 +85,20 @@ void raw_round_trip(benchmark::State& state) {
 struct Federate : FederateAmbassador {
   Ambassador ambassador{model(), *this};
   std::uint64_t interactions = 0;
-  void receive_interaction(InteractionClassHandle, Bytes, FederateHandle, const Stamp&) override { ++interactions; }
+  void receive_interaction(InteractionClassHandle, Bytes, FederateHandle, const Stamp&) override {
+    ++interactions;
+  }
 };
 
-/// 24 bytes by interaction from a client to the federate beside the RTI, and back: two passes through the RTI. `server_end` and `client_end` are the two ends of a transport;
-/// `listen(server_end)` makes the first known, and `connect(client_end)` gives the second its connection.
+/// 24 bytes by interaction from a client to the federate beside the RTI, and back: two passes
+/// through the RTI. `server_end` and `client_end` are the two ends of a transport;
+/// `listen(server_end)` makes the first known, and `connect(client_end)` gives the second its
+/// connection.
 template <class Carrier, class Listen, class Connect>
-void round_trip_over(benchmark::State& state, Carrier& server_end, Carrier& client_end, Listen listen, Connect connect) {
-  const InteractionClassHandle ping = *model().interaction_class("Ping"), pong = *model().interaction_class("Pong");
+void round_trip_over(benchmark::State& state, Carrier& server_end, Carrier& client_end,
+                     Listen listen, Connect connect) {
+  const InteractionClassHandle ping = *model().interaction_class("Ping"),
+                               pong = *model().interaction_class("Pong");
   std::atomic<bool> is_over{false};
   std::atomic<bool> is_listening{false};
   std::thread server([&] {
@@ -114,10 +121,12 @@ void round_trip_over(benchmark::State& state, Carrier& server_end, Carrier& clie
     for (std::uint64_t answered = 0; !is_over;) {
       is_listening = federate.ambassador.is_joined();
       links.flush(0.0);
-      host.poll(is_listening ? 100ms : 0ms);  // a timer of a millisecond costs a virtual machine some microseconds each time
+      host.poll(is_listening ? 100ms : 0ms);  // a timer of a millisecond costs a virtual machine
+                                              // some microseconds each time
       host.flush();
       own.poll(0ms, links);
-      for (; answered < federate.interactions; ++answered) federate.ambassador.send_interaction(pong, answer, {});
+      for (; answered < federate.interactions; ++answered)
+        federate.ambassador.send_interaction(pong, answer, {});
       if (federate.ambassador.outgoing().empty()) continue;
       links.flush(0.0);
       host.poll(near);
@@ -153,18 +162,26 @@ void tcp_round_trip(benchmark::State& state, std::chrono::nanoseconds spin) {
   TcpTransport server(TcpSettings{.spin = spin}), client(TcpSettings{.spin = spin});
   std::uint16_t port = 0;
   round_trip_over(
-      state, server, client, [&](TcpTransport& end) { port = end.listen("127.0.0.1", 0); }, [&](TcpTransport& end) { return end.connect("127.0.0.1", port); });
+      state, server, client, [&](TcpTransport& end) { port = end.listen("127.0.0.1", 0); },
+      [&](TcpTransport& end) { return end.connect("127.0.0.1", port); });
 }
 
 void shared_memory_round_trip(benchmark::State& state) {
   SharedMemoryTransport server, client;
   round_trip_over(
-      state, server, client, [](SharedMemoryTransport& end) { end.listen("bench"); }, [](SharedMemoryTransport& end) { return end.connect("bench"); });
+      state, server, client, [](SharedMemoryTransport& end) { end.listen("bench"); },
+      [](SharedMemoryTransport& end) { return end.connect("bench"); });
 }
 
 BENCHMARK(raw_round_trip)->Name("rti/round_trip/raw_asio")->UseRealTime()->MinTime(0.5);
-BENCHMARK_CAPTURE(tcp_round_trip, blocking, 0us)->Name("rti/round_trip/rink")->UseRealTime()->MinTime(0.5);
-BENCHMARK_CAPTURE(tcp_round_trip, spinning, 50us)->Name("rti/round_trip/rink_spinning")->UseRealTime()->MinTime(0.5);
+BENCHMARK_CAPTURE(tcp_round_trip, blocking, 0us)
+    ->Name("rti/round_trip/rink")
+    ->UseRealTime()
+    ->MinTime(0.5);
+BENCHMARK_CAPTURE(tcp_round_trip, spinning, 50us)
+    ->Name("rti/round_trip/rink_spinning")
+    ->UseRealTime()
+    ->MinTime(0.5);
 BENCHMARK(shared_memory_round_trip)->Name("rti/round_trip/rink_shm")->UseRealTime()->MinTime(0.5);
 
 }  // namespace

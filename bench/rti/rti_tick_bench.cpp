@@ -17,7 +17,8 @@ using namespace rink;
 using namespace rink::rti;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
+constexpr const char* model_xml =
+    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
 <attribute><name>position</name><dataType>HLAfloat64LE</dataType></attribute>
 </objectClass></objectClass></objects></objectModel>)";
 
@@ -39,7 +40,8 @@ struct Scales final : Outlet {
   void drop(ConnectionId, std::string_view) override {}
 };
 
-/// A crowd's tick without any transport: 5,500 entities drift over a square of 100 m, each client sees 5 % of it around a point that drifts too.
+/// A crowd's tick without any transport: 5,500 entities drift over a square of 100 m, each client
+/// sees 5 % of it around a point that drifts too.
 void crowd_tick(benchmark::State& state, const char* filter) {
   constexpr int entity_count = 5500;
   static constexpr double side = 100.0, seen = 11.2;
@@ -74,7 +76,8 @@ void crowd_tick(benchmark::State& state, const char* filter) {
   execution.flush(server_end);
   server.publish_object_class_attributes(entity, position);
   const auto drift = [](int number, double at) {
-    const double x = 0.5 + 0.5 * std::sin(0.61803 * number + 0.05 * at), y = 0.5 + 0.5 * std::cos(1.41421 * number + 0.05 * at);
+    const double x = 0.5 + 0.5 * std::sin(0.61803 * number + 0.05 * at),
+                 y = 0.5 + 0.5 * std::cos(1.41421 * number + 0.05 * at);
     return im::Region{side * x, side * y, side * x, side * y};
   };
   std::vector<ObjectHandle> objects;
@@ -94,17 +97,24 @@ void crowd_tick(benchmark::State& state, const char* filter) {
   const std::array<std::byte, 8> value{};
   double now = 0.0, match_us = 0.0, flush_us = 0.0, take_us = 0.0;
   const auto move = [&] {
-    for (int i = 0; i < entity_count; ++i) regions[static_cast<std::size_t>(i)].bounds = drift(i, now);
+    for (int i = 0; i < entity_count; ++i)
+      regions[static_cast<std::size_t>(i)].bounds = drift(i, now);
     server.commit_region_modifications(regions);
-    for (const ObjectHandle object : objects) server.update_attribute_values(object, position, value, {now, 1});
+    for (const ObjectHandle object : objects)
+      server.update_attribute_values(object, position, value, {now, 1});
     for (int i = 1; i <= clients; ++i) {
       const im::Region at = drift(7919 * i, now);
-      const RegionBounds view{views[static_cast<std::size_t>(i)], {at.low_x - seen, at.low_y - seen, at.high_x + seen, at.high_y + seen}};
-      federates[static_cast<std::size_t>(i)].ambassador.commit_region_modifications(std::span(&view, 1));
+      const RegionBounds view{
+          views[static_cast<std::size_t>(i)],
+          {at.low_x - seen, at.low_y - seen, at.high_x + seen, at.high_y + seen}};
+      federates[static_cast<std::size_t>(i)].ambassador.commit_region_modifications(
+          std::span(&view, 1));
     }
     now += 1.0 / 30.0;
   };
-  const auto since = [](Clock::time_point start) { return std::chrono::duration<double, std::micro>(Clock::now() - start).count(); };
+  const auto since = [](Clock::time_point start) {
+    return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+  };
   const auto tick = [&] {
     auto start = Clock::now();
     for (int i = 0; i <= clients; ++i) speak(static_cast<ConnectionId>(i));
@@ -130,8 +140,23 @@ void crowd_tick(benchmark::State& state, const char* filter) {
   state.counters["bytes_per_client"] = static_cast<double>(scales.bytes) / ticks / clients;
 }
 
-BENCHMARK_CAPTURE(crowd_tick, none, "none")->Name("rti/tick/none")->ArgName("clients")->Arg(500)->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(crowd_tick, grid, "grid")->Name("rti/tick/grid")->ArgName("clients")->Arg(500)->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(crowd_tick, region, "region")->Name("rti/tick/region")->ArgName("clients")->Arg(500)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(crowd_tick, none, "none")
+    ->Name("rti/tick/none")
+    ->ArgName("clients")
+    ->Arg(500)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(crowd_tick, grid, "grid")
+    ->Name("rti/tick/grid")
+    ->ArgName("clients")
+    ->Arg(500)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(crowd_tick, region, "region")
+    ->Name("rti/tick/region")
+    ->ArgName("clients")
+    ->Arg(500)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Updates per second from one publisher over TCP through the RTI to its subscribers over TCP, beside a raw batched sender; what counts is what arrived with
-// the right content.
+// Updates per second from one publisher over TCP through the RTI to its subscribers over TCP,
+// beside a raw batched sender; what counts is what arrived with the right content.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -25,7 +25,8 @@ namespace {
 using namespace rink::rti;
 using namespace std::chrono_literals;
 
-constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
+constexpr const char* model_xml =
+    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
 <attribute><name>state</name><dataType>State</dataType></attribute>
 </objectClass></objectClass></objects><dataTypes><fixedRecordDataTypes><fixedRecordData><name>State</name>
 <field><name>object</name><dataType>HLAinteger64LE</dataType></field><field><name>round</name><dataType>HLAinteger64LE</dataType></field>
@@ -36,13 +37,16 @@ const Fom& model() {
   return fom;
 }
 
-constexpr std::uint64_t object_count = 256;   ///< updates in one write of the publisher
-constexpr std::uint64_t round_window = 64;    ///< rounds under way at most: 400 kB, below what any queue holds
+constexpr std::uint64_t object_count = 256;  ///< updates in one write of the publisher
+constexpr std::uint64_t round_window =
+    64;  ///< rounds under way at most: 400 kB, below what any queue holds
 
 /// One update's content, 24 bytes: any mix-up of objects, rounds or bytes shows.
 struct State {
   std::uint64_t object = 0, round = 0, check = 0;
-  static State of(std::uint64_t object, std::uint64_t round) { return {object, round, (object * 0x9E3779B97F4A7C15u) ^ (round * 0xC2B2AE3D27D4EB4Fu)}; }
+  static State of(std::uint64_t object, std::uint64_t round) {
+    return {object, round, (object * 0x9E3779B97F4A7C15u) ^ (round * 0xC2B2AE3D27D4EB4Fu)};
+  }
   bool is_sound() const { return check == of(object, round).check; }
 };
 static_assert(sizeof(State) == 24);
@@ -65,11 +69,14 @@ struct Subscriber : FederateAmbassador {
   std::uint64_t delivered = 0, discovered = 0;
   bool is_spoilt = false;
   std::array<std::uint64_t, object_count> next_round{};
-  void discover_object_instance(ObjectHandle, ObjectClassHandle, std::string_view) override { ++discovered; }
+  void discover_object_instance(ObjectHandle, ObjectClassHandle, std::string_view) override {
+    ++discovered;
+  }
   void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes values, const Stamp&) override {
     State state;
     std::memcpy(&state, values.data(), sizeof state);
-    is_spoilt |= !state.is_sound() || state.object >= object_count || next_round[state.object]++ != state.round;
+    is_spoilt |= !state.is_sound() || state.object >= object_count ||
+                 next_round[state.object]++ != state.round;
     ++delivered;
   }
 };
@@ -98,7 +105,8 @@ void run_subscribers(std::uint16_t port, int count, Arrivals& arrivals) {
   }
 }
 
-void run_rti(std::atomic<std::uint16_t>& port, std::atomic<std::size_t>& federates, const std::atomic<bool>& is_over) {
+void run_rti(std::atomic<std::uint16_t>& port, std::atomic<std::size_t>& federates,
+             const std::atomic<bool>& is_over) {
   FederationSettings settings;
   settings.patience.lost_after_s = 1e9;
   FederationExecution execution(model(), settings);
@@ -114,12 +122,14 @@ void run_rti(std::atomic<std::uint16_t>& port, std::atomic<std::size_t>& federat
   }
 }
 
-/// Publishes rounds by `publish(round)`, never more than the window ahead of what each subscriber has: for whoever is further behind, the RTI keeps the newest round only.
+/// Publishes rounds by `publish(round)`, never more than the window ahead of what each subscriber
+/// has: for whoever is further behind, the RTI keeps the newest round only.
 template <class Publish>
 void measure_updates(benchmark::State& state, Arrivals& arrivals, Publish publish) {
   std::uint64_t round = 0;
   const auto await_rounds = [&](std::uint64_t rounds) {
-    while (arrivals.least < rounds * object_count && !arrivals.is_spoilt) std::this_thread::sleep_for(20us);
+    while (arrivals.least < rounds * object_count && !arrivals.is_spoilt)
+      std::this_thread::sleep_for(20us);
   };
   const double start_s = process_seconds();
   for (auto _ : state) {
@@ -151,12 +161,14 @@ void rink_updates(benchmark::State& state) {
   publisher.ambassador.join("rink", "publisher", "publisher");
   publisher.ambassador.publish_object_class_attributes(entity, all);
   std::thread sinks([&] { run_subscribers(port, subscribers, arrivals); });
-  while (federates < static_cast<std::size_t>(subscribers) + 1 || !publisher.ambassador.is_joined()) {
+  while (federates < static_cast<std::size_t>(subscribers) + 1 ||
+         !publisher.ambassador.is_joined()) {
     links.flush(0.0);
     tcp.poll(1ms, links);
   }
   std::vector<ObjectHandle> objects;
-  for (std::uint64_t i = 0; i < object_count; ++i) objects.push_back(publisher.ambassador.register_object_instance(entity));
+  for (std::uint64_t i = 0; i < object_count; ++i)
+    objects.push_back(publisher.ambassador.register_object_instance(entity));
   links.flush(0.0);
   // Whoever had not discovered an object yet would get its first rounds as one state.
   while (arrivals.discovered < object_count * static_cast<std::uint64_t>(subscribers)) {
@@ -166,7 +178,8 @@ void rink_updates(benchmark::State& state) {
   measure_updates(state, arrivals, [&](std::uint64_t round) {
     for (std::uint64_t i = 0; i < object_count; ++i) {
       const State content = State::of(i, round);
-      publisher.ambassador.update_attribute_values(objects[i], all, std::as_bytes(std::span(&content, 1)), {static_cast<double>(round), 0});
+      publisher.ambassador.update_attribute_values(
+          objects[i], all, std::as_bytes(std::span(&content, 1)), {static_cast<double>(round), 0});
     }
     links.flush(0.0);
     tcp.poll(0ms, links);
@@ -176,17 +189,23 @@ void rink_updates(benchmark::State& state) {
   sinks.join();
 }
 
-/// Reads updates one after the other from a stream cut anywhere, as a subscriber without an RTI would.
+/// Reads updates one after the other from a stream cut anywhere, as a subscriber without an RTI
+/// would.
 class RawSink final : public TransportListener {
  public:
   std::uint64_t delivered = 0;
   bool is_spoilt = false;
   /// At the one of `count` connections that is furthest behind.
-  std::uint64_t least(std::size_t count) const { return by_connection_.size() < count ? 0 : *std::min_element(by_connection_.begin(), by_connection_.end()); }
+  std::uint64_t least(std::size_t count) const {
+    return by_connection_.size() < count
+               ? 0
+               : *std::min_element(by_connection_.begin(), by_connection_.end());
+  }
   void on_open(ConnectionId) override {}
   void on_close(ConnectionId, CloseReason, const std::string&) override {}
   void on_bytes(ConnectionId connection, Bytes bytes) override {
-    if (connection >= partial_.size()) partial_.resize(connection + 1), by_connection_.resize(connection + 1);
+    if (connection >= partial_.size())
+      partial_.resize(connection + 1), by_connection_.resize(connection + 1);
     std::vector<std::byte>& partial = partial_[connection];
     while (!bytes.empty()) {
       if (partial.empty() && bytes.size() >= sizeof(State)) {
@@ -214,7 +233,8 @@ class RawSink final : public TransportListener {
   std::vector<std::uint64_t> by_connection_;
 };
 
-/// The same updates in the same batches, by one blocking write per subscriber from the publisher itself: no RTI between.
+/// The same updates in the same batches, by one blocking write per subscriber from the publisher
+/// itself: no RTI between.
 void raw_updates(benchmark::State& state) {
   const int subscribers = static_cast<int>(state.range(0));
   asio::io_context context;
@@ -227,7 +247,8 @@ void raw_updates(benchmark::State& state) {
     while (!arrivals.is_over) {
       tcp.poll(1ms, sink);
       if (sink.is_spoilt) arrivals.is_spoilt = true;
-      arrivals.delivered = sink.delivered, arrivals.least = sink.least(static_cast<std::size_t>(subscribers));
+      arrivals.delivered = sink.delivered,
+      arrivals.least = sink.least(static_cast<std::size_t>(subscribers));
     }
   });
   std::vector<asio::ip::tcp::socket> sockets;
@@ -244,7 +265,19 @@ void raw_updates(benchmark::State& state) {
   sinks.join();
 }
 
-BENCHMARK(raw_updates)->Name("rti/updates/raw_asio")->ArgName("subscribers")->Arg(1)->Arg(64)->UseRealTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(rink_updates)->Name("rti/updates/rink")->ArgName("subscribers")->Arg(1)->Arg(64)->UseRealTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(raw_updates)
+    ->Name("rti/updates/raw_asio")
+    ->ArgName("subscribers")
+    ->Arg(1)
+    ->Arg(64)
+    ->UseRealTime()
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(rink_updates)
+    ->Name("rti/updates/rink")
+    ->ArgName("subscribers")
+    ->Arg(1)
+    ->Arg(64)
+    ->UseRealTime()
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

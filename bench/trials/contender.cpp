@@ -8,14 +8,19 @@
 namespace rink::accuracy {
 namespace {
 
-bool is_wanted(const std::vector<std::string>& wanted, const std::string& name) { return wanted.empty() || std::ranges::find(wanted, name) != wanted.end(); }
+bool is_wanted(const std::vector<std::string>& wanted, const std::string& name) {
+  return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
+}
 
-bool is_peer(const std::string& engine) { return std::ranges::find(peers::peer_names(), engine) != peers::peer_names().end(); }
+bool is_peer(const std::string& engine) {
+  return std::ranges::find(peers::peer_names(), engine) != peers::peer_names().end();
+}
 
 /// Impacts of unequal masses at most double a speed, and bats under thrust stay below 10 m/s.
 double speed_max(const Trial& trial) {
   double fastest = 5.0;
-  for (const physics::PuckSpec& puck : trial.pucks) fastest = std::max(fastest, puck.velocity.norm());
+  for (const physics::PuckSpec& puck : trial.pucks)
+    fastest = std::max(fastest, puck.velocity.norm());
   return 2.0 * fastest;
 }
 
@@ -34,7 +39,8 @@ std::vector<std::string> contender_engines() {
   return names;
 }
 
-std::vector<Contender> contenders(const std::vector<std::string>& engines, const std::vector<std::string>& integrators) {
+std::vector<Contender> contenders(const std::vector<std::string>& engines,
+                                  const std::vector<std::string>& integrators) {
   std::vector<Contender> all;
   for (const std::string& engine : contender_engines()) {
     if (!is_wanted(engines, engine) || (is_peer(engine) && !peers::is_built_in(engine))) continue;
@@ -51,12 +57,17 @@ std::vector<Contender> contenders(const std::vector<std::string>& engines, const
 std::vector<std::string> absences(const std::vector<std::string>& engines) {
   std::vector<std::string> sentences;
   for (const std::string& peer : peers::peer_names())
-    if (is_wanted(engines, peer) && !peers::is_built_in(peer)) sentences.push_back(peer + " is absent: install " + peers::package_of(peer) + " and configure again");
+    if (is_wanted(engines, peer) && !peers::is_built_in(peer))
+      sentences.push_back(peer + " is absent: install " + peers::package_of(peer) +
+                          " and configure again");
   return sentences;
 }
 
-std::unique_ptr<physics::Simulator> make_world(const Trial& trial, const Contender& contender, double dt) {
-  auto world = is_peer(contender.engine) ? peers::make_peer(trial.world, contender.engine, dt, speed_max(trial)) : physics::make_simulator(trial.world, choice_of(contender, dt));
+std::unique_ptr<physics::Simulator> make_world(const Trial& trial, const Contender& contender,
+                                               double dt) {
+  auto world = is_peer(contender.engine)
+                   ? peers::make_peer(trial.world, contender.engine, dt, speed_max(trial))
+                   : physics::make_simulator(trial.world, choice_of(contender, dt));
   load(trial, *world);
   return world;
 }

@@ -22,13 +22,17 @@ struct Contender {
 /// The names that --engines takes: Rink's own, then the peers, built in or not.
 std::vector<std::string> contender_engines();
 
-/// Those of `engines` and `integrators` (empty: all) that can run, in the order of contender_engines().
-std::vector<Contender> contenders(const std::vector<std::string>& engines, const std::vector<std::string>& integrators);
+/// Those of `engines` and `integrators` (empty: all) that can run, in the order of
+/// contender_engines().
+std::vector<Contender> contenders(const std::vector<std::string>& engines,
+                                  const std::vector<std::string>& integrators);
 
-/// For each of `engines` (empty: all) that was not built in, a sentence that says so and how to get it.
+/// For each of `engines` (empty: all) that was not built in, a sentence that says so and how to get
+/// it.
 std::vector<std::string> absences(const std::vector<std::string>& engines);
 
 /// The world of `trial` with its bodies; `dt` [s] is the length of a step where there is one.
-std::unique_ptr<physics::Simulator> make_world(const Trial& trial, const Contender& contender, double dt);
+std::unique_ptr<physics::Simulator> make_world(const Trial& trial, const Contender& contender,
+                                               double dt);
 
 }  // namespace rink::accuracy

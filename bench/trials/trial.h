@@ -12,7 +12,8 @@ namespace rink::accuracy {
 
 using physics::Vector2;
 
-/// A stepping engine's longest frame [s]. Pushes and horizons lie on whole frames of it, so that each shorter step, a half of the one before, can hit them too.
+/// A stepping engine's longest frame [s]. Pushes and horizons lie on whole frames of it, so that
+/// each shorter step, a half of the one before, can hit them too.
 inline constexpr double frame = 1.0 / 60.0;
 
 /// From `time` [s] on bat number `bat` accelerates by `acceleration` [m/s^2].
@@ -61,14 +62,16 @@ class Play {
     for (; next_ < trial_.pushes.size() && trial_.pushes[next_].time < until; ++next_) {
       const Push& push = trial_.pushes[next_];
       world_.advance(push.time);
-      world_.set_thrust({static_cast<std::uint32_t>(trial_.posts.size()) + push.bat}, push.acceleration);
+      world_.set_thrust({static_cast<std::uint32_t>(trial_.posts.size()) + push.bat},
+                        push.acceleration);
     }
     world_.advance(until);
   }
   /// The thrust that each body is under now, by its number.
   std::vector<Vector2> thrusts() const {
     std::vector<Vector2> thrusts(trial_.body_count(), Vector2(0.0, 0.0));
-    for (std::size_t i = 0; i < next_; ++i) thrusts[trial_.posts.size() + trial_.pushes[i].bat] = trial_.pushes[i].acceleration;
+    for (std::size_t i = 0; i < next_; ++i)
+      thrusts[trial_.posts.size() + trial_.pushes[i].bat] = trial_.pushes[i].acceleration;
     return thrusts;
   }
 

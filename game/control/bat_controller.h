@@ -10,16 +10,20 @@ namespace rink::game {
 
 /// Where held keys push: opposed ones cancel.
 inline physics::Vector2 direction(const KeysHeld& keys) {
-  const auto along = [&keys](Key plus, Key minus) { return static_cast<double>(keys.is_down(plus)) - static_cast<double>(keys.is_down(minus)); };
+  const auto along = [&keys](Key plus, Key minus) {
+    return static_cast<double>(keys.is_down(plus)) - static_cast<double>(keys.is_down(minus));
+  };
   return {along(Key::right, Key::left), along(Key::up, Key::down)};
 }
 
-/// One player's hands. Each held key adds the bat's thrust in its direction, as the paper accumulates forces, so opposed keys cancel and two neighbours push diagonally.
+/// One player's hands. Each held key adds the bat's thrust in its direction, as the paper
+/// accumulates forces, so opposed keys cancel and two neighbours push diagonally.
 class BatController {
  public:
   explicit BatController(double thrust) : thrust_(thrust) {}
   /// Hands that hold `keys` after so many inputs.
-  BatController(double thrust, const KeysHeld& keys, std::uint32_t input_count) : thrust_(thrust), keys_(keys), input_count_(input_count) {}
+  BatController(double thrust, const KeysHeld& keys, std::uint32_t input_count)
+      : thrust_(thrust), keys_(keys), input_count_(input_count) {}
 
   /// Counts the input, whether or not it changes anything: a key that is down may be pressed again.
   void press(Key key, bool is_down) {

@@ -1,4 +1,5 @@
-// Goes from one instant at which something happens to the next, and lets the world move exactly in between.
+// Goes from one instant at which something happens to the next, and lets the world move exactly in
+// between.
 #include "game/control/game.h"
 
 #include <algorithm>
@@ -15,7 +16,8 @@ namespace {
 
 /// A heap's order: the input that is to be applied first is the greatest.
 constexpr auto is_later = [](const auto& a, const auto& b) {
-  return std::tuple(a.event.time, a.event.player, a.number) > std::tuple(b.event.time, b.event.player, b.number);
+  return std::tuple(a.event.time, a.event.player, a.number) >
+         std::tuple(b.event.time, b.event.player, b.number);
 };
 
 Team other(Team team) { return team == Team::left ? Team::right : Team::left; }
@@ -23,10 +25,16 @@ Team other(Team team) { return team == Team::left ? Team::right : Team::left; }
 }  // namespace
 
 Game::Game(const Scene& scene, const physics::SimulatorChoice& engine)
-    : simulator_(physics::make_simulator(scene.world, engine)), world_(simulator_->exact_world()), rules_(scene.rules) {
+    : simulator_(physics::make_simulator(scene.world, engine)),
+      world_(simulator_->exact_world()),
+      rules_(scene.rules) {
   for (const Post& post : scene.bodies.posts) {
     const EntityId id = simulator_->add(post.body);
-    entities_.push_back({.id = id, .kind = physics::BodyKind::post, .team = Team::none, .half_extent = simulator_->half_extent(id), .player = std::nullopt});
+    entities_.push_back({.id = id,
+                         .kind = physics::BodyKind::post,
+                         .team = Team::none,
+                         .half_extent = simulator_->half_extent(id),
+                         .player = std::nullopt});
   }
   for (const Bat& bat : scene.bodies.bats) {
     seats_.push_back({bat, BatController(bat.thrust), std::nullopt});
@@ -34,7 +42,11 @@ Game::Game(const Scene& scene, const physics::SimulatorChoice& engine)
   }
   for (const Puck& puck : scene.bodies.pucks) {
     const EntityId id = simulator_->add(puck.body);
-    entities_.push_back({.id = id, .kind = physics::BodyKind::puck, .team = Team::none, .half_extent = simulator_->half_extent(id), .player = std::nullopt});
+    entities_.push_back({.id = id,
+                         .kind = physics::BodyKind::puck,
+                         .team = Team::none,
+                         .half_extent = simulator_->half_extent(id),
+                         .player = std::nullopt});
   }
   spawned_.clear();
   for (const InputEvent& event : scene.keys) submit(event);
@@ -62,13 +74,18 @@ void Game::spawn_bat(std::uint32_t player, const Vector2& position, const Vector
   body.position = position;
   body.velocity = velocity;
   seat.entity = simulator_->add(body);
-  entities_.push_back({.id = *seat.entity, .kind = physics::BodyKind::bat, .team = seat.bat.team, .half_extent = body.half_extent, .player = player});
+  entities_.push_back({.id = *seat.entity,
+                       .kind = physics::BodyKind::bat,
+                       .team = seat.bat.team,
+                       .half_extent = body.half_extent,
+                       .player = player});
   spawned_.push_back(entities_.back());
 }
 
 InputEvent Game::submit(InputEvent event) {
   assert(std::isfinite(event.time) && event.time >= now() && event.player < player_count());
-  if (event.time == over_) event.time = std::nextafter(over_, std::numeric_limits<double>::infinity());
+  if (event.time == over_)
+    event.time = std::nextafter(over_, std::numeric_limits<double>::infinity());
   inputs_.push_back({event, submitted_++});
   std::push_heap(inputs_.begin(), inputs_.end(), is_later);
   return event;
@@ -104,7 +121,8 @@ void Game::play_until(double until) {
 
 void Game::count_goal(const physics::Goal& goal) {
   if (is_over_) return;
-  const Team conceding = goal.end == physics::End::left ? Team::left : Team::right, scoring = other(conceding);
+  const Team conceding = goal.end == physics::End::left ? Team::left : Team::right,
+             scoring = other(conceding);
   std::uint32_t& goals = scoring == Team::left ? score_.left : score_.right;
   ++goals;
   scored_.push_back({goal.time, goal.puck, scoring});
@@ -114,7 +132,9 @@ void Game::count_goal(const physics::Goal& goal) {
 }
 
 void Game::schedule(const FaceOff& due) {
-  const auto is_before = [](const FaceOff& a, const FaceOff& b) { return std::tuple(a.time, a.puck) < std::tuple(b.time, b.puck); };
+  const auto is_before = [](const FaceOff& a, const FaceOff& b) {
+    return std::tuple(a.time, a.puck) < std::tuple(b.time, b.puck);
+  };
   face_offs_.insert(std::upper_bound(face_offs_.begin(), face_offs_.end(), due, is_before), due);
 }
 
@@ -130,8 +150,10 @@ void Game::face_off_until(double instant) {
 void Game::face_off(const FaceOff& due) {
   const physics::Field& field = simulator_->spec().field;
   const double from_end = rules_.face_off_distance * field.length;
-  const Vector2 spot(due.conceding == Team::left ? from_end : field.length - from_end, field.width / 2);
-  if (const auto place = nearest_free_disc(*simulator_, spot, simulator_->radius(due.puck))) simulator_->place(due.puck, *place, Vector2::Zero());
+  const Vector2 spot(due.conceding == Team::left ? from_end : field.length - from_end,
+                     field.width / 2);
+  if (const auto place = nearest_free_disc(*simulator_, spot, simulator_->radius(due.puck)))
+    simulator_->place(due.puck, *place, Vector2::Zero());
   else schedule({due.time + placement_retry, due.puck, due.conceding});
 }
 
@@ -157,14 +179,17 @@ void Game::apply(const InputEvent& event) {
 void Game::enter(std::uint32_t player) {
   if (seats_[player].entity) return;
   const physics::BatSpec& home = seats_[player].bat.body;
-  if (const auto place = nearest_free_rectangle(*simulator_, home.position, home.half_extent, home.half)) spawn_bat(player, *place, Vector2::Zero());
+  if (const auto place =
+          nearest_free_rectangle(*simulator_, home.position, home.half_extent, home.half))
+    spawn_bat(player, *place, Vector2::Zero());
   else submit({.time = now() + placement_retry, .player = player, .kind = InputKind::enter});
 }
 
 void Game::leave(std::uint32_t player) {
   Seat& seat = seats_[player];
   if (!seat.entity) return;
-  const auto there = std::lower_bound(entities_.begin(), entities_.end(), *seat.entity, [](const Entity& a, EntityId id) { return a.id < id; });
+  const auto there = std::lower_bound(entities_.begin(), entities_.end(), *seat.entity,
+                                      [](const Entity& a, EntityId id) { return a.id < id; });
   removed_.push_back(*there);
   entities_.erase(there);
   simulator_->remove(*seat.entity);
@@ -173,12 +198,15 @@ void Game::leave(std::uint32_t player) {
 }
 
 bool Game::is_there(EntityId entity) const {
-  return std::binary_search(entities_.begin(), entities_.end(), Entity{.id = entity, .player = std::nullopt}, [](const Entity& a, const Entity& b) { return a.id < b.id; });
+  return std::binary_search(entities_.begin(), entities_.end(),
+                            Entity{.id = entity, .player = std::nullopt},
+                            [](const Entity& a, const Entity& b) { return a.id < b.id; });
 }
 
 const Entity& Game::entity(EntityId entity) const {
   assert(is_there(entity));
-  return *std::lower_bound(entities_.begin(), entities_.end(), entity, [](const Entity& a, EntityId id) { return a.id < id; });
+  return *std::lower_bound(entities_.begin(), entities_.end(), entity,
+                           [](const Entity& a, EntityId id) { return a.id < id; });
 }
 
 std::uint64_t Game::hash() const {

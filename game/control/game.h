@@ -1,4 +1,5 @@
-// The game: makes all entities from a scene, applies what players do at the exact instant, keeps the score, and tells observers what changed.
+// The game: makes all entities from a scene, applies what players do at the exact instant, keeps
+// the score, and tells observers what changed.
 #pragma once
 
 #include <cassert>
@@ -21,9 +22,9 @@ using EntityId = physics::BodyId;
 struct Entity {
   EntityId id;
   physics::BodyKind kind = physics::BodyKind::puck;
-  Team team = Team::none;                ///< of bats
-  Vector2 half_extent{0.0, 0.0};         ///< m; both the radius for discs
-  std::optional<std::uint32_t> player;   ///< of bats
+  Team team = Team::none;               ///< of bats
+  Vector2 half_extent{0.0, 0.0};        ///< m; both the radius for discs
+  std::optional<std::uint32_t> player;  ///< of bats
 };
 
 /// `team` put `puck` into the other's goal at `time` [s].
@@ -38,25 +39,33 @@ struct Score {
   friend bool operator==(const Score&, const Score&) = default;
 };
 
-/// Factory and mediator. Knows no clock: `advance` is told how far. What happens depends on the scene and the inputs alone, never on how often or how far
-/// `advance` is called. Of one instant's happenings, motion and goals come first, then face-offs, then inputs in order of player, each player's in order of submission.
+/// Factory and mediator. Knows no clock: `advance` is told how far. What happens depends on the
+/// scene and the inputs alone, never on how often or how far `advance` is called. Of one instant's
+/// happenings, motion and goals come first, then face-offs, then inputs in order of player, each
+/// player's in order of submission.
 class Game {
  public:
-  /// Every bat of the scene is there from the start, and the scene's scripted keys are submitted. `engine` moves the bodies; there must be no objection to it (asserted).
+  /// Every bat of the scene is there from the start, and the scene's scripted keys are submitted.
+  /// `engine` moves the bodies; there must be no objection to it (asserted).
   explicit Game(const Scene& scene, const physics::SimulatorChoice& engine = {});
 
-  /// Another game that goes on from here with the same bits; its engine must be the exact one (asserted).
+  /// Another game that goes on from here with the same bits; its engine must be the exact one
+  /// (asserted).
   Game copy() const { return Game(*this); }
   Game(Game&&) = default;
   Game& operator=(Game&&) = default;
 
-  /// Queues `event` for its own instant, which must be finite and not before now(); its player must have a bat in the scene (both asserted). Keys for a bat that is not there
-  /// at that instant, entering twice and leaving twice have no effect. `enter` puts the bat back at its home or, if that is taken, at the nearest free place, and tries again
-  /// every `placement_retry` seconds when there is none. If inputs or face-offs of now() have been played already, that instant is over, for motion may follow from them: the
-  /// event comes at the next one that a double can tell from it. Answers the event as it was queued, which is what a log must hold.
+  /// Queues `event` for its own instant, which must be finite and not before now(); its player must
+  /// have a bat in the scene (both asserted). Keys for a bat that is not there at that instant,
+  /// entering twice and leaving twice have no effect. `enter` puts the bat back at its home or, if
+  /// that is taken, at the nearest free place, and tries again every `placement_retry` seconds when
+  /// there is none. If inputs or face-offs of now() have been played already, that instant is over,
+  /// for motion may follow from them: the event comes at the next one that a double can tell from
+  /// it. Answers the event as it was queued, which is what a log must hold.
   InputEvent submit(InputEvent event);
 
-  /// Plays up to and including `until` [s], not before now(). Once the match is over bats and pucks still move, but goals count no more and scored pucks stay out.
+  /// Plays up to and including `until` [s], not before now(). Once the match is over bats and pucks
+  /// still move, but goals count no more and scored pucks stay out.
   void advance(double until);
 
   static constexpr double placement_retry = 0.1;  ///< s
@@ -75,29 +84,38 @@ class Game {
   }
   const MatchRules& rules() const { return rules_; }
 
-  /// All that is there now, in order of id. A scored puck is still there, out of play, until its face-off.
+  /// All that is there now, in order of id. A scored puck is still there, out of play, until its
+  /// face-off.
   std::span<const Entity> entities() const { return entities_; }
   bool is_there(EntityId entity) const;
   const Entity& entity(EntityId entity) const;  ///< which must be there
-  Vector2 position(EntityId entity) const { return simulator_->position(entity); }  ///< at now() [m]
-  Vector2 velocity(EntityId entity) const { return simulator_->velocity(entity); }  ///< at now() [m/s]
+  Vector2 position(EntityId entity) const {
+    return simulator_->position(entity);
+  }  ///< at now() [m]
+  Vector2 velocity(EntityId entity) const {
+    return simulator_->velocity(entity);
+  }  ///< at now() [m/s]
 
   /// Bats of the scene, there or not.
   std::uint32_t player_count() const { return static_cast<std::uint32_t>(seats_.size()); }
   std::optional<EntityId> bat(std::uint32_t player) const { return seats_[player].entity; }
   const KeysHeld& keys_held(std::uint32_t player) const { return seats_[player].controller.keys(); }
   /// Key events that `player`'s bat has felt since the start.
-  std::uint32_t input_count(std::uint32_t player) const { return seats_[player].controller.input_count(); }
+  std::uint32_t input_count(std::uint32_t player) const {
+    return seats_[player].controller.input_count();
+  }
 
   const Score& score() const { return score_; }
   bool is_over() const { return is_over_; }
 
-  /// What the last `advance` did, each in the order in which it happened; valid until the next. What was there from the start is in none of them.
+  /// What the last `advance` did, each in the order in which it happened; valid until the next.
+  /// What was there from the start is in none of them.
   std::span<const Entity> spawned() const { return spawned_; }
   std::span<const Entity> removed() const { return removed_; }
   std::span<const ScoredGoal> scored() const { return scored_; }
 
-  /// FNV-1a of the world's hash, the entities, held keys, score and pending face-offs: equal for equal games.
+  /// FNV-1a of the world's hash, the entities, held keys, score and pending face-offs: equal for
+  /// equal games.
   std::uint64_t hash() const;
 
  private:
@@ -132,14 +150,14 @@ class Game {
   double next_instant(double until) const;
 
   std::unique_ptr<physics::Simulator> simulator_;
-  const physics::World* world_;      ///< of the simulator, if exact
+  const physics::World* world_;  ///< of the simulator, if exact
   MatchRules rules_;
   std::vector<Entity> entities_;
   std::vector<Seat> seats_;
   std::vector<QueuedInput> inputs_;  ///< a heap, earliest first
   std::uint64_t submitted_ = 0;
-  double over_ = -1.0;               ///< the last instant of which more than motion has been played [s]
-  std::vector<FaceOff> face_offs_;   ///< ordered by time, then puck
+  double over_ = -1.0;  ///< the last instant of which more than motion has been played [s]
+  std::vector<FaceOff> face_offs_;  ///< ordered by time, then puck
   Score score_;
   bool is_over_ = false;
   std::vector<Entity> spawned_, removed_;

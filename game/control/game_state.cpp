@@ -32,14 +32,16 @@ bool exchange_optional(Stream& stream, std::optional<Value>& value) {
 template <class Stream>
 bool exchange_entity(Stream& stream, Entity& entity) {
   auto& [id, kind, team, half_extent, player] = entity;
-  return stream.number(id.index) && stream.choice(kind, physics::BodyKind::post) && stream.choice(team, Team::none) && stream.numbers(half_extent.x(), half_extent.y()) &&
+  return stream.number(id.index) && stream.choice(kind, physics::BodyKind::post) &&
+         stream.choice(team, Team::none) && stream.numbers(half_extent.x(), half_extent.y()) &&
          exchange_optional(stream, player);
 }
 
 template <class Stream>
 bool exchange_event(Stream& stream, InputEvent& event) {
   auto& [time, player, kind, key] = event;
-  return stream.numbers(time, player) && stream.choice(kind, InputKind::leave) && stream.choice(key, Key::down);
+  return stream.numbers(time, player) && stream.choice(kind, InputKind::leave) &&
+         stream.choice(key, Key::down);
 }
 
 KeysHeld keys_of(std::uint8_t bits) {
@@ -57,14 +59,16 @@ bool exchange_controller(Stream& stream, BatController& controller, double thrus
   return true;
 }
 
-bool exchange_world(physics::SnapshotWriter& writer, std::unique_ptr<physics::Simulator>& simulator) {
+bool exchange_world(physics::SnapshotWriter& writer,
+                    std::unique_ptr<physics::Simulator>& simulator) {
   std::vector<std::uint8_t> world = simulator->exact_world()->save();
   if (!writer.size(world)) return false;
   for (std::uint8_t& byte : world) writer.number(byte);
   return true;
 }
 
-bool exchange_world(physics::SnapshotReader& reader, std::unique_ptr<physics::Simulator>& simulator) {
+bool exchange_world(physics::SnapshotReader& reader,
+                    std::unique_ptr<physics::Simulator>& simulator) {
   std::vector<std::uint8_t> bytes;
   if (!reader.size(bytes)) return false;
   for (std::uint8_t& byte : bytes)
@@ -81,42 +85,64 @@ bool exchange_world(physics::SnapshotReader& reader, std::unique_ptr<physics::Si
 template <class Stream>
 bool GameState::exchange(Stream& stream, Game& game) {
   if (!exchange_world(stream, game.simulator_)) return false;
-  if (!stream.numbers(game.submitted_, game.over_, game.score_.left, game.score_.right) || !stream.truth(game.is_over_)) return false;
-  if (!stream.size(game.entities_) || !stream.size(game.inputs_) || !stream.size(game.face_offs_)) return false;
+  if (!stream.numbers(game.submitted_, game.over_, game.score_.left, game.score_.right) ||
+      !stream.truth(game.is_over_))
+    return false;
+  if (!stream.size(game.entities_) || !stream.size(game.inputs_) || !stream.size(game.face_offs_))
+    return false;
   for (Entity& entity : game.entities_)
     if (!exchange_entity(stream, entity)) return false;
   for (Game::Seat& seat : game.seats_)
-    if (!exchange_controller(stream, seat.controller, seat.bat.thrust) || !exchange_optional(stream, seat.entity)) return false;
+    if (!exchange_controller(stream, seat.controller, seat.bat.thrust) ||
+        !exchange_optional(stream, seat.entity))
+      return false;
   for (Game::QueuedInput& input : game.inputs_)
     if (!exchange_event(stream, input.event) || !stream.number(input.number)) return false;
   for (Game::FaceOff& due : game.face_offs_)
-    if (!stream.numbers(due.time, due.puck.index) || !stream.choice(due.conceding, Team::none)) return false;
+    if (!stream.numbers(due.time, due.puck.index) || !stream.choice(due.conceding, Team::none))
+      return false;
   return true;
 }
 
-/// Whether it can be played: the checksum speaks against damage, this against whoever writes such bytes by hand.
+/// Whether it can be played: the checksum speaks against damage, this against whoever writes such
+/// bytes by hand.
 bool GameState::is_sound(const Game& game) {
   const std::uint32_t bodies = game.simulator_->body_count();
   for (std::size_t i = 0; i < game.entities_.size(); ++i) {
     const Entity& entity = game.entities_[i];
-    if (entity.id.index >= bodies || (i > 0 && !(game.entities_[i - 1].id < entity.id))) return false;
-    if (game.simulator_->kind(entity.id) != entity.kind || entity.player.has_value() != (entity.kind == physics::BodyKind::bat)) return false;
-    if (entity.player && (*entity.player >= game.player_count() || game.seats_[*entity.player].entity != entity.id)) return false;
+    if (entity.id.index >= bodies || (i > 0 && !(game.entities_[i - 1].id < entity.id)))
+      return false;
+    if (game.simulator_->kind(entity.id) != entity.kind ||
+        entity.player.has_value() != (entity.kind == physics::BodyKind::bat))
+      return false;
+    if (entity.player &&
+        (*entity.player >= game.player_count() || game.seats_[*entity.player].entity != entity.id))
+      return false;
   }
   for (std::uint32_t player = 0; player < game.player_count(); ++player) {
     const std::optional<EntityId> bat = game.bat(player);
     if (bat && !(game.is_there(*bat) && game.entity(*bat).player == player)) return false;
   }
   const auto is_due = [&game](double time) { return std::isfinite(time) && time >= game.now(); };
-  return std::ranges::all_of(game.inputs_, [&](const Game::QueuedInput& input) { return is_due(input.event.time) && input.event.player < game.player_count(); }) &&
-         std::ranges::all_of(game.face_offs_, [&](const Game::FaceOff& due) {
-           return is_due(due.time) && due.puck.index < bodies && game.simulator_->kind(due.puck) == physics::BodyKind::puck && !game.simulator_->is_in_play(due.puck);
-         }) &&
-         std::ranges::is_sorted(game.face_offs_, {}, [](const Game::FaceOff& due) { return std::tuple(due.time, due.puck.index); });
+  return std::ranges::all_of(game.inputs_,
+                             [&](const Game::QueuedInput& input) {
+                               return is_due(input.event.time) &&
+                                      input.event.player < game.player_count();
+                             }) &&
+         std::ranges::all_of(game.face_offs_,
+                             [&](const Game::FaceOff& due) {
+                               return is_due(due.time) && due.puck.index < bodies &&
+                                      game.simulator_->kind(due.puck) == physics::BodyKind::puck &&
+                                      !game.simulator_->is_in_play(due.puck);
+                             }) &&
+         std::ranges::is_sorted(game.face_offs_, {}, [](const Game::FaceOff& due) {
+           return std::tuple(due.time, due.puck.index);
+         });
 }
 
 std::vector<std::uint8_t> GameState::save(const Game& game, const Scene& scene) {
-  assert(game.simulator().exact_world() != nullptr && game.player_count() == scene.bodies.bats.size());
+  assert(game.simulator().exact_world() != nullptr &&
+         game.player_count() == scene.bodies.bats.size());
   Game state = game.copy();
   physics::SnapshotWriter writer;
   std::uint64_t kind = magic, of_scene = fingerprint(scene);
@@ -131,13 +157,20 @@ GameState::Restored GameState::restore(std::span<const std::uint8_t> bytes, cons
   physics::SnapshotReader reader(bytes);
   std::uint64_t kind = 0, of_scene = 0;
   std::uint32_t format = 0;
-  if (!physics::SnapshotReader(bytes).number(kind) || kind != magic) return refuse("is no saved game");
+  if (!physics::SnapshotReader(bytes).number(kind) || kind != magic)
+    return refuse("is no saved game");
   if (!reader.is_intact()) return refuse("is damaged: a saved game whose checksum does not fit");
-  if (!reader.numbers(kind, format, of_scene)) return refuse("is damaged: a saved game without a header");
-  if (format != version) return refuse("is a saved game of version " + std::to_string(format) + ", expected version " + std::to_string(version));
-  if (of_scene != fingerprint(scene)) return refuse("was saved in another scene than this; expected the same scene, seed and number of bodies");
+  if (!reader.numbers(kind, format, of_scene))
+    return refuse("is damaged: a saved game without a header");
+  if (format != version)
+    return refuse("is a saved game of version " + std::to_string(format) + ", expected version " +
+                  std::to_string(version));
+  if (of_scene != fingerprint(scene))
+    return refuse(
+        "was saved in another scene than this; expected the same scene, seed and number of bodies");
   Restored restored{Game(scene), ""};
-  if (!exchange(reader, *restored.game) || !reader.is_at_end()) return refuse("is no saved game of this version's world");
+  if (!exchange(reader, *restored.game) || !reader.is_at_end())
+    return refuse("is no saved game of this version's world");
   restored.game->world_ = restored.game->simulator_->exact_world();
   if (!is_sound(*restored.game)) return refuse("is a saved game that contradicts itself");
   return restored;
@@ -145,18 +178,21 @@ GameState::Restored GameState::restore(std::span<const std::uint8_t> bytes, cons
 
 void write_game_state(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
   std::ofstream stream(file, std::ios::binary);
-  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  stream.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
   stream.close();
   if (!stream) throw SceneError(file.string() + ": cannot be written");
 }
 
 std::vector<std::uint8_t> read_game_state(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) throw SceneError(file.string() + ": cannot be read: expected a saved game");
+  if (!stream || std::filesystem::is_directory(file))
+    throw SceneError(file.string() + ": cannot be read: expected a saved game");
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-Game game_in_state(std::span<const std::uint8_t> bytes, const Scene& scene, const std::string& file) {
+Game game_in_state(std::span<const std::uint8_t> bytes, const Scene& scene,
+                   const std::string& file) {
   GameState::Restored restored = GameState::restore(bytes, scene);
   if (!restored.game) throw SceneError(file + ": " + restored.trouble);
   return std::move(*restored.game);

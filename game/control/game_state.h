@@ -12,8 +12,9 @@
 
 namespace rink::game {
 
-/// Saves and restores. The bytes begin with the format's name and version and the scene's fingerprint, and end with a checksum; the world's part is physics::World::save().
-/// Recorded events and what the last `advance` did are an observer's and not among them.
+/// Saves and restores. The bytes begin with the format's name and version and the scene's
+/// fingerprint, and end with a checksum; the world's part is physics::World::save(). Recorded
+/// events and what the last `advance` did are an observer's and not among them.
 class GameState {
  public:
   /// A game, or why there is none.
@@ -22,7 +23,8 @@ class GameState {
     std::string trouble;
   };
 
-  /// Of a game of `scene` on the exact engine (asserted); the same on every machine for the same bits.
+  /// Of a game of `scene` on the exact engine (asserted); the same on every machine for the same
+  /// bits.
   static std::vector<std::uint8_t> save(const Game& game, const Scene& scene);
   static Restored restore(std::span<const std::uint8_t> bytes, const Scene& scene);
 
@@ -36,7 +38,9 @@ class GameState {
 void write_game_state(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 /// The file's bytes. Throws SceneError naming `file` if it cannot be read.
 std::vector<std::uint8_t> read_game_state(const std::filesystem::path& file);
-/// The game that `bytes`, which were read from `file`, hold. Throws SceneError naming `file` if they are damaged, of another version or of another scene than `scene`.
-Game game_in_state(std::span<const std::uint8_t> bytes, const Scene& scene, const std::string& file);
+/// The game that `bytes`, which were read from `file`, hold. Throws SceneError naming `file` if
+/// they are damaged, of another version or of another scene than `scene`.
+Game game_in_state(std::span<const std::uint8_t> bytes, const Scene& scene,
+                   const std::string& file);
 
 }  // namespace rink::game

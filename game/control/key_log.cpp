@@ -1,4 +1,5 @@
-// Writes numbers as the shortest way back to their bits allows, and reads line by line so that an error can name its line.
+// Writes numbers as the shortest way back to their bits allows, and reads line by line so that an
+// error can name its line.
 #include "game/control/key_log.h"
 
 #include <algorithm>
@@ -32,7 +33,8 @@ std::vector<std::string> words_of(const std::string& line) {
 template <class Number, class... Base>
 std::optional<Number> number_of(const std::string& text, Base... base) {
   Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base...);
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), number, base...);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return number;
 }
@@ -42,7 +44,8 @@ std::string printable(const std::string& text) {
   constexpr std::size_t shown_max = 60;
   std::string shown = text.substr(0, shown_max);
   for (char& byte : shown)
-    if (static_cast<unsigned char>(byte) < 0x20 || static_cast<unsigned char>(byte) > 0x7e) byte = '?';
+    if (static_cast<unsigned char>(byte) < 0x20 || static_cast<unsigned char>(byte) > 0x7e)
+      byte = '?';
   return text.size() > shown_max ? shown + "..." : shown;
 }
 
@@ -59,7 +62,10 @@ class LineChecksum {
   ByteHash hash_;
 };
 
-std::string first_line_expected() { return std::string("the line \"") + version_line + "\" or \"" + packed_version_line + "\", with which key logs of this version begin"; }
+std::string first_line_expected() {
+  return std::string("the line \"") + version_line + "\" or \"" + packed_version_line +
+         "\", with which key logs of this version begin";
+}
 
 class Reader {
  public:
@@ -93,11 +99,16 @@ class Reader {
     using Traits = std::istream::traits_type;
     std::streambuf& bytes = *stream_.rdbuf();
     const std::size_t longest = line_number_ == 1 ? version_line_max : line_max;
-    for (auto next = next_byte(bytes); !Traits::eq_int_type(next, Traits::eof()); next = next_byte(bytes)) {
-      if (++size_ > size_max) refuse(line_, "the end of the log within " + std::to_string(size_max) + " bytes");
+    for (auto next = next_byte(bytes); !Traits::eq_int_type(next, Traits::eof());
+         next = next_byte(bytes)) {
+      if (++size_ > size_max)
+        refuse(line_, "the end of the log within " + std::to_string(size_max) + " bytes");
       if (next == '\n') return true;
       line_ += Traits::to_char_type(next);
-      if (line_.size() > longest) refuse(line_, line_number_ == 1 ? first_line_expected() : "a line of at most " + std::to_string(line_max) + " bytes");
+      if (line_.size() > longest)
+        refuse(line_, line_number_ == 1
+                          ? first_line_expected()
+                          : "a line of at most " + std::to_string(line_max) + " bytes");
     }
     return !line_.empty();
   }
@@ -110,7 +121,8 @@ class Reader {
   }
 
   [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
-    throw SceneError(name_ + ":" + std::to_string(line_number_) + ": found \"" + printable(found) + "\", expected " + expected);
+    throw SceneError(name_ + ":" + std::to_string(line_number_) + ": found \"" + printable(found) +
+                     "\", expected " + expected);
   }
 
   template <class Number, class... Base>
@@ -126,7 +138,8 @@ class Reader {
       log_.scene_text += line_.substr(std::min(line_.size(), line_.find('|') + 2)) + '\n';
       return true;
     }
-    constexpr std::array<std::string_view, 8> known{"scene", "seed", "bats", "bat_count", "puck_count", "fingerprint", "until", "hash"};
+    constexpr std::array<std::string_view, 8> known{
+        "scene", "seed", "bats", "bat_count", "puck_count", "fingerprint", "until", "hash"};
     if (std::ranges::find(known, key) == known.end()) return false;
     if (key == "scene") {
       const std::size_t start = line_.find_first_not_of(" \t", line_.find("scene") + 5);
@@ -138,14 +151,17 @@ class Reader {
     if (key == "bats") log_.bats = require<std::uint32_t>(words[1], "a whole number");
     if (key == "bat_count") log_.bat_count = require<std::uint32_t>(words[1], "a whole number");
     if (key == "puck_count") log_.puck_count = require<std::uint32_t>(words[1], "a whole number");
-    if (key == "hash") log_.hash = require<std::uint64_t>(words[1], "up to 16 hexadecimal digits", 16);
+    if (key == "hash")
+      log_.hash = require<std::uint64_t>(words[1], "up to 16 hexadecimal digits", 16);
     if (key == "until") log_.until = time_of(words[1]);
-    if (key == "fingerprint") log_.fingerprint = require<std::uint64_t>(words[1], "up to 16 hexadecimal digits", 16);
+    if (key == "fingerprint")
+      log_.fingerprint = require<std::uint64_t>(words[1], "up to 16 hexadecimal digits", 16);
     return true;
   }
 
   double time_of(const std::string& word) const {
-    const double time = require<double>(word, "scene, seed, bats, fingerprint, until, hash, end, or a time in seconds");
+    const double time = require<double>(
+        word, "scene, seed, bats, fingerprint, until, hash, end, or a time in seconds");
     if (!(time >= 0.0 && time <= key_time_max)) refuse(word, "a time from 0 to 1e9 s");
     return time;
   }
@@ -153,9 +169,11 @@ class Reader {
   void read_end(const std::vector<std::string>& words) {
     if (words.size() != 3) refuse(line_, "end, the number of events and a checksum");
     if (require<std::uint64_t>(words[1], "the number of events") != log_.events.size())
-      refuse(line_, "end " + std::to_string(log_.events.size()) + ", for so many events stand above: lines are missing or were added");
+      refuse(line_, "end " + std::to_string(log_.events.size()) +
+                        ", for so many events stand above: lines are missing or were added");
     if (require<std::uint64_t>(words[2], "a checksum of up to 16 hexadecimal digits", 16) != above_)
-      refuse(words[2], hexadecimal(above_) + ", the checksum of the lines above: one of them was altered");
+      refuse(words[2],
+             hexadecimal(above_) + ", the checksum of the lines above: one of them was altered");
     log_.is_sealed = true;
   }
 
@@ -163,10 +181,13 @@ class Reader {
     if (words.size() < 3) refuse(line_, "time, player, and down, up, enter or leave");
     InputEvent event;
     event.time = time_of(words[0]);
-    if (!log_.events.empty() && event.time < log_.events.back().time) refuse(words[0], "a time not before that of the line above");
+    if (!log_.events.empty() && event.time < log_.events.back().time)
+      refuse(words[0], "a time not before that of the line above");
     event.player = require<std::uint32_t>(words[1], "a player's number, counted from 0");
     event.kind = input_kind(words[2]);
-    if (words.size() != (has_key(event.kind) ? 4u : 3u)) refuse(line_, has_key(event.kind) ? "one key after " + words[2] : "nothing after " + words[2]);
+    if (words.size() != (has_key(event.kind) ? 4u : 3u))
+      refuse(line_,
+             has_key(event.kind) ? "one key after " + words[2] : "nothing after " + words[2]);
     if (has_key(event.kind)) {
       const std::optional<Key> key = key_from_name(words[3]);
       if (!key) refuse(words[3], "left, right, up or down");
@@ -218,7 +239,8 @@ class Writer {
 
  private:
   void write(const InputEvent& event) {
-    std::string text = exact(event.time) + ' ' + std::to_string(event.player) + ' ' + std::string(input_names[static_cast<std::size_t>(event.kind)]);
+    std::string text = exact(event.time) + ' ' + std::to_string(event.player) + ' ' +
+                       std::string(input_names[static_cast<std::size_t>(event.kind)]);
     if (has_key(event.kind)) text += ' ' + std::string(key_name(event.key));
     line(text);
   }
@@ -251,11 +273,14 @@ void write_key_log(const std::filesystem::path& file, const KeyLog& log) {
   if (!stream) throw SceneError(file.string() + ": cannot be written");
 }
 
-KeyLog read_key_log(std::istream& stream, const std::string& name) { return Reader(stream, name).read(); }
+KeyLog read_key_log(std::istream& stream, const std::string& name) {
+  return Reader(stream, name).read();
+}
 
 KeyLog read_key_log(const std::filesystem::path& file) {
   std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file)) throw SceneError(file.string() + ": cannot be read: expected a key log");
+  if (!stream || std::filesystem::is_directory(file))
+    throw SceneError(file.string() + ": cannot be read: expected a key log");
   return read_key_log(stream, file.string());
 }
 
@@ -263,10 +288,14 @@ void require_fit(const KeyLog& log, const Scene& scene, const std::string& file)
   const std::size_t bats = scene.bodies.bats.size();
   for (const InputEvent& event : log.events)
     if (event.player >= bats)
-      throw SceneError(file + ": has keys of player " + std::to_string(event.player) + ", but the scene " + scene.name + " has " + std::to_string(bats) + " bats, counted from 0");
+      throw SceneError(file + ": has keys of player " + std::to_string(event.player) +
+                       ", but the scene " + scene.name + " has " + std::to_string(bats) +
+                       " bats, counted from 0");
   if (log.fingerprint && *log.fingerprint != fingerprint(scene))
-    throw SceneError(file + ": was recorded in another scene than this (scene " + log.scene + ", seed " + std::to_string(log.seed) +
-                     (log.bats ? ", " + std::to_string(*log.bats) + " bats" : "") + "); expected the same scene, seed and number of bats");
+    throw SceneError(file + ": was recorded in another scene than this (scene " + log.scene +
+                     ", seed " + std::to_string(log.seed) +
+                     (log.bats ? ", " + std::to_string(*log.bats) + " bats" : "") +
+                     "); expected the same scene, seed and number of bats");
 }
 
 }  // namespace rink::game

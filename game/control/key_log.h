@@ -15,20 +15,24 @@ namespace rink::game {
 /// The greatest instant of an event [s], as in scenes (docs/scenes.md, "Limits").
 inline constexpr double key_time_max = 1e9;
 
-/// Which game was played and how: packed (key_log_packed.h) of matches, else text: a line `rink-keys 1`, one line each for scene, seed and, if known, bats, fingerprint, until, hash, the
-/// scene's own text behind bars, then one line per event: time with 17 significant digits, which read back to the same bits, player, what (down, up, enter, leave) and, for
-/// down and up, the key. The last line, `end`, has the number of events and a checksum of all lines above.
+/// Which game was played and how: packed (key_log_packed.h) of matches, else text: a line
+/// `rink-keys 1`, one line each for scene, seed and, if known, bats, fingerprint, until, hash, the
+/// scene's own text behind bars, then one line per event: time with 17 significant digits, which
+/// read back to the same bits, player, what (down, up, enter, leave) and, for down and up, the key.
+/// The last line, `end`, has the number of events and a checksum of all lines above.
 struct KeyLog {
-  std::string scene;                         ///< as given to load_scene
+  std::string scene;  ///< as given to load_scene
   std::uint64_t seed = 1;
-  std::optional<std::uint32_t> bats;         ///< of the scaled scene
-  std::optional<std::uint32_t> bat_count{}, puck_count{};  ///< of a scene with so many on the same field (with_count)
+  std::optional<std::uint32_t> bats;  ///< of the scaled scene
+  std::optional<std::uint32_t> bat_count{},
+      puck_count{};  ///< of a scene with so many on the same field (with_count)
   std::optional<std::uint64_t> fingerprint;  ///< of the scene
   std::optional<double> until;               ///< how far it was played [s]
   std::optional<std::uint64_t> hash;         ///< of the game at `until`, on the exact engine
-  std::string scene_text;                    ///< the scene's file, so that the log needs no other; may be empty
-  bool is_sealed = false;                    ///< has its last line, so nothing is missing
-  std::vector<InputEvent> events;            ///< ordered by time; events of one instant in the order in which they are to be submitted
+  std::string scene_text;  ///< the scene's file, so that the log needs no other; may be empty
+  bool is_sealed = false;  ///< has its last line, so nothing is missing
+  std::vector<InputEvent> events;  ///< ordered by time; events of one instant in the order in which
+                                   ///< they are to be submitted
   friend bool operator==(const KeyLog&, const KeyLog&) = default;
 };
 
@@ -40,12 +44,14 @@ void write_key_log(std::ostream& stream, const KeyLog& log);
 /// Throws SceneError if the file cannot be written.
 void write_key_log(const std::filesystem::path& file, const KeyLog& log);
 
-/// Reads text and packed logs. Throws SceneError naming file, line, what stands there and what was expected.
+/// Reads text and packed logs. Throws SceneError naming file, line, what stands there and what was
+/// expected.
 KeyLog read_key_log(const std::filesystem::path& file);
 /// As above; `name` is named in errors.
 KeyLog read_key_log(std::istream& stream, const std::string& name);
 
-/// Throws SceneError, naming `file`, if `log` has players that `scene` has no bats for, or was recorded in another scene.
+/// Throws SceneError, naming `file`, if `log` has players that `scene` has no bats for, or was
+/// recorded in another scene.
 void require_fit(const KeyLog& log, const Scene& scene, const std::string& file);
 
 }  // namespace rink::game

@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::uint64_t packed_size_max = 1u << 28;  // bytes: a crowd's keys of some days
 constexpr double millisecond = 1e-3;
-constexpr std::int64_t ulps_max = 127;       // so far is what a player's arithmetic makes of a whole millisecond
+constexpr std::int64_t ulps_max =
+    127;  // so far is what a player's arithmetic makes of a whole millisecond
 
 /// How an event's time is told.
 enum class TimeForm : std::uint8_t { on_grid, near_millisecond, in_full };
@@ -31,7 +32,9 @@ constexpr unsigned player_bits = 2, player_elsewhere = (1u << player_bits) - 1;
 std::int64_t bits_of(double time) { return std::bit_cast<std::int64_t>(time); }
 
 /// Where a time is among the multiples of a step, and what its event adds to that.
-std::uint64_t steps_of(double time, double step) { return static_cast<std::uint64_t>(std::floor(time / step)); }
+std::uint64_t steps_of(double time, double step) {
+  return static_cast<std::uint64_t>(std::floor(time / step));
+}
 
 class PackedWriter {
  public:
@@ -59,7 +62,9 @@ class PackedWriter {
 
 std::uint8_t parts_of(const KeyLog& log) {
   std::uint8_t parts = 0;
-  const auto add = [&](Part part, bool is_there) { parts = static_cast<std::uint8_t>(parts | (is_there ? 1u << static_cast<unsigned>(part) : 0u)); };
+  const auto add = [&](Part part, bool is_there) {
+    parts = static_cast<std::uint8_t>(parts | (is_there ? 1u << static_cast<unsigned>(part) : 0u));
+  };
   add(Part::bats, log.bats.has_value());
   add(Part::bat_count, log.bat_count.has_value());
   add(Part::puck_count, log.puck_count.has_value());
@@ -71,15 +76,21 @@ std::uint8_t parts_of(const KeyLog& log) {
 
 void write_event(PackedWriter& out, const InputEvent& event, double before) {
   const bool is_on_grid = next_on(key_grid, event.time) == event.time;
-  const auto milliseconds = static_cast<std::uint64_t>(std::round(event.time / millisecond)), milliseconds_before = steps_of(before, millisecond);
-  const std::int64_t ulps = bits_of(event.time) - bits_of(static_cast<double>(milliseconds) * millisecond);
+  const auto milliseconds = static_cast<std::uint64_t>(std::round(event.time / millisecond)),
+             milliseconds_before = steps_of(before, millisecond);
+  const std::int64_t ulps =
+      bits_of(event.time) - bits_of(static_cast<double>(milliseconds) * millisecond);
   const bool is_near = milliseconds >= milliseconds_before && std::abs(ulps) <= ulps_max;
-  const TimeForm form = is_on_grid ? TimeForm::on_grid : is_near ? TimeForm::near_millisecond : TimeForm::in_full;
+  const TimeForm form = is_on_grid ? TimeForm::on_grid
+                        : is_near  ? TimeForm::near_millisecond
+                                   : TimeForm::in_full;
   const unsigned player = std::min<unsigned>(event.player, player_elsewhere);
-  out.byte(static_cast<unsigned>(event.kind) | static_cast<unsigned>(event.key) << 2 | static_cast<unsigned>(form) << 4 | player << 6);
+  out.byte(static_cast<unsigned>(event.kind) | static_cast<unsigned>(event.key) << 2 |
+           static_cast<unsigned>(form) << 4 | player << 6);
   if (player == player_elsewhere) out.varint(event.player);
   if (form == TimeForm::in_full) out.whole(event.time);
-  if (form == TimeForm::on_grid) out.varint(steps_of(event.time, key_grid) - steps_of(before, key_grid));
+  if (form == TimeForm::on_grid)
+    out.varint(steps_of(event.time, key_grid) - steps_of(before, key_grid));
   if (form != TimeForm::near_millisecond) return;
   out.varint(milliseconds - milliseconds_before);
   out.byte(static_cast<unsigned char>(ulps));
@@ -113,7 +124,9 @@ class PackedReader {
   KeyLog read() {
     KeyLog log;
     const unsigned parts = byte();
-    const auto has = [parts](Part part) { return (parts >> static_cast<unsigned>(part) & 1u) != 0; };
+    const auto has = [parts](Part part) {
+      return (parts >> static_cast<unsigned>(part) & 1u) != 0;
+    };
     log.scene = text();
     log.seed = varint();
     if (has(Part::bats)) log.bats = small();
@@ -124,14 +137,17 @@ class PackedReader {
     if (has(Part::hash)) log.hash = whole<std::uint64_t>();
     log.scene_text = text();
     const std::uint64_t count = varint();
-    for (std::uint64_t number = 0; number < count; ++number) log.events.push_back(event(log.events.empty() ? 0.0 : log.events.back().time));
+    for (std::uint64_t number = 0; number < count; ++number)
+      log.events.push_back(event(log.events.empty() ? 0.0 : log.events.back().time));
     if (!bytes_.empty()) refuse("has bytes after its last key");
     log.is_sealed = true;
     return log;
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& what) const { throw SceneError(name_ + ": " + what + "; expected a record as this version of Rink writes it"); }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw SceneError(name_ + ": " + what + "; expected a record as this version of Rink writes it");
+  }
 
   std::string_view take(std::uint64_t size) {
     if (size > bytes_.size()) refuse("ends in the middle of a value");
@@ -169,7 +185,10 @@ class PackedReader {
 
   InputEvent event(double before) {
     const unsigned first = byte();
-    InputEvent event{.time = 0.0, .player = first >> 6, .kind = static_cast<InputKind>(first & 3u), .key = static_cast<Key>(first >> 2 & 3u)};
+    InputEvent event{.time = 0.0,
+                     .player = first >> 6,
+                     .kind = static_cast<InputKind>(first & 3u),
+                     .key = static_cast<Key>(first >> 2 & 3u)};
     if (event.player == player_elsewhere) event.player = small();
     event.time = checked(time(static_cast<TimeForm>(first >> 4 & 3u), before));
     if (event.time < before) refuse("has a key before the one that stands above it");
@@ -178,9 +197,11 @@ class PackedReader {
 
   double time(TimeForm form, double before) {
     if (form == TimeForm::in_full) return whole<double>();
-    if (form == TimeForm::on_grid) return static_cast<double>(steps_of(before, key_grid) + varint()) * key_grid;
+    if (form == TimeForm::on_grid)
+      return static_cast<double>(steps_of(before, key_grid) + varint()) * key_grid;
     if (form != TimeForm::near_millisecond) refuse("has a time in no known form");
-    const double near = checked(static_cast<double>(steps_of(before, millisecond) + varint()) * millisecond);
+    const double near =
+        checked(static_cast<double>(steps_of(before, millisecond) + varint()) * millisecond);
     const auto ulps = static_cast<std::int8_t>(byte());
     return near == 0.0 && ulps < 0 ? -1.0 : std::bit_cast<double>(bits_of(near) + ulps);
   }
@@ -189,7 +210,8 @@ class PackedReader {
   const std::string& name_;
 };
 
-/// At most `size` bytes, as many as there are; a piece at a time, since the size was told by a stranger.
+/// At most `size` bytes, as many as there are; a piece at a time, since the size was told by a
+/// stranger.
 std::string read_up_to(std::istream& stream, std::uint64_t size) {
   constexpr std::uint64_t piece = 1u << 16;
   std::string bytes;
@@ -220,7 +242,8 @@ void write_packed_key_log(const std::filesystem::path& file, const KeyLog& log) 
   stream.close();
   if (stream) return;
   std::error_code error;
-  if (is_open && std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);
+  if (is_open && std::filesystem::is_regular_file(file, error))
+    std::filesystem::remove(file, error);
   throw SceneError(file.string() + ": cannot be written" + (is_open ? ": is there room?" : ""));
 }
 
@@ -229,11 +252,16 @@ KeyLog read_packed_key_log(std::istream& stream, const std::string& name) {
   std::array<std::uint64_t, 2> numbers{};  // checksum, size
   if (head.size() < sizeof numbers) throw SceneError(name + ": is cut off after its first line");
   std::memcpy(numbers.data(), head.data(), sizeof numbers);
-  if (numbers[1] > packed_size_max) throw SceneError(name + ": was altered: it says that it is " + std::to_string(numbers[1]) + " bytes long, allowed are " + std::to_string(packed_size_max));
+  if (numbers[1] > packed_size_max)
+    throw SceneError(name + ": was altered: it says that it is " + std::to_string(numbers[1]) +
+                     " bytes long, allowed are " + std::to_string(packed_size_max));
   const std::string bytes = read_up_to(stream, numbers[1] + 1);
-  if (bytes.size() < numbers[1]) throw SceneError(name + ": is cut off: " + std::to_string(bytes.size()) + " of " + std::to_string(numbers[1]) + " bytes are there");
+  if (bytes.size() < numbers[1])
+    throw SceneError(name + ": is cut off: " + std::to_string(bytes.size()) + " of " +
+                     std::to_string(numbers[1]) + " bytes are there");
   if (bytes.size() > numbers[1]) throw SceneError(name + ": was altered: it goes on after its end");
-  if (hash_of(bytes) != numbers[0]) throw SceneError(name + ": was altered: its checksum is another");
+  if (hash_of(bytes) != numbers[0])
+    throw SceneError(name + ": was altered: its checksum is another");
   return PackedReader(bytes, name).read();
 }
 

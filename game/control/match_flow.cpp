@@ -7,17 +7,22 @@
 namespace rink::game {
 
 double simulated_at(const MatchState& state, double real_s) {
-  if (state.phase == MatchPhase::playing) return state.clock_simulated_s + std::max(0.0, real_s - state.clock_real_s);
-  if (state.phase == MatchPhase::countdown) return state.clock_simulated_s + std::max(0.0, real_s - state.until_s);
+  if (state.phase == MatchPhase::playing)
+    return state.clock_simulated_s + std::max(0.0, real_s - state.clock_real_s);
+  if (state.phase == MatchPhase::countdown)
+    return state.clock_simulated_s + std::max(0.0, real_s - state.until_s);
   return state.clock_simulated_s;
 }
 
 std::optional<std::string> match_objection(const Scene& scene) {
   const std::vector<Bat>& bats = scene.bodies.bats;
-  if (!scene.populations.empty()) return "it has populations, but a match has only bodies that are placed one by one";
-  if (bats.size() != 2 || bats[0].team != Team::left || bats[1].team != Team::right) return "a match has two bats, first that of the team left, then that of the team right";
+  if (!scene.populations.empty())
+    return "it has populations, but a match has only bodies that are placed one by one";
+  if (bats.size() != 2 || bats[0].team != Team::left || bats[1].team != Team::right)
+    return "a match has two bats, first that of the team left, then that of the team right";
   if (!scene.rules.goals_to_win) return "[match] goals_to_win is missing, so nobody could win";
-  if (scene.world.field.goal_width == 0.0 || scene.bodies.pucks.empty()) return "a match needs goals and a puck";
+  if (scene.world.field.goal_width == 0.0 || scene.bodies.pucks.empty())
+    return "a match needs goals and a puck";
   return std::nullopt;
 }
 

@@ -1,4 +1,5 @@
-// How two players get from one match to the next: countdown, pause, who is away, win, rematch. Runs on real time; the game itself stands still unless `runs()`.
+// How two players get from one match to the next: countdown, pause, who is away, win, rematch. Runs
+// on real time; the game itself stands still unless `runs()`.
 #pragma once
 
 #include <array>
@@ -24,17 +25,21 @@ inline constexpr std::uint8_t match_phase_max = static_cast<std::uint8_t>(MatchP
 
 /// What all who play or watch know of a match, besides the game.
 struct MatchState {
-  std::uint32_t number = 0;             ///< of the match, from 1; 0 before the first
+  std::uint32_t number = 0;  ///< of the match, from 1; 0 before the first
   MatchPhase phase = MatchPhase::waiting;
-  double until_s = 0.0;                 ///< when countdown or patience with who is away end [s, real time]
-  double clock_real_s = 0.0, clock_simulated_s = 0.0;  ///< it was this simulated instant at this real time; while playing, both go on from there [s]
+  double until_s = 0.0;  ///< when countdown or patience with who is away end [s, real time]
+  double clock_real_s = 0.0,
+         clock_simulated_s = 0.0;       ///< it was this simulated instant at this real time; while
+                                        ///< playing, both go on from there [s]
   std::array<bool, 2> wants_rematch{};  ///< by player
   std::optional<Team> winner;           ///< once it is over
-  bool is_unrecorded = false;           ///< what was played last could not be recorded; the host's to say, no rule depends on it
+  bool is_unrecorded = false;  ///< what was played last could not be recorded; the host's to say,
+                               ///< no rule depends on it
   friend bool operator==(const MatchState&, const MatchState&) = default;
 };
 
-/// The simulated instant [s] at real time `real_s`, as far as `state` tells; the end of a countdown is foreseen.
+/// The simulated instant [s] at real time `real_s`, as far as `state` tells; the end of a countdown
+/// is foreseen.
 double simulated_at(const MatchState& state, double real_s);
 
 /// Why `scene` is not one for a match of two with a winner; nothing if it is.
@@ -46,7 +51,8 @@ struct FlowTimes {
   double patience_s = 30.0;  ///< with a player who is away
 };
 
-/// The rules around a match of two. Pure: every call is told the real time [s], which never falls. Player 0 is on the left.
+/// The rules around a match of two. Pure: every call is told the real time [s], which never falls.
+/// Player 0 is on the left.
 class MatchFlow {
  public:
   explicit MatchFlow(const FlowTimes& times = {}) : times_(times) {}

@@ -11,11 +11,14 @@ namespace rink::game {
 void MatchRecords::require_writable() const {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
-  if (error) throw SceneError(folder_.string() + ": this folder for records of matches cannot be made: " + error.message());
+  if (error)
+    throw SceneError(folder_.string() +
+                     ": this folder for records of matches cannot be made: " + error.message());
   const std::filesystem::path attempt = folder_ / ".match";
   const bool is_writable = static_cast<bool>(std::ofstream(attempt));
   std::filesystem::remove(attempt, error);
-  if (!is_writable) throw SceneError(folder_.string() + ": records of matches cannot be written to this folder");
+  if (!is_writable)
+    throw SceneError(folder_.string() + ": records of matches cannot be written to this folder");
 }
 
 std::filesystem::path MatchRecords::write(const KeyLog& log) {

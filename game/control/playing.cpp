@@ -1,4 +1,5 @@
-// Advances the game from one decision to the next; where a game stops on the way changes nothing in it.
+// Advances the game from one decision to the next; where a game stops on the way changes nothing in
+// it.
 #include "game/control/playing.h"
 
 #include <algorithm>
@@ -12,11 +13,14 @@
 namespace rink::game {
 namespace {
 
-bool is_earlier(const InputEvent& a, const InputEvent& b) { return std::tuple(a.time, a.player) < std::tuple(b.time, b.player); }
+bool is_earlier(const InputEvent& a, const InputEvent& b) {
+  return std::tuple(a.time, a.player) < std::tuple(b.time, b.player);
+}
 
 }  // namespace
 
-Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed, double until, const physics::SimulatorChoice& engine)
+Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed,
+                 double until, const physics::SimulatorChoice& engine)
     : game_(scene, engine) {
   assert(!kinds.empty());
   for (std::uint32_t number = 0; number < game_.player_count(); ++number) {
@@ -29,11 +33,16 @@ Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std:
     if (kind == hand) continue;
     const Bat& bat = scene.bodies.bats[number];
     const PlayerSeat seat{.number = number, .team = bat.team, .half_extent = bat.body.half_extent};
-    seats_.push_back({number, decision_phase(number), make_player(kind, rules_of(scene, number), seat, seed), {}, {}});
+    seats_.push_back({number,
+                      decision_phase(number),
+                      make_player(kind, rules_of(scene, number), seat, seed),
+                      {},
+                      {}});
   }
   std::stable_sort(planned_.begin(), planned_.end(), is_earlier);
   for (const InputEvent& event : planned_) game_.submit(event);
-  std::stable_sort(seats_.begin(), seats_.end(), [](const Seat& a, const Seat& b) { return a.phase < b.phase; });
+  std::stable_sort(seats_.begin(), seats_.end(),
+                   [](const Seat& a, const Seat& b) { return a.phase < b.phase; });
 }
 
 void Playing::record_events(bool is_wanted) {
@@ -43,16 +52,20 @@ void Playing::record_events(bool is_wanted) {
 
 void Playing::play_until(double instant) {
   game_.advance(instant);
-  if (records_events_) happened_.insert(happened_.end(), game_.events().begin(), game_.events().end());
+  if (records_events_)
+    happened_.insert(happened_.end(), game_.events().begin(), game_.events().end());
 }
 
 void Playing::advance(double until) {
   happened_.clear();
   for (; !seats_.empty(); ++turn_) {
     Seat& seat = seats_[turn_ % seats_.size()];
-    const double instant = static_cast<double>(turn_ / seats_.size()) * decision_period + seat.phase;
+    const double instant =
+        static_cast<double>(turn_ / seats_.size()) * decision_period + seat.phase;
     if (instant > until) break;
-    if (game_.now() < instant) play_until(instant);  // those who decide at one instant see the same and press together, as they will when the log is played
+    if (game_.now() < instant)
+      play_until(instant);  // those who decide at one instant see the same and press together, as
+                            // they will when the log is played
     decide(seat, instant);
   }
   play_until(until);
@@ -67,36 +80,48 @@ void Playing::decide(Seat& seat, double instant) {
   for (const auto& watched : seat.watched.found()) {
     const EntityId puck = watched.thing;
     if (!game_.simulator().is_in_play(puck)) continue;
-    seen_.push_back({.id = puck.index, .kind = physics::BodyKind::puck, .position = game_.position(puck), .velocity = game_.velocity(puck), .half_extent = game_.simulator().half_extent(puck)});
+    seen_.push_back({.id = puck.index,
+                     .kind = physics::BodyKind::puck,
+                     .position = game_.position(puck),
+                     .velocity = game_.velocity(puck),
+                     .half_extent = game_.simulator().half_extent(puck)});
   }
-  press(seat, seat.player->decide({.position = position, .velocity = game_.velocity(*bat), .pucks = seen_}, instant), instant);
+  press(seat,
+        seat.player->decide(
+            {.position = position, .velocity = game_.velocity(*bat), .pucks = seen_}, instant),
+        instant);
 }
 
-/// To choose by, positions up to a decision old will do; finding them anew for every player would take three quarters of all the work.
+/// To choose by, positions up to a decision old will do; finding them anew for every player would
+/// take three quarters of all the work.
 void Playing::look_about(Seat& seat, const Vector2& from, double instant) {
   seat.watched.clear(seat.player->pucks_wanted());
   if (seat.player->pucks_wanted() == 0) return;
   if (located_s_ < 0.0 || instant - located_s_ >= decision_period) locate_pucks(instant);
-  for (const Located& located : located_) seat.watched.show(located.puck, (located.position - from).squaredNorm());
+  for (const Located& located : located_)
+    seat.watched.show(located.puck, (located.position - from).squaredNorm());
 }
 
 void Playing::locate_pucks(double instant) {
   located_.clear();
   located_s_ = instant;
   for (const Entity& entity : game_.entities())
-    if (entity.kind == physics::BodyKind::puck && game_.simulator().is_in_play(entity.id)) located_.push_back({entity.id, game_.position(entity.id)});
+    if (entity.kind == physics::BodyKind::puck && game_.simulator().is_in_play(entity.id))
+      located_.push_back({entity.id, game_.position(entity.id)});
 }
 
 void Playing::press(Seat& seat, KeysHeld wanted, double instant) {
   for (const Key key : all_keys) {
     if (wanted.is_down(key) == seat.held.is_down(key)) continue;
-    submit({instant, seat.number, wanted.is_down(key) ? InputKind::key_down : InputKind::key_up, key});
+    submit(
+        {instant, seat.number, wanted.is_down(key) ? InputKind::key_down : InputKind::key_up, key});
   }
   seat.held = wanted;
 }
 
 void Playing::press(std::uint32_t player, Key key, bool is_down) {
-  assert(std::ranges::none_of(seats_, [player](const Seat& seat) { return seat.number == player; }));
+  assert(
+      std::ranges::none_of(seats_, [player](const Seat& seat) { return seat.number == player; }));
   submit({game_.now(), player, is_down ? InputKind::key_down : InputKind::key_up, key});
 }
 
@@ -107,7 +132,8 @@ void Playing::submit(const InputEvent& event) {
 
 std::vector<InputEvent> Playing::keys() const {
   std::vector<InputEvent> all;
-  std::merge(planned_.begin(), planned_.end(), decided_.begin(), decided_.end(), std::back_inserter(all), is_earlier);
+  std::merge(planned_.begin(), planned_.end(), decided_.begin(), decided_.end(),
+             std::back_inserter(all), is_earlier);
   std::erase_if(all, [this](const InputEvent& event) { return event.time > game_.now(); });
   return all;
 }

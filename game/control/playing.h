@@ -11,21 +11,26 @@
 
 namespace rink::game {
 
-/// A game and a player for each of its bats. Everybody decides on the true state every decision_period, each at a phase of its own; keys take effect at that very
-/// instant. The same arguments give the same events, and submitting these to a Game of the same scene gives the same game, bit for bit.
+/// A game and a player for each of its bats. Everybody decides on the true state every
+/// decision_period, each at a phase of its own; keys take effect at that very instant. The same
+/// arguments give the same events, and submitting these to a Game of the same scene gives the same
+/// game, bit for bit.
 class Playing {
  public:
   /// The kind of a bat that nobody decides for: whoever calls press() plays it.
   static constexpr const char* hand = "hand";
 
-  /// `kinds`, at least one: bat k is played by kind k modulo their number, each `hand`, "random" or one of player_kinds() (asserted). `until`: how long random players are
-  /// to press keys [s]. `engine`: what moves the bodies.
-  Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed, double until, const physics::SimulatorChoice& engine = {});
+  /// `kinds`, at least one: bat k is played by kind k modulo their number, each `hand`, "random" or
+  /// one of player_kinds() (asserted). `until`: how long random players are to press keys [s].
+  /// `engine`: what moves the bodies.
+  Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed,
+          double until, const physics::SimulatorChoice& engine = {});
 
   /// Plays up to and including `until` [s].
   void advance(double until);
 
-  /// A key of `player`, whose kind is `hand` (asserted), at now(), or right after it if others have pressed theirs then.
+  /// A key of `player`, whose kind is `hand` (asserted), at now(), or right after it if others have
+  /// pressed theirs then.
   void press(std::uint32_t player, Key key, bool is_down);
 
   const Game& game() const { return game_; }

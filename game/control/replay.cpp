@@ -18,16 +18,21 @@ void require_complete(const KeyLog& log, const std::string& file) {
   need(log.until.has_value(), "until (how far the game was played)");
   need(log.hash.has_value(), "hash (in which it ended)");
   need(log.is_sealed, "its last line, end (it was cut off or written by hand)");
-  if (!missing.empty()) throw SceneError(file + ": cannot be replayed, for it lacks " + missing + "; rink simulate --record and rink serve --record write complete logs");
+  if (!missing.empty())
+    throw SceneError(file + ": cannot be replayed, for it lacks " + missing +
+                     "; rink simulate --record and rink serve --record write complete logs");
 }
 
 Scene recorded_scene(const KeyLog& log, const std::string& file) {
-  Scene scene = log.scene_text.empty() ? load_scene(log.scene) : parse_scene(log.scene_text, file + " (its scene)");
+  Scene scene = log.scene_text.empty() ? load_scene(log.scene)
+                                       : parse_scene(log.scene_text, file + " (its scene)");
   scene.name = log.scene;
   if (scene.seed != log.seed) scene = with_seed(std::move(scene), log.seed);
   if (log.bat_count) scene = with_count(std::move(scene), physics::BodyKind::bat, *log.bat_count);
-  if (log.puck_count) scene = with_count(std::move(scene), physics::BodyKind::puck, *log.puck_count);
-  if (log.bats && *log.bats != scene.bodies.bats.size()) scene = scaled_to_bats(std::move(scene), *log.bats);
+  if (log.puck_count)
+    scene = with_count(std::move(scene), physics::BodyKind::puck, *log.puck_count);
+  if (log.bats && *log.bats != scene.bodies.bats.size())
+    scene = scaled_to_bats(std::move(scene), *log.bats);
   require_fit(log, scene, file);
   return scene;
 }
@@ -40,18 +45,21 @@ std::uint64_t replay(const KeyLog& log, const Scene& scene) {
   return game.hash();
 }
 
-KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text, std::vector<InputEvent> events) {
+KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text,
+              std::vector<InputEvent> events) {
   KeyLog log = key_log_for(scene);
   log.scene_text = std::move(scene_text);
   log.until = game.now();
   log.hash = game.hash();
   log.events = std::move(events);
   std::erase_if(log.events, [&](const InputEvent& event) { return event.time > game.now(); });
-  std::stable_sort(log.events.begin(), log.events.end(), [](const InputEvent& a, const InputEvent& b) { return a.time < b.time; });
+  std::stable_sort(log.events.begin(), log.events.end(),
+                   [](const InputEvent& a, const InputEvent& b) { return a.time < b.time; });
   return log;
 }
 
-Replay::Replay(KeyLog log, Scene scene) : log_(std::move(log)), scene_(std::move(scene)), game_(scene_) {
+Replay::Replay(KeyLog log, Scene scene)
+    : log_(std::move(log)), scene_(std::move(scene)), game_(scene_) {
   assert(log_.until && log_.hash);
   for (const InputEvent& event : log_.events) game_.submit(event);
   kept_.push_back(game_.copy());
@@ -66,7 +74,8 @@ void Replay::seek(double instant) {
 
 /// Where a game stops on the way changes nothing in it.
 void Replay::play(double until) {
-  for (double stop = kept_every * static_cast<double>(kept_.size()); stop <= until; stop += kept_every) {
+  for (double stop = kept_every * static_cast<double>(kept_.size()); stop <= until;
+       stop += kept_every) {
     game_.advance(stop);
     kept_.push_back(game_.copy());
   }

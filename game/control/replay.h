@@ -11,20 +11,25 @@
 
 namespace rink::game {
 
-/// Throws SceneError, naming `file` and all that is missing, unless the log tells how far the game was played, in which hash it ended, and has its last line.
+/// Throws SceneError, naming `file` and all that is missing, unless the log tells how far the game
+/// was played, in which hash it ended, and has its last line.
 void require_complete(const KeyLog& log, const std::string& file);
 
-/// The scene that was played: from the log's own text, or by its name if it has none; with the log's seed and number of bats. Throws SceneError, naming `file`, if there is
-/// no such scene, or it is another than the one that was recorded.
+/// The scene that was played: from the log's own text, or by its name if it has none; with the
+/// log's seed and number of bats. Throws SceneError, naming `file`, if there is no such scene, or
+/// it is another than the one that was recorded.
 Scene recorded_scene(const KeyLog& log, const std::string& file);
 
 /// The hash of the game at the end of a complete log (asserted), played in `scene`.
 std::uint64_t replay(const KeyLog& log, const Scene& scene);
 
-/// The complete log of `game`, played in `scene` with `events`, which may hold some that are still to come; these are left out.
-KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text, std::vector<InputEvent> events);
+/// The complete log of `game`, played in `scene` with `events`, which may hold some that are still
+/// to come; these are left out.
+KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text,
+              std::vector<InputEvent> events);
 
-/// A recorded game that can be looked at in any order. Going back costs no more than going forward: what was played is kept every few seconds.
+/// A recorded game that can be looked at in any order. Going back costs no more than going forward:
+/// what was played is kept every few seconds.
 class Replay {
  public:
   static constexpr double kept_every = 5.0;  ///< simulated seconds
@@ -38,7 +43,8 @@ class Replay {
   const Scene& scene() const { return scene_; }
   const KeyLog& log() const { return log_; }
 
-  /// Goes to `instant` [s], or to the nearest there is. The game is the same, bit for bit, however one gets there.
+  /// Goes to `instant` [s], or to the nearest there is. The game is the same, bit for bit, however
+  /// one gets there.
   void seek(double instant);
   /// Whether the game was at its end in the state that was recorded; nothing before it was there.
   std::optional<bool> is_as_recorded() const { return is_as_recorded_; }
@@ -49,7 +55,8 @@ class Replay {
   KeyLog log_;
   Scene scene_;
   Game game_;
-  std::vector<Game> kept_;  ///< the game at 0, kept_every, 2 kept_every and so on, as far as it was played
+  std::vector<Game>
+      kept_;  ///< the game at 0, kept_every, 2 kept_every and so on, as far as it was played
   std::optional<bool> is_as_recorded_;
 };
 

@@ -15,7 +15,9 @@ inline CLI::Validator seed_number() {
       [](const std::string& text) -> std::string {
         std::uint64_t value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        return error == std::errc() && end == text.data() + text.size() ? "" : text + " is not a whole number from 0 to 18446744073709551615";
+        return error == std::errc() && end == text.data() + text.size()
+                   ? ""
+                   : text + " is not a whole number from 0 to 18446744073709551615";
       },
       "");
 }

@@ -44,7 +44,8 @@ game::Scene scene_of(const Options& options) {
   return scene;
 }
 
-std::vector<game::InputEvent> submit_keys(game::Game& game, const game::Scene& scene, const std::string& file) {
+std::vector<game::InputEvent> submit_keys(game::Game& game, const game::Scene& scene,
+                                          const std::string& file) {
   if (file.empty()) return {};
   const game::KeyLog log = game::read_key_log(std::filesystem::path(file));
   game::require_fit(log, scene, file);
@@ -69,17 +70,24 @@ void close(std::ofstream& stream, const std::string& file) {
 
 /// Where results go. All files are open before the first step.
 struct Outputs {
-  explicit Outputs(const Options& options) : states(opened(options.states)), events(opened(options.events)), summary(opened(options.summary)), record(opened(options.record)) {}
+  explicit Outputs(const Options& options)
+      : states(opened(options.states)),
+        events(opened(options.events)),
+        summary(opened(options.summary)),
+        record(opened(options.record)) {}
   std::ofstream states, events, summary, record;
 };
 
-/// Goes in strides of about a tenth of a second, so that progress is told and events are written as they come. Where a game stops on the way changes nothing in it.
-/// `played` is a Game or a Playing, `game` the game itself. Answers how long it took [s].
+/// Goes in strides of about a tenth of a second, so that progress is told and events are written as
+/// they come. Where a game stops on the way changes nothing in it. `played` is a Game or a Playing,
+/// `game` the game itself. Answers how long it took [s].
 template <class Played>
 double play(Played& played, const game::Game& game, const Options& options, std::ofstream& events) {
   constexpr double stride_least_s = 0.05, stride_most_s = 0.2;
   const auto start = std::chrono::steady_clock::now();
-  const auto passed_s = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const auto passed_s = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   game::SimulateProgress progress(std::cerr, isatty(STDERR_FILENO) != 0, options.until);
   if (!options.events.empty()) played.record_events(true), game::write_events_heading(events);
   double stride = std::max(options.until / 1024.0, 1e-9), before_s = 0.0;
@@ -96,17 +104,22 @@ double play(Played& played, const game::Game& game, const Options& options, std:
   return passed_s();
 }
 
-void write_results(const Options& options, const game::Game& game, double wall_s, Outputs& outputs) {
+void write_results(const Options& options, const game::Game& game, double wall_s,
+                   Outputs& outputs) {
   if (!options.states.empty()) game::write_states(outputs.states, game);
-  (options.summary.empty() ? std::cout : outputs.summary) << game::summary_of(game, options.engine, wall_s) << '\n';
-  if (!std::cout.flush()) throw game::SceneError("the standard output: cannot be written to its end");
+  (options.summary.empty() ? std::cout : outputs.summary)
+      << game::summary_of(game, options.engine, wall_s) << '\n';
+  if (!std::cout.flush())
+    throw game::SceneError("the standard output: cannot be written to its end");
   close(outputs.states, options.states);
   close(outputs.events, options.events);
   close(outputs.summary, options.summary);
 }
 
-/// All that it takes to play the game again on the exact engine, and, if that played it, the hash to compare.
-void write_record(const Options& options, const game::Scene& scene, const game::Game& game, std::vector<game::InputEvent> events, std::ofstream& record) {
+/// All that it takes to play the game again on the exact engine, and, if that played it, the hash
+/// to compare.
+void write_record(const Options& options, const game::Scene& scene, const game::Game& game,
+                  std::vector<game::InputEvent> events, std::ofstream& record) {
   if (options.record.empty()) return;
   game::KeyLog log = game::key_log_for(scene);
   log.scene_text = game::scene_text(options.scene);
@@ -128,7 +141,8 @@ void simulate(const Options& options) {
     return write_record(options, scene, game, keys, outputs.record);
   }
   game::Playing playing(scene, options.players, scene.seed, options.until, options.engine);
-  write_results(options, playing.game(), play(playing, playing.game(), options, outputs.events), outputs);
+  write_results(options, playing.game(), play(playing, playing.game(), options, outputs.events),
+                outputs);
   write_record(options, scene, playing.game(), playing.keys(), outputs.record);
 }
 
@@ -136,10 +150,14 @@ void simulate(const Options& options) {
 void require_engine(const Options& options) {
   if (const auto objection = physics::objection(options.engine)) throw game::SceneError(*objection);
   if (options.engine.engine == "exact" && (options.has_integrator || options.has_dt))
-    throw game::SceneError(std::string(options.has_dt ? "--dt" : "--integrator") + " is for the engines paper and naive: the exact engine has neither frames nor integrators");
+    throw game::SceneError(
+        std::string(options.has_dt ? "--dt" : "--integrator") +
+        " is for the engines paper and naive: the exact engine has neither frames nor integrators");
   const double frames = options.until / options.engine.dt;
   if (options.engine.engine != "exact" && frames > frames_max)
-    throw game::SceneError("--until " + std::to_string(options.until) + " would take more than 1e12 frames of --dt: expected longer frames or less time");
+    throw game::SceneError(
+        "--until " + std::to_string(options.until) +
+        " would take more than 1e12 frames of --dt: expected longer frames or less time");
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -148,39 +166,78 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string allowed_players() {
-  return "random, " + listed(game::player_kinds());
-}
+std::string allowed_players() { return "random, " + listed(game::player_kinds()); }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Advances a scene without a network, exactly or in frames, and writes what became of it.", "rink simulate");
+  CLI::App app(
+      "Advances a scene without a network, exactly or in frames, and writes what became of it.",
+      "rink simulate");
   app.set_version_flag("--version", game::version_line("rink-simulate"));
-  app.add_option("scene", options.scene, "a scene file (docs/scenes.md) or the name of a preset, such as match or crowd")->required();
-  app.add_option("--until", options.until, "simulated time at which to stop [s]")->required()->check([](const std::string& text) -> std::string {
-    double until = 0.0;
-    if (!CLI::detail::lexical_cast(text, until) || !std::isfinite(until) || until < 0.0) return text + ": expected a finite time of 0 s or more, for time neither runs backwards nor for ever";
-    if (until > until_max) return text + ": expected at most 1e9 s, for beyond that a clock in doubles no longer tells an impact from the next";
-    return {};
-  });
-  CLI::Option* keys = app.add_option("--keys", options.keys, "a recorded key log to play (default: the scene's scripted keys only)");
-  app.add_option("--players", options.players, "who plays the bats, in turn, separated by commas: " + allowed_players() + "; seeded like the scene (default: nobody)")
-                             ->delimiter(',')
-                             ->excludes(keys)
-                             ->check([](const std::string& name) { return game::is_player_kind(name) ? std::string() : name + ": expected one of " + allowed_players(); });
-  app.add_option("--record", options.record, "write the game to this key log: scene, keys and final hash; rink replay plays it again, and so do --keys and rink serve --keys");
-  app.add_option("--seed", options.seed, "seed of the scene's populations (default: the scene's own)")->check(game::seed_number());
-  app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density, at most 100000 (default: as it is)")->check(CLI::Range(0u, 100'000u));
-  app.add_option("--engine", options.engine.engine, "what moves the bodies: " + listed(physics::engine_names()) + " (docs/physics.md, docs/paper-engine.md)")->capture_default_str();
+  app.add_option("scene", options.scene,
+                 "a scene file (docs/scenes.md) or the name of a preset, such as match or crowd")
+      ->required();
+  app.add_option("--until", options.until, "simulated time at which to stop [s]")
+      ->required()
+      ->check([](const std::string& text) -> std::string {
+        double until = 0.0;
+        if (!CLI::detail::lexical_cast(text, until) || !std::isfinite(until) || until < 0.0)
+          return text +
+                 ": expected a finite time of 0 s or more, for time neither runs backwards nor for "
+                 "ever";
+        if (until > until_max)
+          return text +
+                 ": expected at most 1e9 s, for beyond that a clock in doubles no longer tells an "
+                 "impact from the next";
+        return {};
+      });
+  CLI::Option* keys =
+      app.add_option("--keys", options.keys,
+                     "a recorded key log to play (default: the scene's scripted keys only)");
+  app.add_option("--players", options.players,
+                 "who plays the bats, in turn, separated by commas: " + allowed_players() +
+                     "; seeded like the scene (default: nobody)")
+      ->delimiter(',')
+      ->excludes(keys)
+      ->check([](const std::string& name) {
+        return game::is_player_kind(name) ? std::string()
+                                          : name + ": expected one of " + allowed_players();
+      });
+  app.add_option("--record", options.record,
+                 "write the game to this key log: scene, keys and final hash; rink replay plays it "
+                 "again, and so do --keys and rink serve --keys");
+  app.add_option("--seed", options.seed,
+                 "seed of the scene's populations (default: the scene's own)")
+      ->check(game::seed_number());
+  app.add_option(
+         "--bats", options.bats,
+         "scale the crowd to so many bats at constant density, at most 100000 (default: as it is)")
+      ->check(CLI::Range(0u, 100'000u));
+  app.add_option("--engine", options.engine.engine,
+                 "what moves the bodies: " + listed(physics::engine_names()) +
+                     " (docs/physics.md, docs/paper-engine.md)")
+      ->capture_default_str();
   CLI::Option* integrator =
-      app.add_option("--integrator", options.engine.integrator, "of the engines paper and naive: " + listed(physics::integrator_names()))->capture_default_str();
-  CLI::Option* dt = app.add_option("--dt", options.engine.dt, "length of a frame of the engines paper and naive [s]")->capture_default_str();
-  app.add_option("--states", options.states, "write every entity's final state to this CSV file: kind,id,x,y,vx,vy");
-  app.add_option("--events", options.events, "write every event to this CSV file: time,kind,body,other");
-  app.add_option("--summary", options.summary, "write counts, energies, momentum, overlap and hash to this JSON file (default: standard output)");
-  app.footer("Example: rink simulate crowd --until 10 --states states.csv\nExample: rink simulate crowd --until 10 --engine paper --integrator rk4 --dt 0.004\nExample: rink simulate match --players chaser,random --until 120 --seed 3 --record match.keys\nExit status: 0 done, 2 bad scene, key log or flag.");
+      app.add_option("--integrator", options.engine.integrator,
+                     "of the engines paper and naive: " + listed(physics::integrator_names()))
+          ->capture_default_str();
+  CLI::Option* dt = app.add_option("--dt", options.engine.dt,
+                                   "length of a frame of the engines paper and naive [s]")
+                        ->capture_default_str();
+  app.add_option("--states", options.states,
+                 "write every entity's final state to this CSV file: kind,id,x,y,vx,vy");
+  app.add_option("--events", options.events,
+                 "write every event to this CSV file: time,kind,body,other");
+  app.add_option("--summary", options.summary,
+                 "write counts, energies, momentum, overlap and hash to this JSON file (default: "
+                 "standard output)");
+  app.footer(
+      "Example: rink simulate crowd --until 10 --states states.csv\nExample: rink simulate crowd "
+      "--until 10 --engine paper --integrator rk4 --dt 0.004\nExample: rink simulate match "
+      "--players chaser,random --until 120 --seed 3 --record match.keys\nExit status: 0 done, 2 "
+      "bad scene, key log or flag.");
   try {
     app.parse(argc, argv);
     options.has_integrator = integrator->count() > 0;

@@ -10,7 +10,8 @@ void SimulateProgress::reached(double simulated_s, std::uint64_t event_count, do
   next_s_ = wall_s + (is_terminal_ ? between_overwrites_s : between_lines_s);
   const double part = simulated_s / until_;
   char text[160];
-  std::snprintf(text, sizeof text, "%.6g of %.6g s simulated (%.1f %%), %.4g events, %.0f s passed", simulated_s, until_, 100.0 * part, static_cast<double>(event_count), wall_s);
+  std::snprintf(text, sizeof text, "%.6g of %.6g s simulated (%.1f %%), %.4g events, %.0f s passed",
+                simulated_s, until_, 100.0 * part, static_cast<double>(event_count), wall_s);
   out_ << (is_terminal_ ? "\r\033[K" : "") << text;
   if (part > 0.0) {
     std::snprintf(text, sizeof text, ", about %.3g s left", wall_s * (1.0 - part) / part);

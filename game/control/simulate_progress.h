@@ -6,12 +6,15 @@
 
 namespace rink::game {
 
-/// A line that is overwritten in place on a terminal, one plain line every few seconds elsewhere. Short runs say nothing. Handed the time, it reads no clock.
+/// A line that is overwritten in place on a terminal, one plain line every few seconds elsewhere.
+/// Short runs say nothing. Handed the time, it reads no clock.
 class SimulateProgress {
  public:
-  SimulateProgress(std::ostream& out, bool is_terminal, double until) : out_(out), is_terminal_(is_terminal), until_(until) {}
+  SimulateProgress(std::ostream& out, bool is_terminal, double until)
+      : out_(out), is_terminal_(is_terminal), until_(until) {}
 
-  /// `simulated_s` of the run's time and `event_count` events are done after `wall_s`. Says so if it is time to.
+  /// `simulated_s` of the run's time and `event_count` events are done after `wall_s`. Says so if
+  /// it is time to.
   void reached(double simulated_s, std::uint64_t event_count, double wall_s);
   /// Clears the line that is overwritten in place.
   void clear();

@@ -11,7 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* kind_name(physics::BodyKind kind) { return kind == physics::BodyKind::puck ? "puck" : kind == physics::BodyKind::bat ? "bat" : "post"; }
+const char* kind_name(physics::BodyKind kind) {
+  return kind == physics::BodyKind::puck ? "puck" : kind == physics::BodyKind::bat ? "bat" : "post";
+}
 
 Json engine_of(const physics::SimulatorChoice& engine) {
   if (engine.engine == "exact") return {{"engine", engine.engine}};
@@ -20,7 +22,8 @@ Json engine_of(const physics::SimulatorChoice& engine) {
 
 Json by_kind(physics::Counters counters) {
   Json kinds;
-  for (std::size_t kind = 0; kind < physics::event_kind_names.size(); ++kind) kinds[physics::event_kind_names[kind]] = counters.of(static_cast<physics::EventKind>(kind));
+  for (std::size_t kind = 0; kind < physics::event_kind_names.size(); ++kind)
+    kinds[physics::event_kind_names[kind]] = counters.of(static_cast<physics::EventKind>(kind));
   return kinds;
 }
 
@@ -31,7 +34,8 @@ void write_states(std::ostream& stream, const Game& game) {
   stream.precision(17);
   for (const Entity& entity : game.entities()) {
     const Vector2 position = game.position(entity.id), velocity = game.velocity(entity.id);
-    stream << kind_name(entity.kind) << ',' << entity.id.index << ',' << position.x() << ',' << position.y() << ',' << velocity.x() << ',' << velocity.y() << '\n';
+    stream << kind_name(entity.kind) << ',' << entity.id.index << ',' << position.x() << ','
+           << position.y() << ',' << velocity.x() << ',' << velocity.y() << '\n';
   }
 }
 
@@ -40,7 +44,8 @@ void write_events_heading(std::ostream& stream) { stream << "time,kind,body,othe
 void write_events(std::ostream& stream, std::span<const physics::Event> events) {
   stream.precision(17);
   for (const physics::Event& event : events) {
-    stream << event.time << ',' << physics::event_kind_names[static_cast<std::size_t>(event.kind)] << ',' << event.body.index << ',';
+    stream << event.time << ',' << physics::event_kind_names[static_cast<std::size_t>(event.kind)]
+           << ',' << event.body.index << ',';
     if (event.other) stream << event.other->index;
     stream << '\n';
   }

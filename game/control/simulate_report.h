@@ -9,12 +9,14 @@
 
 namespace rink::game {
 
-/// kind,id,x,y,vx,vy of every entity at now(), in SI with 17 digits, which read back to the same bits.
+/// kind,id,x,y,vx,vy of every entity at now(), in SI with 17 digits, which read back to the same
+/// bits.
 void write_states(std::ostream& stream, const Game& game);
 
 /// The heading of the events' file: time,kind,body,other.
 void write_events_heading(std::ostream& stream);
-/// One line per event, times with 17 digits; `other` is empty where only one body, or a part of the field, is concerned.
+/// One line per event, times with 17 digits; `other` is empty where only one body, or a part of the
+/// field, is concerned.
 void write_events(std::ostream& stream, std::span<const physics::Event> events);
 
 /// Counts, energies, momentum, overlap, escapes, score and hash as one JSON object with its

@@ -5,13 +5,15 @@
 
 namespace rink::game {
 
-/// The difference between where a body was shown and where it should have been, on its way to zero within `duration`: smoothly, so that speed does not jump either
-/// (docs/play.md, "Prediction and reconciliation").
+/// The difference between where a body was shown and where it should have been, on its way to zero
+/// within `duration`: smoothly, so that speed does not jump either (docs/play.md, "Prediction and
+/// reconciliation").
 class Blend {
  public:
   static constexpr double duration = 0.1;  ///< s
 
-  /// From `now` [s] on `offset` [m] is to vanish; what was still left of an earlier one must be part of it.
+  /// From `now` [s] on `offset` [m] is to vanish; what was still left of an earlier one must be
+  /// part of it.
   void begin(const physics::Vector2& offset, double now) {
     offset_ = offset;
     since_ = now;

@@ -1,4 +1,5 @@
-// What interest management decided, as whoever runs it tells a watcher: regions, cells, and who hears of what.
+// What interest management decided, as whoever runs it tells a watcher: regions, cells, and who
+// hears of what.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,8 @@
 
 namespace rink::game {
 
-/// Decisions of one instant about one thing that was asked of. Counts are of all there are; lists may hold fewer, what a message can carry.
+/// Decisions of one instant about one thing that was asked of. Counts are of all there are; lists
+/// may hold fewer, what a message can carry.
 struct InterestSeen {
   static constexpr std::uint32_t nothing = 0xffffffffu;
 
@@ -18,11 +20,12 @@ struct InterestSeen {
     friend bool operator==(const View&, const View&) = default;
   };
 
-  std::uint32_t asked = nothing;   ///< the id of the Thing
-  float cell_size = 0.0f;          ///< m; 0 if the scheme has no cells
+  std::uint32_t asked = nothing;  ///< the id of the Thing
+  float cell_size = 0.0f;         ///< m; 0 if the scheme has no cells
   std::uint32_t view_count = 0, heard_count = 0, hearer_count = 0;
   std::vector<View> views;
-  std::vector<std::uint32_t> heard;  ///< ids of what the federate that plays `asked` hears of, ascending
+  std::vector<std::uint32_t>
+      heard;  ///< ids of what the federate that plays `asked` hears of, ascending
   friend bool operator==(const InterestSeen&, const InterestSeen&) = default;
 };
 

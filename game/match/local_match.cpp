@@ -10,7 +10,8 @@
 
 namespace rink::game {
 
-LocalMatch::LocalMatch(const Scene& scene, const LocalMatchSettings& settings) : scene_(scene), settings_(settings), flow_(settings.times), sight_(sight_of(scene)) {
+LocalMatch::LocalMatch(const Scene& scene, const LocalMatchSettings& settings)
+    : scene_(scene), settings_(settings), flow_(settings.times), sight_(sight_of(scene)) {
   assert(!match_objection(scene) && settings.players.size() == 2);
   for (std::uint32_t player = 0; player < 2; ++player)
     if (settings_.players[player] == Playing::hand) hands_.push_back(player);
@@ -29,7 +30,8 @@ void LocalMatch::begin(double now_s) {
   match_number_ = flow_.state().number;
   played_s_ = 0.0;
   constexpr double forever = 0.0;  // no bot here has its keys drawn beforehand
-  playing_ = std::make_unique<Playing>(scene_, settings_.players, settings_.seed + match_number_ - 1, forever);
+  playing_ = std::make_unique<Playing>(scene_, settings_.players,
+                                       settings_.seed + match_number_ - 1, forever);
 }
 
 void LocalMatch::advance(double now_s) {
@@ -40,12 +42,14 @@ void LocalMatch::advance(double now_s) {
   if (flow_.state().number != match_number_ || match_number_ == 0) begin(now_s);
   if (was_running && flow_.runs()) play(elapsed);
   if (flow_.state().phase == MatchPhase::over) finish(), pressed_.clear();
-  for (const PressedKey& pressed : std::exchange(pressed_, {})) playing_->press(hands_[pressed.hand], pressed.key, pressed.is_down);
+  for (const PressedKey& pressed : std::exchange(pressed_, {}))
+    playing_->press(hands_[pressed.hand], pressed.key, pressed.is_down);
   show();
 }
 
 void LocalMatch::finish() {
-  if (!is_finished_ && playing_->game().now() > 0.0) finished_.push_back(log_of(playing_->game(), scene_, settings_.scene_text, playing_->keys()));
+  if (!is_finished_ && playing_->game().now() > 0.0)
+    finished_.push_back(log_of(playing_->game(), scene_, settings_.scene_text, playing_->keys()));
   is_finished_ = true;
 }
 

@@ -1,4 +1,5 @@
-// A match that is played here: by two at one keyboard, by one against a bot, or by two bots for the pleasure of looking on.
+// A match that is played here: by two at one keyboard, by one against a bot, or by two bots for the
+// pleasure of looking on.
 #pragma once
 
 #include <memory>
@@ -16,14 +17,16 @@
 namespace rink::game {
 
 struct LocalMatchSettings {
-  std::uint64_t seed = 1;                     ///< of the bots; each rematch takes the next
-  std::vector<std::string> players{"hand", "hand"};  ///< of the left and the right bat: Playing::hand or a player's kind
+  std::uint64_t seed = 1;  ///< of the bots; each rematch takes the next
+  std::vector<std::string> players{
+      "hand", "hand"};  ///< of the left and the right bat: Playing::hand or a player's kind
   std::string left_name = "Red", right_name = "Blue";
   FlowTimes times{};
   std::string scene_text{};  ///< the scene's file, so that records need no other
 };
 
-/// Real time becomes simulated time as it comes, but for pauses, countdowns and frames that took longer than `frame_max_s`.
+/// Real time becomes simulated time as it comes, but for pauses, countdowns and frames that took
+/// longer than `frame_max_s`.
 class LocalMatch final : public MatchSource {
  public:
   /// `scene` is one for a match of two with a winner (asserted).
@@ -67,7 +70,8 @@ class LocalMatch final : public MatchSource {
   bool is_finished_ = true;  ///< the present match is recorded
   std::uint32_t match_number_ = 0;
   double now_s_ = -1.0;
-  double played_s_ = 0.0;  ///< simulated time of the present match; the game stops at multiples of key_grid, where hands press their keys
+  double played_s_ = 0.0;  ///< simulated time of the present match; the game stops at multiples of
+                           ///< key_grid, where hands press their keys
   MatchSight sight_;
   NoiseDetector noises_;
   GoalWatch goals_;

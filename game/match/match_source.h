@@ -1,4 +1,5 @@
-// What a match looks like at one instant and what its players may do: the same for a match played here, one played over a network, and one that was recorded.
+// What a match looks like at one instant and what its players may do: the same for a match played
+// here, one played over a network, and one that was recorded.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,16 @@ struct Thing {
 
 /// What is to be heard.
 struct Noise {
-  enum class Kind : std::uint8_t { puck_on_wall, puck_on_bat, puck_on_post, puck_on_puck, count, face_off, goal, win };
+  enum class Kind : std::uint8_t {
+    puck_on_wall,
+    puck_on_bat,
+    puck_on_post,
+    puck_on_puck,
+    count,
+    face_off,
+    goal,
+    win
+  };
   Kind kind = Kind::puck_on_wall;
   double strength = 1.0;  ///< 0 to 1
   double place = 0.5;     ///< along the field, 0 to 1
@@ -33,11 +43,12 @@ struct Noise {
 
 /// How the connection does; shown on request.
 struct LinkFigures {
-  double ping_ms = 0.0, jitter_ms = 0.0, loss = 0.0;  ///< `loss` is a fraction: of questions that had no answer within a second
-  std::uint64_t tick = 0;                             ///< ticks heard of
-  double payload_bytes_per_s = 0.0;                   ///< received, over the last second
-  double lead_ms = 0.0;             ///< how far the own bat is shown ahead of the other (docs/play.md)
-  std::uint64_t corrections = 0;    ///< of the own bat, that could be seen
+  double ping_ms = 0.0, jitter_ms = 0.0,
+         loss = 0.0;  ///< `loss` is a fraction: of questions that had no answer within a second
+  std::uint64_t tick = 0;            ///< ticks heard of
+  double payload_bytes_per_s = 0.0;  ///< received, over the last second
+  double lead_ms = 0.0;  ///< how far the own bat is shown ahead of the other (docs/play.md)
+  std::uint64_t corrections = 0;  ///< of the own bat, that could be seen
   double last_correction_mm = 0.0;
 };
 
@@ -50,22 +61,24 @@ struct MatchSight {
   std::optional<std::uint32_t> goals_to_win;
   std::string left_name = "left", right_name = "right";
   MatchPhase phase = MatchPhase::waiting;
-  double remaining_s = 0.0;                ///< of countdown and away
-  std::optional<Team> scorer;              ///< of the goal whose face-off is still to come
-  double since_goal_s = 0.0;               ///< real seconds since then
+  double remaining_s = 0.0;    ///< of countdown and away
+  std::optional<Team> scorer;  ///< of the goal whose face-off is still to come
+  double since_goal_s = 0.0;   ///< real seconds since then
   std::optional<Team> winner;
-  std::optional<Team> own_team;            ///< of a player who has a window of his own: from that end it is seen
+  std::optional<Team>
+      own_team;  ///< of a player who has a window of his own: from that end it is seen
   std::optional<std::uint32_t> own_thing;  ///< the id of the bat of one who plays in a crowd
   bool can_rematch = true;                 ///< once it is over
   bool wants_rematch = false, other_wants_rematch = false;
-  std::string notice;                      ///< one line for the player, or nothing
-  std::vector<Noise> noises;               ///< since the last advance
-  std::optional<LinkFigures> link;         ///< of a match over a network
-  std::optional<InterestSeen> interest;    ///< of a crowd that is inspected
-  std::optional<ZonesSeen> zones;          ///< of a game that peers share
+  std::string notice;                    ///< one line for the player, or nothing
+  std::vector<Noise> noises;             ///< since the last advance
+  std::optional<LinkFigures> link;       ///< of a match over a network
+  std::optional<InterestSeen> interest;  ///< of a crowd that is inspected
+  std::optional<ZonesSeen> zones;        ///< of a game that peers share
 };
 
-/// A match that is going on. Knows no clock: `now_s` is real time [s] from any origin and never falls.
+/// A match that is going on. Knows no clock: `now_s` is real time [s] from any origin and never
+/// falls.
 class MatchSource {
  public:
   virtual ~MatchSource() = default;
@@ -74,9 +87,11 @@ class MatchSource {
   virtual void advance(double now_s) = 0;
   virtual const MatchSight& sight() const = 0;
 
-  /// Persons who play at this keyboard: 0 (who watches), 1 or 2. Person k's keys are given to press() as hand k.
+  /// Persons who play at this keyboard: 0 (who watches), 1 or 2. Person k's keys are given to
+  /// press() as hand k.
   virtual std::uint32_t hand_count() const = 0;
-  /// Directions are those of the field: `right` is towards larger x. Takes effect at the instant of the next advance().
+  /// Directions are those of the field: `right` is towards larger x. Takes effect at the instant of
+  /// the next advance().
   virtual void press(std::uint32_t hand, Key key, bool is_down) = 0;
 
   /// Stops or resumes the match, if this player may.
@@ -84,7 +99,8 @@ class MatchSource {
   /// Asks for another match once this one is over; it starts when everybody has asked.
   virtual void rematch() = 0;
 
-  /// Who watches a crowd wants to see what interest management decides of this thing, or of nothing in particular; to be said again as long as it is wanted.
+  /// Who watches a crowd wants to see what interest management decides of this thing, or of nothing
+  /// in particular; to be said again as long as it is wanted.
   virtual void inspect(std::uint32_t) {}
 };
 

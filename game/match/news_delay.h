@@ -1,4 +1,5 @@
-// How late news comes, as measured: so far behind the own bat everything is known, and the other can be shown where it is.
+// How late news comes, as measured: so far behind the own bat everything is known, and the other
+// can be shown where it is.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +10,23 @@
 
 namespace rink::game {
 
-/// One who is shown at P - delay is shown right if nothing is heard later of instants up to there. News with the stamp T speaks of what happened since the tick before,
-/// T - tick; so it came late by P - (T - tick), P being that of the last frame in which it was not known. The most of that which was seen of late, but for the latest of every 32, holds all
-/// that delays it: both ways, their jitter, the server's ticks and how late it is with them, and the frames in which the client listens. Guessing it from round trips would count a
-/// frame or two that news need not wait for. Pure.
+/// One who is shown at P - delay is shown right if nothing is heard later of instants up to there.
+/// News with the stamp T speaks of what happened since the tick before, T - tick; so it came late
+/// by P - (T - tick), P being that of the last frame in which it was not known. The most of that
+/// which was seen of late, but for the latest of every 32, holds all that delays it: both ways,
+/// their jitter, the server's ticks and how late it is with them, and the frames in which the
+/// client listens. Guessing it from round trips would count a frame or two that news need not wait
+/// for. Pure.
 class NewsDelay {
  public:
-  static constexpr double spare = 2e-3;        ///< s: for what did not happen of late
-  static constexpr double late_most = 2.0;     ///< s: what is later was held up by something else
-  static constexpr std::size_t remembered = 64, needed = 16;  ///< pieces of news: of five seconds, and one, of a match
+  static constexpr double spare = 2e-3;     ///< s: for what did not happen of late
+  static constexpr double late_most = 2.0;  ///< s: what is later was held up by something else
+  static constexpr std::size_t remembered = 64,
+                               needed =
+                                   16;  ///< pieces of news: of five seconds, and one, of a match
 
-  /// The last frame without it showed the own bat at `shown_s`; it tells of what happened from `since_s` on [s, simulated].
+  /// The last frame without it showed the own bat at `shown_s`; it tells of what happened from
+  /// `since_s` on [s, simulated].
   void heard(double shown_s, double since_s) {
     if (shown_s - since_s > late_most) return;
     late_.push_back(shown_s - since_s);

@@ -1,4 +1,5 @@
-// What can be heard in a match, from nothing but what is seen of it: so a match sounds alike wherever it is played.
+// What can be heard in a match, from nothing but what is seen of it: so a match sounds alike
+// wherever it is played.
 #pragma once
 
 #include <vector>

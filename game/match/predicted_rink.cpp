@@ -1,4 +1,5 @@
-// Sets the world up from what was told, presses again what was not felt yet, plays forward, and looks at each body at the instant that is its own.
+// Sets the world up from what was told, presses again what was not felt yet, plays forward, and
+// looks at each body at the instant that is its own.
 #include "game/match/predicted_rink.h"
 
 #include <algorithm>
@@ -10,11 +11,15 @@
 namespace rink::game {
 namespace {
 
-constexpr double sample_step = 4e-3;      ///< s: between, bodies are shown on chords; a bounce at 2 m/s is cut by at most 4 mm
-constexpr double kept_longest = 2.0;      ///< s of the past
-constexpr double blended_furthest = 0.3;  ///< m: a puck that is further off was put elsewhere, in a goal or on a spot
-constexpr double near_bat = 0.12;         ///< m from a bat's front, within which a puck is in its owner's time
-constexpr double slowest = 0.3, fastest = 3.0;  ///< of a puck's time as it goes from one player's to the other's, against real time
+constexpr double sample_step =
+    4e-3;  ///< s: between, bodies are shown on chords; a bounce at 2 m/s is cut by at most 4 mm
+constexpr double kept_longest = 2.0;  ///< s of the past
+constexpr double blended_furthest =
+    0.3;  ///< m: a puck that is further off was put elsewhere, in a goal or on a spot
+constexpr double near_bat =
+    0.12;  ///< m from a bat's front, within which a puck is in its owner's time
+constexpr double slowest = 0.3, fastest = 3.0;  ///< of a puck's time as it goes from one player's
+                                                ///< to the other's, against real time
 
 Vector2 thrust_of(const KeysHeld& held, double thrust) {
   BatController controller(thrust);
@@ -49,19 +54,23 @@ PredictedRink::PredictedRink(const Scene& scene, std::optional<std::uint32_t> ow
 
 void PredictedRink::press(Key key, bool is_down, double instant) {
   assert(own_ && instant >= now_);
-  keys_.push_back({keys_.empty() ? instant : std::max(instant, keys_.back().instant), key, is_down});
+  keys_.push_back(
+      {keys_.empty() ? instant : std::max(instant, keys_.back().instant), key, is_down});
 }
 
 void PredictedRink::hear(const ToldRink& told) {
-  assert(told.bats.size() == scene_.bodies.bats.size() && told.pucks.size() == scene_.bodies.pucks.size());
+  assert(told.bats.size() == scene_.bodies.bats.size() &&
+         told.pucks.size() == scene_.bodies.pucks.size());
   if (world_ && told.time < told_.time) return;
   std::vector<std::uint8_t> was_known;
-  for (std::size_t body = 0; has_looked_ && body < body_count(); ++body) was_known.push_back(is_known(body) ? 1 : 0);
+  for (std::size_t body = 0; has_looked_ && body < body_count(); ++body)
+    was_known.push_back(is_known(body) ? 1 : 0);
   told_ = told;
   for (; felt_ < told.own_felt && !keys_.empty(); ++felt_) keys_.pop_front();
   felt_ = std::max(felt_, told.own_felt);
   std::vector<Vector2> before;
-  for (std::size_t body = 0; has_looked_ && body < body_count(); ++body) before.push_back(was_known[body] != 0 ? at(body, time_of(body)).position : Vector2(0.0, 0.0));
+  for (std::size_t body = 0; has_looked_ && body < body_count(); ++body)
+    before.push_back(was_known[body] != 0 ? at(body, time_of(body)).position : Vector2(0.0, 0.0));
   set_up();
   if (!has_looked_) return;
   play(now_);
@@ -131,8 +140,10 @@ void PredictedRink::add_puck(std::size_t puck) {
 Vector2 PredictedRink::inside(const Vector2& position, const physics::BatSpec& bat) const {
   const physics::Field& field = scene_.world.field;
   Vector2 low = bat.half_extent, high = Vector2(field.length, field.width) - bat.half_extent;
-  if (field.bats_keep_to_half && bat.half == physics::Half::left) high.x() = field.length / 2 - bat.half_extent.x();
-  if (field.bats_keep_to_half && bat.half == physics::Half::right) low.x() = field.length / 2 + bat.half_extent.x();
+  if (field.bats_keep_to_half && bat.half == physics::Half::left)
+    high.x() = field.length / 2 - bat.half_extent.x();
+  if (field.bats_keep_to_half && bat.half == physics::Half::right)
+    low.x() = field.length / 2 + bat.half_extent.x();
   return position.cwiseMax(low).cwiseMin(high);
 }
 
@@ -141,14 +152,17 @@ Vector2 PredictedRink::inside(const Vector2& position, double radius) const {
   const physics::Field& field = scene_.world.field;
   const bool is_at_goal = std::abs(position.y() - field.width / 2) < field.goal_width / 2;
   const double margin = is_at_goal ? 0.0 : radius;
-  return {std::clamp(position.x(), margin, field.length - margin), std::clamp(position.y(), radius, field.width - radius)};
+  return {std::clamp(position.x(), margin, field.length - margin),
+          std::clamp(position.y(), radius, field.width - radius)};
 }
 
 void PredictedRink::set_thrust(std::uint32_t bat) {
-  if (ids_[bat]) world_->set_thrust(*ids_[bat], thrust_of(held_[bat], scene_.bodies.bats[bat].thrust));
+  if (ids_[bat])
+    world_->set_thrust(*ids_[bat], thrust_of(held_[bat], scene_.bodies.bats[bat].thrust));
 }
 
-/// One that was due before what was told, but not felt by then, was late: it is felt at the next occasion.
+/// One that was due before what was told, but not felt by then, was late: it is felt at the next
+/// occasion.
 void PredictedRink::apply_keys_until(double instant) {
   for (; applied_ < keys_.size() && keys_[applied_].instant <= instant; ++applied_) {
     held_[*own_].set(keys_[applied_].key, keys_[applied_].is_down);
@@ -162,7 +176,8 @@ void PredictedRink::play(double until) {
   while (time < until) {
     time = std::min(until, time + sample_step);
     if (applied_ < keys_.size()) time = std::min(time, keys_[applied_].instant);
-    while (world_->advance(time - told_.time)) {}  // pucks may score; the score is the server's
+    while (world_->advance(time - told_.time)) {
+    }  // pucks may score; the score is the server's
     apply_keys_until(time);
     sample(time);
   }
@@ -184,12 +199,17 @@ void PredictedRink::forget_before(double time) {
 }
 
 ShownBody PredictedRink::at(std::size_t body, double time) const {
-  const auto after = std::lower_bound(track_.begin(), track_.end(), time, [](const Sample& sample, double t) { return sample.time < t; });
-  if (after == track_.end()) return {track_.back().positions[body], track_.back().velocities[body], time};
-  if (after == track_.begin() || after->time == time) return {after->positions[body], after->velocities[body], time};
+  const auto after =
+      std::lower_bound(track_.begin(), track_.end(), time,
+                       [](const Sample& sample, double t) { return sample.time < t; });
+  if (after == track_.end())
+    return {track_.back().positions[body], track_.back().velocities[body], time};
+  if (after == track_.begin() || after->time == time)
+    return {after->positions[body], after->velocities[body], time};
   const auto before = std::prev(after);
   const Vector2 way = after->positions[body] - before->positions[body];
-  if (way.norm() > blended_furthest) return {before->positions[body], before->velocities[body], time};
+  if (way.norm() > blended_furthest)
+    return {before->positions[body], before->velocities[body], time};
   const double part = (time - before->time) / (after->time - before->time);
   return {before->positions[body] + part * way, before->velocities[body], time};
 }
@@ -201,11 +221,13 @@ void PredictedRink::advance(double now, double delay) {
   delay_ = delay;
   if (!world_) return;
   play(now);
-  for (std::size_t puck = 0; puck < lags_.size(); ++puck) lags_[puck] = puck_lag(puck, lags_[puck], has_looked_ ? dt : kept_longest);
+  for (std::size_t puck = 0; puck < lags_.size(); ++puck)
+    lags_[puck] = puck_lag(puck, lags_[puck], has_looked_ ? dt : kept_longest);
   has_looked_ = true;
   forget_before(now - kept_longest);
   for (std::size_t bat = 0; bat < shown_bats_.size(); ++bat) shown_bats_[bat] = shown(bat);
-  for (std::size_t puck = 0; puck < shown_pucks_.size(); ++puck) shown_pucks_[puck] = shown(held_.size() + puck);
+  for (std::size_t puck = 0; puck < shown_pucks_.size(); ++puck)
+    shown_pucks_[puck] = shown(held_.size() + puck);
 }
 
 double PredictedRink::time_of(std::size_t body) const {
@@ -219,27 +241,36 @@ ShownBody PredictedRink::shown(std::size_t body) const {
   return shown;
 }
 
-/// Solves lag = delay w(x(now - lag)), as far as a puck's time may run slower or faster than real time.
+/// Solves lag = delay w(x(now - lag)), as far as a puck's time may run slower or faster than real
+/// time.
 double PredictedRink::puck_lag(std::size_t puck, double lag, double dt) const {
   double wanted = std::min(lag, delay_);
-  for (int round = 0; round < 4; ++round) wanted = 0.5 * (wanted + delay_ * portion_of_delay(at(held_.size() + puck, now_ - wanted).position));
+  for (int round = 0; round < 4; ++round)
+    wanted =
+        0.5 * (wanted + delay_ * portion_of_delay(at(held_.size() + puck, now_ - wanted).position));
   return std::clamp(wanted, std::max(0.0, lag - (fastest - 1.0) * dt), lag + (1.0 - slowest) * dt);
 }
 
-/// 0 at the own bat, 1 at the other, linear between: the local perception filter of Sharkey, Ryan and Roberts (1998).
+/// 0 at the own bat, 1 at the other, linear between: the local perception filter of Sharkey, Ryan
+/// and Roberts (1998).
 double PredictedRink::portion_of_delay(const Vector2& puck) const {
   if (!own_) return 1.0;
   if (held_.size() != 2 || !is_known(1 - *own_)) return portion_in_crowd(puck);
   const std::uint32_t other = 1 - *own_;
-  const double own_x = at(*own_, now_).position.x(), other_x = at(other, now_ - delay_).position.x();
-  const double direction = own_x < other_x ? 1.0 : -1.0, span = std::abs(other_x - own_x) - 2.0 * near_bat;
+  const double own_x = at(*own_, now_).position.x(),
+               other_x = at(other, now_ - delay_).position.x();
+  const double direction = own_x < other_x ? 1.0 : -1.0,
+               span = std::abs(other_x - own_x) - 2.0 * near_bat;
   if (span <= 0.0) return 0.0;
   return std::clamp((direction * (puck.x() - own_x) - near_bat) / span, 0.0, 1.0);
 }
 
-/// Among many bats, or where the other is out of sight: 0 near the own one, on all sides, and 1 where that cannot get soon.
+/// Among many bats, or where the other is out of sight: 0 near the own one, on all sides, and 1
+/// where that cannot get soon.
 double PredictedRink::portion_in_crowd(const Vector2& puck) const {
-  const Vector2 beside = ((puck - at(*own_, now_).position).cwiseAbs() - scene_.bodies.bats[*own_].body.half_extent).cwiseMax(0.0);
+  const Vector2 beside =
+      ((puck - at(*own_, now_).position).cwiseAbs() - scene_.bodies.bats[*own_].body.half_extent)
+          .cwiseMax(0.0);
   return std::clamp((beside.norm() - near_bat) / (crowd_reach - near_bat), 0.0, 1.0);
 }
 

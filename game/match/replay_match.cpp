@@ -13,7 +13,8 @@ Replay ReplayMatch::read(const std::filesystem::path& file) {
   return Replay(std::move(log), std::move(scene));
 }
 
-ReplayMatch::ReplayMatch(const std::filesystem::path& file) : replay_(read(file)), sight_(sight_of(replay_.scene())) {}
+ReplayMatch::ReplayMatch(const std::filesystem::path& file)
+    : replay_(read(file)), sight_(sight_of(replay_.scene())) {}
 
 void ReplayMatch::seek(double instant) {
   wanted_ = std::clamp(instant, 0.0, end());
@@ -31,16 +32,20 @@ void ReplayMatch::rematch() {
 }
 
 void ReplayMatch::advance(double now_s) {
-  if (has_begun_ && !is_paused_ && !is_sought_) wanted_ = std::min(end(), wanted_ + speed_ * (now_s - now_s_));
+  if (has_begun_ && !is_paused_ && !is_sought_)
+    wanted_ = std::min(end(), wanted_ + speed_ * (now_s - now_s_));
   has_begun_ = true;
   now_s_ = now_s;
   replay_.seek(wanted_);
   show_game(replay_.game(), sight_);
-  sight_.phase = wanted_ == end() ? MatchPhase::over : MatchPhase::playing;  // one who stops it wants to look at it
+  sight_.phase = wanted_ == end() ? MatchPhase::over
+                                  : MatchPhase::playing;  // one who stops it wants to look at it
   const Score& score = sight_.score;
   sight_.winner.reset();
   if (replay_.game().is_over()) sight_.winner = score.left > score.right ? Team::left : Team::right;
-  sight_.notice = replay_.is_as_recorded() == false ? "this is not the game that was recorded: its end differs" : "";
+  sight_.notice = replay_.is_as_recorded() == false
+                      ? "this is not the game that was recorded: its end differs"
+                      : "";
   if (is_sought_) noises_ = {}, goals_ = {};  // what lies between is not heard
   is_sought_ = false;
   goals_.look(sight_, now_s, replay_.scene().rules.face_off_delay);

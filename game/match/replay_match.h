@@ -12,7 +12,8 @@ namespace rink::game {
 
 class ReplayMatch final : public MatchSource {
  public:
-  /// Throws SceneError, naming file, line and what is wrong, if the record is truncated, altered, of another version or incomplete.
+  /// Throws SceneError, naming file, line and what is wrong, if the record is truncated, altered,
+  /// of another version or incomplete.
   explicit ReplayMatch(const std::filesystem::path& file);
 
   void advance(double now_s) override;

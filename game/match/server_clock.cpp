@@ -1,4 +1,5 @@
-// The latest arrival and the longest round trip of late are what is counted on, so that keys are seldom late and truth is seldom missing; but for what was held up.
+// The latest arrival and the longest round trip of late are what is counted on, so that keys are
+// seldom late and truth is seldom missing; but for what was held up.
 #include "game/match/server_clock.h"
 
 #include <algorithm>
@@ -9,13 +10,16 @@
 namespace rink::game {
 namespace {
 
-double slewed(double from, double to, double most, double jump_from) { return std::abs(to - from) > jump_from ? to : std::clamp(to, from - most, from + most); }
+double slewed(double from, double to, double most, double jump_from) {
+  return std::abs(to - from) > jump_from ? to : std::clamp(to, from - most, from + most);
+}
 
 }  // namespace
 
 std::optional<std::uint64_t> ServerClock::ask(double now_s) {
   if (now_s < next_at_s_) return std::nullopt;
-  // The first few in quick succession: one would not say how much to spare, nor which of them a window that is still opening has held up.
+  // The first few in quick succession: one would not say how much to spare, nor which of them a
+  // window that is still opening has held up.
   next_at_s_ = now_s + (next_ <= hasty ? 0.1 : 1.0) * question_period;
   questions_.push_back({next_, now_s, false});
   while (questions_.size() > 2 * remembered) questions_.pop_front();
@@ -23,11 +27,15 @@ std::optional<std::uint64_t> ServerClock::ask(double now_s) {
 }
 
 void ServerClock::answered(std::uint64_t number, double server_s, double now_s) {
-  const auto question = std::find_if(questions_.begin(), questions_.end(), [number](const Question& asked) { return asked.number == number; });
+  const auto question =
+      std::find_if(questions_.begin(), questions_.end(),
+                   [number](const Question& asked) { return asked.number == number; });
   if (question == questions_.end() || question->is_answered || !std::isfinite(server_s)) return;
   question->is_answered = true;
-  const Answer answer{.offset = server_s - question->sent_s + margin, .round_trip = now_s - question->sent_s};
-  if (!answers_.empty()) jitter_ += (std::abs(answer.round_trip - answers_.back().round_trip) - jitter_) / 16.0;
+  const Answer answer{.offset = server_s - question->sent_s + margin,
+                      .round_trip = now_s - question->sent_s};
+  if (!answers_.empty())
+    jitter_ += (std::abs(answer.round_trip - answers_.back().round_trip) - jitter_) / 16.0;
   answers_.push_back(answer);
   while (answers_.size() > remembered) answers_.pop_front();
   advance(now_s);
@@ -41,7 +49,8 @@ void ServerClock::advance(double now_s) {
   const auto middle = trips.begin() + static_cast<std::ptrdiff_t>(answers_.size() / 2);
   const auto end = std::ranges::transform(answers_, trips.begin(), &Answer::round_trip).out;
   std::nth_element(trips.begin(), middle, end);
-  // A process that was stopped, a window that was drawn anew: to count on that would make all that follows late by as much.
+  // A process that was stopped, a window that was drawn anew: to count on that would make all that
+  // follows late by as much.
   const double held_up_from = held_up_times * *middle + held_up_more;
   double offset = -std::numeric_limits<double>::infinity(), round_trip = 0.0;
   for (const Answer& answer : answers_) {

@@ -1,4 +1,5 @@
-// When what is sent now arrives at the server, by the server's own clock; and how the connection does.
+// When what is sent now arrives at the server, by the server's own clock; and how the connection
+// does.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +8,17 @@
 
 namespace rink::game {
 
-/// Estimates from questions and answers (Cristian 1989), without supposing that both ways take equally long: an answer tells at which instant of the server's clock the question
-/// arrived, and that is all that a key's stamp needs. Pure: real time is handed in and never falls.
+/// Estimates from questions and answers (Cristian 1989), without supposing that both ways take
+/// equally long: an answer tells at which instant of the server's clock the question arrived, and
+/// that is all that a key's stamp needs. Pure: real time is handed in and never falls.
 class ServerClock {
  public:
   static constexpr double question_period = 1.0;  ///< s
 
   /// The number of the question to send now, if one is due.
   std::optional<std::uint64_t> ask(double now_s);
-  /// Question `number` reached the server at `server_s` by its clock; the answer came at `now_s`. Answers to what was never asked count for nothing.
+  /// Question `number` reached the server at `server_s` by its clock; the answer came at `now_s`.
+  /// Answers to what was never asked count for nothing.
   void answered(std::uint64_t number, double server_s, double now_s);
   /// Moves the estimates on to `now_s`, without jumps unless they are far off.
   void advance(double now_s);
@@ -23,20 +26,30 @@ class ServerClock {
   bool is_set() const { return !answers_.empty(); }
   /// The server's clock when what is sent at `now_s` arrives, with a little to spare [s].
   double arrival(double now_s) const { return now_s + offset_; }
-  /// How far behind arrival() everything is known that the server has said [s], if it says something every `tick_s`.
+  /// How far behind arrival() everything is known that the server has said [s], if it says
+  /// something every `tick_s`.
   double delay(double tick_s) const { return round_trip_ + tick_s + margin; }
 
-  double ping_s() const { return answers_.empty() ? 0.0 : answers_.back().round_trip; }  ///< of the last answer
-  double jitter_s() const { return jitter_; }  ///< mean difference of one round trip to the next (RFC 3550, 6.4.1)
-  double loss() const;                         ///< fraction of the last questions that had no answer within a second
+  double ping_s() const {
+    return answers_.empty() ? 0.0 : answers_.back().round_trip;
+  }  ///< of the last answer
+  double jitter_s() const {
+    return jitter_;
+  }                     ///< mean difference of one round trip to the next (RFC 3550, 6.4.1)
+  double loss() const;  ///< fraction of the last questions that had no answer within a second
 
  private:
-  static constexpr double margin = 5e-3;        ///< s: for what the network does that it did not do of late
-  static constexpr double slew = 0.1;           ///< how fast estimates move: a tenth of real time is not noticed
-  static constexpr double jump_from = 0.25;     ///< s: what is further off jumps
-  static constexpr std::size_t remembered = 16; ///< answers: a quarter of a minute
-  static constexpr std::uint64_t hasty = 12;    ///< questions at the start, a tenth of a second apart
-  static constexpr double held_up_times = 3.0, held_up_more = 0.03;  ///< [1], [s]: answers that took this much longer than the middle one do not count
+  static constexpr double margin =
+      5e-3;  ///< s: for what the network does that it did not do of late
+  static constexpr double slew =
+      0.1;  ///< how fast estimates move: a tenth of real time is not noticed
+  static constexpr double jump_from = 0.25;      ///< s: what is further off jumps
+  static constexpr std::size_t remembered = 16;  ///< answers: a quarter of a minute
+  static constexpr std::uint64_t hasty = 12;  ///< questions at the start, a tenth of a second apart
+  static constexpr double
+      held_up_times = 3.0,
+      held_up_more =
+          0.03;  ///< [1], [s]: answers that took this much longer than the middle one do not count
   struct Question {
     std::uint64_t number;
     double sent_s;

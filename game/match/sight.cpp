@@ -7,13 +7,20 @@ MatchSight sight_of(const Scene& scene) {
   MatchSight sight;
   sight.field = scene.world.field;
   sight.goals_to_win = scene.rules.goals_to_win;
-  const auto add = [&](physics::BodyKind kind, Team team, const Vector2& position, const Vector2& half_extent) {
+  const auto add = [&](physics::BodyKind kind, Team team, const Vector2& position,
+                       const Vector2& half_extent) {
     const auto id = static_cast<std::uint32_t>(sight.things.size());
-    sight.things.push_back({.id = id, .kind = kind, .team = team, .position = position, .half_extent = half_extent});
+    sight.things.push_back(
+        {.id = id, .kind = kind, .team = team, .position = position, .half_extent = half_extent});
   };
-  for (const Bat& bat : scene.bodies.bats) add(physics::BodyKind::bat, bat.team, bat.body.position, bat.body.half_extent);
-  for (const Puck& puck : scene.bodies.pucks) add(physics::BodyKind::puck, Team::none, puck.body.position, Vector2::Constant(puck.body.radius));
-  for (const Post& post : scene.bodies.posts) add(physics::BodyKind::post, Team::none, post.body.position, Vector2::Constant(post.body.radius));
+  for (const Bat& bat : scene.bodies.bats)
+    add(physics::BodyKind::bat, bat.team, bat.body.position, bat.body.half_extent);
+  for (const Puck& puck : scene.bodies.pucks)
+    add(physics::BodyKind::puck, Team::none, puck.body.position,
+        Vector2::Constant(puck.body.radius));
+  for (const Post& post : scene.bodies.posts)
+    add(physics::BodyKind::post, Team::none, post.body.position,
+        Vector2::Constant(post.body.radius));
   return sight;
 }
 
@@ -22,7 +29,9 @@ void show_game(const Game& game, MatchSight& sight) {
   sight.score = game.score();
   sight.things.clear();
   for (const Entity& entity : game.entities()) {
-    if (entity.kind == physics::BodyKind::puck && !game.simulator().is_in_play(entity.id) && !game.is_over()) continue;
+    if (entity.kind == physics::BodyKind::puck && !game.simulator().is_in_play(entity.id) &&
+        !game.is_over())
+      continue;
     sight.things.push_back({.id = entity.id.index,
                             .kind = entity.kind,
                             .team = entity.team,

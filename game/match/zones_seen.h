@@ -1,4 +1,5 @@
-// How peers share the field, as one of them knows it: zones, its halo, and where it has each body from.
+// How peers share the field, as one of them knows it: zones, its halo, and where it has each body
+// from.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +13,13 @@ struct ZonesSeen {
     double low_x = 0.0, low_y = 0.0, high_x = 0.0, high_y = 0.0;  ///< m, within the field
   };
   std::uint32_t own_peer = 0;
-  double halo = 0.0;                  ///< m: others' bodies that are so near to the own zones are simulated here, too
+  double halo =
+      0.0;  ///< m: others' bodies that are so near to the own zones are simulated here, too
   std::vector<Zone> zones;
   std::vector<std::uint32_t> ghosts;  ///< ids of the things that are
-  std::vector<std::uint32_t> told;    ///< and of those beyond, which their owners tell of because the player sees them
-  std::uint64_t own_count = 0;        ///< of bodies in the own zones
+  std::vector<std::uint32_t>
+      told;  ///< and of those beyond, which their owners tell of because the player sees them
+  std::uint64_t own_count = 0;  ///< of bodies in the own zones
 };
 
 }  // namespace rink::game

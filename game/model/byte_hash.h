@@ -1,4 +1,5 @@
-// A hash of bytes that is the same on every machine: not against forgers, but against truncation, bad disks and editors.
+// A hash of bytes that is the same on every machine: not against forgers, but against truncation,
+// bad disks and editors.
 #pragma once
 
 #include <cinttypes>

@@ -53,7 +53,8 @@ class KeysHeld {
 
 enum class InputKind : std::uint8_t { key_down, key_up, enter, leave };
 
-/// What player `player` did at the simulated instant `time` [s]. `key` means something for key_down and key_up only.
+/// What player `player` did at the simulated instant `time` [s]. `key` means something for key_down
+/// and key_up only.
 struct InputEvent {
   double time = 0.0;
   std::uint32_t player = 0;

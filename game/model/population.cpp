@@ -1,4 +1,5 @@
-// Finds a place for every body of a scene: those placed by hand are checked, populations are drawn from the seed.
+// Finds a place for every body of a scene: those placed by hand are checked, populations are drawn
+// from the seed.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,14 +28,19 @@ struct Outline {
   double radius;
 
   double gap(const Outline& other) const {
-    const Vector2 apart = ((position - other.position).cwiseAbs() - half_extent - other.half_extent).cwiseMax(0.0);
+    const Vector2 apart =
+        ((position - other.position).cwiseAbs() - half_extent - other.half_extent).cwiseMax(0.0);
     return apart.norm() - radius - other.radius;
   }
 };
 
-Outline outline(const Puck& puck) { return {puck.name, puck.body.position, Vector2::Zero(), puck.body.radius}; }
+Outline outline(const Puck& puck) {
+  return {puck.name, puck.body.position, Vector2::Zero(), puck.body.radius};
+}
 Outline outline(const Bat& bat) { return {bat.name, bat.body.position, bat.body.half_extent, 0.0}; }
-Outline outline(const Post& post) { return {post.name, post.body.position, Vector2::Zero(), post.body.radius}; }
+Outline outline(const Post& post) {
+  return {post.name, post.body.position, Vector2::Zero(), post.body.radius};
+}
 
 std::vector<Outline> outlines(const Bodies& bodies) {
   std::vector<Outline> all;
@@ -44,10 +50,12 @@ std::vector<Outline> outlines(const Bodies& bodies) {
   return all;
 }
 
-/// Fills a field body by body; a world of its own answers what is free, so that the answer is the engine's.
+/// Fills a field body by body; a world of its own answers what is free, so that the answer is the
+/// engine's.
 class Placement {
  public:
-  explicit Placement(Scene& scene) : scene_(scene), world_(scene.world), field_(scene.world.field) {}
+  explicit Placement(Scene& scene)
+      : scene_(scene), world_(scene.world), field_(scene.world.field) {}
 
   void place_all() {
     check_placed();
@@ -61,25 +69,31 @@ class Placement {
 
  private:
   static constexpr int try_max = 300;
-  /// Random places are tried for up to this part of the area; they would jam at 0.547 (Renyi's parking in the plane) and get slow before.
+  /// Random places are tried for up to this part of the area; they would jam at 0.547 (Renyi's
+  /// parking in the plane) and get slow before.
   static constexpr double random_packing_max = 0.4;
-  static constexpr double clearance = 1e-9;  ///< between the sites of a lattice, relative, so that rounding makes nobody overlap
+  static constexpr double clearance =
+      1e-9;  ///< between the sites of a lattice, relative, so that rounding makes nobody overlap
 
   void check_placed() {
     const Bodies& placed = scene_.placed;
     std::vector<Outline> before;
     for (const Post& post : placed.posts) check(outline(post), before), world_.add(post.body);
-    for (const Bat& bat : placed.bats) check(outline(bat), before), check_half(bat), world_.add(bat.body);
+    for (const Bat& bat : placed.bats)
+      check(outline(bat), before), check_half(bat), world_.add(bat.body);
     for (const Puck& puck : placed.pucks) check(outline(puck), before), world_.add(puck.body);
   }
 
   bool is_free(const Outline& body) const {
-    return body.half_extent == Vector2::Zero() ? world_.is_free(body.position, body.radius) : world_.is_free(body.position, body.half_extent);
+    return body.half_extent == Vector2::Zero() ? world_.is_free(body.position, body.radius)
+                                               : world_.is_free(body.position, body.half_extent);
   }
 
   bool is_inside(const Outline& body) const {
     const Vector2 reach = body.half_extent + Vector2::Constant(body.radius);
-    return (body.position - reach).minCoeff() >= 0.0 && body.position.x() + reach.x() <= field_.length && body.position.y() + reach.y() <= field_.width;
+    return (body.position - reach).minCoeff() >= 0.0 &&
+           body.position.x() + reach.x() <= field_.length &&
+           body.position.y() + reach.y() <= field_.width;
   }
 
   void check(const Outline& body, std::vector<Outline>& before) const {
@@ -90,10 +104,15 @@ class Placement {
 
   [[noreturn]] void refuse(const Outline& body, const std::vector<Outline>& before) const {
     for (const Outline& other : scene_.world.allow_overlap ? std::vector<Outline>() : before)
-      if (body.gap(other) < 0.0 || (body.gap(other) <= 0.0 && body.radius == 0.0 && other.radius == 0.0))
-        throw PlacementError(body.name, body.name + " at " + place_text(body.position) + " overlaps " + other.name + " at " + place_text(other.position));
+      if (body.gap(other) < 0.0 ||
+          (body.gap(other) <= 0.0 && body.radius == 0.0 && other.radius == 0.0))
+        throw PlacementError(body.name, body.name + " at " + place_text(body.position) +
+                                            " overlaps " + other.name + " at " +
+                                            place_text(other.position));
     std::ostringstream text;
-    text << body.name << " at " << place_text(body.position) << " is not wholly within the field of " << field_.length << " m x " << field_.width << " m";
+    text << body.name << " at " << place_text(body.position)
+         << " is not wholly within the field of " << field_.length << " m x " << field_.width
+         << " m";
     throw PlacementError(body.name, text.str());
   }
 
@@ -104,28 +123,39 @@ class Placement {
   }
 
   void check_half(const Bat& bat) const {
-    const double halfway = field_.length / 2, x = bat.body.position.x(), reach = bat.body.half_extent.x();
-    const bool is_out = (bat.body.half == physics::Half::left && x + reach > halfway) || (bat.body.half == physics::Half::right && x - reach < halfway);
-    if (is_out) throw PlacementError(bat.name, bat.name + " at " + place_text(bat.body.position) + " is not wholly within its team's half");
+    const double halfway = field_.length / 2, x = bat.body.position.x(),
+                 reach = bat.body.half_extent.x();
+    const bool is_out = (bat.body.half == physics::Half::left && x + reach > halfway) ||
+                        (bat.body.half == physics::Half::right && x - reach < halfway);
+    if (is_out)
+      throw PlacementError(bat.name, bat.name + " at " + place_text(bat.body.position) +
+                                         " is not wholly within its team's half");
   }
 
-  RandomStream stream_of(std::size_t population) const { return RandomStream(scene_.seed, population); }
+  RandomStream stream_of(std::size_t population) const {
+    return RandomStream(scene_.seed, population);
+  }
 
   void populate_at_random(std::size_t k) {
     const Population& population = scene_.populations[k];
     RandomStream random = stream_of(k);
     for (std::uint32_t i = 0; i < population.count; ++i) {
-      const bool is_placed = population.kind == BodyKind::post ? add_post(population, i, random) : population.kind == BodyKind::bat ? add_bat(population, i, random) : add_puck(population, i, random);
+      const bool is_placed = population.kind == BodyKind::post  ? add_post(population, i, random)
+                             : population.kind == BodyKind::bat ? add_bat(population, i, random)
+                                                                : add_puck(population, i, random);
       if (!is_placed) refuse(population, i);
     }
   }
 
   [[noreturn]] static void refuse(const Population& population, std::uint32_t placed) {
-    throw PlacementError(population.name, "the population " + population.name + " does not fit: found place for " + std::to_string(placed) + " of " + std::to_string(population.count) +
-                     "; make the field larger, or the bodies smaller or fewer");
+    throw PlacementError(population.name,
+                         "the population " + population.name + " does not fit: found place for " +
+                             std::to_string(placed) + " of " + std::to_string(population.count) +
+                             "; make the field larger, or the bodies smaller or fewer");
   }
 
-  std::optional<Vector2> random_place(RandomStream& random, const Vector2& half_extent, double radius, physics::Half half) const {
+  std::optional<Vector2> random_place(RandomStream& random, const Vector2& half_extent,
+                                      double radius, physics::Half half) const {
     const Vector2 reach = half_extent + Vector2::Constant(radius);
     Vector2 low = reach, high = Vector2(field_.length, field_.width) - reach;
     if (half == physics::Half::left) high.x() = field_.length / 2 - reach.x();
@@ -138,13 +168,17 @@ class Placement {
     return std::nullopt;
   }
 
-  static std::string name_of(const Population& population, std::uint32_t i) { return population.name + "-" + std::to_string(i); }
+  static std::string name_of(const Population& population, std::uint32_t i) {
+    return population.name + "-" + std::to_string(i);
+  }
 
   bool add_post(const Population& population, std::uint32_t i, RandomStream& random) {
     const double radius = random.uniform(population.radius_min, population.radius_max);
     const auto place = random_place(random, Vector2::Zero(), radius, physics::Half::both);
     if (!place) return false;
-    scene_.bodies.posts.push_back({name_of(population, i), {.position = *place, .radius = radius, .material = population.material}});
+    scene_.bodies.posts.push_back(
+        {name_of(population, i),
+         {.position = *place, .radius = radius, .material = population.material}});
     world_.add(scene_.bodies.posts.back().body);
     return true;
   }
@@ -155,15 +189,25 @@ class Placement {
     const auto place = random_place(random, population.half_extent, 0.0, half);
     if (!place) return false;
     scene_.bodies.bats.push_back({.name = name_of(population, i),
-                                  .body = {.position = *place, .half_extent = population.half_extent, .mass = population.mass, .material = population.material, .half = half},
+                                  .body = {.position = *place,
+                                           .half_extent = population.half_extent,
+                                           .mass = population.mass,
+                                           .material = population.material,
+                                           .half = half},
                                   .thrust = population.thrust,
                                   .team = team});
     world_.add(scene_.bodies.bats.back().body);
     return true;
   }
 
-  Puck make_puck(const Population& population, std::uint32_t i, const Vector2& place, double radius, RandomStream& random) const {
-    return {name_of(population, i), {.position = place, .velocity = speed(population, random) * random.direction(), .radius = radius, .mass = population.mass, .material = population.material}};
+  Puck make_puck(const Population& population, std::uint32_t i, const Vector2& place, double radius,
+                 RandomStream& random) const {
+    return {name_of(population, i),
+            {.position = place,
+             .velocity = speed(population, random) * random.direction(),
+             .radius = radius,
+             .mass = population.mass,
+             .material = population.material}};
   }
 
   static double speed(const Population& population, RandomStream& random) {
@@ -187,10 +231,12 @@ class Placement {
   double covered() const {
     double area = 0.0;
     for (const Outline& body : outlines(scene_.bodies))
-      area += 4.0 * body.half_extent.prod() + 4.0 * body.radius * body.half_extent.sum() + std::numbers::pi * body.radius * body.radius;
+      area += 4.0 * body.half_extent.prod() + 4.0 * body.radius * body.half_extent.sum() +
+              std::numbers::pi * body.radius * body.radius;
     for (const Population& population : scene_.populations) {
       const double radius = (population.radius_min + population.radius_max) / 2;
-      if (population.kind == BodyKind::puck) area += population.count * std::numbers::pi * radius * radius;
+      if (population.kind == BodyKind::puck)
+        area += population.count * std::numbers::pi * radius * radius;
     }
     return area / (field_.length * field_.width);
   }
@@ -202,21 +248,25 @@ class Placement {
     if (!is_sparse) place_on_lattice();
   }
 
-  /// Pucks too dense for random places: random sites of the widest hexagonal lattice that has enough of them, each moved at random as far as its cell allows.
+  /// Pucks too dense for random places: random sites of the widest hexagonal lattice that has
+  /// enough of them, each moved at random as far as its cell allows.
   void place_on_lattice() {
     double radius = 0.0;
     std::uint32_t count = 0;
     for (const Population& population : scene_.populations)
-      if (population.kind == BodyKind::puck) radius = std::max(radius, population.radius_max), count += population.count;
+      if (population.kind == BodyKind::puck)
+        radius = std::max(radius, population.radius_max), count += population.count;
     const double least = 2.0 * radius * (1.0 + clearance);
-    double spacing = std::max(least, std::sqrt(field_.length * field_.width / count * 2.0 / std::sqrt(3.0)));
+    double spacing =
+        std::max(least, std::sqrt(field_.length * field_.width / count * 2.0 / std::sqrt(3.0)));
     std::vector<Vector2> sites = free_sites(spacing, radius);
     while (sites.size() < count && spacing > least) {
       spacing = std::max(least, 0.995 * spacing);
       sites = free_sites(spacing, radius);
     }
     RandomStream random = stream_of(scene_.populations.size());
-    for (std::size_t i = 0; i < sites.size(); ++i) std::swap(sites[i], sites[i + random.below(static_cast<std::uint32_t>(sites.size() - i))]);
+    for (std::size_t i = 0; i < sites.size(); ++i)
+      std::swap(sites[i], sites[i + random.below(static_cast<std::uint32_t>(sites.size() - i))]);
     take_sites(sites, spacing, random);
   }
 
@@ -225,8 +275,11 @@ class Placement {
     std::vector<Vector2> sites;
     const double height = spacing * std::sqrt(3.0) / 2;
     for (int row = 0; radius + row * height <= field_.width - radius; ++row)
-      for (int column = 0; radius + column * spacing + (row % 2) * spacing / 2 <= field_.length - radius; ++column) {
-        const Vector2 site(radius + column * spacing + (row % 2) * spacing / 2, radius + row * height);
+      for (int column = 0;
+           radius + column * spacing + (row % 2) * spacing / 2 <= field_.length - radius;
+           ++column) {
+        const Vector2 site(radius + column * spacing + (row % 2) * spacing / 2,
+                           radius + row * height);
         if (world_.is_free(site, radius)) sites.push_back(site);
       }
     return sites;
@@ -239,7 +292,9 @@ class Placement {
       for (std::uint32_t i = 0; i < population.count; ++i, ++taken) {
         if (taken == sites.size()) refuse(population, i);
         const double radius = random.uniform(population.radius_min, population.radius_max);
-        const Vector2 moved = sites[taken] + std::max(0.0, (spacing / 2) * (1.0 - clearance) - radius) * random.in_disc();
+        const Vector2 moved =
+            sites[taken] +
+            std::max(0.0, (spacing / 2) * (1.0 - clearance) - radius) * random.in_disc();
         const Vector2 place = world_.is_free(moved, radius) ? moved : sites[taken];
         scene_.bodies.pucks.push_back(make_puck(population, i, place, radius, random));
         world_.add(scene_.bodies.pucks.back().body);

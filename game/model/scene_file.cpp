@@ -21,7 +21,8 @@ constexpr std::uint64_t body_max = 10'000'000;
 
 class SceneReader {
  public:
-  SceneReader(const toml::table& root, const std::string& file) : file_(file), root_(root, file, "the scene") {}
+  SceneReader(const toml::table& root, const std::string& file)
+      : file_(file), root_(root, file, "the scene") {}
 
   Scene read() {
     root_.text("name", scene_.name);
@@ -40,7 +41,8 @@ class SceneReader {
     root_.finish();
     populate_by_line();
     for (SceneTable& table : keys) read_key(table);
-    std::stable_sort(scene_.keys.begin(), scene_.keys.end(), [](const InputEvent& a, const InputEvent& b) { return a.time < b.time; });
+    std::stable_sort(scene_.keys.begin(), scene_.keys.end(),
+                     [](const InputEvent& a, const InputEvent& b) { return a.time < b.time; });
     return std::move(scene_);
   }
 
@@ -52,13 +54,15 @@ class SceneReader {
     table->texts("names", scene_.materials);
     if (scene_.materials.size() > 256) table->refuse("names", "at most 256 names");
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
-      if (std::count(scene_.materials.begin(), scene_.materials.end(), scene_.materials[i]) > 1) table->refuse("names", "each name once");
+      if (std::count(scene_.materials.begin(), scene_.materials.end(), scene_.materials[i]) > 1)
+        table->refuse("names", "each name once");
     table->number("restitution", everywhere, part_of_one);
     table->number("friction", friction, limit::friction);
     table->number("tangential_restitution", tangential, part_of_one);
     const std::size_t count = scene_.materials.size();
     scene_.world.restitution = physics::RestitutionTable(count, everywhere);
-    physics::SurfaceFriction surfaces{physics::PairTable(count, friction), physics::RestitutionTable(count, tangential)};
+    physics::SurfaceFriction surfaces{physics::PairTable(count, friction),
+                                      physics::RestitutionTable(count, tangential)};
     bool is_rough = friction > 0.0;
     for (SceneTable& pair : table->tables("pair")) is_rough = read_pair(pair, surfaces) || is_rough;
     table->finish();
@@ -69,24 +73,30 @@ class SceneReader {
   bool read_pair(SceneTable& pair, physics::SurfaceFriction& surfaces) {
     std::vector<std::string> between;
     double number = 1.0;
-    if (!pair.texts("between", between)) pair.refuse_all("lacks the key between: expected two materials");
+    if (!pair.texts("between", between))
+      pair.refuse_all("lacks the key between: expected two materials");
     if (between.size() != 2) pair.refuse("between", "two materials");
-    const MaterialId a = material_named(pair, "between", between[0]), b = material_named(pair, "between", between[1]);
+    const MaterialId a = material_named(pair, "between", between[0]),
+                     b = material_named(pair, "between", between[1]);
     const bool has_restitution = pair.number("restitution", number, part_of_one);
     if (has_restitution) scene_.world.restitution.set(a, b, number);
     const bool has_tangential = pair.number("tangential_restitution", number, part_of_one);
     if (has_tangential) surfaces.tangential_restitution.set(a, b, number);
     const bool has_friction = pair.number("friction", number, limit::friction);
     if (has_friction) surfaces.coefficient.set(a, b, number);
-    if (!has_restitution && !has_tangential && !has_friction) pair.refuse_all("says nothing of the pair: expected restitution, friction or tangential_restitution");
+    if (!has_restitution && !has_tangential && !has_friction)
+      pair.refuse_all(
+          "says nothing of the pair: expected restitution, friction or tangential_restitution");
     pair.finish();
     return has_friction && number > 0.0;
   }
 
-  MaterialId material_named(const SceneTable& table, const char* key, const std::string& name) const {
+  MaterialId material_named(const SceneTable& table, const char* key,
+                            const std::string& name) const {
     const auto place = std::find(scene_.materials.begin(), scene_.materials.end(), name);
     std::string known;
-    for (const std::string& material : scene_.materials) known += (known.empty() ? "" : ", ") + material;
+    for (const std::string& material : scene_.materials)
+      known += (known.empty() ? "" : ", ") + material;
     if (place == scene_.materials.end()) table.refuse(key, "materials out of " + known);
     return static_cast<MaterialId>(place - scene_.materials.begin());
   }
@@ -98,7 +108,8 @@ class SceneReader {
 
   void read_field() {
     std::optional<SceneTable> table = root_.table("field");
-    if (!table) throw SceneError(file_ + ":1: the scene lacks the table [field] with its length and width");
+    if (!table)
+      throw SceneError(file_ + ":1: the scene lacks the table [field] with its length and width");
     physics::Field& field = scene_.world.field;
     table->require_number("length", field.length, limit::field);
     table->require_number("width", field.width, limit::field);
@@ -120,7 +131,8 @@ class SceneReader {
     std::optional<SceneTable> table = root_.table("friction");
     if (!table) return;
     table->number("pucks", scene_.world.puck_friction, limit::thrust);
-    if (table->has("bats")) table->refuse("bats", "pucks only: thrust and Coulomb friction together have no closed form");
+    if (table->has("bats"))
+      table->refuse("bats", "pucks only: thrust and Coulomb friction together have no closed form");
     table->finish();
   }
 
@@ -128,7 +140,8 @@ class SceneReader {
     std::optional<SceneTable> table = root_.table("match");
     if (!table) return;
     std::uint64_t goals = 0;
-    if (table->whole("goals_to_win", goals, 1, 1'000'000)) scene_.rules.goals_to_win = static_cast<std::uint32_t>(goals);
+    if (table->whole("goals_to_win", goals, 1, 1'000'000))
+      scene_.rules.goals_to_win = static_cast<std::uint32_t>(goals);
     table->number("face_off_delay", scene_.rules.face_off_delay, limit::delay);
     table->number("face_off_distance", scene_.rules.face_off_distance, {0.0, 1.0, true});
     table->finish();
@@ -138,7 +151,8 @@ class SceneReader {
   std::string read_name(SceneTable& table, const char* kind, std::size_t number) {
     std::string name = std::string(kind) + "-" + std::to_string(number);
     table.text("name", name);
-    if (!lines_.emplace(name, table.line()).second) table.refuse_all("the name " + name + " is taken: expected each name once");
+    if (!lines_.emplace(name, table.line()).second)
+      table.refuse_all("the name " + name + " is taken: expected each name once");
     return name;
   }
 
@@ -161,8 +175,10 @@ class SceneReader {
     table.number("thrust", bat.thrust, limit::thrust);
     read_material(table, "material", bat.body.material);
     bat.team = bat.body.position.x() < scene_.world.field.length / 2 ? Team::left : Team::right;
-    table.choice<Team>("team", bat.team, {{"left", Team::left}, {"right", Team::right}, {"none", Team::none}});
-    if (scene_.world.field.bats_keep_to_half && bat.team != Team::none) bat.body.half = bat.team == Team::left ? physics::Half::left : physics::Half::right;
+    table.choice<Team>("team", bat.team,
+                       {{"left", Team::left}, {"right", Team::right}, {"none", Team::none}});
+    if (scene_.world.field.bats_keep_to_half && bat.team != Team::none)
+      bat.body.half = bat.team == Team::left ? physics::Half::left : physics::Half::right;
     table.finish();
     scene_.placed.bats.push_back(bat);
   }
@@ -174,7 +190,8 @@ class SceneReader {
     table.number("radius", puck.body.radius, limit::size);
     table.number("mass", puck.body.mass, limit::mass);
     read_material(table, "material", puck.body.material);
-    if (table.number("spin", puck.body.spin, limit::spin) && !scene_.world.surface_friction) table.refuse("spin", "friction above 0 in [materials], for without it no impact feels spin");
+    if (table.number("spin", puck.body.spin, limit::spin) && !scene_.world.surface_friction)
+      table.refuse("spin", "friction above 0 in [materials], for without it no impact feels spin");
     table.finish();
     scene_.placed.pucks.push_back(puck);
   }
@@ -183,10 +200,14 @@ class SceneReader {
     Population population;
     std::string kind;
     table.require_text("kind", kind);
-    table.choice<BodyKind>("kind", population.kind, {{"puck", BodyKind::puck}, {"bat", BodyKind::bat}, {"post", BodyKind::post}});
+    table.choice<BodyKind>(
+        "kind", population.kind,
+        {{"puck", BodyKind::puck}, {"bat", BodyKind::bat}, {"post", BodyKind::post}});
     population.name = read_name(table, (kind + "s").c_str(), scene_.populations.size());
     read_count(table, population);
-    if (population.kind != BodyKind::bat) table.span("radius", population.radius_min, population.radius_max, population.kind == BodyKind::puck ? limit::size : Range{0.0, limit::field_max});
+    if (population.kind != BodyKind::bat)
+      table.span("radius", population.radius_min, population.radius_max,
+                 population.kind == BodyKind::puck ? limit::size : Range{0.0, limit::field_max});
     if (population.kind != BodyKind::post) table.number("mass", population.mass, limit::mass);
     if (population.kind == BodyKind::puck) read_speeds(table, population);
     if (population.kind == BodyKind::bat) read_bats(table, population);
@@ -198,24 +219,33 @@ class SceneReader {
   void read_count(SceneTable& table, Population& population) {
     std::uint64_t count = 0;
     double density = 0.0;
-    const bool has_count = table.whole("count", count, 0, body_max), has_density = table.number("density", density, from_zero);
-    if (has_count == has_density) table.refuse_all("expected either count or density (bodies per square metre)");
-    const double by_density = std::round(density * scene_.world.field.length * scene_.world.field.width);
-    if (by_density > static_cast<double>(body_max)) table.refuse("density", "at most " + std::to_string(body_max) + " bodies in all");
-    population.count = has_count ? static_cast<std::uint32_t>(count) : static_cast<std::uint32_t>(by_density);
+    const bool has_count = table.whole("count", count, 0, body_max),
+               has_density = table.number("density", density, from_zero);
+    if (has_count == has_density)
+      table.refuse_all("expected either count or density (bodies per square metre)");
+    const double by_density =
+        std::round(density * scene_.world.field.length * scene_.world.field.width);
+    if (by_density > static_cast<double>(body_max))
+      table.refuse("density", "at most " + std::to_string(body_max) + " bodies in all");
+    population.count =
+        has_count ? static_cast<std::uint32_t>(count) : static_cast<std::uint32_t>(by_density);
   }
 
   void read_speeds(SceneTable& table, Population& population) {
     table.number("mean_speed", population.mean_speed, limit::speed);
     table.choice<SpeedDistribution>("speeds", population.speeds,
-                                    {{"fixed", SpeedDistribution::fixed}, {"uniform", SpeedDistribution::uniform}, {"maxwell", SpeedDistribution::maxwell}});
+                                    {{"fixed", SpeedDistribution::fixed},
+                                     {"uniform", SpeedDistribution::uniform},
+                                     {"maxwell", SpeedDistribution::maxwell}});
   }
 
   void read_bats(SceneTable& table, Population& population) {
     table.vector("half_extent", population.half_extent, limit::size);
     table.number("thrust", population.thrust, limit::thrust);
     Team team = Team::none;
-    if (table.choice<Team>("team", team, {{"left", Team::left}, {"right", Team::right}, {"none", Team::none}})) population.team = team;
+    if (table.choice<Team>("team", team,
+                           {{"left", Team::left}, {"right", Team::right}, {"none", Team::none}}))
+      population.team = team;
   }
 
   void populate_by_line() {
@@ -232,14 +262,18 @@ class SceneReader {
     table.require_number("time", event.time, limit::time);
     table.require_text("bat", bat);
     const std::vector<Bat>& bats = scene_.bodies.bats;
-    const auto place = std::find_if(bats.begin(), bats.end(), [&](const Bat& candidate) { return candidate.name == bat; });
+    const auto place = std::find_if(bats.begin(), bats.end(),
+                                    [&](const Bat& candidate) { return candidate.name == bat; });
     if (place == bats.end()) table.refuse("bat", "the name of a bat");
     event.player = static_cast<std::uint32_t>(place - bats.begin());
     std::string key;
     bool is_down = true;
     table.require_text("key", key);
-    table.choice<Key>("key", event.key, {{"left", Key::left}, {"right", Key::right}, {"up", Key::up}, {"down", Key::down}});
-    if (!table.truth("is_down", is_down)) table.refuse_all("lacks the key is_down: expected true or false");
+    table.choice<Key>(
+        "key", event.key,
+        {{"left", Key::left}, {"right", Key::right}, {"up", Key::up}, {"down", Key::down}});
+    if (!table.truth("is_down", is_down))
+      table.refuse_all("lacks the key is_down: expected true or false");
     event.kind = is_down ? InputKind::key_down : InputKind::key_up;
     table.finish();
     scene_.keys.push_back(event);
@@ -263,15 +297,19 @@ std::filesystem::path file_of(const std::string& scene) {
   if (std::filesystem::is_regular_file(preset)) return preset;
   std::string known;
   for (const std::string& name : preset_names()) known += (known.empty() ? "" : ", ") + name;
-  throw SceneError(scene + ": no such scene: expected a file NAME.toml or one of the presets " + (known.empty() ? "(none found in " + preset_folder().string() + ")" : known));
+  throw SceneError(scene + ": no such scene: expected a file NAME.toml or one of the presets " +
+                   (known.empty() ? "(none found in " + preset_folder().string() + ")" : known));
 }
 
-/// Throws SceneError at a line of more dots than any key of a scene: toml++ opens a table for each and frees them by recursion, which a long enough key makes overflow.
+/// Throws SceneError at a line of more dots than any key of a scene: toml++ opens a table for each
+/// and frees them by recursion, which a long enough key makes overflow.
 void refuse_deep_keys(std::string_view text, const std::string& file) {
   constexpr std::ptrdiff_t dots_max = 1000;
   for (std::size_t line = 1; !text.empty(); ++line) {
     const std::string_view here = text.substr(0, text.find('\n'));
-    if (std::count(here.begin(), here.end(), '.') > dots_max) throw SceneError(file + ":" + std::to_string(line) + ": not TOML of a scene: more than 1000 dots in a line");
+    if (std::count(here.begin(), here.end(), '.') > dots_max)
+      throw SceneError(file + ":" + std::to_string(line) +
+                       ": not TOML of a scene: more than 1000 dots in a line");
     text.remove_prefix(std::min(text.size(), here.size() + 1));
   }
 }
@@ -284,7 +322,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file) {
   try {
     root = toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
-    throw SceneError(file.string() + ":" + std::to_string(error.source().begin.line) + ": not TOML: " + std::string(error.description()));
+    throw SceneError(file.string() + ":" + std::to_string(error.source().begin.line) +
+                     ": not TOML: " + std::string(error.description()));
   }
   Scene scene = SceneReader(root, file.string()).read();
   if (scene.name.empty()) scene.name = file.stem().string();
@@ -295,17 +334,21 @@ std::string scene_text(const std::string& scene) {
   const std::filesystem::path file = file_of(scene);
   std::ifstream stream(file);
   std::ostringstream text;
-  if (std::filesystem::is_directory(file) || !stream || !(text << stream.rdbuf())) throw SceneError(file.string() + ": cannot be read: expected a scene file (TOML)");
+  if (std::filesystem::is_directory(file) || !stream || !(text << stream.rdbuf()))
+    throw SceneError(file.string() + ": cannot be read: expected a scene file (TOML)");
   return text.str();
 }
 
-Scene load_scene(const std::string& scene) { return parse_scene(scene_text(scene), file_of(scene)); }
+Scene load_scene(const std::string& scene) {
+  return parse_scene(scene_text(scene), file_of(scene));
+}
 
 std::vector<std::string> preset_names() {
   std::vector<std::string> names;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(preset_folder(), error))
-    if (entry.is_regular_file() && entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    if (entry.is_regular_file() && entry.path().extension() == ".toml")
+      names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -10,17 +10,20 @@
 
 namespace rink::game {
 
-/// The scene in file `scene` if that is a path (it has a directory or ends in .toml), else the preset of that name: ../share/rink/scenes/NAME.toml seen from
-/// the running executable. Throws SceneError naming file, line, key, value and what was expected.
+/// The scene in file `scene` if that is a path (it has a directory or ends in .toml), else the
+/// preset of that name: ../share/rink/scenes/NAME.toml seen from the running executable. Throws
+/// SceneError naming file, line, key, value and what was expected.
 Scene load_scene(const std::string& scene);
 
 /// What stands in the file that load_scene() reads. Throws SceneError if it cannot be read.
 std::string scene_text(const std::string& scene);
 
-/// The scene that `text` describes; `file` is named in errors and, without its extension, names a scene that does not name itself.
+/// The scene that `text` describes; `file` is named in errors and, without its extension, names a
+/// scene that does not name itself.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file);
 
-/// Names of the presets beside the running executable, in alphabetical order; empty if there is no such folder.
+/// Names of the presets beside the running executable, in alphabetical order; empty if there is no
+/// such folder.
 std::vector<std::string> preset_names();
 
 }  // namespace rink::game

@@ -20,15 +20,18 @@ std::string text_of(double number) {
 /// As short as reads back to the same bits, and as TOML writes it.
 std::string exact_text_of(double number) {
   std::array<char, 32> digits;
-  const std::string text(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+  const std::string text(digits.data(),
+                         std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
   return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
 }
 
 std::string whole_text_of(const toml::node& node) {
-  if (const toml::value<double>* number = node.as_floating_point()) return exact_text_of(number->get());
+  if (const toml::value<double>* number = node.as_floating_point())
+    return exact_text_of(number->get());
   std::string all;
   if (const toml::array* list = node.as_array()) {
-    for (const toml::node& element : *list) all += (all.empty() ? "" : ", ") + whole_text_of(element);
+    for (const toml::node& element : *list)
+      all += (all.empty() ? "" : ", ") + whole_text_of(element);
     return "[" + all + "]";
   }
   std::ostringstream text;
@@ -56,7 +59,9 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string at(const std::string& file, const toml::source_region& source) { return file + ":" + std::to_string(source.begin.line) + ": "; }
+std::string at(const std::string& file, const toml::source_region& source) {
+  return file + ":" + std::to_string(source.begin.line) + ": ";
+}
 
 }  // namespace
 
@@ -72,15 +77,20 @@ const toml::node* SceneTable::find(const char* key) {
 }
 
 void SceneTable::require(bool was_there, const char* key, const std::string& expected) const {
-  if (!was_there) throw SceneError(at(file_, table_.source()) + name_ + " lacks the key " + key + ": expected " + expected);
+  if (!was_there)
+    throw SceneError(at(file_, table_.source()) + name_ + " lacks the key " + key + ": expected " +
+                     expected);
 }
 
 void SceneTable::refuse(const char* key, const std::string& expected) const {
   const toml::node* node = table_.get(key);
-  throw SceneError(at(file_, node->source()) + name_ + "." + key + " is " + text_of(*node) + ": expected " + expected);
+  throw SceneError(at(file_, node->source()) + name_ + "." + key + " is " + text_of(*node) +
+                   ": expected " + expected);
 }
 
-void SceneTable::refuse_all(const std::string& why) const { throw SceneError(at(file_, table_.source()) + name_ + ": " + why); }
+void SceneTable::refuse_all(const std::string& why) const {
+  throw SceneError(at(file_, table_.source()) + name_ + ": " + why);
+}
 
 std::optional<double> SceneTable::number_of(const toml::node& node, const Range& range) const {
   if (!node.is_number()) return std::nullopt;
@@ -97,11 +107,14 @@ bool SceneTable::number(const char* key, double& into, const Range& range) {
   return true;
 }
 
-bool SceneTable::whole(const char* key, std::uint64_t& into, std::uint64_t least, std::uint64_t most) {
+bool SceneTable::whole(const char* key, std::uint64_t& into, std::uint64_t least,
+                       std::uint64_t most) {
   const toml::node* node = find(key);
   if (!node) return false;
-  const std::optional<std::int64_t> number = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
-  if (!number || *number < 0 || static_cast<std::uint64_t>(*number) < least || static_cast<std::uint64_t>(*number) > most)
+  const std::optional<std::int64_t> number =
+      node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+  if (!number || *number < 0 || static_cast<std::uint64_t>(*number) < least ||
+      static_cast<std::uint64_t>(*number) > most)
     refuse(key, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   into = static_cast<std::uint64_t>(*number);
   return true;
@@ -118,7 +131,8 @@ bool SceneTable::truth(const char* key, bool& into) {
 bool SceneTable::text(const char* key, std::string& into) {
   const toml::node* node = find(key);
   if (!node) return false;
-  if (!node->is_string() || node->as_string()->get().empty()) refuse(key, "a text in quotation marks");
+  if (!node->is_string() || node->as_string()->get().empty())
+    refuse(key, "a text in quotation marks");
   into = node->as_string()->get();
   return true;
 }
@@ -127,7 +141,10 @@ bool SceneTable::texts(const char* key, std::vector<std::string>& into) {
   const toml::node* node = find(key);
   if (!node) return false;
   const toml::array* list = node->as_array();
-  const bool is_list = list && !list->empty() && std::all_of(list->begin(), list->end(), [](const toml::node& entry) { return entry.is_string() && !entry.as_string()->get().empty(); });
+  const bool is_list = list && !list->empty() &&
+                       std::all_of(list->begin(), list->end(), [](const toml::node& entry) {
+                         return entry.is_string() && !entry.as_string()->get().empty();
+                       });
   if (!is_list) refuse(key, "a list of texts");
   into.clear();
   for (const toml::node& entry : *list) into.push_back(entry.as_string()->get());
@@ -138,7 +155,8 @@ bool SceneTable::vector(const char* key, Vector2& into, const Range& range) {
   const toml::node* node = find(key);
   if (!node) return false;
   const toml::array* list = node->as_array();
-  const bool is_pair = list && list->size() == 2 && number_of(*list->get(0), range) && number_of(*list->get(1), range);
+  const bool is_pair = list && list->size() == 2 && number_of(*list->get(0), range) &&
+                       number_of(*list->get(1), range);
   if (!is_pair) refuse(key, "two numbers [x, y], each " + range.text());
   into = {*number_of(*list->get(0), range), *number_of(*list->get(1), range)};
   return true;
@@ -168,7 +186,9 @@ std::vector<SceneTable> SceneTable::tables(const char* key) {
   const toml::node* node = find(key);
   if (!node) return all;
   const toml::array* list = node->as_array();
-  if (!list || !std::all_of(list->begin(), list->end(), [](const toml::node& entry) { return entry.is_table(); })) refuse(key, std::string("tables, each written [[") + key + "]]");
+  if (!list || !std::all_of(list->begin(), list->end(),
+                            [](const toml::node& entry) { return entry.is_table(); }))
+    refuse(key, std::string("tables, each written [[") + key + "]]");
   for (const toml::node& entry : *list) all.emplace_back(*entry.as_table(), file_, key);
   return all;
 }
@@ -176,11 +196,18 @@ std::vector<SceneTable> SceneTable::tables(const char* key) {
 void SceneTable::finish() const {
   for (const auto& [key, node] : table_) {
     if (asked_.contains(key.str())) continue;
-    const auto nearest = std::min_element(asked_.begin(), asked_.end(), [word = key.str()](const auto& a, const auto& b) { return edits(a, word) < edits(b, word); });
+    const auto nearest = std::min_element(asked_.begin(), asked_.end(),
+                                          [word = key.str()](const auto& a, const auto& b) {
+                                            return edits(a, word) < edits(b, word);
+                                          });
     std::string known;
     for (const std::string& word : asked_) known += (known.empty() ? "" : ", ") + word;
-    const bool is_near = nearest != asked_.end() && edits(*nearest, key.str()) <= std::max<std::size_t>(2, key.str().size() / 3);
-    throw SceneError(at(file_, key.source()) + name_ + " has the unknown key " + std::string(key.str()) + (is_near ? ": did you mean " + *nearest + "?" : ":") + " Known are " + known);
+    const bool is_near =
+        nearest != asked_.end() &&
+        edits(*nearest, key.str()) <= std::max<std::size_t>(2, key.str().size() / 3);
+    throw SceneError(at(file_, key.source()) + name_ + " has the unknown key " +
+                     std::string(key.str()) + (is_near ? ": did you mean " + *nearest + "?" : ":") +
+                     " Known are " + known);
   }
 }
 

@@ -1,4 +1,5 @@
-// The server's evidence as lines: a header with counts, ticks, keys, object names, then one line per sampled decision.
+// The server's evidence as lines: a header with counts, ticks, keys, object names, then one line
+// per sampled decision.
 #include "game/net/evidence.h"
 
 #include <algorithm>
@@ -29,7 +30,8 @@ Json runs_of(std::span<const std::uint32_t> numbers) {
   return runs;
 }
 
-void append_runs(const nlohmann::json& runs, std::vector<std::uint32_t>& numbers, const EvidenceReader& reader) {
+void append_runs(const nlohmann::json& runs, std::vector<std::uint32_t>& numbers,
+                 const EvidenceReader& reader) {
   constexpr std::uint64_t length_max = 1'000'000;
   if (runs.size() % 2 != 0) reader.refuse("pairs of first and length");
   for (std::size_t i = 0; i < runs.size(); i += 2) {
@@ -40,33 +42,59 @@ void append_runs(const nlohmann::json& runs, std::vector<std::uint32_t>& numbers
   }
 }
 
-std::string hash_of_state(std::span<const std::uint8_t> state) { return hexadecimal(hash_of({reinterpret_cast<const char*>(state.data()), state.size()})); }
+std::string hash_of_state(std::span<const std::uint8_t> state) {
+  return hexadecimal(hash_of({reinterpret_cast<const char*>(state.data()), state.size()}));
+}
 
 Json header_of(const ServerEvidence& evidence, const std::filesystem::path& file) {
-  Json header{{"rink-server-evidence", version}, {"scene", evidence.choice.scene}, {"bats", evidence.choice.bats}, {"bat_count", evidence.choice.bat_count},
-          {"puck_count", evidence.choice.puck_count}, {"seed", evidence.choice.seed}, {"scheme", evidence.scheme}, {"policy", evidence.policy},
-          {"clients", evidence.clients}, {"rate_hz", evidence.rate_hz}, {"from_s", evidence.from_s}, {"until_s", evidence.until_s}, {"end_s", evidence.end_s},
-          {"state_hash", hexadecimal(evidence.state_hash)}, {"decisions", evidence.decisions.size()}};
+  Json header{{"rink-server-evidence", version},
+              {"scene", evidence.choice.scene},
+              {"bats", evidence.choice.bats},
+              {"bat_count", evidence.choice.bat_count},
+              {"puck_count", evidence.choice.puck_count},
+              {"seed", evidence.choice.seed},
+              {"scheme", evidence.scheme},
+              {"policy", evidence.policy},
+              {"clients", evidence.clients},
+              {"rate_hz", evidence.rate_hz},
+              {"from_s", evidence.from_s},
+              {"until_s", evidence.until_s},
+              {"end_s", evidence.end_s},
+              {"state_hash", hexadecimal(evidence.state_hash)},
+              {"decisions", evidence.decisions.size()}};
   if (!evidence.state_file.empty())
-    header["begins_from"] = {{"file", std::filesystem::absolute(evidence.state_file).lexically_relative(std::filesystem::absolute(file).parent_path()).generic_string()}, {"fnv1a", hash_of_state(evidence.state)}};
+    header["begins_from"] = {
+        {"file", std::filesystem::absolute(evidence.state_file)
+                     .lexically_relative(std::filesystem::absolute(file).parent_path())
+                     .generic_string()},
+        {"fnv1a", hash_of_state(evidence.state)}};
   return header;
 }
 
 /// A folder of evidence that is moved takes its saved games along.
-void read_state(const nlohmann::json& begins_from, const std::filesystem::path& folder, ServerEvidence& evidence) {
-  const std::filesystem::path file = (folder / begins_from.at("file").get<std::string>()).lexically_normal();
+void read_state(const nlohmann::json& begins_from, const std::filesystem::path& folder,
+                ServerEvidence& evidence) {
+  const std::filesystem::path file =
+      (folder / begins_from.at("file").get<std::string>()).lexically_normal();
   try {
     evidence.state = read_game_state(file);
   } catch (const SceneError& error) {
     throw EvidenceError(error.what());
   }
-  if (hash_of_state(evidence.state) != begins_from.at("fnv1a").get<std::string>()) throw EvidenceError(file.string() + ": is not the saved game that the evidence began from: its hash differs");
+  if (hash_of_state(evidence.state) != begins_from.at("fnv1a").get<std::string>())
+    throw EvidenceError(file.string() +
+                        ": is not the saved game that the evidence began from: its hash differs");
   evidence.state_file = file.string();
 }
 
-void read_header(const nlohmann::json& line, ServerEvidence& evidence, const EvidenceReader& reader) {
+void read_header(const nlohmann::json& line, ServerEvidence& evidence,
+                 const EvidenceReader& reader) {
   reader.require_version(line.value("rink-server-evidence", 0), version, "a server's evidence");
-  evidence.choice = {.scene = line.at("scene"), .bats = line.at("bats"), .bat_count = line.at("bat_count"), .puck_count = line.at("puck_count"), .seed = line.at("seed")};
+  evidence.choice = {.scene = line.at("scene"),
+                     .bats = line.at("bats"),
+                     .bat_count = line.at("bat_count"),
+                     .puck_count = line.at("puck_count"),
+                     .seed = line.at("seed")};
   evidence.scheme = line.at("scheme");
   evidence.policy = line.at("policy");
   evidence.clients = line.at("clients");
@@ -75,12 +103,18 @@ void read_header(const nlohmann::json& line, ServerEvidence& evidence, const Evi
   evidence.until_s = line.at("until_s");
   evidence.end_s = line.at("end_s");
   evidence.state_hash = std::stoull(line.at("state_hash").get<std::string>(), nullptr, 16);
-  if (!(evidence.rate_hz >= 1.0 && evidence.from_s >= 0.0 && evidence.end_s >= 0.0 && evidence.end_s <= 1e6)) reader.refuse("a rate of 1 Hz or more and instants from 0 s to 1,000,000 s");
+  if (!(evidence.rate_hz >= 1.0 && evidence.from_s >= 0.0 && evidence.end_s >= 0.0 &&
+        evidence.end_s <= 1e6))
+    reader.refuse("a rate of 1 Hz or more and instants from 0 s to 1,000,000 s");
 }
 
 InputEvent read_key(const nlohmann::json& line, const EvidenceReader& reader) {
-  const InputEvent event{.time = line.at(0), .player = line.at(1), .kind = static_cast<InputKind>(line.at(2).get<std::uint8_t>()), .key = static_cast<Key>(line.at(3).get<std::uint8_t>())};
-  if (!(event.time >= 0.0) || event.kind > InputKind::leave || std::find(all_keys.begin(), all_keys.end(), event.key) == all_keys.end())
+  const InputEvent event{.time = line.at(0),
+                         .player = line.at(1),
+                         .kind = static_cast<InputKind>(line.at(2).get<std::uint8_t>()),
+                         .key = static_cast<Key>(line.at(3).get<std::uint8_t>())};
+  if (!(event.time >= 0.0) || event.kind > InputKind::leave ||
+      std::find(all_keys.begin(), all_keys.end(), event.key) == all_keys.end())
     reader.refuse("keys as time, player, kind and key");
   return event;
 }
@@ -91,16 +125,20 @@ ServerEvidence read_lines(EvidenceReader& reader, const std::filesystem::path& f
   read_header(header, evidence, reader);
   if (header.contains("begins_from")) read_state(header["begins_from"], folder, evidence);
   const nlohmann::json ticks = reader.next().at("ticks_us");
-  for (const nlohmann::json& tick : ticks) evidence.ticks.push_back({tick.at(0), 1e-6 * tick.at(1).get<double>(), 1e-6 * tick.at(2).get<double>(), 1e-6 * tick.at(3).get<double>()});
+  for (const nlohmann::json& tick : ticks)
+    evidence.ticks.push_back({tick.at(0), 1e-6 * tick.at(1).get<double>(),
+                              1e-6 * tick.at(2).get<double>(), 1e-6 * tick.at(3).get<double>()});
   const nlohmann::json keys = reader.next().at("keys");
   for (const nlohmann::json& key : keys) evidence.keys.push_back(read_key(key, reader));
   const nlohmann::json objects = reader.next().at("objects");
-  for (const nlohmann::json& naming : objects) evidence.objects.push_back({naming.at(0), naming.at(1)});
+  for (const nlohmann::json& naming : objects)
+    evidence.objects.push_back({naming.at(0), naming.at(1)});
   for (std::size_t i = 0; i < header.at("decisions").get<std::size_t>(); ++i) {
     const nlohmann::json line = reader.next();
     const std::size_t first = evidence.in_scope.size();
     append_runs(line.at("in_scope"), evidence.in_scope, reader);
-    evidence.decisions.push_back({line.at("instant_s"), line.at("player"), first, evidence.in_scope.size()});
+    evidence.decisions.push_back(
+        {line.at("instant_s"), line.at("player"), first, evidence.in_scope.size()});
   }
   return evidence;
 }
@@ -112,14 +150,20 @@ void write_evidence(const std::string& file, const ServerEvidence& evidence) {
   writer.line(header_of(evidence, file));
   Json ticks = Json::array(), keys = Json::array(), objects = Json::array();
   const auto us = [](double seconds) { return std::round(1e9 * seconds) * 1e-3; };
-  for (const ServerEvidence::Tick& tick : evidence.ticks) ticks.push_back({tick.simulated_s, us(tick.physics_s), us(tick.filter_s), us(tick.send_s)});
-  for (const InputEvent& event : evidence.keys) keys.push_back({event.time, event.player, static_cast<int>(event.kind), static_cast<int>(event.key)});
-  for (const ServerEvidence::Naming& naming : evidence.objects) objects.push_back({naming.object, naming.body});
+  for (const ServerEvidence::Tick& tick : evidence.ticks)
+    ticks.push_back({tick.simulated_s, us(tick.physics_s), us(tick.filter_s), us(tick.send_s)});
+  for (const InputEvent& event : evidence.keys)
+    keys.push_back(
+        {event.time, event.player, static_cast<int>(event.kind), static_cast<int>(event.key)});
+  for (const ServerEvidence::Naming& naming : evidence.objects)
+    objects.push_back({naming.object, naming.body});
   writer.line({{"ticks_us", ticks}});
   writer.line({{"keys", keys}});
   writer.line({{"objects", objects}});
   for (const ServerEvidence::Decision& decision : evidence.decisions)
-    writer.line({{"instant_s", decision.instant_s}, {"player", decision.player}, {"in_scope", runs_of(evidence.scope_of(decision))}});
+    writer.line({{"instant_s", decision.instant_s},
+                 {"player", decision.player},
+                 {"in_scope", runs_of(evidence.scope_of(decision))}});
   writer.finish();
 }
 
@@ -128,7 +172,8 @@ ServerEvidence read_server_evidence(const std::string& file) {
   try {
     return read_lines(reader, std::filesystem::path(file).parent_path());
   } catch (const nlohmann::json::exception& error) {
-    reader.refuse(std::string("the server's evidence as docs/metrics.md describes it (") + error.what() + ")");
+    reader.refuse(std::string("the server's evidence as docs/metrics.md describes it (") +
+                  error.what() + ")");
   } catch (const std::logic_error&) {
     reader.refuse("a state_hash of hexadecimal digits");
   }

@@ -1,4 +1,5 @@
-// What a server says of its own run for others to judge: how to play the game again, what each tick took, and samples of what its filter decided.
+// What a server says of its own run for others to judge: how to play the game again, what each tick
+// took, and samples of what its filter decided.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,11 @@ struct ServerEvidence {
     double simulated_s = 0.0, physics_s = 0.0, filter_s = 0.0, send_s = 0.0;
   };
   struct Naming {
-    std::uint32_t object = 0, body = 0;  ///< RTI object handle and number of the body in the game's world
+    std::uint32_t object = 0,
+                  body = 0;  ///< RTI object handle and number of the body in the game's world
   };
-  /// Which objects `player` was told of by the decision in force at `instant_s`: `in_scope[first]` up to `in_scope[last - 1]`.
+  /// Which objects `player` was told of by the decision in force at `instant_s`: `in_scope[first]`
+  /// up to `in_scope[last - 1]`.
   struct Decision {
     double instant_s = 0.0;
     std::uint32_t player = 0;
@@ -28,8 +31,9 @@ struct ServerEvidence {
   };
 
   SceneChoice choice;
-  std::string state_file;              ///< of the saved game from which the run began (game/control/game_state.h); empty: the scene's beginning
-  std::vector<std::uint8_t> state;     ///< what is in it
+  std::string state_file;           ///< of the saved game from which the run began
+                                    ///< (game/control/game_state.h); empty: the scene's beginning
+  std::vector<std::uint8_t> state;  ///< what is in it
   std::string scheme, policy;
   std::uint32_t clients = 0;
   double rate_hz = 0.0;
@@ -42,12 +46,16 @@ struct ServerEvidence {
   std::vector<Decision> decisions;
   std::vector<std::uint32_t> in_scope;
 
-  std::span<const std::uint32_t> scope_of(const Decision& decision) const { return std::span(in_scope).subspan(decision.first, decision.last - decision.first); }
+  std::span<const std::uint32_t> scope_of(const Decision& decision) const {
+    return std::span(in_scope).subspan(decision.first, decision.last - decision.first);
+  }
 };
 
-/// A saved game is named by its path from `file`'s folder, and by its hash. Throws std::runtime_error naming `file` if it cannot be written.
+/// A saved game is named by its path from `file`'s folder, and by its hash. Throws
+/// std::runtime_error naming `file` if it cannot be written.
 void write_evidence(const std::string& file, const ServerEvidence& evidence);
-/// Throws EvidenceError naming file, line and what was expected, or the saved game if that is missing or another.
+/// Throws EvidenceError naming file, line and what was expected, or the saved game if that is
+/// missing or another.
 ServerEvidence read_server_evidence(const std::string& file);
 
 }  // namespace rink::game

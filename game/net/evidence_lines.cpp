@@ -36,11 +36,14 @@ EvidenceReader::EvidenceReader(std::string file) : file_(std::move(file)) {
   std::ifstream stream(file_, std::ios::binary);
   if (!stream) throw EvidenceError(file_ + ": cannot be read: expected evidence of a run");
   text_.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-  const std::size_t before_last = text_.size() < 2 ? std::string::npos : text_.rfind('\n', text_.size() - 2);
+  const std::size_t before_last =
+      text_.size() < 2 ? std::string::npos : text_.rfind('\n', text_.size() - 2);
   const std::size_t end = before_last == std::string::npos ? 0 : before_last + 1;
   for (const char byte : std::string_view(text_).substr(0, end)) lines_ += byte == '\n' ? 1u : 0u;
-  if (std::string_view(text_).substr(end) != last_line(lines_, hash_of(std::string_view(text_).substr(0, end))))
-    throw EvidenceError(file_ + ": truncated or altered: its last line does not fit the " + std::to_string(lines_) + " lines before it");
+  if (std::string_view(text_).substr(end) !=
+      last_line(lines_, hash_of(std::string_view(text_).substr(0, end))))
+    throw EvidenceError(file_ + ": truncated or altered: its last line does not fit the " +
+                        std::to_string(lines_) + " lines before it");
   text_.resize(end);
 }
 
@@ -60,9 +63,12 @@ nlohmann::json EvidenceReader::next() {
 
 void EvidenceReader::require_version(int found, int wanted, const std::string& what) const {
   if (found == wanted) return;
-  refuse(what + " of version " + std::to_string(wanted) + ", found " + (found == 0 ? "something else" : "version " + std::to_string(found)));
+  refuse(what + " of version " + std::to_string(wanted) + ", found " +
+         (found == 0 ? "something else" : "version " + std::to_string(found)));
 }
 
-void EvidenceReader::refuse(const std::string& expected) const { throw EvidenceError(file_ + ":" + std::to_string(read_) + ": expected " + expected); }
+void EvidenceReader::refuse(const std::string& expected) const {
+  throw EvidenceError(file_ + ":" + std::to_string(read_) + ": expected " + expected);
+}
 
 }  // namespace rink::game

@@ -1,4 +1,5 @@
-// Files of evidence: a JSON value per line and a last line that proves that none is missing or altered.
+// Files of evidence: a JSON value per line and a last line that proves that none is missing or
+// altered.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +39,8 @@ class EvidenceWriter {
 /// Reads what EvidenceWriter wrote, whole or not at all.
 class EvidenceReader {
  public:
-  /// Throws EvidenceError if the file cannot be read, has no last line as above, or differs from what it says.
+  /// Throws EvidenceError if the file cannot be read, has no last line as above, or differs from
+  /// what it says.
   explicit EvidenceReader(std::string file);
   /// The next line. Throws EvidenceError if there is none or it is not JSON.
   nlohmann::json next();
@@ -46,7 +48,8 @@ class EvidenceReader {
   std::string_view next_text();
   bool is_at_end() const { return read_ == lines_; }
   [[noreturn]] void refuse(const std::string& expected) const;
-  /// Refuses `what` of another version than the wanted one, and names both; 0 stands for a file that names none.
+  /// Refuses `what` of another version than the wanted one, and names both; 0 stands for a file
+  /// that names none.
   void require_version(int found, int wanted, const std::string& what) const;
 
  private:

@@ -5,7 +5,8 @@
 
 namespace rink::game {
 
-/// The path of rink.fom.xml as it was built or installed: ../share/rink/ seen from the running executable.
+/// The path of rink.fom.xml as it was built or installed: ../share/rink/ seen from the running
+/// executable.
 std::string fom_file();
 
 }  // namespace rink::game

@@ -1,4 +1,5 @@
-// What stands between a command's socket and its federates: a shared key and a rate limit, where flags ask for them.
+// What stands between a command's socket and its federates: a shared key and a rate limit, where
+// flags ask for them.
 #pragma once
 
 #include <optional>
@@ -17,19 +18,26 @@ struct GateSettings {
   rti::RateLimit rate_limit{};
 };
 
-/// Nothing at all unless the settings ask for it. The rate counts from the socket on, so a stranger is held to it too.
+/// Nothing at all unless the settings ask for it. The rate counts from the socket on, so a stranger
+/// is held to it too.
 class Gate {
  public:
-  /// `socket` must outlive it. Throws std::runtime_error, which names the key file, if it can't be read or is too short.
-  Gate(rti::Transport& socket, const GateSettings& settings, const rti::GuardedTransport::Clock& now_s) : transport_(&socket) {
+  /// `socket` must outlive it. Throws std::runtime_error, which names the key file, if it can't be
+  /// read or is too short.
+  Gate(rti::Transport& socket, const GateSettings& settings,
+       const rti::GuardedTransport::Clock& now_s)
+      : transport_(&socket) {
     if (settings.rate_limit.bytes_per_s > 0.0 || settings.rate_limit.frames_per_s > 0.0) {
       rti::RateLimit limit = settings.rate_limit;
-      limit.last_words = rti::framed(rti::ExpelledMessage{rti::to_string(rti::CloseReason::too_fast)});
+      limit.last_words =
+          rti::framed(rti::ExpelledMessage{rti::to_string(rti::CloseReason::too_fast)});
       transport_ = &limited_.emplace(*transport_, limit, now_s);
     }
     if (settings.key_file.empty()) return;
     key_ = rti::SharedKey::load(settings.key_file);
-    transport_ = &guarded_.emplace(*transport_, *key_, rti::GuardSettings{.role = settings.role, .federation = settings.federation}, now_s);
+    transport_ = &guarded_.emplace(
+        *transport_, *key_,
+        rti::GuardSettings{.role = settings.role, .federation = settings.federation}, now_s);
   }
   Gate(const Gate&) = delete;
   Gate& operator=(const Gate&) = delete;

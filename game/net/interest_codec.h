@@ -26,14 +26,19 @@ bool exchange(Stream& stream, InterestSeen::View& view) {
   auto hears = static_cast<std::uint8_t>(view.hears);
   if (!stream.number(view.bat) || !stream.range(hears, 1)) return false;
   view.hears = hears != 0;
-  return stream.number(view.low_x) && stream.number(view.low_y) && stream.number(view.high_x) && stream.number(view.high_y);
+  return stream.number(view.low_x) && stream.number(view.low_y) && stream.number(view.high_x) &&
+         stream.number(view.high_y);
 }
 
-/// The counts, the views, and up to the end the steps from one object that is heard of to the next, of which all but the first are short.
+/// The counts, the views, and up to the end the steps from one object that is heard of to the next,
+/// of which all but the first are short.
 template <class Stream>
 bool exchange(Stream& stream, InterestSeen& seen) {
   auto views = static_cast<std::uint16_t>(seen.views.size());
-  if (!stream.number(seen.asked) || !stream.number(seen.cell_size) || !stream.varint(seen.view_count) || !stream.varint(seen.heard_count) || !stream.varint(seen.hearer_count)) return false;
+  if (!stream.number(seen.asked) || !stream.number(seen.cell_size) ||
+      !stream.varint(seen.view_count) || !stream.varint(seen.heard_count) ||
+      !stream.varint(seen.hearer_count))
+    return false;
   if (!stream.range(views, interest_views_max)) return false;
   if constexpr (Stream::is_reading) seen.views.resize(views), seen.heard.clear();
   for (InterestSeen::View& view : seen.views)

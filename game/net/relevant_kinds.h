@@ -1,4 +1,5 @@
-// Which kinds of bodies are relevant to everybody, wherever they are: what the scheme `always` lets through.
+// Which kinds of bodies are relevant to everybody, wherever they are: what the scheme `always` lets
+// through.
 #pragma once
 
 #include <array>
@@ -17,10 +18,13 @@ class RelevantKinds {
   bool has(physics::BodyKind kind) const { return has_[static_cast<std::size_t>(kind)]; }
   /// Bit k: kind k.
   static constexpr std::uint8_t bits_max = 7;
-  std::uint8_t bits() const { return static_cast<std::uint8_t>(has_[0] | has_[1] << 1 | has_[2] << 2); }
+  std::uint8_t bits() const {
+    return static_cast<std::uint8_t>(has_[0] | has_[1] << 1 | has_[2] << 2);
+  }
   static RelevantKinds of_bits(std::uint8_t bits) {
     RelevantKinds kinds;
-    for (std::size_t kind = 0; kind < kinds.has_.size(); ++kind) kinds.has_[kind] = (bits >> kind & 1) != 0;
+    for (std::size_t kind = 0; kind < kinds.has_.size(); ++kind)
+      kinds.has_[kind] = (bits >> kind & 1) != 0;
     return kinds;
   }
 
@@ -31,7 +35,8 @@ class RelevantKinds {
 /// How they are called, by number.
 inline const std::vector<std::string> relevant_kind_names{"puck", "bat", "post"};
 
-/// What a player of `scene` expects if nothing is said: posts, which never move, and the pucks of a match that ends at a number of goals.
+/// What a player of `scene` expects if nothing is said: posts, which never move, and the pucks of a
+/// match that ends at a number of goals.
 inline RelevantKinds relevant_kinds_of(const Scene& scene) {
   RelevantKinds kinds;
   kinds.add(physics::BodyKind::post);

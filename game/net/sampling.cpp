@@ -16,7 +16,8 @@ std::vector<std::uint32_t> sampled_players(const SamplingSettings& settings) {
   std::vector<std::uint32_t> players(settings.clients);
   std::iota(players.begin(), players.end(), 0u);
   const std::uint32_t wanted = std::min(settings.player_max, settings.clients);
-  for (std::uint32_t i = 0; i < wanted; ++i) std::swap(players[i], players[i + random.below(settings.clients - i)]);
+  for (std::uint32_t i = 0; i < wanted; ++i)
+    std::swap(players[i], players[i + random.below(settings.clients - i)]);
   players.resize(wanted);
   return players;
 }
@@ -27,7 +28,8 @@ std::vector<double> sampled_instants(const SamplingSettings& settings, std::uint
   const auto count = static_cast<std::uint32_t>(std::clamp(std::ceil(10.0 * span_s), 20.0, 100.0));
   RandomStream random(settings.seed, stream);
   std::vector<double> instants(count);
-  for (std::uint32_t i = 0; i < count; ++i) instants[i] = settings.from_s + span_s * (i + random.uniform()) / count;
+  for (std::uint32_t i = 0; i < count; ++i)
+    instants[i] = settings.from_s + span_s * (i + random.uniform()) / count;
   return instants;
 }
 

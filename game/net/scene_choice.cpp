@@ -10,8 +10,10 @@ namespace rink::game {
 Scene chosen_scene(const SceneChoice& choice) {
   Scene scene = load_scene(choice.scene);
   if (choice.bats > 0) scene = scaled_to_bats(std::move(scene), choice.bats);
-  if (choice.bat_count > 0) scene = with_count(std::move(scene), physics::BodyKind::bat, choice.bat_count);
-  if (choice.puck_count > 0) scene = with_count(std::move(scene), physics::BodyKind::puck, choice.puck_count);
+  if (choice.bat_count > 0)
+    scene = with_count(std::move(scene), physics::BodyKind::bat, choice.bat_count);
+  if (choice.puck_count > 0)
+    scene = with_count(std::move(scene), physics::BodyKind::puck, choice.puck_count);
   if (choice.seed > 0) scene = with_seed(std::move(scene), choice.seed);
   return scene;
 }

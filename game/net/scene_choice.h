@@ -1,4 +1,5 @@
-// Which scene a server plays, in the words of its command line; enough to make the very same scene again.
+// Which scene a server plays, in the words of its command line; enough to make the very same scene
+// again.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@ namespace rink::game {
 
 /// 0 leaves the scene's own number or seed as it is.
 struct SceneChoice {
-  std::string scene = "crowd";              ///< see load_scene
-  std::uint32_t bats = 0;                   ///< scaled to so many at the scene's density
+  std::string scene = "crowd";                  ///< see load_scene
+  std::uint32_t bats = 0;                       ///< scaled to so many at the scene's density
   std::uint32_t bat_count = 0, puck_count = 0;  ///< so many on the same field instead
   std::uint64_t seed = 0;
   friend bool operator==(const SceneChoice&, const SceneChoice&) = default;

@@ -6,12 +6,15 @@
 
 namespace rink::peer {
 
-Assembly::Assembly(const physics::World& whole, const Division& division, double halo, double window) : owners_(whole.body_count()), window_(window) {
+Assembly::Assembly(const physics::World& whole, const Division& division, double halo,
+                   double window)
+    : owners_(whole.body_count()), window_(window) {
   assert(whole.now() == 0.0 && window > 0.0);
   for (PeerNumber number = 0; number < division.peer_count(); ++number) {
     Peer& peer = peers_.emplace_back(whole.spec(), division, number, whole.body_count(), halo);
     peer.validate_by(Validator(whole));
-    for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer.consider(body, physics::Portion::state_in(whole, body));
+    for (std::uint32_t body = 0; body < whole.body_count(); ++body)
+      peer.consider(body, physics::Portion::state_in(whole, body));
   }
 }
 
@@ -27,7 +30,8 @@ void Assembly::exchange_all(Make&& make) {
       if (from.number() == to.number()) continue;
       auto message = make(from, to.number());
       decltype(message) heard;
-      if (!read(written(message), heard)) throw std::logic_error("a message that cannot be read back");
+      if (!read(written(message), heard))
+        throw std::logic_error("a message that cannot be read back");
       to.hear(from.number(), std::move(heard));
     }
 }
@@ -45,7 +49,9 @@ void Assembly::advance() {
     Outcome outcome = Outcome::final;
     for (Peer& peer : peers_) outcome = peer.conclude();
     if (outcome == Outcome::final) break;
-    exchange_all([](Peer& from, PeerNumber to) { return from.repeats(to) ? from.arrivals_for_repeat(to) : Arrivals{}; });
+    exchange_all([](Peer& from, PeerNumber to) {
+      return from.repeats(to) ? from.arrivals_for_repeat(to) : Arrivals{};
+    });
     for (Peer& peer : peers_)
       if (peer.repeats(peer.number())) peer.replay();
   }
@@ -63,12 +69,14 @@ void Assembly::note_owners() {
   std::vector<std::uint8_t> counts(owners_.size(), 0);
   for (const Peer& peer : peers_)
     for (const std::uint32_t body : peer.owned()) owners_[body] = peer.number(), ++counts[body];
-  misowned_ = static_cast<std::uint32_t>(std::count_if(counts.begin(), counts.end(), [](std::uint8_t count) { return count != 1; }));
+  misowned_ = static_cast<std::uint32_t>(
+      std::count_if(counts.begin(), counts.end(), [](std::uint8_t count) { return count != 1; }));
 }
 
 std::string Assembly::accusation() const {
   for (const Peer& peer : peers_)
-    if (!peer.accusation().empty()) return "at peer " + std::to_string(peer.number()) + ": " + peer.accusation();
+    if (!peer.accusation().empty())
+      return "at peer " + std::to_string(peer.number()) + ": " + peer.accusation();
   return {};
 }
 

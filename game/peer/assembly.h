@@ -1,4 +1,5 @@
-// All peers of a simulation in one process, in lockstep: for tests, and to see what a division costs before there is a network.
+// All peers of a simulation in one process, in lockstep: for tests, and to see what a division
+// costs before there is a network.
 #pragma once
 
 #include <deque>
@@ -12,7 +13,8 @@ namespace rink::peer {
 /// Messages go as the bytes that a network would carry.
 class Assembly {
  public:
-  /// Divides `whole`, which is at its start (time 0, nothing has happened); `window` [s] is the length of every window.
+  /// Divides `whole`, which is at its start (time 0, nothing has happened); `window` [s] is the
+  /// length of every window.
   Assembly(const physics::World& whole, const Division& division, double halo, double window);
 
   /// Before the first window: when keys change.

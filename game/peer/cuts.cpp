@@ -15,31 +15,42 @@ std::pair<Box, Box> Cuts::parts_of(const Box& box, bool is_along_x, double side)
   return {below, above};
 }
 
-Cuts Cuts::by_count(const physics::Field& field, std::vector<Vector2> places, PeerNumber peer_count) {
+Cuts Cuts::by_count(const physics::Field& field, std::vector<Vector2> places,
+                    PeerNumber peer_count) {
   Cuts cuts(field);
   cuts.root_ = cuts.cut({0.0, 0.0, field.length, field.width}, places, 0, peer_count);
   return cuts;
 }
 
 /// A part of the field for `peer_count` peers from `first` on, and what is in it.
-std::size_t Cuts::cut(const Box& box, std::span<Vector2> places, PeerNumber first, PeerNumber peer_count) {
+std::size_t Cuts::cut(const Box& box, std::span<Vector2> places, PeerNumber first,
+                      PeerNumber peer_count) {
   const std::size_t node = nodes_.size();
   nodes_.push_back({.low = node, .peer = first});
   if (peer_count == 1) return node;
   const bool is_long = box.high_x - box.low_x >= box.high_y - box.low_y;
   const double low = is_long ? box.low_x : box.low_y, high = is_long ? box.high_x : box.high_y;
   const auto along = [is_long](const Vector2& place) { return is_long ? place.x() : place.y(); };
-  std::sort(places.begin(), places.end(), [](const Vector2& a, const Vector2& b) { return std::tuple(a.x(), a.y()) < std::tuple(b.x(), b.y()); });
-  std::stable_sort(places.begin(), places.end(), [&](const Vector2& a, const Vector2& b) { return along(a) < along(b); });
+  std::sort(places.begin(), places.end(), [](const Vector2& a, const Vector2& b) {
+    return std::tuple(a.x(), a.y()) < std::tuple(b.x(), b.y());
+  });
+  std::stable_sort(places.begin(), places.end(),
+                   [&](const Vector2& a, const Vector2& b) { return along(a) < along(b); });
   const PeerNumber lower = peer_count / 2;
   const std::size_t count = places.size() * lower / peer_count;
   double side = count == 0 ? low : 0.5 * (along(places[count - 1]) + along(places[count]));
   // All in one place, or too few: by area.
   if (!(side > low && side < high)) side = low + (high - low) * lower / peer_count;
-  const auto second = static_cast<std::size_t>(std::partition_point(places.begin(), places.end(), [&](const Vector2& place) { return along(place) < side; }) - places.begin());
+  const auto second = static_cast<std::size_t>(
+      std::partition_point(places.begin(), places.end(),
+                           [&](const Vector2& place) { return along(place) < side; }) -
+      places.begin());
   const auto [below, above] = parts_of(box, is_long, side);
-  const std::size_t below_node = cut(below, places.first(second), first, lower), above_node = cut(above, places.subspan(second), first + lower, peer_count - lower);
-  nodes_[node] = {.low = below_node, .high = above_node, .is_along_x = is_long, .side = side, .peer = 0};
+  const std::size_t below_node = cut(below, places.first(second), first, lower),
+                    above_node =
+                        cut(above, places.subspan(second), first + lower, peer_count - lower);
+  nodes_[node] = {
+      .low = below_node, .high = above_node, .is_along_x = is_long, .side = side, .peer = 0};
   return node;
 }
 
@@ -87,18 +98,23 @@ const Cuts::Node* Cuts::find(std::size_t node, const Box& box, PeerNumber peer, 
 
 double Cuts::area_of(PeerNumber peer) const {
   Box box{};
-  return find(root_, {0.0, 0.0, field_.length, field_.width}, peer, box) ? (box.high_x - box.low_x) * (box.high_y - box.low_y) : 0.0;
+  return find(root_, {0.0, 0.0, field_.length, field_.width}, peer, box)
+             ? (box.high_x - box.low_x) * (box.high_y - box.low_y)
+             : 0.0;
 }
 
 /// A part at the end of `nodes`, without a leaf that is left out.
 std::size_t Cuts::copied(std::size_t node, PeerNumber left_out, std::vector<Node>& nodes) const {
-  const auto is_out = [&](std::size_t part) { return is_leaf(part) && nodes_[part].peer == left_out; };
+  const auto is_out = [&](std::size_t part) {
+    return is_leaf(part) && nodes_[part].peer == left_out;
+  };
   if (!is_leaf(node) && is_out(nodes_[node].low)) return copied(nodes_[node].high, left_out, nodes);
   if (!is_leaf(node) && is_out(nodes_[node].high)) return copied(nodes_[node].low, left_out, nodes);
   const std::size_t copy = nodes.size();
   nodes.push_back(nodes_[node]);
   if (is_leaf(node)) return nodes[copy].low = copy;
-  const std::size_t low = copied(nodes_[node].low, left_out, nodes), high = copied(nodes_[node].high, left_out, nodes);
+  const std::size_t low = copied(nodes_[node].low, left_out, nodes),
+                    high = copied(nodes_[node].high, left_out, nodes);
   nodes[copy].low = low, nodes[copy].high = high;
   return copy;
 }
@@ -114,22 +130,31 @@ Cuts Cuts::with(PeerNumber newcomer, PeerNumber of) const {
   assert(!has(newcomer) && has(of));
   Cuts cuts = *this;
   Box box{};
-  const auto node = static_cast<std::size_t>(find(root_, {0.0, 0.0, field_.length, field_.width}, of, box) - nodes_.data());
+  const auto node = static_cast<std::size_t>(
+      find(root_, {0.0, 0.0, field_.length, field_.width}, of, box) - nodes_.data());
   const bool is_long = box.high_x - box.low_x >= box.high_y - box.low_y;
   const double side = is_long ? 0.5 * (box.low_x + box.high_x) : 0.5 * (box.low_y + box.high_y);
-  for (const PeerNumber peer : {of, newcomer}) cuts.nodes_.push_back({.low = cuts.nodes_.size(), .peer = peer});
-  cuts.nodes_[node] = {.low = nodes_.size(), .high = nodes_.size() + 1, .is_along_x = is_long, .side = side, .peer = 0};
+  for (const PeerNumber peer : {of, newcomer})
+    cuts.nodes_.push_back({.low = cuts.nodes_.size(), .peer = peer});
+  cuts.nodes_[node] = {.low = nodes_.size(),
+                       .high = nodes_.size() + 1,
+                       .is_along_x = is_long,
+                       .side = side,
+                       .peer = 0};
   return cuts;
 }
 
 std::optional<Cuts> Cuts::balanced(std::span<const double> loads, double tolerance) const {
   Cuts cuts = *this;
   const Box whole{0.0, 0.0, field_.length, field_.width};
-  return cuts.shift(root_, whole, whole, loads, tolerance) ? std::optional(std::move(cuts)) : std::nullopt;
+  return cuts.shift(root_, whole, whole, loads, tolerance) ? std::optional(std::move(cuts))
+                                                           : std::nullopt;
 }
 
-/// Of a part that was `from` and becomes `to`, in which cuts stay where they were in proportion. Whether any part was out of balance.
-bool Cuts::shift(std::size_t node, const Box& from, const Box& to, std::span<const double> loads, double tolerance) {
+/// Of a part that was `from` and becomes `to`, in which cuts stay where they were in proportion.
+/// Whether any part was out of balance.
+bool Cuts::shift(std::size_t node, const Box& from, const Box& to, std::span<const double> loads,
+                 double tolerance) {
   if (is_leaf(node)) return false;
   Node& here = nodes_[node];
   const auto [below_from, above_from] = parts_of(from, here.is_along_x, here.side);
@@ -141,21 +166,25 @@ bool Cuts::shift(std::size_t node, const Box& from, const Box& to, std::span<con
     return load;
   };
   const std::vector<PeerNumber> below = peers_below(here.low), above = peers_below(here.high);
-  const double p = static_cast<double>(below.size()), q = static_cast<double>(above.size()), low_load = load_of(below), high_load = load_of(above);
+  const double p = static_cast<double>(below.size()), q = static_cast<double>(above.size()),
+               low_load = load_of(below), high_load = load_of(above);
   const double low = low_of(to), extent = high_of(to) - low, share = p / (p + q);
   double part = (here.side - low_of(from)) / (high_of(from) - low_of(from));
-  const bool is_uneven = std::max(low_load / p, high_load / q) > tolerance * (low_load + high_load) / (p + q);
+  const bool is_uneven =
+      std::max(low_load / p, high_load / q) > tolerance * (low_load + high_load) / (p + q);
   if (is_uneven) {
     constexpr double damping = 0.5, least = 0.1;
     const double surplus = low_load * (1.0 - share) - high_load * share;  // of the lower part
-    part += damping * (surplus > 0.0 ? -surplus / low_load * part : -surplus / high_load * (1.0 - part));
+    part += damping *
+            (surplus > 0.0 ? -surplus / low_load * part : -surplus / high_load * (1.0 - part));
     part = std::clamp(part, least * share, 1.0 - least * (1.0 - share));
   }
   // Where nothing moves, no digit does.
   const bool is_moved = is_uneven || low_of(from) != low_of(to) || high_of(from) != high_of(to);
   if (is_moved) here.side = low + part * extent;
   const auto [below_to, above_to] = parts_of(to, here.is_along_x, here.side);
-  const bool is_below_uneven = shift(here.low, below_from, below_to, loads, tolerance), is_above_uneven = shift(here.high, above_from, above_to, loads, tolerance);
+  const bool is_below_uneven = shift(here.low, below_from, below_to, loads, tolerance),
+             is_above_uneven = shift(here.high, above_from, above_to, loads, tolerance);
   return is_uneven || is_below_uneven || is_above_uneven;
 }
 

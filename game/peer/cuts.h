@@ -1,4 +1,5 @@
-// A field cut in two, and its parts again, down to one zone for each peer: a division that can change by little.
+// A field cut in two, and its parts again, down to one zone for each peer: a division that can
+// change by little.
 #pragma once
 
 #include <optional>
@@ -13,8 +14,10 @@ namespace rink::peer {
 /// A tree. A peer that goes leaves its zone to those on the other side of its innermost cut.
 class Cuts {
  public:
-  /// Across the longer side, again and again, each time so that the peers of both parts get equally many of `places`: the same for all who know these.
-  static Cuts by_count(const physics::Field& field, std::vector<Vector2> places, PeerNumber peer_count);
+  /// Across the longer side, again and again, each time so that the peers of both parts get equally
+  /// many of `places`: the same for all who know these.
+  static Cuts by_count(const physics::Field& field, std::vector<Vector2> places,
+                       PeerNumber peer_count);
 
   /// A field that is all of peer 0.
   static Cuts whole(const physics::Field& field) { return by_count(field, {}, 1); }
@@ -24,20 +27,25 @@ class Cuts {
   bool has(PeerNumber peer) const;
   /// `peer` must have a zone, and not be the only one (both asserted).
   Cuts without(PeerNumber peer) const;
-  /// The zone of `of` (which must have one, asserted) cut in two across its longer side, the upper part for `newcomer`, who must have none.
+  /// The zone of `of` (which must have one, asserted) cut in two across its longer side, the upper
+  /// part for `newcomer`, who must have none.
   Cuts with(PeerNumber newcomer, PeerNumber of) const;
   /// All who have zones, sorted, and how large these are [m^2].
   std::vector<PeerNumber> peers() const;
   double area_of(PeerNumber peer) const;
-  /// Each cut moved half of the way to where its parts' loads per peer would be equal if each were spread evenly, provided that one of them is above `tolerance` times the mean; a
-  /// part keeps a tenth of its fair share of the room. `loads`: of each peer, by number. The same for all who know these; nothing if no cut moves.
+  /// Each cut moved half of the way to where its parts' loads per peer would be equal if each were
+  /// spread evenly, provided that one of them is above `tolerance` times the mean; a part keeps a
+  /// tenth of its fair share of the room. `loads`: of each peer, by number. The same for all who
+  /// know these; nothing if no cut moves.
   std::optional<Cuts> balanced(std::span<const double> loads, double tolerance) const;
 
-  /// To a message and back, into cuts of the same field; false for what are no cuts of it, as one of zones so thin that they are none.
+  /// To a message and back, into cuts of the same field; false for what are no cuts of it, as one
+  /// of zones so thin that they are none.
   template <class Stream>
   bool exchange(Stream& stream) {
     std::vector<Node> nodes;
-    const bool is_whole = exchange_part(stream, root_, {0.0, 0.0, field_.length, field_.width}, 0, nodes);
+    const bool is_whole =
+        exchange_part(stream, root_, {0.0, 0.0, field_.length, field_.width}, 0, nodes);
     if (is_whole) nodes_ = std::move(nodes), root_ = 0;
     return is_whole;
   }
@@ -54,20 +62,25 @@ class Cuts {
   bool is_leaf(std::size_t node) const { return nodes_[node].low == node; }
   std::size_t copied(std::size_t node, PeerNumber left_out, std::vector<Node>& nodes) const;
   const Node* find(std::size_t node, const Box& box, PeerNumber peer, Box& found) const;
-  /// A cut before its parts. What is read has no more cuts one in another than `depth_max`, nor more of both than `nodes_max`.
+  /// A cut before its parts. What is read has no more cuts one in another than `depth_max`, nor
+  /// more of both than `nodes_max`.
   static constexpr int depth_max = 128;
   static constexpr std::size_t nodes_max = 1024;
   template <class Stream>
-  bool exchange_part(Stream& stream, std::size_t from, const Box& box, int depth, std::vector<Node>& nodes) {
+  bool exchange_part(Stream& stream, std::size_t from, const Box& box, int depth,
+                     std::vector<Node>& nodes) {
     const std::size_t node = nodes.size();
     Node here = from < nodes_.size() ? nodes_[from] : Node{};
     bool is_cut = from < nodes_.size() && !is_leaf(from);
-    const std::size_t low = is_cut ? here.low : nodes_.size(), high = is_cut ? here.high : nodes_.size();
+    const std::size_t low = is_cut ? here.low : nodes_.size(),
+                      high = is_cut ? here.high : nodes_.size();
     if (node >= nodes_max || depth > depth_max || !stream.truth(is_cut)) return false;
     nodes.push_back(here);
     if (!is_cut) return nodes[node].low = node, stream.number(nodes[node].peer);
     if (!stream.truth(here.is_along_x) || !stream.number(here.side)) return false;
-    if (!(here.side > (here.is_along_x ? box.low_x : box.low_y) && here.side < (here.is_along_x ? box.high_x : box.high_y))) return false;
+    if (!(here.side > (here.is_along_x ? box.low_x : box.low_y) &&
+          here.side < (here.is_along_x ? box.high_x : box.high_y)))
+      return false;
     const auto [below, above] = parts_of(box, here.is_along_x, here.side);
     here.low = nodes.size();
     if (!exchange_part(stream, low, below, depth + 1, nodes)) return false;
@@ -77,10 +90,12 @@ class Cuts {
     return true;
   }
   static std::pair<Box, Box> parts_of(const Box& box, bool is_along_x, double side);
-  std::size_t cut(const Box& box, std::span<Vector2> places, PeerNumber first, PeerNumber peer_count);
+  std::size_t cut(const Box& box, std::span<Vector2> places, PeerNumber first,
+                  PeerNumber peer_count);
   void lay_out(std::size_t node, const Box& box, std::vector<Zone>& zones) const;
   std::vector<PeerNumber> peers_below(std::size_t node) const;
-  bool shift(std::size_t node, const Box& from, const Box& to, std::span<const double> loads, double tolerance);
+  bool shift(std::size_t node, const Box& from, const Box& to, std::span<const double> loads,
+             double tolerance);
 
   physics::Field field_;
   std::vector<Node> nodes_;

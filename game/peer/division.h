@@ -14,7 +14,8 @@ namespace rink::peer {
 
 using PeerNumber = std::uint32_t;
 
-/// A rectangle of the field that `peer` owns, its low sides included, its high sides not. Where it ends at the rim of the field it goes on without end, as pucks in a goal do.
+/// A rectangle of the field that `peer` owns, its low sides included, its high sides not. Where it
+/// ends at the rim of the field it goes on without end, as pucks in a goal do.
 struct Zone {
   Box box{};
   PeerNumber peer = 0;
@@ -23,20 +24,24 @@ struct Zone {
 /// Zones that cover the field, each place once.
 class Division {
  public:
-  /// Why these are no division of the field among `peer_count` peers, naming the place; nothing if they are one.
-  static std::optional<std::string> objection(const physics::Field& field, std::span<const Zone> zones, PeerNumber peer_count);
+  /// Why these are no division of the field among `peer_count` peers, naming the place; nothing if
+  /// they are one.
+  static std::optional<std::string> objection(const physics::Field& field,
+                                              std::span<const Zone> zones, PeerNumber peer_count);
   /// There must be no objection (asserted).
   Division(const physics::Field& field, std::vector<Zone> zones, PeerNumber peer_count);
   /// Strips of equal width along the longer side, one for each peer.
   static Division into_strips(const physics::Field& field, PeerNumber peer_count);
   /// By Cuts::by_count.
-  static Division by_count(const physics::Field& field, std::vector<Vector2> places, PeerNumber peer_count);
+  static Division by_count(const physics::Field& field, std::vector<Vector2> places,
+                           PeerNumber peer_count);
 
   PeerNumber peer_count() const { return peer_count_; }
   PeerNumber owner_of(const Vector2& place) const;
   /// With their rims open. Those of one peer stand side by side.
   std::span<const Box> zones_of(PeerNumber peer) const;
-  /// Whether `box` meets what lies within `halo` of the zones of `peer` along both axes; and whether it lies within it as a whole, by one of its zones.
+  /// Whether `box` meets what lies within `halo` of the zones of `peer` along both axes; and
+  /// whether it lies within it as a whole, by one of its zones.
   bool is_near(PeerNumber peer, const Box& box, double halo) const;
   bool is_within(PeerNumber peer, const Box& box, double halo) const;
 

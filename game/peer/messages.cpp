@@ -12,13 +12,16 @@ namespace rink::peer {
 
 namespace {
 
-/// Of what is said in every window: nearly all of these messages are shorter than a longer checksum would be.
+/// Of what is said in every window: nearly all of these messages are shorter than a longer checksum
+/// would be.
 constexpr int short_checksum = 4;
 
 /// Counts bytes.
 class Measure : public physics::SnapshotStream<Measure> {
  public:
-  bool word(std::uint64_t&, int byte_count) { return byte_count_ += static_cast<std::size_t>(byte_count), true; }
+  bool word(std::uint64_t&, int byte_count) {
+    return byte_count_ += static_cast<std::size_t>(byte_count), true;
+  }
   static std::uint64_t count_max() { return 0xffffffff; }
   std::size_t byte_count() const { return byte_count_; }
 
@@ -31,7 +34,8 @@ class Scribe : public physics::SnapshotStream<Scribe> {
  public:
   explicit Scribe(std::uint8_t* to) : to_(to) {}
   bool word(std::uint64_t& value, int byte_count) {
-    for (int byte = 0; byte < byte_count; ++byte) to_[byte] = static_cast<std::uint8_t>(value >> (8 * byte));
+    for (int byte = 0; byte < byte_count; ++byte)
+      to_[byte] = static_cast<std::uint8_t>(value >> (8 * byte));
     return to_ += byte_count, true;
   }
   static std::uint64_t count_max() { return 0xffffffff; }
@@ -69,13 +73,25 @@ std::vector<std::uint8_t> written(PartChange message) { return bytes_from(messag
 std::vector<std::uint8_t> written(Loss message) { return bytes_from(message); }
 std::vector<std::uint8_t> written(FaceOffWord message) { return bytes_from(message); }
 std::vector<std::uint8_t> written(Entry message) { return bytes_from(message); }
-bool read(std::span<const std::uint8_t> bytes, Entry& message) { return read_whole(bytes, message); }
-bool read(std::span<const std::uint8_t> bytes, PartChange& message) { return read_whole(bytes, message); }
+bool read(std::span<const std::uint8_t> bytes, Entry& message) {
+  return read_whole(bytes, message);
+}
+bool read(std::span<const std::uint8_t> bytes, PartChange& message) {
+  return read_whole(bytes, message);
+}
 bool read(std::span<const std::uint8_t> bytes, Loss& message) { return read_whole(bytes, message); }
-bool read(std::span<const std::uint8_t> bytes, FaceOffWord& message) { return read_whole(bytes, message); }
-bool read(std::span<const std::uint8_t> bytes, Arrivals& message) { return read_whole(bytes, message, short_checksum); }
-bool read(std::span<const std::uint8_t> bytes, Claims& message) { return read_whole(bytes, message, short_checksum); }
-bool read(std::span<const std::uint8_t> bytes, Verdict& message) { return read_whole(bytes, message, short_checksum); }
+bool read(std::span<const std::uint8_t> bytes, FaceOffWord& message) {
+  return read_whole(bytes, message);
+}
+bool read(std::span<const std::uint8_t> bytes, Arrivals& message) {
+  return read_whole(bytes, message, short_checksum);
+}
+bool read(std::span<const std::uint8_t> bytes, Claims& message) {
+  return read_whole(bytes, message, short_checksum);
+}
+bool read(std::span<const std::uint8_t> bytes, Verdict& message) {
+  return read_whole(bytes, message, short_checksum);
+}
 
 std::size_t measured(Arrivals& message) { return size_of(message); }
 std::size_t measured(Claims& message) { return size_of(message); }
@@ -84,7 +100,8 @@ std::size_t measured(Verdict& message) { return size_of(message); }
 std::vector<std::uint8_t> bytes_of(BodyState state) { return bytes_from(state); }
 
 bool are_same(BodyState a, BodyState b) {
-  std::array<std::uint8_t, sizeof(BodyState)> bytes_a{}, bytes_b{};  // no number takes more room as bytes
+  std::array<std::uint8_t, sizeof(BodyState)> bytes_a{},
+      bytes_b{};  // no number takes more room as bytes
   Scribe scribe_a(bytes_a.data()), scribe_b(bytes_b.data());
   exchange(scribe_a, a), exchange(scribe_b, b);
   return bytes_a == bytes_b;

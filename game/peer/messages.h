@@ -1,4 +1,5 @@
-// What peers tell each other, as plain values; each has one function that writes, reads and measures it.
+// What peers tell each other, as plain values; each has one function that writes, reads and
+// measures it.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +24,8 @@ struct Key {
   double time = 0.0;
   std::uint32_t bat = 0;
   Vector2 thrust{0.0, 0.0};
-  std::uint8_t input = 0;  ///< of a live player: what it did, for logs alone; 0 for keys that everybody knows from the start
+  std::uint8_t input = 0;  ///< of a live player: what it did, for logs alone; 0 for keys that
+                           ///< everybody knows from the start
 };
 
 /// What a live player does with a key of its bat, on its way to the bat's owner, who stamps it.
@@ -31,7 +33,8 @@ struct Press {
   std::uint32_t bat = 0;
   Vector2 thrust{0.0, 0.0};  ///< from the stamp on [m/s^2]
   std::uint8_t input = 1;    ///< as Key's, not 0
-  double time = 0.0;         ///< not before this instant [s], for players whose hands have seen the bat move at it already
+  double time = 0.0;  ///< not before this instant [s], for players whose hands have seen the bat
+                      ///< move at it already
 };
 
 /// What the owner of a bat shows, at a window's end, to the peer that plays it.
@@ -42,25 +45,34 @@ struct Glimpse {
     double radius = 0.0;
   };
   std::uint32_t bat = 0;
-  std::uint32_t owner = 0;   ///< in the next window: keys go there
-  double time = 0.0;         ///< s
+  std::uint32_t owner = 0;  ///< in the next window: keys go there
+  double time = 0.0;        ///< s
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};
-  std::vector<Puck> pucks;   ///< the nearest of those that the owner has, its ghosts among them, nearest first
+  std::vector<Puck>
+      pucks;  ///< the nearest of those that the owner has, its ghosts among them, nearest first
 };
 
-/// What is new of a body to which nothing but free impacts happened: all else of its state is as it was when the window began.
+/// What is new of a body to which nothing but free impacts happened: all else of its state is as it
+/// was when the window began.
 struct Flown {
   std::uint32_t number = 0;
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
   double time = 0.0;                               ///< of the last impact [s]
 
-  static Flown of(std::uint32_t number, const physics::Flight<double>& f) { return {number, {f.x, f.y}, {f.vx, f.vy}, f.time}; }
-  bool is_as(const physics::Flight<double>& f) const { return position == Vector2(f.x, f.y) && velocity == Vector2(f.vx, f.vy) && time == f.time; }
-  void write_to(physics::Flight<double>& f) const { f.x = position.x(), f.y = position.y(), f.vx = velocity.x(), f.vy = velocity.y(), f.time = time; }
+  static Flown of(std::uint32_t number, const physics::Flight<double>& f) {
+    return {number, {f.x, f.y}, {f.vx, f.vy}, f.time};
+  }
+  bool is_as(const physics::Flight<double>& f) const {
+    return position == Vector2(f.x, f.y) && velocity == Vector2(f.vx, f.vy) && time == f.time;
+  }
+  void write_to(physics::Flight<double>& f) const {
+    f.x = position.x(), f.y = position.y(), f.vx = velocity.x(), f.vy = velocity.y(), f.time = time;
+  }
 };
 
-/// At a window's start: bodies of the sender that the receiver does not know in this state and shall simulate or own, all rest contacts of those of the sender's bodies that the
-/// receiver now has, and the keys that fall into the window. And what the players of the receiver may see.
+/// At a window's start: bodies of the sender that the receiver does not know in this state and
+/// shall simulate or own, all rest contacts of those of the sender's bodies that the receiver now
+/// has, and the keys that fall into the window. And what the players of the receiver may see.
 struct Arrivals {
   struct Body {
     std::uint32_t number = 0;
@@ -76,15 +88,19 @@ struct Arrivals {
 
 /// A stretch of a body's path that ends at the next one, or with the window.
 struct ClaimedFlight {
-  double begin = 0.0;           ///< s
-  std::uint64_t state = 0;      ///< a digest of the state that it begins with, and of all who took part in the event that brought it about
-  float low_x = 0.0f, low_y = 0.0f, high_x = 0.0f, high_y = 0.0f;  ///< what the body sweeps [m], rounded outwards
+  double begin = 0.0;       ///< s
+  std::uint64_t state = 0;  ///< a digest of the state that it begins with, and of all who took part
+                            ///< in the event that brought it about
+  float low_x = 0.0f, low_y = 0.0f, high_x = 0.0f,
+        high_y = 0.0f;  ///< what the body sweeps [m], rounded outwards
   Box box() const { return {low_x, low_y, high_x, high_y}; }
 };
 
-/// After a window has been played: what happened, in the sender's run, to those of its bodies that the receiver has as ghosts, one flight for each event; and the whole paths,
-/// from the window's start, of others that come into the receiver's halo. Nothing is said about ghosts to which nothing happened. With the first claims of a window go the keys
-/// that the sender's players press of the receiver's bats.
+/// After a window has been played: what happened, in the sender's run, to those of its bodies that
+/// the receiver has as ghosts, one flight for each event; and the whole paths, from the window's
+/// start, of others that come into the receiver's halo. Nothing is said about ghosts to which
+/// nothing happened. With the first claims of a window go the keys that the sender's players press
+/// of the receiver's bats.
 struct Claims {
   struct Body {
     std::uint32_t number = 0;
@@ -92,7 +108,8 @@ struct Claims {
     bool is_known = false;           ///< to the receiver, since the window's start
   };
   std::uint32_t window = 0;
-  std::uint32_t known_count = 0;     ///< of the sender's bodies that the receiver has as ghosts: both count the same
+  std::uint32_t known_count =
+      0;  ///< of the sender's bodies that the receiver has as ghosts: both count the same
   std::vector<Body> bodies;
   std::vector<ClaimedFlight> flights;
   std::vector<Press> presses;
@@ -108,17 +125,20 @@ struct Goal {
 /// Who asks to be let in while others play.
 struct Newcomer {
   static constexpr std::size_t place_max = 320;
-  std::uint64_t token = 0;                       ///< that it chose, and nobody else has
-  std::uint32_t bat_count = 0, puck_count = 0, hand_count = 0;  ///< it wishes to play so many bats, each looking at so many pucks, so many of them by hand
-  std::vector<std::uint8_t> place{};             ///< where others reach it, in the words of those who carry the mail
+  std::uint64_t token = 0;  ///< that it chose, and nobody else has
+  std::uint32_t bat_count = 0, puck_count = 0,
+                hand_count = 0;  ///< it wishes to play so many bats, each looking at so many pucks,
+                                 ///< so many of them by hand
+  std::vector<std::uint8_t>
+      place{};  ///< where others reach it, in the words of those who carry the mail
 };
 
 /// What a peer says of newcomers with a verdict.
 struct Admission {
   static constexpr std::size_t asking_max = 8;
-  std::vector<Newcomer> asking{};                ///< at the sender, that all shall know of
-  std::vector<std::uint32_t> reached{};          ///< candidates to which the sender is connected
-  std::vector<std::uint32_t> withdrawn{};        ///< its own that are gone again
+  std::vector<Newcomer> asking{};          ///< at the sender, that all shall know of
+  std::vector<std::uint32_t> reached{};    ///< candidates to which the sender is connected
+  std::vector<std::uint32_t> withdrawn{};  ///< its own that are gone again
   bool is_empty() const { return asking.empty() && reached.empty() && withdrawn.empty(); }
 };
 
@@ -126,26 +146,31 @@ struct Admission {
 struct Verdict {
   std::uint32_t window = 0;
   bool accepts = false;
-  float halo = 0.0f;                ///< m: of the next window, or, if it does not accept, with which it will repeat this one
-  std::uint64_t at_once_max = 0;    ///< the most events at one instant
-  bool was_hopeless = false;        ///< simultaneous impacts that have no solution
-  std::uint64_t events = 0;         ///< with a body of the sender's own, in this run
-  bool leaves = false;              ///< the sender wishes to hand over all that it owns when the window is final
-  /// Of each event of its run, in which of 256 equal parts of the window it came, so that events of many peers are not taken for simultaneous; none if they are more than
-  /// `listed_max`, or if there are so few peers that it does not matter.
+  float halo = 0.0f;  ///< m: of the next window, or, if it does not accept, with which it will
+                      ///< repeat this one
+  std::uint64_t at_once_max = 0;  ///< the most events at one instant
+  bool was_hopeless = false;      ///< simultaneous impacts that have no solution
+  std::uint64_t events = 0;       ///< with a body of the sender's own, in this run
+  bool leaves =
+      false;  ///< the sender wishes to hand over all that it owns when the window is final
+  /// Of each event of its run, in which of 256 equal parts of the window it came, so that events of
+  /// many peers are not taken for simultaneous; none if they are more than `listed_max`, or if
+  /// there are so few peers that it does not matter.
   static constexpr std::size_t listed_max = 64;
   std::vector<std::uint8_t> listed{};
-  std::vector<Goal> goals{};        ///< in this run
+  std::vector<Goal> goals{};  ///< in this run
   Admission admission{};
 };
 
-/// A whole number of up to 64 bits, seven to a byte, lowest first, in as few bytes as it needs; the highest bit says that more follow.
+/// A whole number of up to 64 bits, seven to a byte, lowest first, in as few bytes as it needs; the
+/// highest bit says that more follow.
 template <class Stream, class Number>
 bool exchange_short(Stream& stream, Number& number) {
   std::uint64_t rest = number, heard = 0;
   for (int shift = 0; shift < 64; shift += 7, rest >>= 7) {
     std::uint64_t byte = (rest & 0x7f) | (rest > 0x7f ? 0x80 : 0);
-    if (!stream.word(byte, 1) || (shift == 63 && byte > 1) || (shift > 0 && byte == 0)) return false;
+    if (!stream.word(byte, 1) || (shift == 63 && byte > 1) || (shift > 0 && byte == 0))
+      return false;
     heard |= (byte & 0x7f) << shift;
     if ((byte & 0x80) != 0) continue;
     number = static_cast<Number>(heard);
@@ -154,7 +179,9 @@ bool exchange_short(Stream& stream, Number& number) {
   return false;
 }
 
-/// The first byte of what peers say in every window: which of the parts that are mostly absent follow. Its highest bit is always set, as in no other message that may come instead (Loss, Entry).
+/// The first byte of what peers say in every window: which of the parts that are mostly absent
+/// follow. Its highest bit is always set, as in no other message that may come instead (Loss,
+/// Entry).
 class Head {
  public:
   explicit Head(std::initializer_list<bool> parts) : count_(static_cast<int>(parts.size())) {
@@ -174,18 +201,24 @@ class Head {
 
 template <class Stream>
 bool exchange(Stream& stream, BodyState& s) {
-  auto& [flight, mass, inverse_mass, half_extent, thrust, acceleration, drag, impacts_begin, last_hop, impacts, hops, repeats, repeats_instant, rest_time, slowing, spin, jam, kind,
+  auto& [flight, mass, inverse_mass, half_extent, thrust, acceleration, drag, impacts_begin,
+         last_hop, impacts, hops, repeats, repeats_instant, rest_time, slowing, spin, jam, kind,
          material, half, flags, mouth] = s;
-  return stream.numbers(flight.x, flight.y, flight.vx, flight.vy, flight.time, flight.radius, mass, inverse_mass, half_extent.x(), half_extent.y(), thrust.x(), thrust.y(),
-                        acceleration.x(), acceleration.y(), drag.x(), drag.y(), impacts_begin, last_hop, impacts, hops, repeats, repeats_instant, rest_time, slowing.x(), slowing.y(),
-                        spin, jam) &&
-         stream.choice(kind, physics::BodyKind::post) && stream.number(material) && stream.choice(half, physics::Half::both) && stream.numbers(flags, mouth);
+  return stream.numbers(flight.x, flight.y, flight.vx, flight.vy, flight.time, flight.radius, mass,
+                        inverse_mass, half_extent.x(), half_extent.y(), thrust.x(), thrust.y(),
+                        acceleration.x(), acceleration.y(), drag.x(), drag.y(), impacts_begin,
+                        last_hop, impacts, hops, repeats, repeats_instant, rest_time, slowing.x(),
+                        slowing.y(), spin, jam) &&
+         stream.choice(kind, physics::BodyKind::post) && stream.number(material) &&
+         stream.choice(half, physics::Half::both) && stream.numbers(flags, mouth);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Hold& hold) {
   auto& [low, high, axis, pull_time, force, turn_time, age] = hold;
-  return stream.numbers(low, high, axis, pull_time, force, turn_time, age.time, age.lower, age.higher, age.rank) && stream.truth(age.follows_keys) && (axis == 0 || axis == 1);
+  return stream.numbers(low, high, axis, pull_time, force, turn_time, age.time, age.lower,
+                        age.higher, age.rank) &&
+         stream.truth(age.follows_keys) && (axis == 0 || axis == 1);
 }
 
 template <class Stream>
@@ -195,12 +228,14 @@ bool exchange(Stream& stream, Key& key) {
 
 template <class Stream>
 bool exchange(Stream& stream, Press& press) {
-  return stream.numbers(press.bat, press.thrust.x(), press.thrust.y(), press.input, press.time) && press.thrust.allFinite() && press.input != 0 && std::isfinite(press.time);
+  return stream.numbers(press.bat, press.thrust.x(), press.thrust.y(), press.input, press.time) &&
+         press.thrust.allFinite() && press.input != 0 && std::isfinite(press.time);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Glimpse::Puck& puck) {
-  return stream.numbers(puck.number, puck.position.x(), puck.position.y(), puck.velocity.x(), puck.velocity.y(), puck.radius);
+  return stream.numbers(puck.number, puck.position.x(), puck.position.y(), puck.velocity.x(),
+                        puck.velocity.y(), puck.radius);
 }
 
 template <class Stream>
@@ -210,7 +245,8 @@ bool exchange(Stream& stream, Arrivals::Body& body) {
 
 template <class Stream>
 bool exchange(Stream& stream, Flown& flown) {
-  return stream.numbers(flown.number, flown.position.x(), flown.position.y(), flown.velocity.x(), flown.velocity.y(), flown.time);
+  return stream.numbers(flown.number, flown.position.x(), flown.position.y(), flown.velocity.x(),
+                        flown.velocity.y(), flown.time);
 }
 
 template <class Stream>
@@ -228,7 +264,8 @@ bool exchange_single(Stream& stream, float& value) {
 
 template <class Stream>
 bool exchange(Stream& stream, ClaimedFlight& flight) {
-  return stream.numbers(flight.begin, flight.state) && exchange_single(stream, flight.low_x) && exchange_single(stream, flight.low_y) && exchange_single(stream, flight.high_x) &&
+  return stream.numbers(flight.begin, flight.state) && exchange_single(stream, flight.low_x) &&
+         exchange_single(stream, flight.low_y) && exchange_single(stream, flight.high_x) &&
          exchange_single(stream, flight.high_y);
 }
 
@@ -255,22 +292,31 @@ bool exchange_part(Stream& stream, bool is_there, std::vector<Item>& list) {
 
 template <class Stream>
 bool exchange(Stream& stream, Glimpse& glimpse) {
-  return stream.numbers(glimpse.bat, glimpse.owner, glimpse.time, glimpse.position.x(), glimpse.position.y(), glimpse.velocity.x(), glimpse.velocity.y()) &&
+  return stream.numbers(glimpse.bat, glimpse.owner, glimpse.time, glimpse.position.x(),
+                        glimpse.position.y(), glimpse.velocity.x(), glimpse.velocity.y()) &&
          exchange_list(stream, glimpse.pucks);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Arrivals& message) {
-  Head head({!message.bodies.empty(), !message.flown.empty(), !message.holds.empty(), !message.keys.empty(), !message.glimpses.empty()});
-  return head.exchange(stream) && exchange_short(stream, message.window) && exchange_part(stream, head.has(0), message.bodies) && exchange_part(stream, head.has(1), message.flown) &&
-         exchange_part(stream, head.has(2), message.holds) && exchange_part(stream, head.has(3), message.keys) && exchange_part(stream, head.has(4), message.glimpses);
+  Head head({!message.bodies.empty(), !message.flown.empty(), !message.holds.empty(),
+             !message.keys.empty(), !message.glimpses.empty()});
+  return head.exchange(stream) && exchange_short(stream, message.window) &&
+         exchange_part(stream, head.has(0), message.bodies) &&
+         exchange_part(stream, head.has(1), message.flown) &&
+         exchange_part(stream, head.has(2), message.holds) &&
+         exchange_part(stream, head.has(3), message.keys) &&
+         exchange_part(stream, head.has(4), message.glimpses);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Claims& message) {
   Head head({!message.bodies.empty(), !message.flights.empty(), !message.presses.empty()});
-  if (!head.exchange(stream) || !exchange_short(stream, message.window) || !exchange_short(stream, message.known_count) || !exchange_part(stream, head.has(0), message.bodies) ||
-      !exchange_part(stream, head.has(1), message.flights) || !exchange_part(stream, head.has(2), message.presses))
+  if (!head.exchange(stream) || !exchange_short(stream, message.window) ||
+      !exchange_short(stream, message.known_count) ||
+      !exchange_part(stream, head.has(0), message.bodies) ||
+      !exchange_part(stream, head.has(1), message.flights) ||
+      !exchange_part(stream, head.has(2), message.presses))
     return false;
   std::size_t count = 0;
   for (const Claims::Body& body : message.bodies) count += body.flight_count;
@@ -279,34 +325,49 @@ bool exchange(Stream& stream, Claims& message) {
 
 template <class Stream>
 bool exchange(Stream& stream, Goal& goal) {
-  return stream.numbers(goal.time, goal.puck) && stream.truth(goal.is_left) && std::isfinite(goal.time);
+  return stream.numbers(goal.time, goal.puck) && stream.truth(goal.is_left) &&
+         std::isfinite(goal.time);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Newcomer& newcomer) {
-  const bool is_good = stream.numbers(newcomer.token, newcomer.bat_count, newcomer.puck_count, newcomer.hand_count) && newcomer.hand_count <= newcomer.bat_count;
+  const bool is_good = stream.numbers(newcomer.token, newcomer.bat_count, newcomer.puck_count,
+                                      newcomer.hand_count) &&
+                       newcomer.hand_count <= newcomer.bat_count;
   return is_good && stream.size(newcomer.place) && newcomer.place.size() <= Newcomer::place_max &&
-         std::all_of(newcomer.place.begin(), newcomer.place.end(), [&](std::uint8_t& byte) { return stream.number(byte); });
+         std::all_of(newcomer.place.begin(), newcomer.place.end(),
+                     [&](std::uint8_t& byte) { return stream.number(byte); });
 }
 
 template <class Stream>
 bool exchange_numbers(Stream& stream, std::vector<std::uint32_t>& peers) {
-  return stream.size(peers) && std::all_of(peers.begin(), peers.end(), [&](std::uint32_t& peer) { return stream.number(peer); });
+  return stream.size(peers) && std::all_of(peers.begin(), peers.end(), [&](std::uint32_t& peer) {
+           return stream.number(peer);
+         });
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Admission& admission) {
-  return exchange_list(stream, admission.asking) && admission.asking.size() <= Admission::asking_max && exchange_numbers(stream, admission.reached) &&
+  return exchange_list(stream, admission.asking) &&
+         admission.asking.size() <= Admission::asking_max &&
+         exchange_numbers(stream, admission.reached) &&
          exchange_numbers(stream, admission.withdrawn);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Verdict& message) {
-  Head head({message.accepts, message.was_hopeless, message.leaves, !message.listed.empty(), !message.goals.empty(), !message.admission.is_empty()});
-  if (!head.exchange(stream) || !exchange_short(stream, message.window) || !exchange_single(stream, message.halo) || !(message.halo >= 0.0f)) return false;
+  Head head({message.accepts, message.was_hopeless, message.leaves, !message.listed.empty(),
+             !message.goals.empty(), !message.admission.is_empty()});
+  if (!head.exchange(stream) || !exchange_short(stream, message.window) ||
+      !exchange_single(stream, message.halo) || !(message.halo >= 0.0f))
+    return false;
   message.accepts = head.has(0), message.was_hopeless = head.has(1), message.leaves = head.has(2);
-  if (!exchange_short(stream, message.at_once_max) || !exchange_short(stream, message.events)) return false;
-  if (!exchange_part(stream, head.has(3), message.listed) || message.listed.size() > Verdict::listed_max || !exchange_part(stream, head.has(4), message.goals)) return false;
+  if (!exchange_short(stream, message.at_once_max) || !exchange_short(stream, message.events))
+    return false;
+  if (!exchange_part(stream, head.has(3), message.listed) ||
+      message.listed.size() > Verdict::listed_max ||
+      !exchange_part(stream, head.has(4), message.goals))
+    return false;
   if (!head.has(5)) return message.admission = {}, true;
   return exchange(stream, message.admission) && !message.admission.is_empty();
 }

@@ -12,21 +12,28 @@ namespace rink::peer {
 
 namespace {
 
-bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t body) { return std::binary_search(sorted.begin(), sorted.end(), body); }
+bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t body) {
+  return std::binary_search(sorted.begin(), sorted.end(), body);
+}
 
-bool is_before(const Key& a, const Key& b) { return std::tuple(a.time, a.bat) < std::tuple(b.time, b.bat); }
+bool is_before(const Key& a, const Key& b) {
+  return std::tuple(a.time, a.bat) < std::tuple(b.time, b.bat);
+}
 
 }  // namespace
 
 PeerCounters& PeerCounters::operator+=(const PeerCounters& other) {
-  windows += other.windows, repeats += other.repeats, own_events += other.own_events, ghost_events += other.ghost_events, hand_overs += other.hand_overs;
+  windows += other.windows, repeats += other.repeats, own_events += other.own_events,
+      ghost_events += other.ghost_events, hand_overs += other.hand_overs;
   held_max = std::max(held_max, other.held_max);
   ghost_windows += other.ghost_windows, border_windows += other.border_windows;
-  arrival_bytes += other.arrival_bytes, claim_bytes += other.claim_bytes, verdict_bytes += other.verdict_bytes;
+  arrival_bytes += other.arrival_bytes, claim_bytes += other.claim_bytes,
+      verdict_bytes += other.verdict_bytes;
   return *this;
 }
 
-Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber number, std::uint32_t body_count, double halo)
+Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber number,
+           std::uint32_t body_count, double halo)
     : portion_(spec, body_count),
       division_(division),
       number_(number),
@@ -93,7 +100,9 @@ Vector2 Peer::start_place(std::uint32_t body) const {
 }
 
 Box Peer::reach_of(std::uint32_t body) const {
-  const auto place = [&](std::uint32_t b) { return Box::around(portion_.world().position({b}), extent_of(b)); };
+  const auto place = [&](std::uint32_t b) {
+    return Box::around(portion_.world().position({b}), extent_of(b));
+  };
   Box box = place(body);
   if (portion_.world().is_held({body}))
     for (const std::uint32_t companion : portion_.group_of(body)) box = box.with(place(companion));
@@ -107,10 +116,13 @@ Box Peer::start_reach(std::uint32_t body) const {
 }
 
 bool Peer::knows(PeerNumber peer, std::uint32_t body) const { return contains(known_[peer], body); }
-bool Peer::will_have(PeerNumber peer, std::uint32_t body) const { return contains(coming_[peer], body); }
+bool Peer::will_have(PeerNumber peer, std::uint32_t body) const {
+  return contains(coming_[peer], body);
+}
 
 void Peer::play() {
-  // Those of whom something was entered in the window before have a room again, if they have not been watched since.
+  // Those of whom something was entered in the window before have a room again, if they have not
+  // been watched since.
   for (const std::uint32_t body : portion_.take_entered())
     if (roles_[body] == own && is_watched_[body] == 0) portion_.set_room(body, homes_[body]);
   play_keys(end_);
@@ -135,14 +147,17 @@ void Peer::play_keys(double until) {
 Outcome Peer::conclude() {
   bool is_hopeless = false, is_final = true, are_whole = true;
   for (PeerNumber peer = 0; peer < verdicts_.size(); ++peer) {
-    if (!is_present_[peer]) verdicts_[peer] = {.accepts = true, .halo = static_cast<float>(halos_[peer])};
+    if (!is_present_[peer])
+      verdicts_[peer] = {.accepts = true, .halo = static_cast<float>(halos_[peer])};
     const Verdict& verdict = verdicts_[peer];
     is_hopeless = is_hopeless || verdict.was_hopeless, is_final = is_final && verdict.accepts;
     // Of those who are not there no two need think the same.
     are_whole = are_whole && (halos_[peer] == infinity || !is_present_[peer]);
   }
-  // The engine's last resorts against endless series at one instant count what happens in the whole field.
-  const bool needs_whole = (at_once_bound() >= physics::events_at_once_local || is_hopeless) && !are_whole;
+  // The engine's last resorts against endless series at one instant count what happens in the whole
+  // field.
+  const bool needs_whole =
+      (at_once_bound() >= physics::events_at_once_local || is_hopeless) && !are_whole;
   for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer) {
     is_repeating_[peer] = needs_whole || !verdicts_[peer].accepts;
     if (needs_whole) halos_[peer] = infinity;
@@ -186,22 +201,28 @@ Arrivals Peer::arrivals_for(PeerNumber peer, double until) {
   for (const Reach& reach : outskirts_) {
     if (!is_in_region(peer, reach.box)) continue;
     there.push_back(reach.body);
-    if (!knows(peer, reach.body)) message.bodies.push_back({reach.body, portion_.state(reach.body)});
-    else if (portion_.has_only_flown(reach.body)) message.flown.push_back(Flown::of(reach.body, portion_.flight(reach.body)));
-    else if (!steps_of(reach.body).empty()) message.bodies.push_back({reach.body, portion_.state(reach.body)});
+    if (!knows(peer, reach.body))
+      message.bodies.push_back({reach.body, portion_.state(reach.body)});
+    else if (portion_.has_only_flown(reach.body))
+      message.flown.push_back(Flown::of(reach.body, portion_.flight(reach.body)));
+    else if (!steps_of(reach.body).empty())
+      message.bodies.push_back({reach.body, portion_.state(reach.body)});
   }
   std::sort(there.begin(), there.end());
   for (const Hold& hold : portion_.holds())
     if (contains(there, hold.low) || contains(there, hold.high)) message.holds.push_back(hold);
   for (const Key& key : keys_)
-    if (contains(there, key.bat) && (key.time <= until || division_.owner_of(portion_.world().position({key.bat})) == peer)) message.keys.push_back(key);
+    if (contains(there, key.bat) &&
+        (key.time <= until || division_.owner_of(portion_.world().position({key.bat})) == peer))
+      message.keys.push_back(key);
   message.glimpses = glimpses_for(peer);
   coming_[peer] = std::move(there);
   counters_.arrival_bytes += measured(message);
   return message;
 }
 
-/// Most ghosts are already what their owners say; the others follow from what they were when the window began.
+/// Most ghosts are already what their owners say; the others follow from what they were when the
+/// window began.
 void Peer::complete_flown(Arrivals& arrivals, PeerNumber from) {
   for (const Flown& flown : arrivals.flown) {
     const std::uint32_t body = flown.number;
@@ -209,8 +230,11 @@ void Peer::complete_flown(Arrivals& arrivals, PeerNumber from) {
       accuse(from, "hands over body " + std::to_string(body) + ", which it does not own");
       continue;
     }
-    const bool is_doubtful = doubts_[static_cast<std::size_t>(std::lower_bound(ghosts_.begin(), ghosts_.end(), body) - ghosts_.begin())] < infinity;
-    if (!is_doubtful && portion_.has_only_flown(body) && flown.is_as(portion_.flight(body))) continue;
+    const bool is_doubtful =
+        doubts_[static_cast<std::size_t>(std::lower_bound(ghosts_.begin(), ghosts_.end(), body) -
+                                         ghosts_.begin())] < infinity;
+    if (!is_doubtful && portion_.has_only_flown(body) && flown.is_as(portion_.flight(body)))
+      continue;
     arrivals.bodies.push_back({body, portion_.state_before(body)});
     flown.write_to(arrivals.bodies.back().state.flight);
   }
@@ -218,22 +242,30 @@ void Peer::complete_flown(Arrivals& arrivals, PeerNumber from) {
 
 void Peer::enter_bodies(const Arrivals& arrivals, PeerNumber from) {
   for (const auto& [body, state] : arrivals.bodies) {
-    if (body >= portion_.body_count() || roles_[body] == own || (roles_[body] == ghost && owners_[body] != from)) {
+    if (body >= portion_.body_count() || roles_[body] == own ||
+        (roles_[body] == ghost && owners_[body] != from)) {
       accuse(from, "hands over body " + std::to_string(body) + ", which it does not own");
       continue;
     }
     extent_max_ = std::max(extent_max_, state.extent().maxCoeff());
-    if (!portion_.is_there(body) || !are_same(portion_.state(body), state)) portion_.put(body, state);
+    if (!portion_.is_there(body) || !are_same(portion_.state(body), state))
+      portion_.put(body, state);
   }
 }
 
 /// Each once, and only between bodies that are there.
 void Peer::set_holds(std::vector<Hold> holds) {
-  const auto is_there = [&](physics::Partner p) { return p >= physics::partner::field_parts || portion_.is_there(p); };
-  std::erase_if(holds, [&](const Hold& hold) { return !is_there(hold.low) || !is_there(hold.high); });
+  const auto is_there = [&](physics::Partner p) {
+    return p >= physics::partner::field_parts || portion_.is_there(p);
+  };
+  std::erase_if(holds,
+                [&](const Hold& hold) { return !is_there(hold.low) || !is_there(hold.high); });
   const auto names = [](const Hold& hold) { return std::tuple(hold.low, hold.high, hold.axis); };
-  std::stable_sort(holds.begin(), holds.end(), [&](const Hold& a, const Hold& b) { return names(a) < names(b); });
-  holds.erase(std::unique(holds.begin(), holds.end(), [&](const Hold& a, const Hold& b) { return names(a) == names(b); }), holds.end());
+  std::stable_sort(holds.begin(), holds.end(),
+                   [&](const Hold& a, const Hold& b) { return names(a) < names(b); });
+  holds.erase(std::unique(holds.begin(), holds.end(),
+                          [&](const Hold& a, const Hold& b) { return names(a) == names(b); }),
+              holds.end());
   portion_.set_holds(std::move(holds));
 }
 
@@ -245,7 +277,8 @@ void Peer::replay() {
     Arrivals& arrivals = arrivals_[from];
     enter_bodies(arrivals, from);
     for (const auto& [body, state] : arrivals.bodies)
-      if (body < roles_.size() && roles_[body] == away) roles_[body] = ghost, owners_[body] = from, ghosts_.push_back(body);
+      if (body < roles_.size() && roles_[body] == away)
+        roles_[body] = ghost, owners_[body] = from, ghosts_.push_back(body);
     holds.insert(holds.end(), arrivals.holds.begin(), arrivals.holds.end());
     due_.insert(due_.end(), arrivals.keys.begin(), arrivals.keys.end());
     arrivals = {};
@@ -257,7 +290,8 @@ void Peer::replay() {
   play();
 }
 
-/// Ghosts that went astray: to which nothing happened, they are what they were; all others come anew, or are gone.
+/// Ghosts that went astray: to which nothing happened, they are what they were; all others come
+/// anew, or are gone.
 void Peer::correct_doubtful() {
   for (std::size_t k = 0; k < ghosts_.size(); ++k) {
     if (doubts_[k] == infinity) continue;
@@ -274,7 +308,9 @@ void Peer::commit(double until) {
   correct_doubtful();
   doubts_.clear();
   std::vector<Hold> holds = portion_.holds();
-  const auto is_own = [&](physics::Partner p) { return p < physics::partner::field_parts && roles_[p] == own; };
+  const auto is_own = [&](physics::Partner p) {
+    return p < physics::partner::field_parts && roles_[p] == own;
+  };
   std::erase_if(holds, [&](const Hold& hold) { return !is_own(hold.low) && !is_own(hold.high); });
   std::vector<std::uint32_t> candidates = ghosts_;
   for (const Reach& reach : outskirts_) candidates.push_back(reach.body);
@@ -295,7 +331,8 @@ void Peer::commit(double until) {
   ++window_;
   attempts_ = 0;
   start_ = portion_.world().now();
-  for (const std::uint32_t body : watched_) homes_[body] = end_homes_[body], is_watched_[body] = watched;
+  for (const std::uint32_t body : watched_)
+    homes_[body] = end_homes_[body], is_watched_[body] = watched;
   settle(std::move(candidates));
   share_keys(until);
   if (!is_watch_fit()) choose_watched();
@@ -318,7 +355,8 @@ void Peer::disown(std::uint32_t body) {
   owned_.pop_back();
 }
 
-/// Who owns whom from now on, whom we have as ghosts, and who has ours. Own bodies that are no candidates are at home.
+/// Who owns whom from now on, whom we have as ghosts, and who has ours. Own bodies that are no
+/// candidates are at home.
 void Peer::settle(std::vector<std::uint32_t> candidates) {
   std::erase_if(candidates, [&](std::uint32_t body) { return !portion_.is_there(body); });
   std::sort(candidates.begin(), candidates.end());
@@ -327,7 +365,9 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
   std::vector<Box> reaches;
   for (const std::uint32_t body : candidates) {
     places.push_back(portion_.world().position({body}));
-    reaches.push_back(portion_.world().is_held({body}) ? reach_of(body) : Box::around(places.back(), extent_of(body)));
+    reaches.push_back(portion_.world().is_held({body})
+                          ? reach_of(body)
+                          : Box::around(places.back(), extent_of(body)));
   }
   for (const std::uint32_t body : ghosts_) roles_[body] = away;
   ghosts_.clear(), groups_.clear();
@@ -349,13 +389,17 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
     if (roles_[body] == ghost) ghosts_.push_back(body);
     else portion_.drop(body);
   }
-  std::erase_if(watched_, [&](std::uint32_t body) { return roles_[body] != own && std::exchange(is_watched_[body], std::uint8_t{not_watched}) != not_watched; });
+  std::erase_if(watched_, [&](std::uint32_t body) {
+    return roles_[body] != own &&
+           std::exchange(is_watched_[body], std::uint8_t{not_watched}) != not_watched;
+  });
   std::vector<Hold> holds = portion_.holds();
   if (!holds.empty()) set_holds(std::move(holds));
   if (!is_margin_fit()) choose_margin();
   else
     for (std::size_t k = 0; k < candidates.size(); ++k)
-      if (roles_[candidates[k]] == own && !portion_.world().is_held({candidates[k]})) homes_[candidates[k]] = home_of(places[k], 0);
+      if (roles_[candidates[k]] == own && !portion_.world().is_held({candidates[k]}))
+        homes_[candidates[k]] = home_of(places[k], 0);
   counters_.held_max = std::max<std::uint64_t>(counters_.held_max, owned_.size() + ghosts_.size());
   counters_.ghost_windows += ghosts_.size();
   for (const std::vector<std::uint32_t>& known : known_) counters_.border_windows += known.size();

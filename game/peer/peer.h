@@ -1,4 +1,5 @@
-// One of the peers that share a simulation: it owns the bodies in its zones, plays them window by window among ghosts of their neighbours, and proves each window right.
+// One of the peers that share a simulation: it owns the bodies in its zones, plays them window by
+// window among ghosts of their neighbours, and proves each window right.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +18,22 @@ namespace rink::peer {
 
 /// What a peer had, did and said since it was made.
 struct PeerCounters {
-  std::uint64_t windows = 0, repeats = 0;          ///< final ones; and how often one was played again
-  std::uint64_t own_events = 0, ghost_events = 0;  ///< in final windows: with a body of its own among those concerned, and without
+  std::uint64_t windows = 0, repeats = 0;  ///< final ones; and how often one was played again
+  std::uint64_t own_events = 0, ghost_events = 0;  ///< in final windows: with a body of its own
+                                                   ///< among those concerned, and without
   std::uint64_t hand_overs = 0;                    ///< bodies that left for another owner
-  std::uint64_t held_max = 0;                      ///< the most bodies that it had at a window's start, its own and ghosts; of peers taken together, the busiest one's
-  std::uint64_t ghost_windows = 0;                 ///< ghosts held, summed over the windows
-  std::uint64_t border_windows = 0;                ///< own bodies that another peer has as ghosts, likewise, each counted once per such peer
+  std::uint64_t held_max = 0;  ///< the most bodies that it had at a window's start, its own and
+                               ///< ghosts; of peers taken together, the busiest one's
+  std::uint64_t ghost_windows = 0;  ///< ghosts held, summed over the windows
+  std::uint64_t border_windows =
+      0;  ///< own bodies that another peer has as ghosts, likewise, each counted once per such peer
   std::uint64_t arrival_bytes = 0, claim_bytes = 0, verdict_bytes = 0;  ///< sent
 
   PeerCounters& operator+=(const PeerCounters& other);
 };
 
-/// A bat that a live player of `peer` plays, who looks about at `phase`, `phase` + `period`, ... [s], or at every window's end if `period` is 0, at the `puck_count` nearest pucks.
+/// A bat that a live player of `peer` plays, who looks about at `phase`, `phase` + `period`, ...
+/// [s], or at every window's end if `period` is 0, at the `puck_count` nearest pucks.
 struct Seat {
   std::uint32_t bat = 0;
   PeerNumber peer = 0;
@@ -40,17 +45,22 @@ struct Seat {
 
 enum class Outcome : std::uint8_t { final, repeat };
 
-/// The protocol, in the order in which it goes (docs/peer-to-peer.md). Everybody calls `play`; then each makes claims for each other and hears those of all others, judges, and hears all
-/// verdicts; `conclude` then says the same to all. `final`: each makes arrivals for each other, hears theirs, and commits. `repeat`: each makes arrivals for those who repeat,
-/// these hear them and call `replay`, and all go on with claims. Knows no network and no clock.
+/// The protocol, in the order in which it goes (docs/peer-to-peer.md). Everybody calls `play`; then
+/// each makes claims for each other and hears those of all others, judges, and hears all verdicts;
+/// `conclude` then says the same to all. `final`: each makes arrivals for each other, hears theirs,
+/// and commits. `repeat`: each makes arrivals for those who repeat, these hear them and call
+/// `replay`, and all go on with claims. Knows no network and no clock.
 class Peer {
  public:
   /// `halo` [m] is where it begins.
-  Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber number, std::uint32_t body_count, double halo);
+  Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber number,
+       std::uint32_t body_count, double halo);
 
-  /// At the start, before the first window, for every body of the whole: takes what is its own and what is in its halo.
+  /// At the start, before the first window, for every body of the whole: takes what is its own and
+  /// what is in its halo.
   void consider(std::uint32_t body, const BodyState& state);
-  /// Instead of that, to begin at a later window's start: its number and when it starts [s], then parts of the whole, among them all that is its own, in its halo, or in rest contact.
+  /// Instead of that, to begin at a later window's start: its number and when it starts [s], then
+  /// parts of the whole, among them all that is its own, in its halo, or in rest contact.
   void enter(std::uint32_t window, double start);
   void take(const Arrivals& part);
   /// After that; the first window will end at `until` [s].
@@ -62,13 +72,15 @@ class Peer {
   /// With the next verdicts, until told otherwise.
   void wish_to_leave(bool wishes) { wishes_to_leave_ = wishes; }
   void announce(Admission admission) { admission_ = std::move(admission); }
-  /// After `conclude` said final, before the arrivals: from the window's end on, zones are these, perhaps for more peers, who are not present yet. The same at all peers.
+  /// After `conclude` said final, before the arrivals: from the window's end on, zones are these,
+  /// perhaps for more peers, who are not present yet. The same at all peers.
   void divide(const Division& division);
   /// From now on `change` tells what each commit changed; a first one, after `begin`, tells all.
   void keep_changes() { keeps_changes_ = true; }
   /// Of the own part, since the window before, or `is_whole`; its step is left out.
   PartChange change(bool is_whole) const;
-  /// After a commit: a puck that went into a goal, as its owner has it, is back in play at `place`, which is free for everybody.
+  /// After a commit: a puck that went into a goal, as its owner has it, is back in play at `place`,
+  /// which is free for everybody.
   void put_back(const Arrivals::Body& scored, const Vector2& place);
   bool owns(std::uint32_t body) const { return roles_[body] == own; }
 
@@ -81,8 +93,10 @@ class Peer {
   const std::vector<Glimpse>& glimpses() const { return glimpses_; }
   /// Of all own bats that `player` plays, whether it is due or not.
   std::vector<Glimpse> glimpses_of_all(PeerNumber player) const;
-  /// After a commit and before the claims of the next window: an own player's key, which goes to `owner`, the one that the newest glimpse of the bat names. It is stamped there
-  /// with the end of that window or, if that is later, with the instant that it names, though not more than `ahead_max` later; a player's keys must name instants that do not fall.
+  /// After a commit and before the claims of the next window: an own player's key, which goes to
+  /// `owner`, the one that the newest glimpse of the bat names. It is stamped there with the end of
+  /// that window or, if that is later, with the instant that it names, though not more than
+  /// `ahead_max` later; a player's keys must name instants that do not fall.
   void press(PeerNumber owner, const Press& press) { presses_[owner].push_back(press); }
   static constexpr double ahead_max = 1.0;  ///< s
   /// Of the window that comes next [s].
@@ -92,7 +106,8 @@ class Peer {
 
   void play();
   Claims claims_for(PeerNumber peer);
-  /// Whatever is heard must keep to the scene from now on, as `validator` knows it. What does not is not taken, and whoever sent it is accused.
+  /// Whatever is heard must keep to the scene from now on, as `validator` knows it. What does not
+  /// is not taken, and whoever sent it is accused.
   void validate_by(Validator validator) { validator_ = std::move(validator); }
   void hear(PeerNumber from, Claims claims);
   const Verdict& judge();
@@ -101,7 +116,8 @@ class Peer {
   const Verdict& verdict() const { return verdicts_[number_]; }
   const Verdict& verdict_of(PeerNumber peer) const { return verdicts_[peer]; }
   bool repeats(PeerNumber peer) const { return is_repeating_[peer]; }
-  /// Between the arrivals for `peer` and the commit: whether it will have the own body in the next window, as its own or as a ghost.
+  /// Between the arrivals for `peer` and the commit: whether it will have the own body in the next
+  /// window, as its own or as a ghost.
   bool will_have(PeerNumber peer, std::uint32_t body) const;
 
   Arrivals arrivals_for_repeat(PeerNumber peer);
@@ -118,7 +134,8 @@ class Peer {
   const std::vector<std::uint32_t>& owned() const { return owned_; }
   const std::vector<std::uint32_t>& ghosts() const { return ghosts_; }
   BodyState state(std::uint32_t body) const { return portion_.state(body); }
-  /// Where it certainly was: at the end of the window that was judged, or at its start if it is a ghost whose owner tells another story of that window. Once committed, now.
+  /// Where it certainly was: at the end of the window that was judged, or at its start if it is a
+  /// ghost whose owner tells another story of that window. Once committed, now.
   Vector2 known_place(std::uint32_t body) const;
   /// All in rest contact or in one jam with it, directly or through others, itself first.
   std::vector<std::uint32_t> group_of(std::uint32_t body) const { return portion_.group_of(body); }
@@ -131,7 +148,8 @@ class Peer {
 
  private:
   enum Role : std::uint8_t { away, ghost, own };
-  /// `late`: since something happened to it in this window; what had happened before that it did in its home.
+  /// `late`: since something happened to it in this window; what had happened before that it did in
+  /// its home.
   enum Watch : std::uint8_t { not_watched, watched, late };
   /// What a body went through in the `change`th change of the journal; `state` as in ClaimedFlight.
   struct Step {
@@ -143,7 +161,8 @@ class Peer {
     std::uint64_t state;
     Box box;
   };
-  /// The path of a body: the flights from `begin` to `end`, the first one that with which the window began.
+  /// The path of a body: the flights from `begin` to `end`, the first one that with which the
+  /// window began.
   struct Path {
     std::uint32_t body;
     std::size_t begin, end;
@@ -161,7 +180,9 @@ class Peer {
   Vector2 start_place(std::uint32_t body) const;
   Box reach_of(std::uint32_t body) const;
   Box start_reach(std::uint32_t body) const;
-  bool is_in_region(PeerNumber peer, const Box& box) const { return division_.is_near(peer, box, halos_[peer]); }
+  bool is_in_region(PeerNumber peer, const Box& box) const {
+    return division_.is_near(peer, box, halos_[peer]);
+  }
   void play_anew();
   void play_keys(double until);
   bool knows(PeerNumber peer, std::uint32_t body) const;
@@ -195,7 +216,8 @@ class Peer {
   std::span<const Step> steps_of(std::uint32_t body) const;
   physics::Motion motion_after(const Step& step) const;
   void lay_out_paths();
-  double first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> claimed, std::vector<PathFlight>& beyond) const;
+  double first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> claimed,
+                          std::vector<PathFlight>& beyond) const;
   bool may_touch_own(const PathFlight& flight) const;
   std::vector<Goal> goals() const;
   std::vector<std::uint8_t> parts_of_events() const;
@@ -229,39 +251,50 @@ class Peer {
   double start_ = 0.0, end_ = 0.0;  // of the window
   double told_ = 0.0;               // of the states that are handed over next
   double usual_halo_, halo_min_, extent_max_ = 0.0;
-  double margin_ = -1.0;            // a place deeper in a zone is at home: no other peer's halo reaches a body there
-  std::vector<Box> interiors_;      // of the own zones
-  std::vector<double> halos_;       // by peer
+  double margin_ =
+      -1.0;  // a place deeper in a zone is at home: no other peer's halo reaches a body there
+  std::vector<Box> interiors_;  // of the own zones
+  std::vector<double> halos_;   // by peer
   std::vector<bool> is_repeating_, is_present_;
   bool wishes_to_leave_ = false, keeps_changes_ = false;
   Admission admission_;
-  std::vector<std::uint32_t> changed_, left_;      // in the last commit: own bodies whose states changed, or that came; and those that went
-  std::vector<std::uint32_t> flown_;               // likewise: that free impacts alone changed
-  std::vector<std::uint8_t> roles_, homes_, end_homes_, is_edge_;  // homes: 1 + number of the own zone in which a body is at home; 0 if in none, or if it has companions
+  std::vector<std::uint32_t> changed_, left_;  // in the last commit: own bodies whose states
+                                               // changed, or that came; and those that went
+  std::vector<std::uint32_t> flown_;           // likewise: that free impacts alone changed
+  std::vector<std::uint8_t> roles_, homes_, end_homes_,
+      is_edge_;  // homes: 1 + number of the own zone in which a body is at home; 0 if in none, or
+                 // if it has companions
   std::vector<std::uint8_t> is_watched_;
-  std::vector<std::uint32_t> watched_;       // own bodies; all others are at home, and stay there until `watched_until_` [s] if nothing happens to them
+  std::vector<std::uint32_t> watched_;  // own bodies; all others are at home, and stay there until
+                                        // `watched_until_` [s] if nothing happens to them
   double watched_until_ = -1.0;
-  std::vector<std::uint32_t> edge_;          // own bodies that were not at home all the time; sorted
+  std::vector<std::uint32_t> edge_;  // own bodies that were not at home all the time; sorted
   std::vector<std::uint32_t> owned_places_;  // in `owned_`
-  std::vector<PeerNumber> owners_;  // of those that are there, in this window
+  std::vector<PeerNumber> owners_;           // of those that are there, in this window
   std::vector<std::uint32_t> owned_, ghosts_;
-  std::vector<Reach> groups_;       // own bodies with companions: what they all take up at the window's start
-  std::vector<Reach> outskirts_;    // own bodies that are not at home at the window's end: what they and their companions take up then
-  std::vector<std::vector<std::uint32_t>> known_;  // to each peer, at the window's start: which of the own bodies it has; sorted
-  std::vector<Hold> entered_holds_; // of parts that were taken, until the first window begins
-  std::vector<std::vector<std::uint32_t>> coming_;  // to each peer, in the next window: which of the own bodies it will have; sorted
-  std::vector<Key> keys_, due_;     // still to come, of own bats; in this window
+  std::vector<Reach>
+      groups_;  // own bodies with companions: what they all take up at the window's start
+  std::vector<Reach> outskirts_;  // own bodies that are not at home at the window's end: what they
+                                  // and their companions take up then
+  std::vector<std::vector<std::uint32_t>>
+      known_;  // to each peer, at the window's start: which of the own bodies it has; sorted
+  std::vector<Hold> entered_holds_;  // of parts that were taken, until the first window begins
+  std::vector<std::vector<std::uint32_t>>
+      coming_;  // to each peer, in the next window: which of the own bodies it will have; sorted
+  std::vector<Key> keys_, due_;  // still to come, of own bats; in this window
   std::vector<Seat> seats_;
   std::vector<Glimpse> glimpses_;
   std::vector<std::vector<Press>> presses_;  // by owner: to go with the next claims
   std::vector<Key> log_;
-  std::vector<Step> steps_;         // of ghosts and of own bodies that were not at home all the time; by body
-  std::vector<Events> mixed_;       // events of own bodies and ghosts
-  std::vector<Path> paths_;         // of own bodies that were not at home all the time
+  std::vector<Step>
+      steps_;  // of ghosts and of own bodies that were not at home all the time; by body
+  std::vector<Events> mixed_;  // events of own bodies and ghosts
+  std::vector<Path> paths_;    // of own bodies that were not at home all the time
   std::vector<PathFlight> flights_;
-  Box hull_{};                      // holds all of these
-  std::vector<double> doubts_;      // as in ghosts_: when the ghost ceases to be what its owner says; never, as a rule
-  std::vector<bool> is_unmoved_;    // likewise: nothing happened to it, its owner says
+  Box hull_{};  // holds all of these
+  std::vector<double>
+      doubts_;  // as in ghosts_: when the ghost ceases to be what its owner says; never, as a rule
+  std::vector<bool> is_unmoved_;  // likewise: nothing happened to it, its owner says
   std::vector<Claims> claims_;
   std::vector<Verdict> verdicts_;
   std::vector<Arrivals> arrivals_;

@@ -1,4 +1,5 @@
-// What happened in a window, what is claimed of it, and whether it can stand: docs/peer-to-peer.md, "The rule".
+// What happened in a window, what is claimed of it, and whether it can stand: docs/peer-to-peer.md,
+// "The rule".
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,33 +14,47 @@ namespace rink::peer {
 
 namespace {
 
-/// Bodies further apart than this do nothing to each other at an instant [m]: twice the widest gap in the engine's clusters, and all roundings.
+/// Bodies further apart than this do nothing to each other at an instant [m]: twice the widest gap
+/// in the engine's clusters, and all roundings.
 constexpr double touch_margin = 4e-5;
-/// What comes within this time of each other is taken as simultaneous [s]: twice the engine's instant.
+/// What comes within this time of each other is taken as simultaneous [s]: twice the engine's
+/// instant.
 constexpr double time_margin = 2e-9;
 /// Of halos that turn out too narrow, and of all others, bit by bit.
 constexpr double widening = 1.25, narrowing = 1.0 - 2e-4;
 constexpr std::uint32_t attempts_max = 40;
-/// By then everybody's halo holds the whole field if need be, and honest runs of the same states agree. Whoever still
-/// doubts a ghost blames its owner; whoever trusts all of them waits a little longer, then blames who does not accept.
-constexpr std::uint32_t attempts_before_blame = attempts_max + 64, attempts_before_blaming_doubt = attempts_before_blame + 8;
-/// So many need 8 events at one instant each before they would be taken for endless together; telling when they came would cost more.
+/// By then everybody's halo holds the whole field if need be, and honest runs of the same states
+/// agree. Whoever still doubts a ghost blames its owner; whoever trusts all of them waits a little
+/// longer, then blames who does not accept.
+constexpr std::uint32_t attempts_before_blame = attempts_max + 64,
+                        attempts_before_blaming_doubt = attempts_before_blame + 8;
+/// So many need 8 events at one instant each before they would be taken for endless together;
+/// telling when they came would cost more.
 constexpr PeerNumber few_peers = 8;
 
 std::uint64_t mixed(std::uint64_t digest, std::uint64_t word) {
   digest = (digest ^ word) * 0x9e3779b97f4a7c15ULL;
   return digest ^ (digest >> 31);
 }
-std::uint64_t mixed(std::uint64_t digest, double number) { return mixed(digest, std::bit_cast<std::uint64_t>(number)); }
+std::uint64_t mixed(std::uint64_t digest, double number) {
+  return mixed(digest, std::bit_cast<std::uint64_t>(number));
+}
 
 float rounded_down(double x) {
   const auto nearest = static_cast<float>(x);
-  return static_cast<double>(nearest) <= x ? nearest : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+  return static_cast<double>(nearest) <= x
+             ? nearest
+             : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
 }
 float rounded_up(double x) { return -rounded_down(-x); }
 
 ClaimedFlight claimed(double begin, std::uint64_t state, const Box& box) {
-  return {begin, state, rounded_down(box.low_x), rounded_down(box.low_y), rounded_up(box.high_x), rounded_up(box.high_y)};
+  return {begin,
+          state,
+          rounded_down(box.low_x),
+          rounded_down(box.low_y),
+          rounded_up(box.high_x),
+          rounded_up(box.high_y)};
 }
 
 }  // namespace
@@ -67,23 +82,29 @@ void Peer::trace() {
     if (has_ghost || has_edge) enter_event({begin, end});
     if (has_own && has_ghost) mixed_.push_back({begin, end});
   }
-  std::sort(steps_.begin(), steps_.end(), [](const Step& a, const Step& b) { return a.body != b.body ? a.body < b.body : a.change < b.change; });
+  std::sort(steps_.begin(), steps_.end(), [](const Step& a, const Step& b) {
+    return a.body != b.body ? a.body < b.body : a.change < b.change;
+  });
 }
 
 void Peer::enter_event(Events event) {
   const std::vector<physics::Change>& changes = portion_.journal().changes;
   std::uint64_t concerned = 0;
-  for (std::size_t k = event.begin; k < event.end; ++k) concerned += mixed(0x9ae16a3b2f90404fULL, std::uint64_t{changes[k].body});
+  for (std::size_t k = event.begin; k < event.end; ++k)
+    concerned += mixed(0x9ae16a3b2f90404fULL, std::uint64_t{changes[k].body});
   for (std::size_t k = event.begin; k < event.end; ++k) {
     const physics::Change& c = changes[k];
     if (roles_[c.body] == own && is_edge_[c.body] == 0) continue;
-    const std::uint64_t state = mixed(mixed(mixed(mixed(mixed(mixed(concerned, c.conditions), c.x), c.y), c.vx), c.vy), c.since);
+    const std::uint64_t state = mixed(
+        mixed(mixed(mixed(mixed(mixed(concerned, c.conditions), c.x), c.y), c.vx), c.vy), c.since);
     steps_.push_back({c.body, static_cast<std::uint32_t>(k), state});
   }
 }
 
 std::span<const Peer::Step> Peer::steps_of(std::uint32_t body) const {
-  const auto [begin, end] = std::equal_range(steps_.begin(), steps_.end(), Step{body, 0, 0}, [](const Step& a, const Step& b) { return a.body < b.body; });
+  const auto [begin, end] =
+      std::equal_range(steps_.begin(), steps_.end(), Step{body, 0, 0},
+                       [](const Step& a, const Step& b) { return a.body < b.body; });
   return {begin, end};
 }
 
@@ -91,7 +112,11 @@ physics::Motion Peer::motion_after(const Step& step) const {
   const physics::Journal& journal = portion_.journal();
   const physics::Change& c = journal.changes[step.change];
   if (c.motion != physics::Change::straight) return journal.motions[c.motion];
-  return {c.since, {c.x, c.y}, {c.vx, c.vy}, {0.0, 0.0}, Vector2::Constant(portion_.world().spec().puck_drag)};
+  return {c.since,
+          {c.x, c.y},
+          {c.vx, c.vy},
+          {0.0, 0.0},
+          Vector2::Constant(portion_.world().spec().puck_drag)};
 }
 
 void Peer::lay_out_paths() {
@@ -102,14 +127,21 @@ void Peer::lay_out_paths() {
     const std::span<const Step> steps = steps_of(body);
     const Vector2 extent = extent_of(body);
     const std::size_t first = flights_.size();
-    const auto time_of = [&](std::size_t k) { return k < steps.size() ? changes[steps[k].change].time : end_; };
-    // Who was not watched when the window began may have had impacts that were not entered, all of them at home.
+    const auto time_of = [&](std::size_t k) {
+      return k < steps.size() ? changes[steps[k].change].time : end_;
+    };
+    // Who was not watched when the window began may have had impacts that were not entered, all of
+    // them at home.
     const bool is_late = is_watched_[body] == late;
-    flights_.push_back({start_, time_of(0), 0, is_late ? room_at_home(body).grown(extent.x(), extent.y()) : swept(portion_.motion_before(body), start_, time_of(0), extent)});
+    flights_.push_back({start_, time_of(0), 0,
+                        is_late ? room_at_home(body).grown(extent.x(), extent.y())
+                                : swept(portion_.motion_before(body), start_, time_of(0), extent)});
     for (std::size_t k = 0; k < steps.size(); ++k) {
       const physics::Motion motion = motion_after(steps[k]);
       const bool is_out = k + 1 == steps.size() && !portion_.world().is_in_play({body});
-      flights_.push_back({time_of(k), time_of(k + 1), steps[k].state, is_out ? Box::around(motion.position, extent) : swept(motion, time_of(k), time_of(k + 1), extent)});
+      flights_.push_back({time_of(k), time_of(k + 1), steps[k].state,
+                          is_out ? Box::around(motion.position, extent)
+                                 : swept(motion, time_of(k), time_of(k + 1), extent)});
     }
     paths_.push_back({body, first, flights_.size()});
   }
@@ -123,11 +155,17 @@ Claims Peer::claims_for(PeerNumber peer) {
   message.known_count = static_cast<std::uint32_t>(known_[peer].size());
   for (const Path& path : paths_) {
     const bool is_known = knows(peer, path.body);
-    const auto comes_near = [&](const PathFlight& flight) { return is_in_region(peer, flight.box); };
+    const auto comes_near = [&](const PathFlight& flight) {
+      return is_in_region(peer, flight.box);
+    };
     const std::size_t begin = is_known ? path.begin + 1 : path.begin;
-    if (is_known ? begin == path.end : std::none_of(&flights_[path.begin], &flights_[path.begin] + (path.end - path.begin), comes_near)) continue;
+    if (is_known ? begin == path.end
+                 : std::none_of(&flights_[path.begin],
+                                &flights_[path.begin] + (path.end - path.begin), comes_near))
+      continue;
     message.bodies.push_back({path.body, static_cast<std::uint32_t>(path.end - begin), is_known});
-    for (std::size_t k = begin; k < path.end; ++k) message.flights.push_back(claimed(flights_[k].begin, flights_[k].state, flights_[k].box));
+    for (std::size_t k = begin; k < path.end; ++k)
+      message.flights.push_back(claimed(flights_[k].begin, flights_[k].state, flights_[k].box));
   }
   message.presses = std::exchange(presses_[peer], {});
   counters_.claim_bytes += measured(message);
@@ -141,13 +179,16 @@ bool Peer::accuse(PeerNumber peer, const std::string& of) {
 
 /// Or else a lie that could be true, and was believed, would have the window repeated for ever.
 void Peer::blame(bool doubts_ghosts) {
-  const auto doubted = std::find_if(doubts_.begin(), doubts_.end(), [](double doubt) { return doubt < infinity; });
+  const auto doubted =
+      std::find_if(doubts_.begin(), doubts_.end(), [](double doubt) { return doubt < infinity; });
   if (doubts_ghosts && doubted != doubts_.end()) {
     const std::uint32_t body = ghosts_[static_cast<std::size_t>(doubted - doubts_.begin())];
     accuse(owners_[body], "claims what cannot be agreed with of body " + std::to_string(body));
   }
-  for (PeerNumber peer = 0; peer < verdicts_.size() && attempts_ >= attempts_before_blaming_doubt; ++peer)
-    if (peer != number_ && is_present_[peer] && !verdicts_[peer].accepts) accuse(peer, "accepts no run of window " + std::to_string(window_));
+  for (PeerNumber peer = 0; peer < verdicts_.size() && attempts_ >= attempts_before_blaming_doubt;
+       ++peer)
+    if (peer != number_ && is_present_[peer] && !verdicts_[peer].accepts)
+      accuse(peer, "accepts no run of window " + std::to_string(window_));
 }
 
 /// Whether claims speak of the bodies that they should.
@@ -156,12 +197,19 @@ bool Peer::hears_truth() {
   for (const std::uint32_t body : ghosts_) ++counts[owners_[body]];
   for (PeerNumber peer = 0; peer < claims_.size(); ++peer) {
     if (peer == number_ || !is_present_[peer]) continue;
-    if (claims_[peer].window != window_) return accuse(peer, "claims window " + std::to_string(claims_[peer].window) + " instead of " + std::to_string(window_));
+    if (claims_[peer].window != window_)
+      return accuse(peer, "claims window " + std::to_string(claims_[peer].window) + " instead of " +
+                              std::to_string(window_));
     if (claims_[peer].known_count != counts[peer])
-      return accuse(peer, "counts " + std::to_string(claims_[peer].known_count) + " of its bodies here, there are " + std::to_string(counts[peer]));
+      return accuse(peer, "counts " + std::to_string(claims_[peer].known_count) +
+                              " of its bodies here, there are " + std::to_string(counts[peer]));
     for (const Claims::Body& body : claims_[peer].bodies) {
-      const bool is_there = body.number < roles_.size() && roles_[body.number] == (body.is_known ? ghost : away) && (!body.is_known || owners_[body.number] == peer);
-      if (!is_there) return accuse(peer, "claims body " + std::to_string(body.number) + ", which it does not own");
+      const bool is_there = body.number < roles_.size() &&
+                            roles_[body.number] == (body.is_known ? ghost : away) &&
+                            (!body.is_known || owners_[body.number] == peer);
+      if (!is_there)
+        return accuse(peer,
+                      "claims body " + std::to_string(body.number) + ", which it does not own");
     }
   }
   return true;
@@ -170,8 +218,10 @@ bool Peer::hears_truth() {
 Vector2 Peer::known_place(std::uint32_t body) const {
   const auto found = std::lower_bound(ghosts_.begin(), ghosts_.end(), body);
   const auto place = static_cast<std::size_t>(found - ghosts_.begin());
-  const bool is_doubtful = found != ghosts_.end() && *found == body && place < doubts_.size() && doubts_[place] < infinity && !portion_.was_gone(body);
-  return is_doubtful ? portion_.motion_before(body).at(start_).position : portion_.world().position({body});
+  const bool is_doubtful = found != ghosts_.end() && *found == body && place < doubts_.size() &&
+                           doubts_[place] < infinity && !portion_.was_gone(body);
+  return is_doubtful ? portion_.motion_before(body).at(start_).position
+                     : portion_.world().position({body});
 }
 
 const Verdict& Peer::judge() {
@@ -181,14 +231,25 @@ const Verdict& Peer::judge() {
   if (is_true) take_presses();
   const bool is_trusted = is_true && trusts_ghosts();
   if (attempts_ >= attempts_before_blame) blame(is_true && !is_trusted);
-  const std::uint64_t at_once_max = std::max(portion_.journal().at_once_max, physics::most_at_once(portion_.journal().times));
-  verdict = {window_, is_trusted && needed <= halo, 0.0f, at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events(), goals(), admission_};
+  const std::uint64_t at_once_max =
+      std::max(portion_.journal().at_once_max, physics::most_at_once(portion_.journal().times));
+  verdict = {window_,
+             is_trusted && needed <= halo,
+             0.0f,
+             at_once_max,
+             portion_.journal().was_hopeless,
+             own_events_,
+             wishes_to_leave_,
+             parts_of_events(),
+             goals(),
+             admission_};
   if (verdict.accepts) {
     if (halo < infinity) usual_halo_ = std::max(halo_min_, narrowing * halo);
     verdict.halo = rounded_up(usual_halo_);
   } else {
     const double wider = std::max(widening * halo, 1.05 * needed);
-    if (wider > halo_max_ || attempts_ >= attempts_max) verdict.halo = std::numeric_limits<float>::infinity();
+    if (wider > halo_max_ || attempts_ >= attempts_max)
+      verdict.halo = std::numeric_limits<float>::infinity();
     else usual_halo_ = wider, verdict.halo = rounded_up(wider);
   }
   counters_.verdict_bytes += measured(verdict);
@@ -202,7 +263,9 @@ std::vector<Goal> Peer::goals() const {
   if (world.spec().field.goal_width == 0.0) return goals;
   std::vector<std::uint32_t> pucks;
   for (const physics::Journal::KeptState& kept : portion_.journal().states)
-    if (roles_[kept.body] == own && kept.state.kind == physics::BodyKind::puck && !world.is_in_play({kept.body}) && !portion_.was_gone(kept.body)) pucks.push_back(kept.body);
+    if (roles_[kept.body] == own && kept.state.kind == physics::BodyKind::puck &&
+        !world.is_in_play({kept.body}) && !portion_.was_gone(kept.body))
+      pucks.push_back(kept.body);
   std::sort(pucks.begin(), pucks.end());
   for (const std::uint32_t puck : pucks) {
     const physics::Motion last = world.motion({puck});
@@ -214,12 +277,18 @@ std::vector<Goal> Peer::goals() const {
 std::vector<std::uint8_t> Peer::parts_of_events() const {
   std::vector<std::uint8_t> parts;
   const std::vector<double>& times = portion_.journal().times;
-  if (static_cast<PeerNumber>(std::count(is_present_.begin(), is_present_.end(), true)) <= few_peers || times.size() > Verdict::listed_max) return parts;
-  for (const double time : times) parts.push_back(static_cast<std::uint8_t>(std::clamp(256.0 * (time - start_) / (end_ - start_), 0.0, 255.0)));
+  if (static_cast<PeerNumber>(std::count(is_present_.begin(), is_present_.end(), true)) <=
+          few_peers ||
+      times.size() > Verdict::listed_max)
+    return parts;
+  for (const double time : times)
+    parts.push_back(static_cast<std::uint8_t>(
+        std::clamp(256.0 * (time - start_) / (end_ - start_), 0.0, 255.0)));
   return parts;
 }
 
-/// At least as many as came at any one instant in the whole. An instant, which is a few roundings long, may lie on both sides of where two parts of the window meet.
+/// At least as many as came at any one instant in the whole. An instant, which is a few roundings
+/// long, may lie on both sides of where two parts of the window meet.
 std::uint64_t Peer::at_once_bound() const {
   std::uint64_t sum = 0, unlisted = 0;
   for (const Verdict& verdict : verdicts_) sum += verdict.at_once_max;
@@ -230,47 +299,64 @@ std::uint64_t Peer::at_once_bound() const {
     for (const std::uint8_t part : verdict.listed) ++own[part];
     if (verdict.listed.empty()) unlisted += verdict.at_once_max;
     else
-      for (std::size_t part = 0; part < 256; ++part) listed[part] += std::min(verdict.at_once_max, own[part] + own[part + 1]);
+      for (std::size_t part = 0; part < 256; ++part)
+        listed[part] += std::min(verdict.at_once_max, own[part] + own[part + 1]);
   }
   return unlisted + *std::max_element(listed.begin(), listed.end());
 }
 
-/// The halo that holds all own paths, so that nobody who is not known, and stays out of the halo, can touch them.
+/// The halo that holds all own paths, so that nobody who is not known, and stays out of the halo,
+/// can touch them.
 double Peer::needed_halo() const {
   double most = 0.0;
   for (const PathFlight& flight : flights_) {
     const Box box = flight.box.grown(touch_margin);
     double least = infinity;
     for (const Box& zone : division_.zones_of(number_))
-      least = std::min(least, std::max({zone.low_x - box.low_x, zone.low_y - box.low_y, box.high_x - zone.high_x, box.high_y - zone.high_y}));
+      least = std::min(least, std::max({zone.low_x - box.low_x, zone.low_y - box.low_y,
+                                        box.high_x - zone.high_x, box.high_y - zone.high_y}));
     most = std::max(most, least);
   }
   return most;
 }
 
-/// When the ghost's own story here departs from what its owner claims; never, as a rule. And its claimed path from then on.
-double Peer::first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> flights, std::vector<PathFlight>& beyond) const {
+/// When the ghost's own story here departs from what its owner claims; never, as a rule. And its
+/// claimed path from then on.
+double Peer::first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> flights,
+                              std::vector<PathFlight>& beyond) const {
   const std::vector<physics::Change>& changes = portion_.journal().changes;
   const std::span<const Step> steps = steps_of(ghost);
   std::size_t k = 0;
-  while (k < steps.size() && k < flights.size() && steps[k].state == flights[k].state && changes[steps[k].change].time == flights[k].begin) ++k;
+  while (k < steps.size() && k < flights.size() && steps[k].state == flights[k].state &&
+         changes[steps[k].change].time == flights[k].begin)
+    ++k;
   if (k == steps.size() && k == flights.size()) return infinity;
-  const double here = k < steps.size() ? changes[steps[k].change].time : infinity, there = k < flights.size() ? flights[k].begin : infinity;
+  const double here = k < steps.size() ? changes[steps[k].change].time : infinity,
+               there = k < flights.size() ? flights[k].begin : infinity;
   const double parting = std::min(here, there) - time_margin, flight_end = std::min(there, end_);
-  const physics::Motion motion = k == 0 ? portion_.motion_before(ghost) : motion_after(steps[k - 1]);
-  if (parting < flight_end && !portion_.was_gone(ghost)) beyond.push_back({parting, flight_end, 0, swept(motion, std::max(parting, start_), flight_end, extent_of(ghost))});
-  for (; k < flights.size(); ++k) beyond.push_back({flights[k].begin - time_margin, k + 1 < flights.size() ? flights[k + 1].begin : end_, 0, flights[k].box()});
+  const physics::Motion motion =
+      k == 0 ? portion_.motion_before(ghost) : motion_after(steps[k - 1]);
+  if (parting < flight_end && !portion_.was_gone(ghost))
+    beyond.push_back({parting, flight_end, 0,
+                      swept(motion, std::max(parting, start_), flight_end, extent_of(ghost))});
+  for (; k < flights.size(); ++k)
+    beyond.push_back({flights[k].begin - time_margin,
+                      k + 1 < flights.size() ? flights[k + 1].begin : end_, 0, flights[k].box()});
   return parting;
 }
 
 bool Peer::may_touch_own(const PathFlight& foreign) const {
   const Box box = foreign.box.grown(touch_margin);
   const Box centres = box.grown(extent_max_);
-  if (std::any_of(interiors_.begin(), interiors_.end(), [&](const Box& interior) { return interior.meets(centres); })) return true;
+  if (std::any_of(interiors_.begin(), interiors_.end(),
+                  [&](const Box& interior) { return interior.meets(centres); }))
+    return true;
   // Most ghosts go astray at the rim of the halo, where no own body comes.
-  return hull_.meets(box) && std::any_of(flights_.begin(), flights_.end(), [&](const PathFlight& flight) {
-    return flight.begin - time_margin <= foreign.end && foreign.begin <= flight.end + time_margin && flight.box.meets(box);
-  });
+  return hull_.meets(box) &&
+         std::any_of(flights_.begin(), flights_.end(), [&](const PathFlight& flight) {
+           return flight.begin - time_margin <= foreign.end &&
+                  foreign.begin <= flight.end + time_margin && flight.box.meets(box);
+         });
 }
 
 /// Parts (a) and (b) of the rule.
@@ -279,28 +365,38 @@ bool Peer::trusts_ghosts() {
   is_unmoved_.assign(ghosts_.size(), true);
   std::vector<PathFlight> beyond;
   std::vector<std::span<const ClaimedFlight>> claimed_of(ghosts_.size());
-  const auto place_of = [&](std::uint32_t body) { return static_cast<std::size_t>(std::lower_bound(ghosts_.begin(), ghosts_.end(), body) - ghosts_.begin()); };
+  const auto place_of = [&](std::uint32_t body) {
+    return static_cast<std::size_t>(std::lower_bound(ghosts_.begin(), ghosts_.end(), body) -
+                                    ghosts_.begin());
+  };
   for (const Claims& claims : claims_) {
     std::size_t first = 0;
     for (const Claims::Body& body : claims.bodies) {
-      const std::span<const ClaimedFlight> flights = std::span(claims.flights).subspan(first, body.flight_count);
+      const std::span<const ClaimedFlight> flights =
+          std::span(claims.flights).subspan(first, body.flight_count);
       first += body.flight_count;
       if (body.is_known) {
         claimed_of[place_of(body.number)] = flights;
         continue;
       }
-      for (std::size_t k = 0; k < flights.size(); ++k) beyond.push_back({flights[k].begin - time_margin, k + 1 < flights.size() ? flights[k + 1].begin : end_, 0, flights[k].box()});
+      for (std::size_t k = 0; k < flights.size(); ++k)
+        beyond.push_back({flights[k].begin - time_margin,
+                          k + 1 < flights.size() ? flights[k + 1].begin : end_, 0,
+                          flights[k].box()});
     }
   }
   for (std::size_t k = 0; k < ghosts_.size(); ++k) {
     is_unmoved_[k] = claimed_of[k].empty();
     doubts_[k] = first_difference(ghosts_[k], claimed_of[k], beyond);
   }
-  if (std::any_of(beyond.begin(), beyond.end(), [&](const PathFlight& flight) { return may_touch_own(flight); })) return false;
+  if (std::any_of(beyond.begin(), beyond.end(),
+                  [&](const PathFlight& flight) { return may_touch_own(flight); }))
+    return false;
   return std::none_of(mixed_.begin(), mixed_.end(), [&](const Events& event) {
     for (std::size_t k = event.begin; k < event.end; ++k) {
       const physics::Change& change = portion_.journal().changes[k];
-      if (roles_[change.body] == ghost && change.time >= doubts_[place_of(change.body)]) return true;
+      if (roles_[change.body] == ghost && change.time >= doubts_[place_of(change.body)])
+        return true;
     }
     return false;
   });

@@ -1,4 +1,5 @@
-// Which own bodies are deep in their zones, where no other peer's halo reaches: nothing is said of them, and hardly any is looked at.
+// Which own bodies are deep in their zones, where no other peer's halo reaches: nothing is said of
+// them, and hardly any is looked at.
 #include <algorithm>
 #include <limits>
 
@@ -10,7 +11,8 @@ namespace {
 
 /// A margin is that much wider than it need be, lest it be chosen anew with every halo.
 constexpr double margin_room = 1.25;
-/// Who is not watched stays at home for that many windows if nothing happens to it; then all are looked at once. More windows make more bodies to be watched.
+/// Who is not watched stays at home for that many windows if nothing happens to it; then all are
+/// looked at once. More windows make more bodies to be watched.
 constexpr double windows_watched = 24.0;
 
 }  // namespace
@@ -35,7 +37,8 @@ bool Peer::is_margin_fit() const {
   return margin_ >= needed && (margin_ <= margin_room * margin_room * needed || margin_ == needed);
 }
 
-/// And who was at home when the window began. Until the next one all are watched, and a run that has been played must be played anew.
+/// And who was at home when the window began. Until the next one all are watched, and a run that
+/// has been played must be played anew.
 void Peer::choose_margin() {
   margin_ = margin_room * least_margin();
   interiors_.clear();
@@ -56,13 +59,17 @@ void Peer::watch(std::uint32_t body, Watch how) {
   portion_.set_room(body, 0);
 }
 
-bool Peer::stays(std::uint8_t home, const Vector2& place, const Vector2& velocity, double since) const {
+bool Peer::stays(std::uint8_t home, const Vector2& place, const Vector2& velocity,
+                 double since) const {
   const Box& interior = interiors_[home - 1u];
-  const Vector2 farthest = place + velocity * (watched_until_ - since);  // drag only makes it shorter
-  return interior.holds(Box::around(place, {0.0, 0.0})) && interior.holds(Box::around(farthest, {0.0, 0.0}));
+  const Vector2 farthest =
+      place + velocity * (watched_until_ - since);  // drag only makes it shorter
+  return interior.holds(Box::around(place, {0.0, 0.0})) &&
+         interior.holds(Box::around(farthest, {0.0, 0.0}));
 }
 
-/// At a window's start: all that might leave their homes before `watched_until_` though nothing happens to them.
+/// At a window's start: all that might leave their homes before `watched_until_` though nothing
+/// happens to them.
 void Peer::choose_watched() {
   watched_until_ = start_ + windows_watched * (end_ - start_);
   watched_.clear();
@@ -70,7 +77,8 @@ void Peer::choose_watched() {
     const std::uint8_t home = homes_[body];
     is_watched_[body] = not_watched;
     const auto flight = home == 0 ? std::nullopt : portion_.free_flight(body);
-    if (!flight || !stays(home, {flight->x, flight->y}, {flight->vx, flight->vy}, flight->time)) watch(body, watched);
+    if (!flight || !stays(home, {flight->x, flight->y}, {flight->vx, flight->vy}, flight->time))
+      watch(body, watched);
     else portion_.set_room(body, home);
   }
   std::vector<physics::Journal::Room> rooms;
@@ -78,7 +86,8 @@ void Peer::choose_watched() {
   portion_.set_rooms(std::move(rooms), watched_until_);
 }
 
-/// Which of the own bodies were not at home from the window's start to its end; and which are not at its end.
+/// Which of the own bodies were not at home from the window's start to its end; and which are not
+/// at its end.
 void Peer::find_edge() {
   for (const std::uint32_t body : edge_) is_edge_[body] = 0;
   edge_.clear(), outskirts_.clear();
@@ -86,10 +95,16 @@ void Peer::find_edge() {
   for (const physics::Change& change : portion_.journal().changes) {
     const std::uint32_t body = change.body;
     if (roles_[body] != own || is_edge_[body] != 0) continue;
-    // Between two places in a convex interior a straight flight stays there; one that bends need not.
+    // Between two places in a convex interior a straight flight stays there; one that bends need
+    // not.
     const bool is_straight = change.motion == physics::Change::straight;
-    if (is_watched_[body] == not_watched && !(is_straight && stays(homes_[body], {change.x, change.y}, {change.vx, change.vy}, change.since))) watch(body, late), look_at(body);
-    if (!is_straight || !interiors_[homes_[body] - 1u].holds({change.x, change.y, change.x, change.y})) note_edge(body);
+    if (is_watched_[body] == not_watched &&
+        !(is_straight &&
+          stays(homes_[body], {change.x, change.y}, {change.vx, change.vy}, change.since)))
+      watch(body, late), look_at(body);
+    if (!is_straight ||
+        !interiors_[homes_[body] - 1u].holds({change.x, change.y, change.x, change.y}))
+      note_edge(body);
   }
   std::sort(edge_.begin(), edge_.end());
 }
@@ -98,14 +113,17 @@ void Peer::find_edge() {
 Box Peer::room_at_home(std::uint32_t body) const {
   const physics::Field& field = portion_.world().spec().field;
   const Box& room = interiors_[homes_[body] - 1u];
-  return {std::max(room.low_x, -field.length), std::max(room.low_y, -field.width), std::min(room.high_x, 2.0 * field.length), std::min(room.high_y, 2.0 * field.width)};
+  return {std::max(room.low_x, -field.length), std::max(room.low_y, -field.width),
+          std::min(room.high_x, 2.0 * field.length), std::min(room.high_y, 2.0 * field.width)};
 }
 
 void Peer::look_at(std::uint32_t body) {
   const physics::World& world = portion_.world();
   const std::uint8_t home = homes_[body];
-  end_homes_[body] = world.is_held({body}) ? std::uint8_t{0} : home_of(world.position({body}), home);
-  if (home == 0 || end_homes_[body] != home || world.kind({body}) == physics::BodyKind::bat) note_edge(body);
+  end_homes_[body] =
+      world.is_held({body}) ? std::uint8_t{0} : home_of(world.position({body}), home);
+  if (home == 0 || end_homes_[body] != home || world.kind({body}) == physics::BodyKind::bat)
+    note_edge(body);
   if (end_homes_[body] == 0) outskirts_.push_back({body, reach_of(body)});
 }
 

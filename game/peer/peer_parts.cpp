@@ -1,4 +1,5 @@
-// A peer's own part as a whole: taken over from others, told to whom mirrors it, and given other borders.
+// A peer's own part as a whole: taken over from others, told to whom mirrors it, and given other
+// borders.
 #include <algorithm>
 #include <cassert>
 
@@ -45,11 +46,19 @@ void Peer::divide(const Division& division) {
 void Peer::note_changed() {
   changed_.clear(), flown_.clear(), left_.clear();
   for (const auto& kept : portion_.journal().flights)
-    if (roles_[kept.body] == own) (portion_.has_only_flown(kept.body) ? flown_ : changed_).push_back(kept.body);
+    if (roles_[kept.body] == own)
+      (portion_.has_only_flown(kept.body) ? flown_ : changed_).push_back(kept.body);
 }
 
 PartChange Peer::change(bool is_whole) const {
-  PartChange change{.step = 0, .time = portion_.world().now(), .is_whole = is_whole, .bodies = {}, .gone = {}, .holds = {}, .keys = {}, .log = {}};
+  PartChange change{.step = 0,
+                    .time = portion_.world().now(),
+                    .is_whole = is_whole,
+                    .bodies = {},
+                    .gone = {},
+                    .holds = {},
+                    .keys = {},
+                    .log = {}};
   std::vector<std::uint32_t> bodies = is_whole ? owned_ : changed_;
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
@@ -61,7 +70,9 @@ PartChange Peer::change(bool is_whole) const {
     change.gone = left_;
     change.log = log_;
   }
-  const auto is_own = [&](physics::Partner p) { return p < physics::partner::field_parts && roles_[p] == own; };
+  const auto is_own = [&](physics::Partner p) {
+    return p < physics::partner::field_parts && roles_[p] == own;
+  };
   for (const Hold& hold : portion_.holds())
     if (is_own(hold.low) || is_own(hold.high)) change.holds.push_back(hold);
   for (const std::vector<Key>* keys : {&due_, &keys_})
@@ -70,7 +81,8 @@ PartChange Peer::change(bool is_whole) const {
   return change;
 }
 
-/// Nobody is in contact with it, and whoever has it from now on makes the same of what its owner had.
+/// Nobody is in contact with it, and whoever has it from now on makes the same of what its owner
+/// had.
 void Peer::put_back(const Arrivals::Body& scored, const Vector2& place) {
   const std::uint32_t body = scored.number;
   const bool was_own = roles_[body] == own;
@@ -81,7 +93,9 @@ void Peer::put_back(const Arrivals::Body& scored, const Vector2& place) {
   portion_.place(body, place);
   const Box reach = Box::around(place, extent_of(body));
   owners_[body] = division_.owner_of(place);
-  const auto insert = [body](std::vector<std::uint32_t>& list) { list.insert(std::upper_bound(list.begin(), list.end(), body), body); };
+  const auto insert = [body](std::vector<std::uint32_t>& list) {
+    list.insert(std::upper_bound(list.begin(), list.end(), body), body);
+  };
   if (owners_[body] == number_) {
     if (!was_own) own_from_now(body);
     else if (keeps_changes_) changed_.push_back(body);

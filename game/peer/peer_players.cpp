@@ -15,17 +15,26 @@ bool Seat::is_due(double begin, double end) const {
 
 Glimpse Peer::glimpse_of(const Seat& seat) const {
   const physics::World& world = portion_.world();
-  Glimpse glimpse{.bat = seat.bat, .owner = 0, .time = world.now(), .position = world.position({seat.bat}), .velocity = world.velocity({seat.bat}), .pucks = {}};
+  Glimpse glimpse{.bat = seat.bat,
+                  .owner = 0,
+                  .time = world.now(),
+                  .position = world.position({seat.bat}),
+                  .velocity = world.velocity({seat.bat}),
+                  .pucks = {}};
   glimpse.owner = division_.owner_of(glimpse.position);
   std::vector<std::pair<double, std::uint32_t>> nearest;
   if (seat.puck_count > 0)
     for (const std::vector<std::uint32_t>* bodies : {&owned_, &ghosts_})
       for (const std::uint32_t body : *bodies)
-        if (world.kind({body}) == physics::BodyKind::puck && world.is_in_play({body})) nearest.emplace_back((world.position({body}) - glimpse.position).squaredNorm(), body);
+        if (world.kind({body}) == physics::BodyKind::puck && world.is_in_play({body}))
+          nearest.emplace_back((world.position({body}) - glimpse.position).squaredNorm(), body);
   const std::size_t count = std::min<std::size_t>(seat.puck_count, nearest.size());
-  std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count), nearest.end());
+  std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count),
+                    nearest.end());
   nearest.resize(count);
-  for (const auto& [square, body] : nearest) glimpse.pucks.push_back({body, world.position({body}), world.velocity({body}), world.radius({body})});
+  for (const auto& [square, body] : nearest)
+    glimpse.pucks.push_back(
+        {body, world.position({body}), world.velocity({body}), world.radius({body})});
   return glimpse;
 }
 
@@ -33,7 +42,8 @@ Glimpse Peer::glimpse_of(const Seat& seat) const {
 std::vector<Glimpse> Peer::glimpses_for(PeerNumber peer) const {
   std::vector<Glimpse> glimpses;
   for (const Seat& seat : seats_)
-    if (seat.peer == peer && roles_[seat.bat] == own && seat.is_due(start_, end_)) glimpses.push_back(glimpse_of(seat));
+    if (seat.peer == peer && roles_[seat.bat] == own && seat.is_due(start_, end_))
+      glimpses.push_back(glimpse_of(seat));
   return glimpses;
 }
 
@@ -46,21 +56,33 @@ std::vector<Glimpse> Peer::glimpses_of_all(PeerNumber player) const {
 
 void Peer::take_glimpses(PeerNumber from) {
   for (Glimpse& glimpse : arrivals_[from].glimpses) {
-    const auto is_it = [&](const Seat& seat) { return seat.bat == glimpse.bat && seat.peer == number_; };
-    if (glimpse.owner >= claims_.size() || std::none_of(seats_.begin(), seats_.end(), is_it)) accuse(from, "shows bat " + std::to_string(glimpse.bat) + ", which nobody plays here");
+    const auto is_it = [&](const Seat& seat) {
+      return seat.bat == glimpse.bat && seat.peer == number_;
+    };
+    if (glimpse.owner >= claims_.size() || std::none_of(seats_.begin(), seats_.end(), is_it))
+      accuse(from, "shows bat " + std::to_string(glimpse.bat) + ", which nobody plays here");
     else glimpses_.push_back(std::move(glimpse));
   }
 }
 
-/// All peers stamp alike: with the first instant that those who have the bat as a ghost can still be told of, or the one that the player wants.
+/// All peers stamp alike: with the first instant that those who have the bat as a ghost can still
+/// be told of, or the one that the player wants.
 void Peer::take_presses() {
   claims_[number_].presses = std::exchange(presses_[number_], {});
   for (PeerNumber from = 0; from < claims_.size(); ++from) {
     for (const Press& press : claims_[from].presses) {
-      const auto is_it = [&](const Seat& seat) { return seat.bat == press.bat && seat.peer == from; };
-      if (std::none_of(seats_.begin(), seats_.end(), is_it)) accuse(from, "presses a key of bat " + std::to_string(press.bat) + ", which it does not play");
-      else if (roles_[press.bat] != own) accuse(from, "presses a key of bat " + std::to_string(press.bat) + " here, where it is not");
-      else keys_.push_back({std::clamp(press.time, end_, end_ + ahead_max), press.bat, press.thrust, press.input});
+      const auto is_it = [&](const Seat& seat) {
+        return seat.bat == press.bat && seat.peer == from;
+      };
+      if (std::none_of(seats_.begin(), seats_.end(), is_it))
+        accuse(from,
+               "presses a key of bat " + std::to_string(press.bat) + ", which it does not play");
+      else if (roles_[press.bat] != own)
+        accuse(from,
+               "presses a key of bat " + std::to_string(press.bat) + " here, where it is not");
+      else
+        keys_.push_back(
+            {std::clamp(press.time, end_, end_ + ahead_max), press.bat, press.thrust, press.input});
     }
     claims_[from].presses.clear();
   }

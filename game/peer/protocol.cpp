@@ -10,13 +10,15 @@ namespace {
 template <class Message>
 void hear(Peer& peer, PeerNumber from, std::span<const std::uint8_t> bytes) {
   Message message;
-  if (!read(bytes, message)) throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
+  if (!read(bytes, message))
+    throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
   peer.hear(from, std::move(message));
 }
 
 /// What `make(to)` makes goes to everybody else, and what they made is heard.
 template <class Make>
-void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& make, const std::function<void()>& meanwhile) {
+void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& make,
+                       const std::function<void()>& meanwhile) {
   for (PeerNumber to = 0; to < peer_count; ++to)
     if (to != peer.number()) mail.send(to, written(make(to)));
   if (meanwhile) meanwhile();
@@ -29,12 +31,14 @@ void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& mak
 
 /// As the engine sees it, whose hash says no more of such a body than its flight.
 bool flies_straight(const BodyState& state, const physics::WorldSpec& spec) {
-  return state.kind != physics::BodyKind::bat && state.acceleration == Vector2(0.0, 0.0) && state.drag == Vector2::Constant(spec.puck_drag);
+  return state.kind != physics::BodyKind::bat && state.acceleration == Vector2(0.0, 0.0) &&
+         state.drag == Vector2::Constant(spec.puck_drag);
 }
 
 }  // namespace
 
-std::vector<std::vector<std::uint8_t>> Mail::share(PeerNumber own, PeerNumber peer_count, std::vector<std::uint8_t> bytes) {
+std::vector<std::vector<std::uint8_t>> Mail::share(PeerNumber own, PeerNumber peer_count,
+                                                   std::vector<std::uint8_t> bytes) {
   std::vector<std::vector<std::uint8_t>> all(peer_count);
   for (PeerNumber to = 0; to < peer_count; ++to)
     if (to != own) send(to, bytes);
@@ -52,7 +56,9 @@ void agree(Peer& peer, PeerNumber peer_count, Mail& mail) {
 }
 
 void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next) {
-  const auto exchange = [&](auto&& make, const std::function<void()>& meanwhile) { exchange_with_all(peer, peer_count, mail, make, meanwhile); };
+  const auto exchange = [&](auto&& make, const std::function<void()>& meanwhile) {
+    exchange_with_all(peer, peer_count, mail, make, meanwhile);
+  };
   play_steps(peer, next, exchange, [&] { agree(peer, peer_count, mail); }, {});
 }
 
@@ -61,13 +67,15 @@ Arrivals own_bodies(const Peer& peer) {
   const physics::WorldSpec& spec = peer.world().spec();
   for (const std::uint32_t body : peer.owned()) {
     const BodyState state = peer.state(body);
-    if (state.flags == 0 && flies_straight(state, spec) && !spec.surface_friction) all.flown.push_back(Flown::of(body, state.flight));
+    if (state.flags == 0 && flies_straight(state, spec) && !spec.surface_friction)
+      all.flown.push_back(Flown::of(body, state.flight));
     else all.bodies.push_back({body, state});
   }
   return all;
 }
 
-std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::uint32_t body_count, std::span<const Arrivals> parts) {
+std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::uint32_t body_count,
+                                           std::span<const Arrivals> parts) {
   /// Where a body is told of, in one of the parts.
   struct Place {
     const BodyState* state = nullptr;
@@ -76,7 +84,8 @@ std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::
   std::vector<Place> places(body_count);
   std::uint32_t known = 0;
   const auto take = [&](std::uint32_t body, Place place) {
-    if (body >= body_count || places[body].state != nullptr || places[body].flown != nullptr) return false;
+    if (body >= body_count || places[body].state != nullptr || places[body].flown != nullptr)
+      return false;
     places[body] = place;
     return ++known, true;
   };
@@ -96,7 +105,8 @@ std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::
       continue;
     }
     const bool is_straight = flies_straight(*state, spec);
-    hash.add(state->flight, is_straight ? nullptr : &state->acceleration, is_straight ? nullptr : &state->drag, state->flags,
+    hash.add(state->flight, is_straight ? nullptr : &state->acceleration,
+             is_straight ? nullptr : &state->drag, state->flags,
              spec.surface_friction ? std::optional(state->spin) : std::nullopt);
   }
   return hash.value();
@@ -104,7 +114,8 @@ std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::
 
 std::uint64_t self_test_hash() {
   physics::WorldSpec spec;
-  spec.field = {.length = 2.0, .width = 1.0, .goal_width = 0.0, .wall = 0, .bats_keep_to_half = false};
+  spec.field = {
+      .length = 2.0, .width = 1.0, .goal_width = 0.0, .wall = 0, .bats_keep_to_half = false};
   spec.puck_drag = 0.2, spec.bat_drag = 3.0;
   spec.restitution = physics::RestitutionTable(1, 0.7);
   physics::World world(spec);
@@ -112,7 +123,8 @@ std::uint64_t self_test_hash() {
   const physics::BodyId bat = world.add(physics::BatSpec{.position = {0.2, 0.5}});
   for (int k = 0; k < 24; ++k) {
     const double x = 0.35 + 0.2 * (k % 8), y = 0.15 + 0.35 * (k / 8), angle = 2.4 * k;
-    const physics::PuckSpec puck{.position = {x, y}, .velocity = {1.0 - 0.01 * angle, 0.03 * angle - 0.5}, .mass = 1.0 + k};
+    const physics::PuckSpec puck{
+        .position = {x, y}, .velocity = {1.0 - 0.01 * angle, 0.03 * angle - 0.5}, .mass = 1.0 + k};
     if (world.is_free(puck.position, puck.radius)) world.add(puck);
   }
   world.set_thrust(bat, {7.0, 1.0});

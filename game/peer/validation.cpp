@@ -12,37 +12,50 @@ namespace rink::peer {
 namespace {
 
 constexpr double speed_max = 299'792'458.0;  ///< m/s: nothing in a rink outruns light
-/// Far above what a scene file may ask for (1e4 m/s^2, 1e4 1/s, 1e9 rad/s), and so low that no window makes more of it
-/// than a double holds.
+/// Far above what a scene file may ask for (1e4 m/s^2, 1e4 1/s, 1e9 rad/s), and so low that no
+/// window makes more of it than a double holds.
 constexpr double acceleration_max = 1e6, drag_max = 1e6, spin_max = 1e12, force_max = 1e18;
 
-/// s: so much later than its window an event may come by rounding; far more than it ever does. A contact that should have
-/// ended earlier ends when it is looked at, so there is no such bound below.
+/// s: so much later than its window an event may come by rounding; far more than it ever does. A
+/// contact that should have ended earlier ends when it is looked at, so there is no such bound
+/// below.
 constexpr double time_margin = 1e-6;
 
 bool is_within(double value, double most) { return std::abs(value) <= most; }  // no number is not
-bool is_within(const Vector2& v, double most) { return is_within(v.x(), most) && is_within(v.y(), most); }
+bool is_within(const Vector2& v, double most) {
+  return is_within(v.x(), most) && is_within(v.y(), most);
+}
 bool is_number(const Vector2& v) { return v.allFinite(); }
 
-std::string named(const char* what, std::uint32_t number, const char* fault) { return std::string(what) + " " + std::to_string(number) + " " + fault; }
+std::string named(const char* what, std::uint32_t number, const char* fault) {
+  return std::string(what) + " " + std::to_string(number) + " " + fault;
+}
 
-bool names(const Hold& hold, std::uint32_t body, int axis) { return hold.axis == axis && (hold.low == body || hold.high == body); }
+bool names(const Hold& hold, std::uint32_t body, int axis) {
+  return hold.axis == axis && (hold.low == body || hold.high == body);
+}
 
 /// Of a body that is said to be in rest contact, whether the message has the contact.
 bool has_its_holds(const Arrivals::Body& body, const std::vector<Hold>& holds) {
   for (const int axis : {0, 1})
-    if (physics::Portion::is_held_along(body.state, axis) && std::none_of(holds.begin(), holds.end(), [&](const Hold& hold) { return names(hold, body.number, axis); })) return false;
+    if (physics::Portion::is_held_along(body.state, axis) &&
+        std::none_of(holds.begin(), holds.end(),
+                     [&](const Hold& hold) { return names(hold, body.number, axis); }))
+      return false;
   return true;
 }
 
 }  // namespace
 
 BodyConstants BodyConstants::of(const BodyState& state) {
-  return {state.flight.radius, state.mass, state.inverse_mass, state.half_extent, state.kind, state.material, state.half};
+  return {state.flight.radius, state.mass,     state.inverse_mass, state.half_extent,
+          state.kind,          state.material, state.half};
 }
 
 Validator::Validator(const physics::World& world)
-    : puck_drag_(world.spec().puck_drag), reach_(2.0 * (world.spec().field.length + world.spec().field.width)), material_count_(world.spec().restitution.material_count()) {
+    : puck_drag_(world.spec().puck_drag),
+      reach_(2.0 * (world.spec().field.length + world.spec().field.width)),
+      material_count_(world.spec().restitution.material_count()) {
   for (std::uint32_t body = 0; body < world.body_count(); ++body) {
     const BodyConstants own = BodyConstants::of(physics::Portion::state_in(world, body));
     const auto known = std::find(constants_.begin(), constants_.end(), own);
@@ -51,11 +64,15 @@ Validator::Validator(const physics::World& world)
   }
 }
 
-bool Validator::is_place(const Vector2& place) const { return is_number(place) && place.cwiseAbs().maxCoeff() <= reach_; }
+bool Validator::is_place(const Vector2& place) const {
+  return is_number(place) && place.cwiseAbs().maxCoeff() <= reach_;
+}
 
 /// Whether the last event is not yet to come, and the flight since then has stayed in reach.
 bool Validator::is_on_its_way(const physics::Motion& motion, double now) const {
-  if (!is_place(motion.position) || !(motion.velocity.norm() <= speed_max) || !(motion.time >= 0.0 && motion.time <= now)) return false;
+  if (!is_place(motion.position) || !(motion.velocity.norm() <= speed_max) ||
+      !(motion.time >= 0.0 && motion.time <= now))
+    return false;
   const physics::Motion then = motion.at(now);
   return is_place(then.position) && then.velocity.norm() <= speed_max;
 }
@@ -63,44 +80,74 @@ bool Validator::is_on_its_way(const physics::Motion& motion, double now) const {
 std::string Validator::fault_of(const Arrivals::Body& body, double now) const {
   const BodyState& s = body.state;
   if (!is_body(body.number)) return named("hands over body", body.number, "which does not exist");
-  if (BodyConstants::of(s) != constants_[constants_of_[body.number]]) return named("hands over body", body.number, "with a radius, mass, material or kind that the scene does not give it");
-  const bool is_driven = is_within(s.thrust, acceleration_max) && is_within(s.acceleration, acceleration_max) && is_within(s.slowing, acceleration_max) &&
-                         s.drag.minCoeff() >= 0.0 && is_within(s.drag, drag_max) && is_within(s.spin, spin_max);
-  if (!is_driven) return named("hands over body", body.number, "with an acceleration, drag or spin that is no number or too large");
-  const bool is_counted = s.impacts_begin <= now && s.last_hop <= now && s.repeats_instant <= now && std::isfinite(s.impacts_begin) && std::isfinite(s.last_hop) &&
+  if (BodyConstants::of(s) != constants_[constants_of_[body.number]])
+    return named("hands over body", body.number,
+                 "with a radius, mass, material or kind that the scene does not give it");
+  const bool is_driven = is_within(s.thrust, acceleration_max) &&
+                         is_within(s.acceleration, acceleration_max) &&
+                         is_within(s.slowing, acceleration_max) && s.drag.minCoeff() >= 0.0 &&
+                         is_within(s.drag, drag_max) && is_within(s.spin, spin_max);
+  if (!is_driven)
+    return named("hands over body", body.number,
+                 "with an acceleration, drag or spin that is no number or too large");
+  const bool is_counted = s.impacts_begin <= now && s.last_hop <= now && s.repeats_instant <= now &&
+                          std::isfinite(s.impacts_begin) && std::isfinite(s.last_hop) &&
                           std::isfinite(s.repeats_instant) && !std::isnan(s.rest_time);
-  if (!is_counted) return named("hands over body", body.number, "with times that are no numbers or still to come");
-  if (!physics::Portion::is_possible(s, static_cast<std::uint32_t>(constants_of_.size()))) return named("hands over body", body.number, "in a state that does not exist");
+  if (!is_counted)
+    return named("hands over body", body.number, "with times that are no numbers or still to come");
+  if (!physics::Portion::is_possible(s, static_cast<std::uint32_t>(constants_of_.size())))
+    return named("hands over body", body.number, "in a state that does not exist");
   physics::Motion motion = s.motion();
   // Who is out of play stays where it is.
   if (physics::Portion::is_out_of_play(s)) motion.velocity = motion.acceleration = {0.0, 0.0};
-  return is_on_its_way(motion, now) && s.motion().velocity.norm() <= speed_max ? std::string() : named("hands over body", body.number, "at no place, speed or time");
+  return is_on_its_way(motion, now) && s.motion().velocity.norm() <= speed_max
+             ? std::string()
+             : named("hands over body", body.number, "at no place, speed or time");
 }
 
 std::string Validator::fault_of(const Flown& flown, double now) const {
   if (!is_body(flown.number)) return named("hands over body", flown.number, "which does not exist");
-  const physics::Motion motion{.time = flown.time, .position = flown.position, .velocity = flown.velocity, .drag = Vector2::Constant(puck_drag_)};
-  return is_on_its_way(motion, now) ? std::string() : named("hands over body", flown.number, "at no place, speed or time");
+  const physics::Motion motion{.time = flown.time,
+                               .position = flown.position,
+                               .velocity = flown.velocity,
+                               .drag = Vector2::Constant(puck_drag_)};
+  return is_on_its_way(motion, now)
+             ? std::string()
+             : named("hands over body", flown.number, "at no place, speed or time");
 }
 
 std::string Validator::fault_of(const Hold& hold) const {
-  const auto is_partner = [&](physics::Partner p) { return is_body(p) || (p >= physics::partner::field_parts && p <= physics::partner::halfway); };
-  const auto is_moving = [&](physics::Partner p) { return is_body(p) && !is_of_kind(p, physics::BodyKind::post); };
-  if (!is_partner(hold.low) || !is_partner(hold.high) || hold.low == hold.high) return "hands over a rest contact of body " + std::to_string(hold.low) + " with " + std::to_string(hold.high) + ", which cannot be";
-  if (!is_moving(hold.low) && !is_moving(hold.high)) return "hands over a rest contact of two that cannot move";
-  const bool has_times = !std::isnan(hold.pull_time) && !std::isnan(hold.turn_time) && is_within(hold.force, force_max) && std::isfinite(hold.age.time);
-  return has_times ? std::string() : "hands over a rest contact whose times or force are no numbers";
+  const auto is_partner = [&](physics::Partner p) {
+    return is_body(p) || (p >= physics::partner::field_parts && p <= physics::partner::halfway);
+  };
+  const auto is_moving = [&](physics::Partner p) {
+    return is_body(p) && !is_of_kind(p, physics::BodyKind::post);
+  };
+  if (!is_partner(hold.low) || !is_partner(hold.high) || hold.low == hold.high)
+    return "hands over a rest contact of body " + std::to_string(hold.low) + " with " +
+           std::to_string(hold.high) + ", which cannot be";
+  if (!is_moving(hold.low) && !is_moving(hold.high))
+    return "hands over a rest contact of two that cannot move";
+  const bool has_times = !std::isnan(hold.pull_time) && !std::isnan(hold.turn_time) &&
+                         is_within(hold.force, force_max) && std::isfinite(hold.age.time);
+  return has_times ? std::string()
+                   : "hands over a rest contact whose times or force are no numbers";
 }
 
 std::string Validator::fault_of(const Key& key) const {
-  if (is_of_kind(key.bat, physics::BodyKind::bat) && is_within(key.thrust, acceleration_max) && std::isfinite(key.time)) return {};
-  return named("hands over a key of bat", key.bat, "which is none, or whose time or thrust is no number or too large");
+  if (is_of_kind(key.bat, physics::BodyKind::bat) && is_within(key.thrust, acceleration_max) &&
+      std::isfinite(key.time))
+    return {};
+  return named("hands over a key of bat", key.bat,
+               "which is none, or whose time or thrust is no number or too large");
 }
 
 std::string Validator::fault_of(const Glimpse& glimpse) const {
-  bool is_sound = is_of_kind(glimpse.bat, physics::BodyKind::bat) && std::isfinite(glimpse.time) && is_place(glimpse.position) && is_number(glimpse.velocity);
+  bool is_sound = is_of_kind(glimpse.bat, physics::BodyKind::bat) && std::isfinite(glimpse.time) &&
+                  is_place(glimpse.position) && is_number(glimpse.velocity);
   for (const Glimpse::Puck& puck : glimpse.pucks)
-    is_sound = is_sound && is_body(puck.number) && is_place(puck.position) && is_number(puck.velocity) && std::isfinite(puck.radius) && puck.radius >= 0.0;
+    is_sound = is_sound && is_body(puck.number) && is_place(puck.position) &&
+               is_number(puck.velocity) && std::isfinite(puck.radius) && puck.radius >= 0.0;
   return is_sound ? std::string() : named("shows bat", glimpse.bat, "as it cannot be");
 }
 
@@ -112,10 +159,13 @@ std::string Validator::first_fault(const std::vector<Item>& list, Instant... now
 }
 
 std::string Validator::fault_of(const Arrivals& message, double now) const {
-  for (const std::string& fault : {first_fault(message.bodies, now), first_fault(message.flown, now), first_fault(message.holds), first_fault(message.keys), first_fault(message.glimpses)})
+  for (const std::string& fault :
+       {first_fault(message.bodies, now), first_fault(message.flown, now),
+        first_fault(message.holds), first_fault(message.keys), first_fault(message.glimpses)})
     if (!fault.empty()) return fault;
   for (const Arrivals::Body& body : message.bodies)
-    if (!has_its_holds(body, message.holds)) return named("hands over body", body.number, "in a rest contact that it does not hand over");
+    if (!has_its_holds(body, message.holds))
+      return named("hands over body", body.number, "in a rest contact that it does not hand over");
   return {};
 }
 
@@ -123,39 +173,52 @@ std::string Validator::fault_of(const Claims& message, double end) const {
   for (const Claims::Body& body : message.bodies)
     if (!is_body(body.number)) return named("claims body", body.number, "which does not exist");
   for (const ClaimedFlight& flight : message.flights)
-    if (!(flight.begin >= 0.0 && flight.begin <= end + time_margin) || !(flight.low_x <= flight.high_x) || !(flight.low_y <= flight.high_y)) return "claims a flight through no place or at no time";
+    if (!(flight.begin >= 0.0 && flight.begin <= end + time_margin) ||
+        !(flight.low_x <= flight.high_x) || !(flight.low_y <= flight.high_y))
+      return "claims a flight through no place or at no time";
   for (const Press& press : message.presses)
-    if (!is_of_kind(press.bat, physics::BodyKind::bat) || !is_within(press.thrust, acceleration_max)) return named("presses a key of bat", press.bat, "which is none, or with a thrust that no bat has");
+    if (!is_of_kind(press.bat, physics::BodyKind::bat) ||
+        !is_within(press.thrust, acceleration_max))
+      return named("presses a key of bat", press.bat,
+                   "which is none, or with a thrust that no bat has");
   return {};
 }
 
 std::string Validator::fault_of(const Verdict& message) const {
   for (const Goal& goal : message.goals)
-    if (!is_of_kind(goal.puck, physics::BodyKind::puck)) return named("tells of a goal of puck", goal.puck, "which is none");
+    if (!is_of_kind(goal.puck, physics::BodyKind::puck))
+      return named("tells of a goal of puck", goal.puck, "which is none");
   return {};
 }
 
 std::string Validator::fault_of(const PartChange& message, double now) const {
-  for (const std::string& fault : {first_fault(message.bodies, now), first_fault(message.flown, now), first_fault(message.holds), first_fault(message.keys), first_fault(message.log)})
+  for (const std::string& fault :
+       {first_fault(message.bodies, now), first_fault(message.flown, now),
+        first_fault(message.holds), first_fault(message.keys), first_fault(message.log)})
     if (!fault.empty()) return fault;
   for (const std::uint32_t body : message.gone)
     if (!is_body(body)) return named("gives away body", body, "which does not exist");
   for (const Arrivals::Body& body : message.bodies)
-    if (!has_its_holds(body, message.holds)) return named("tells of body", body.number, "in a rest contact of which it does not tell");
+    if (!has_its_holds(body, message.holds))
+      return named("tells of body", body.number, "in a rest contact of which it does not tell");
   return message.time == now ? std::string() : "tells of its part at another time";
 }
 
 std::string Validator::fault_of(const FaceOffWord& message, double now) const {
-  if (!is_of_kind(message.puck, physics::BodyKind::puck)) return named("tells of puck", message.puck, "which is none");
-  return message.body.size() > 1 ? named("tells of puck", message.puck, "more than once") : first_fault(message.body, now);
+  if (!is_of_kind(message.puck, physics::BodyKind::puck))
+    return named("tells of puck", message.puck, "which is none");
+  return message.body.size() > 1 ? named("tells of puck", message.puck, "more than once")
+                                 : first_fault(message.body, now);
 }
 
 std::string Validator::fault_of(const std::vector<Key>& log) const { return first_fault(log); }
 
 std::string Validator::fault_of(const Loss& message) const {
   for (const std::vector<PeerNumber>* peers : {&message.gone, &message.finished}) {
-    const bool is_list = std::adjacent_find(peers->begin(), peers->end(), std::greater_equal<>()) == peers->end();
-    if (!is_list || (!peers->empty() && peers->back() >= numbers_max)) return "tells of the loss of peers who never were";
+    const bool is_list =
+        std::adjacent_find(peers->begin(), peers->end(), std::greater_equal<>()) == peers->end();
+    if (!is_list || (!peers->empty() && peers->back() >= numbers_max))
+      return "tells of the loss of peers who never were";
   }
   return {};
 }

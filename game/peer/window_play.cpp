@@ -17,7 +17,8 @@ void WindowPlay::take_from_all() {
   for (PeerNumber from = 0; from < peer_count_; ++from) {
     if (from == peer_.number()) continue;
     Message message;
-    if (!read(inboxes_[from].front(), message)) throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
+    if (!read(inboxes_[from].front(), message))
+      throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
     inboxes_[from].pop_front();
     heard_ -= inboxes_[from].empty();
     peer_.hear(from, std::move(message));
@@ -46,7 +47,8 @@ void WindowPlay::go_on() {
 
 void WindowPlay::advance() {
   switch (step_) {
-    case Step::resting: return;
+    case Step::resting:
+      return;
     case Step::claims:
       take_from_all<Claims>();
       peer_.judge();
@@ -61,7 +63,9 @@ void WindowPlay::advance() {
         step_ = Step::arrivals;
         if (on_final) on_final();
       } else {
-        say_to_all(Subject::arrivals, [&](PeerNumber to) { return peer_.repeats(to) ? peer_.arrivals_for_repeat(to) : Arrivals{}; });
+        say_to_all(Subject::arrivals, [&](PeerNumber to) {
+          return peer_.repeats(to) ? peer_.arrivals_for_repeat(to) : Arrivals{};
+        });
         step_ = Step::repeats;
       }
       return;

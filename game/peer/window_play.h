@@ -1,4 +1,5 @@
-// One peer's side of a window for who must not wait: told what came, it goes on as far as that reaches.
+// One peer's side of a window for who must not wait: told what came, it goes on as far as that
+// reaches.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +11,24 @@
 
 namespace rink::peer {
 
-/// play_window without waiting. Messages come whole and in order from each peer, from one that is ahead also those of the next window.
+/// play_window without waiting. Messages come whole and in order from each peer, from one that is
+/// ahead also those of the next window.
 class WindowPlay {
  public:
   using Say = std::function<void(PeerNumber to, Subject about, std::vector<std::uint8_t> bytes)>;
   /// `peer` and what `say` needs must outlive it.
-  WindowPlay(Peer& peer, PeerNumber peer_count, Say say) : peer_(peer), peer_count_(peer_count), say_(std::move(say)), inboxes_(peer_count) {}
+  WindowPlay(Peer& peer, PeerNumber peer_count, Say say)
+      : peer_(peer), peer_count_(peer_count), say_(std::move(say)), inboxes_(peer_count) {}
 
-  /// Called when all have accepted, before anything is handed over: what the peer's own bodies are now is final.
+  /// Called when all have accepted, before anything is handed over: what the peer's own bodies are
+  /// now is final.
   std::function<void()> on_final;
   /// Called when the next window is prepared.
   std::function<void()> on_commit;
 
   bool is_playing() const { return step_ != Step::resting; }
-  /// Plays the window that is prepared (only if none is being played), and prepares the next, which ends at `next` [s], once it is final. Throws ProtocolError, as `hear` does.
+  /// Plays the window that is prepared (only if none is being played), and prepares the next, which
+  /// ends at `next` [s], once it is final. Throws ProtocolError, as `hear` does.
   void begin(double next);
   void hear(PeerNumber from, std::vector<std::uint8_t> bytes);
 

@@ -1,4 +1,5 @@
-// What a rink is made of: the field, its materials, and the three kinds of bodies, as plain values to create a World from.
+// What a rink is made of: the field, its materials, and the three kinds of bodies, as plain values
+// to create a World from.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,16 +13,20 @@
 
 namespace rink::physics {
 
-/// Everything that moves is a template over its scalar: `double` is the product, `long double` the truth to judge it by.
+/// Everything that moves is a template over its scalar: `double` is the product, `long double` the
+/// truth to judge it by.
 template <class Real>
 using BasicVector2 = Eigen::Matrix<Real, 2, 1>;
 using Vector2 = BasicVector2<double>;
 
-/// How much finer than double a scalar is: the factor on every tolerance that stands for rounding; exactly 1 for double.
+/// How much finer than double a scalar is: the factor on every tolerance that stands for rounding;
+/// exactly 1 for double.
 template <class Real>
-constexpr Real fineness = std::numeric_limits<Real>::epsilon() / static_cast<Real>(std::numeric_limits<double>::epsilon());
+constexpr Real fineness = std::numeric_limits<Real>::epsilon() /
+                          static_cast<Real>(std::numeric_limits<double>::epsilon());
 
-/// Names a body of one World: bodies are numbered in order of creation, and a number is never used again.
+/// Names a body of one World: bodies are numbered in order of creation, and a number is never used
+/// again.
 struct BodyId {
   std::uint32_t index = 0;
   friend auto operator<=>(const BodyId&, const BodyId&) = default;
@@ -35,7 +40,8 @@ using MaterialId = std::uint8_t;
 /// One number of 0 or more for each pair of materials, symmetric.
 class PairTable {
  public:
-  explicit PairTable(std::size_t material_count = 1, double everywhere = 0.0) : material_count_(material_count), values_(material_count * material_count, everywhere) {
+  explicit PairTable(std::size_t material_count = 1, double everywhere = 0.0)
+      : material_count_(material_count), values_(material_count * material_count, everywhere) {
     assert(material_count > 0 && material_count <= 256 && everywhere >= 0.0);
   }
   void set(MaterialId a, MaterialId b, double value) {
@@ -50,49 +56,64 @@ class PairTable {
   std::vector<double> values_;
 };
 
-/// How much of the closing speed an impact gives back, per pair of materials: symmetric, each entry in [0, 1].
+/// How much of the closing speed an impact gives back, per pair of materials: symmetric, each entry
+/// in [0, 1].
 class RestitutionTable : public PairTable {
  public:
-  explicit RestitutionTable(std::size_t material_count = 1, double everywhere = 1.0) : PairTable(material_count, everywhere) { assert(everywhere <= 1.0); }
+  explicit RestitutionTable(std::size_t material_count = 1, double everywhere = 1.0)
+      : PairTable(material_count, everywhere) {
+    assert(everywhere <= 1.0);
+  }
   void set(MaterialId a, MaterialId b, double value) {
     assert(value <= 1.0);
     PairTable::set(a, b, value);
   }
 };
 
-/// What surfaces do to each other sideways at an impact (docs/physics.md, "Spin"): the tangential impulse is at most `coefficient` times the normal one (the surfaces
-/// slide), and less if that suffices to turn their relative speed into -`tangential_restitution` of it (they stick).
+/// What surfaces do to each other sideways at an impact (docs/physics.md, "Spin"): the tangential
+/// impulse is at most `coefficient` times the normal one (the surfaces slide), and less if that
+/// suffices to turn their relative speed into -`tangential_restitution` of it (they stick).
 struct SurfaceFriction {
-  PairTable coefficient;              ///< 0 or more; 0 is smooth
+  PairTable coefficient;  ///< 0 or more; 0 is smooth
   RestitutionTable tangential_restitution{1, 0.0};
 };
 
-/// The table [0, length] x [0, width] in metres. Goals are openings of `goal_width`, centred in the end walls x = 0 and x = length; 0 means none. The edges of an
-/// opening are points of the wall, so a puck that meets one bounces as off a post without extent.
+/// The table [0, length] x [0, width] in metres. Goals are openings of `goal_width`, centred in the
+/// end walls x = 0 and x = length; 0 means none. The edges of an opening are points of the wall, so
+/// a puck that meets one bounces as off a post without extent.
 struct Field {
   double length = 1.0;
   double width = 1.0;
   double goal_width = 0.0;
   MaterialId wall = 0;
-  bool bats_keep_to_half = false;  ///< bats of Half::left and Half::right bounce off the halfway line x = length/2
+  bool bats_keep_to_half =
+      false;  ///< bats of Half::left and Half::right bounce off the halfway line x = length/2
 };
 
-/// How pending events are kept: a calendar of buckets, constant time (event_queue.h), or a binary heap (event_heap.h).
+/// How pending events are kept: a calendar of buckets, constant time (event_queue.h), or a binary
+/// heap (event_heap.h).
 enum class QueuePolicy : std::uint8_t { calendar, heap };
 
 /// Everything that is true of a World before it has bodies.
 struct WorldSpec {
   Field field;
-  double puck_drag = 0.0;  ///< dv/dt = -puck_drag v for every puck [1/s], 0 or more
-  double bat_drag = 0.0;   ///< likewise for every bat
-  double puck_friction = 0.0;  ///< Coulomb friction of every puck with the table: the deceleration mu g along its velocity until it rests [m/s^2], 0 or more
+  double puck_drag = 0.0;      ///< dv/dt = -puck_drag v for every puck [1/s], 0 or more
+  double bat_drag = 0.0;       ///< likewise for every bat
+  double puck_friction = 0.0;  ///< Coulomb friction of every puck with the table: the deceleration
+                               ///< mu g along its velocity until it rests [m/s^2], 0 or more
   RestitutionTable restitution;
-  std::optional<SurfaceFriction> surface_friction;  ///< absent: surfaces are smooth and nothing spins; tables are as large as `restitution`
-  bool accounts_energy = false;                     ///< keep the books behind World::dissipated(); never changes the motion
-  double contact_time = 5e-4;  ///< time scale of pressed contact [s], above 0: impacts that follow each other faster are taken together (docs/physics.md, "Degenerate contact")
-  double cell_size = 0.0;  ///< lower limit for the side of a grid cell [m]; 0 lets the world choose. Changes cost, never results.
+  std::optional<SurfaceFriction> surface_friction;  ///< absent: surfaces are smooth and nothing
+                                                    ///< spins; tables are as large as `restitution`
+  bool accounts_energy =
+      false;  ///< keep the books behind World::dissipated(); never changes the motion
+  double contact_time =
+      5e-4;  ///< time scale of pressed contact [s], above 0: impacts that follow each other faster
+             ///< are taken together (docs/physics.md, "Degenerate contact")
+  double cell_size = 0.0;  ///< lower limit for the side of a grid cell [m]; 0 lets the world
+                           ///< choose. Changes cost, never results.
   QueuePolicy queue = QueuePolicy::calendar;  ///< likewise
-  bool allow_overlap = false;                 ///< bodies may be added where others are; those that overlap and approach collide at once, none is ever moved
+  bool allow_overlap = false;  ///< bodies may be added where others are; those that overlap and
+                               ///< approach collide at once, none is ever moved
 };
 
 struct PuckSpec {
@@ -100,7 +121,7 @@ struct PuckSpec {
   double radius = 0.04;                            ///< m, above 0
   double mass = 1.0;                               ///< kg, above 0
   MaterialId material = 0;
-  double spin = 0.0;                               ///< rad/s, anticlockwise; 0 where surfaces are smooth
+  double spin = 0.0;  ///< rad/s, anticlockwise; 0 where surfaces are smooth
 };
 
 /// A disc that never moves; radius 0 or more.
@@ -123,7 +144,8 @@ struct BatSpec {
 
 enum class End : std::uint8_t { left, right };
 
-/// `puck` crossed the goal line at `end` (x = 0 or x = length) with its centre at `time` and is out of play from then on.
+/// `puck` crossed the goal line at `end` (x = 0 or x = length) with its centre at `time` and is out
+/// of play from then on.
 template <class Real>
 struct BasicGoal {
   Real time = 0.0;

@@ -14,8 +14,10 @@ namespace rink::physics {
 template <class Real>
 class BasicBodyHash {
  public:
-  /// `lasting`: in or out of play, held, frozen. The law of motion only of those that do not fly straight, the spin only in worlds with surface friction.
-  void add(const Flight<Real>& flight, const BasicVector2<Real>* acceleration, const BasicVector2<Real>* drag, std::uint8_t lasting, std::optional<Real> spin) {
+  /// `lasting`: in or out of play, held, frozen. The law of motion only of those that do not fly
+  /// straight, the spin only in worlds with surface friction.
+  void add(const Flight<Real>& flight, const BasicVector2<Real>* acceleration,
+           const BasicVector2<Real>* drag, std::uint8_t lasting, std::optional<Real> spin) {
     for (const Real value : {flight.x, flight.y, flight.vx, flight.vy, flight.time}) mix(value);
     if (acceleration != nullptr)
       for (int axis = 0; axis < 2; ++axis) mix((*acceleration)[axis]), mix((*drag)[axis]);
@@ -27,11 +29,13 @@ class BasicBodyHash {
  private:
   void mix(Real value) {
     mix_double(static_cast<double>(value));
-    if constexpr (sizeof(Real) > sizeof(double)) mix_double(static_cast<double>(value - static_cast<Real>(static_cast<double>(value))));
+    if constexpr (sizeof(Real) > sizeof(double))
+      mix_double(static_cast<double>(value - static_cast<Real>(static_cast<double>(value))));
   }
   void mix_double(double value) {
     auto bits = std::bit_cast<std::uint64_t>(value);
-    for (int byte = 0; byte < 8; ++byte, bits >>= 8) value_ = (value_ ^ (bits & 0xff)) * 0x100000001b3ULL;
+    for (int byte = 0; byte < 8; ++byte, bits >>= 8)
+      value_ = (value_ ^ (bits & 0xff)) * 0x100000001b3ULL;
   }
 
   std::uint64_t value_ = 0xcbf29ce484222325ULL;

@@ -1,8 +1,8 @@
 // All that the future of a body depends on, as a value that one world hands to another.
 #pragma once
 
-#include "game/physics/flight/motion.h"
 #include "game/physics/engine/partner.h"
+#include "game/physics/flight/motion.h"
 #include "game/physics/flight/straight_flight.h"
 
 namespace rink::physics {
@@ -14,28 +14,35 @@ struct BasicBodyState {
   Real mass = 1.0, inverse_mass = 1.0;
   BasicVector2<Real> half_extent{0.0, 0.0}, thrust{0.0, 0.0};
   BasicVector2<Real> acceleration{0.0, 0.0}, drag{0.0, 0.0};
-  Real impacts_begin = -1.0, last_hop = -1.0;           ///< how densely impacts follow each other [s]
+  Real impacts_begin = -1.0, last_hop = -1.0;  ///< how densely impacts follow each other [s]
   std::uint32_t impacts = 0, hops = 0, repeats = 0;
   Real repeats_instant = -1.0;
   Real rest_time = std::numeric_limits<Real>::infinity();
-  BasicVector2<Real> slowing{0.0, 0.0};                 ///< friction's part in the acceleration
+  BasicVector2<Real> slowing{0.0, 0.0};  ///< friction's part in the acceleration
   Real spin = 0.0;
-  std::uint32_t jam = 0;                                ///< of a frozen body: the lowest number in its jam
+  std::uint32_t jam = 0;  ///< of a frozen body: the lowest number in its jam
   BodyKind kind = BodyKind::puck;
   MaterialId material = 0;
   Half half = Half::both;
-  std::uint8_t flags = 0;                               ///< in or out of play, held, frozen
+  std::uint8_t flags = 0;  ///< in or out of play, held, frozen
   std::uint8_t mouth = 0;
 
-  BasicMotion<Real> motion() const { return {flight.time, {flight.x, flight.y}, {flight.vx, flight.vy}, acceleration, drag, rest_time}; }
+  BasicMotion<Real> motion() const {
+    return {flight.time, {flight.x, flight.y}, {flight.vx, flight.vy}, acceleration, drag,
+            rest_time};
+  }
   /// Half of the bounding box [m].
-  BasicVector2<Real> extent() const { return half_extent + BasicVector2<Real>::Constant(flight.radius); }
+  BasicVector2<Real> extent() const {
+    return half_extent + BasicVector2<Real>::Constant(flight.radius);
+  }
 };
 using BodyState = BasicBodyState<double>;
 
-/// When a rest contact began, in a form that orders those of different worlds as one world would have made them: events of one instant are processed in order of the
-/// bodies' numbers, but for those that others bring about, which come at once; `lower` and `higher` are therefore the highest pair that the instant has seen so far. What keys of
-/// the instant bring about comes after all that would have happened without them.
+/// When a rest contact began, in a form that orders those of different worlds as one world would
+/// have made them: events of one instant are processed in order of the bodies' numbers, but for
+/// those that others bring about, which come at once; `lower` and `higher` are therefore the
+/// highest pair that the instant has seen so far. What keys of the instant bring about comes after
+/// all that would have happened without them.
 struct HoldAge {
   double time = 0.0;
   bool follows_keys = false;
@@ -43,14 +50,16 @@ struct HoldAge {
   friend auto operator<=>(const HoldAge&, const HoldAge&) = default;
 };
 
-/// A rest contact along `axis`; `low` is on the side of smaller coordinates. Fixed partners are posts or parts of the field.
+/// A rest contact along `axis`; `low` is on the side of smaller coordinates. Fixed partners are
+/// posts or parts of the field.
 template <class Real>
 struct BasicHold {
   Partner low = partner::none, high = partner::none;
   int axis = 0;
   Real pull_time = 0.0;  ///< when the contact force vanishes by drag
   Real force = 0.0;      ///< of the last solution
-  Real turn_time = 0.0;  ///< when the friction of pucks in the group takes another direction, or all of it has come to a stop
+  Real turn_time = 0.0;  ///< when the friction of pucks in the group takes another direction, or
+                         ///< all of it has come to a stop
   HoldAge age;           ///< holds stand in order of it; only known where a journal is kept
 };
 

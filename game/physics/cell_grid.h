@@ -12,9 +12,11 @@
 
 namespace rink::physics {
 
-/// Bodies are listed by the cell of their centre. A body may leave its cell by `margin` before it is moved to the next, so that rounding at an edge never matters and
-/// nobody flickers; cells are therefore wider than the longest reach by two margins. Each cell holds its bodies side by side, and a frame of empty cells around the field
-/// spares every question where it ends: to collect a neighbourhood takes no branch that depends on who is there.
+/// Bodies are listed by the cell of their centre. A body may leave its cell by `margin` before it
+/// is moved to the next, so that rounding at an edge never matters and nobody flickers; cells are
+/// therefore wider than the longest reach by two margins. Each cell holds its bodies side by side,
+/// and a frame of empty cells around the field spares every question where it ends: to collect a
+/// neighbourhood takes no branch that depends on who is there.
 class CellGrid {
  public:
   static constexpr std::uint32_t none = 0xffffffff;
@@ -24,7 +26,8 @@ class CellGrid {
     std::uint16_t column = 0xffff, row = 0xffff;
   };
 
-  void rebuild(double length, double width, double reach, std::uint32_t body_max, double least_cell);
+  void rebuild(double length, double width, double reach, std::uint32_t body_max,
+               double least_cell);
   void resize(std::uint32_t count) { places_.resize(count); }
 
   void insert(std::uint32_t body, double x, double y);
@@ -50,8 +53,11 @@ class CellGrid {
   Place place(std::uint32_t body) const { return places_[body]; }
   std::uint32_t column_of(std::uint32_t body) const { return places_[body].column; }
   std::uint32_t row_of(std::uint32_t body) const { return places_[body].row; }
-  /// Where a body leaves its cell downwards (`is_high` 0) and upwards (1) along an axis; infinite at the rim.
-  double column_edge(std::uint32_t column, bool is_high) const { return column_edges_[2 * column + is_high]; }
+  /// Where a body leaves its cell downwards (`is_high` 0) and upwards (1) along an axis; infinite
+  /// at the rim.
+  double column_edge(std::uint32_t column, bool is_high) const {
+    return column_edges_[2 * column + is_high];
+  }
   double row_edge(std::uint32_t row, bool is_high) const { return row_edges_[2 * row + is_high]; }
 
   /// Room that collect() needs.
@@ -64,34 +70,48 @@ class CellGrid {
       for (std::size_t cell = row - 1; cell <= row + 1; ++cell) end = append(cell, end);
     return static_cast<std::uint32_t>(end - list);
   }
-  /// Likewise only those in the three cells that came into sight when `body` moved to its cell by `direction`.
+  /// Likewise only those in the three cells that came into sight when `body` moved to its cell by
+  /// `direction`.
   std::uint32_t collect_ahead(std::uint32_t body, Direction direction, std::uint32_t* list) const {
     return collect_three(neighbour(cell_at(places_[body]), direction), direction, list);
   }
   /// As collect_ahead() will do after that move.
-  std::uint32_t collect_ahead_of_move(std::uint32_t body, Direction direction, std::uint32_t* list) const {
-    return collect_three(neighbour(neighbour(cell_at(places_[body]), direction), direction), direction, list);
+  std::uint32_t collect_ahead_of_move(std::uint32_t body, Direction direction,
+                                      std::uint32_t* list) const {
+    return collect_three(neighbour(neighbour(cell_at(places_[body]), direction), direction),
+                         direction, list);
   }
 
-  /// Ask the processor to fetch the place of `body`; the cells that collect() would read, and those of a move() and collect_ahead().
+  /// Ask the processor to fetch the place of `body`; the cells that collect() would read, and those
+  /// of a move() and collect_ahead().
   void prefetch_place(std::uint32_t body) const { __builtin_prefetch(&places_[body], 1); }
   void prefetch_cells(std::uint32_t body) const {
     const std::size_t middle = cell_at(places_[body]);
-    for (const std::size_t row : {middle - pitch_, middle, middle + pitch_}) prefetch(row - 1), prefetch(row + 1);
+    for (const std::size_t row : {middle - pitch_, middle, middle + pitch_})
+      prefetch(row - 1), prefetch(row + 1);
   }
   void prefetch_cells_ahead(std::uint32_t body, Direction direction) const {
-    const std::size_t from = cell_at(places_[body]), middle = neighbour(neighbour(from, direction), direction), across = direction <= right ? pitch_ : 1;
-    prefetch(from), prefetch(neighbour(from, direction)), prefetch(middle - across), prefetch(middle), prefetch(middle + across);
+    const std::size_t from = cell_at(places_[body]),
+                      middle = neighbour(neighbour(from, direction), direction),
+                      across = direction <= right ? pitch_ : 1;
+    prefetch(from), prefetch(neighbour(from, direction)), prefetch(middle - across),
+        prefetch(middle), prefetch(middle + across);
   }
 
-  /// Calls `visit(body)` for every body in the cells from (column + low_x, row + low_y) to (column + high_x, row + high_y).
+  /// Calls `visit(body)` for every body in the cells from (column + low_x, row + low_y) to (column
+  /// + high_x, row + high_y).
   template <class Visit>
-  void around(std::uint32_t column, std::uint32_t row, int low_x, int high_x, int low_y, int high_y, Visit&& visit) const {
-    const int x0 = std::max(0, static_cast<int>(column) + low_x), x1 = std::min(static_cast<int>(columns_) - 1, static_cast<int>(column) + high_x);
-    const int y0 = std::max(0, static_cast<int>(row) + low_y), y1 = std::min(static_cast<int>(rows_) - 1, static_cast<int>(row) + high_y);
+  void around(std::uint32_t column, std::uint32_t row, int low_x, int high_x, int low_y, int high_y,
+              Visit&& visit) const {
+    const int x0 = std::max(0, static_cast<int>(column) + low_x),
+              x1 = std::min(static_cast<int>(columns_) - 1, static_cast<int>(column) + high_x);
+    const int y0 = std::max(0, static_cast<int>(row) + low_y),
+              y1 = std::min(static_cast<int>(rows_) - 1, static_cast<int>(row) + high_y);
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
-        const std::uint32_t* cell = &cells_[cell_at({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)}) * stride_];
+        const std::uint32_t* cell =
+            &cells_[cell_at({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)}) *
+                    stride_];
         for (std::uint32_t k = 1; k <= cell[0]; ++k) visit(cell[k]);
       }
   }
@@ -102,16 +122,20 @@ class CellGrid {
   static constexpr std::uint32_t few = 7, stride_min = few + 1;
 
   std::uint32_t clamp(double coordinate, std::uint32_t count) const {
-    return static_cast<std::uint32_t>(std::clamp(coordinate * inverse_side_, 0.0, static_cast<double>(count - 1)));
+    return static_cast<std::uint32_t>(
+        std::clamp(coordinate * inverse_side_, 0.0, static_cast<double>(count - 1)));
   }
-  std::size_t cell_at(Place place) const { return (place.row + std::size_t{1}) * pitch_ + place.column + 1; }
+  std::size_t cell_at(Place place) const {
+    return (place.row + std::size_t{1}) * pitch_ + place.column + 1;
+  }
   std::size_t neighbour(std::size_t cell, Direction direction) const {
     const std::size_t step = direction <= right ? 1 : pitch_;
     return (direction & 1) != 0 ? cell + step : cell - step;
   }
   std::uint32_t collect_three(std::size_t middle, Direction direction, std::uint32_t* list) const {
     const std::size_t across = direction <= right ? pitch_ : 1;
-    return static_cast<std::uint32_t>(append(middle + across, append(middle, append(middle - across, list))) - list);
+    return static_cast<std::uint32_t>(
+        append(middle + across, append(middle, append(middle - across, list))) - list);
   }
   std::uint32_t* append(std::size_t cell, std::uint32_t* list) const {
     const std::uint32_t* from = &cells_[cell * stride_];
@@ -128,7 +152,8 @@ class CellGrid {
   void widen();
   void prefetch(std::size_t cell) const { __builtin_prefetch(&cells_[cell * stride_], 1); }
 
-  // A cell is the number of its bodies followed by their ids, stride_ - 1 at most; the stride grows with the fullest cell.
+  // A cell is the number of its bodies followed by their ids, stride_ - 1 at most; the stride grows
+  // with the fullest cell.
   LargeArray<std::uint32_t> cells_ = LargeArray<std::uint32_t>(9 * stride_min);
   LargeArray<Place> places_;
   std::vector<double> column_edges_, row_edges_;

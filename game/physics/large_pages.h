@@ -13,8 +13,8 @@
 
 namespace rink::physics {
 
-/// With a million bodies nearly every event misses the processor's cache of addresses, too: pages of 2 MiB make it a fifth quicker. Small arrays
-/// come from the ordinary heap.
+/// With a million bodies nearly every event misses the processor's cache of addresses, too: pages
+/// of 2 MiB make it a fifth quicker. Small arrays come from the ordinary heap.
 template <class T>
 struct LargePageAllocator {
   using value_type = T;
@@ -26,13 +26,15 @@ struct LargePageAllocator {
 
   T* allocate(std::size_t count) {
     // Beyond that the rounding up to a page would overflow; g++ -O3 says so at every array.
-    if (count > (std::numeric_limits<std::ptrdiff_t>::max() - page) / sizeof(T)) throw std::bad_array_new_length();
+    if (count > (std::numeric_limits<std::ptrdiff_t>::max() - page) / sizeof(T))
+      throw std::bad_array_new_length();
     const std::size_t bytes = count * sizeof(T);
     if (bytes < page) return static_cast<T*>(::operator new(bytes, alignment));
     void* memory = std::aligned_alloc(page, (bytes + page - 1) / page * page);
     if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-    madvise(memory, (bytes + page - 1) / page * page, MADV_HUGEPAGE);  // a hint: whether it is taken changes nothing but speed
+    madvise(memory, (bytes + page - 1) / page * page,
+            MADV_HUGEPAGE);  // a hint: whether it is taken changes nothing but speed
 #endif
     return static_cast<T*>(memory);
   }

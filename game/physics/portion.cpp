@@ -10,23 +10,34 @@
 namespace rink::physics {
 
 std::uint64_t most_at_once(std::span<const double> times) {
-  constexpr double roundings = 32.0;  // twice as long as the engine's instant, for times may be some roundings out of order
+  constexpr double roundings =
+      32.0;  // twice as long as the engine's instant, for times may be some roundings out of order
   std::size_t most = 0, first = 0;
   for (std::size_t k = 0; k < times.size(); ++k) {
-    while (times[first] + roundings * std::numeric_limits<double>::epsilon() * (1.0 + times[k]) < times[k]) ++first;
+    while (times[first] + roundings * std::numeric_limits<double>::epsilon() * (1.0 + times[k]) <
+           times[k])
+      ++first;
     most = std::max(most, k - first + 1);
   }
   return most;
 }
 
-Portion::Portion(const WorldSpec& spec, std::uint32_t body_count) : world_(spec), is_there_(body_count, 0) {
+Portion::Portion(const WorldSpec& spec, std::uint32_t body_count)
+    : world_(spec), is_there_(body_count, 0) {
   Engine& e = engine();
-  e.bodies_.assign(body_count, {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0.0, 0, BodyKind::puck, 0, Engine::removed, Engine::no_mouth});
+  e.bodies_.assign(body_count, {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+                                0.0,
+                                0,
+                                BodyKind::puck,
+                                0,
+                                Engine::removed,
+                                Engine::no_mouth});
   e.builds_.assign(body_count, {1.0, 0.0, Vector2(0.0, 0.0), Vector2(0.0, 0.0), Half::both});
   e.laws_.assign(body_count, {Vector2(0.0, 0.0), Vector2::Constant(spec.puck_drag)});
   e.rhythms_.resize(body_count);
   e.jams_.assign(body_count, 0);
-  if (e.is_slowed()) e.rest_times_.assign(body_count, infinity), e.slowing_.assign(body_count, Vector2(0.0, 0.0));
+  if (e.is_slowed())
+    e.rest_times_.assign(body_count, infinity), e.slowing_.assign(body_count, Vector2(0.0, 0.0));
   if (e.is_rough()) e.spins_.assign(body_count, 0.0);
   journal_.marks.resize(body_count);
   journal_.rooms_of.assign(body_count, 0);
@@ -36,7 +47,9 @@ Portion::Portion(const WorldSpec& spec, std::uint32_t body_count) : world_(spec)
 
 Portion::~Portion() { engine().journal_ = nullptr; }
 
-BodyState Portion::state_in(const World& world, std::uint32_t body) { return world.engine_->state_of(body); }
+BodyState Portion::state_in(const World& world, std::uint32_t body) {
+  return world.engine_->state_of(body);
+}
 
 BodyState Portion::state_before(std::uint32_t body) const {
   const Journal::Mark& mark = journal_.marks[body];
@@ -46,32 +59,38 @@ BodyState Portion::state_before(std::uint32_t body) const {
 }
 
 Motion Portion::motion_before(std::uint32_t body) const {
-  return journal_.marks[body].number < journal_.mark ? engine().motion(body) : state_before(body).motion();
+  return journal_.marks[body].number < journal_.mark ? engine().motion(body)
+                                                     : state_before(body).motion();
 }
 
 const Flight<double>& Portion::flight(std::uint32_t body) const { return engine().bodies_[body]; }
 
 std::optional<Flight<double>> Portion::free_flight(std::uint32_t body) const {
   const Engine::Body& b = engine().bodies_[body];
-  if ((b.flags & (Engine::curved | Engine::held | Engine::frozen | Engine::gone)) != 0) return std::nullopt;
+  if ((b.flags & (Engine::curved | Engine::held | Engine::frozen | Engine::gone)) != 0)
+    return std::nullopt;
   return b;
 }
 
 bool Portion::was_gone(std::uint32_t body) const {
   const Journal::Mark& mark = journal_.marks[body];
-  const std::uint8_t flags = mark.number > journal_.mark ? journal_.states[mark.state].state.flags : engine().bodies_[body].flags;
+  const std::uint8_t flags = mark.number > journal_.mark ? journal_.states[mark.state].state.flags
+                                                         : engine().bodies_[body].flags;
   return (flags & Engine::gone) != 0;
 }
 
 bool Portion::is_possible(const BodyState& state, std::uint32_t body_count) {
   constexpr std::uint8_t known = Engine::gone | Engine::held | Engine::frozen;
   const bool is_jammed = (state.flags & Engine::frozen) != 0;
-  return (state.flags & ~known) == 0 && state.mouth <= Engine::right_mouth && (!is_jammed || state.jam < body_count);
+  return (state.flags & ~known) == 0 && state.mouth <= Engine::right_mouth &&
+         (!is_jammed || state.jam < body_count);
 }
 
 bool Portion::is_out_of_play(const BodyState& state) { return (state.flags & Engine::gone) != 0; }
 
-bool Portion::is_held_along(const BodyState& state, int axis) { return (state.flags & (axis == 0 ? Engine::held_x : Engine::held_y)) != 0; }
+bool Portion::is_held_along(const BodyState& state, int axis) {
+  return (state.flags & (axis == 0 ? Engine::held_x : Engine::held_y)) != 0;
+}
 
 /// All of the body's state, but not where it is listed.
 void Portion::write(std::uint32_t body, const BodyState& s) {
@@ -85,9 +104,11 @@ void Portion::write(std::uint32_t body, const BodyState& s) {
   e.builds_[body] = {s.mass, s.inverse_mass, s.half_extent, s.thrust, s.half};
   e.laws_[body] = {s.acceleration, s.drag};
   Engine::Rhythm& rhythm = e.rhythms_[body];
-  rhythm.window_start = s.impacts_begin, rhythm.last_hop = s.last_hop, rhythm.impacts = s.impacts, rhythm.hops = s.hops;
+  rhythm.window_start = s.impacts_begin, rhythm.last_hop = s.last_hop, rhythm.impacts = s.impacts,
+  rhythm.hops = s.hops;
   rhythm.repeats = {s.repeats_instant, s.repeats};
-  rhythm.meetings = {};  // counted anew: they matter from thousands on, when the count of events at one instant has long had its say
+  rhythm.meetings = {};  // counted anew: they matter from thousands on, when the count of events at
+                         // one instant has long had its say
   if (e.is_slowed()) e.rest_times_[body] = s.rest_time, e.slowing_[body] = s.slowing;
   if (e.is_rough()) e.spins_[body] = s.spin;
   e.jams_[body] = s.jam;
@@ -121,7 +142,8 @@ void Portion::drop(std::uint32_t body) {
   Engine& e = engine();
   std::erase(e.frozen_, body);
   BodyState blank;
-  blank.inverse_mass = 0.0, blank.flags = Engine::removed, blank.drag = Vector2::Constant(e.spec_.puck_drag);
+  blank.inverse_mass = 0.0, blank.flags = Engine::removed,
+  blank.drag = Vector2::Constant(e.spec_.puck_drag);
   write(body, blank);
   e.grid_.remove(body);
   e.queue_.set(body, infinity, body, body);
@@ -131,16 +153,26 @@ void Portion::drop(std::uint32_t body) {
 const std::vector<Hold>& Portion::holds() const { return engine().holds_; }
 
 void Portion::set_holds(std::vector<Hold> holds) {
-  std::stable_sort(holds.begin(), holds.end(), [](const Hold& a, const Hold& b) { return a.age < b.age; });
+  std::stable_sort(holds.begin(), holds.end(),
+                   [](const Hold& a, const Hold& b) { return a.age < b.age; });
   Engine& e = engine();
-  // When a contact ends follows from both sides' states and from itself, and no version tells of that: whoever has a new one, or one with a body that was put, is predicted anew.
-  const auto is_pending = [&](Partner p) { return p < body_count() && (e.bodies_[p].flags & Engine::pending) != 0; };
-  const auto are_same = [](const Hold& a, const Hold& b) {
-    return a.low == b.low && a.high == b.high && a.axis == b.axis && a.pull_time == b.pull_time && a.turn_time == b.turn_time;
+  // When a contact ends follows from both sides' states and from itself, and no version tells of
+  // that: whoever has a new one, or one with a body that was put, is predicted anew.
+  const auto is_pending = [&](Partner p) {
+    return p < body_count() && (e.bodies_[p].flags & Engine::pending) != 0;
   };
-  const auto is_in = [&](const std::vector<Hold>& list, const Hold& hold) { return std::any_of(list.begin(), list.end(), [&](const Hold& other) { return are_same(hold, other); }); };
+  const auto are_same = [](const Hold& a, const Hold& b) {
+    return a.low == b.low && a.high == b.high && a.axis == b.axis && a.pull_time == b.pull_time &&
+           a.turn_time == b.turn_time;
+  };
+  const auto is_in = [&](const std::vector<Hold>& list, const Hold& hold) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const Hold& other) { return are_same(hold, other); });
+  };
   std::vector<Partner> concerned;
-  const auto concern = [&](const Hold& hold) { concerned.insert(concerned.end(), {hold.low, hold.high}); };
+  const auto concern = [&](const Hold& hold) {
+    concerned.insert(concerned.end(), {hold.low, hold.high});
+  };
   for (const Hold& hold : holds)
     if (is_pending(hold.low) || is_pending(hold.high) || !is_in(e.holds_, hold)) concern(hold);
   for (const Hold& hold : e.holds_)
@@ -162,11 +194,14 @@ std::vector<std::uint32_t> Portion::group_of(std::uint32_t body) const {
 
 void Portion::begin_window() {
   const Engine& e = engine();
-  journal_.changes.clear(), journal_.motions.clear(), journal_.flights.clear(), journal_.states.clear(), journal_.looked_at.clear();
+  journal_.changes.clear(), journal_.motions.clear(), journal_.flights.clear(),
+      journal_.states.clear(), journal_.looked_at.clear();
   journal_.mark += 2;
-  journal_.event = 0, journal_.quiet_events = 0, journal_.stirred = 0, journal_.at_once_max = 0, journal_.times.clear(), journal_.was_hopeless = false;
+  journal_.event = 0, journal_.quiet_events = 0, journal_.stirred = 0, journal_.at_once_max = 0,
+  journal_.times.clear(), journal_.was_hopeless = false;
   holds_before_ = e.holds_, frozen_before_ = e.frozen_;
-  clock_before_ = {e.now_, e.instant_begin_, e.events_at_once_, e.jam_count_, e.is_hopeless_, e.is_played_};
+  clock_before_ = {e.now_,       e.instant_begin_, e.events_at_once_,
+                   e.jam_count_, e.is_hopeless_,   e.is_played_};
   counters_before_ = e.counters_;
 }
 
@@ -177,12 +212,16 @@ void Portion::undo() {
     state.flight = e.bodies_[kept.body];
     write(kept.body, state);
   }
-  for (const Journal::KeptFlight& kept : journal_.flights) static_cast<Flight<double>&>(e.bodies_[kept.body]) = kept.flight;
+  for (const Journal::KeptFlight& kept : journal_.flights)
+    static_cast<Flight<double>&>(e.bodies_[kept.body]) = kept.flight;
   e.holds_ = holds_before_, e.frozen_ = frozen_before_;
-  e.now_ = clock_before_.now, e.instant_begin_ = clock_before_.instant_begin, e.events_at_once_ = clock_before_.events_at_once;
-  e.jam_count_ = clock_before_.jam_count, e.is_hopeless_ = clock_before_.is_hopeless, e.is_played_ = clock_before_.is_played;
+  e.now_ = clock_before_.now, e.instant_begin_ = clock_before_.instant_begin,
+  e.events_at_once_ = clock_before_.events_at_once;
+  e.jam_count_ = clock_before_.jam_count, e.is_hopeless_ = clock_before_.is_hopeless,
+  e.is_played_ = clock_before_.is_played;
   e.counters_ = counters_before_;
-  for (const std::uint32_t body : e.pending_) e.bodies_[body].flags = static_cast<std::uint8_t>(e.bodies_[body].flags & ~Engine::pending);
+  for (const std::uint32_t body : e.pending_)
+    e.bodies_[body].flags = static_cast<std::uint8_t>(e.bodies_[body].flags & ~Engine::pending);
   e.pending_.clear(), e.touched_.clear();
   e.goal_.reset();
   e.queue_ = Engine::EventQueue(e.spec_.queue);

@@ -22,8 +22,12 @@ class ExactSimulator final : public Simulator {
   BodyId add(const BatSpec& spec) override { return world_.add(spec); }
   BodyId add(const PostSpec& spec) override { return world_.add(spec); }
   void remove(BodyId body) override { world_.remove(body); }
-  void set_thrust(BodyId bat, const Vector2& acceleration) override { world_.set_thrust(bat, acceleration); }
-  void place(BodyId puck, const Vector2& position, const Vector2& velocity) override { world_.place(puck, position, velocity); }
+  void set_thrust(BodyId bat, const Vector2& acceleration) override {
+    world_.set_thrust(bat, acceleration);
+  }
+  void place(BodyId puck, const Vector2& position, const Vector2& velocity) override {
+    world_.place(puck, position, velocity);
+  }
   std::optional<Goal> advance(double until) override { return world_.advance(until); }
 
   void record_events(bool is_wanted) override { world_.record_events(is_wanted); }
@@ -40,8 +44,12 @@ class ExactSimulator final : public Simulator {
   bool is_in_play(BodyId body) const override { return world_.is_in_play(body); }
   Vector2 position(BodyId body) const override { return world_.position(body); }
   Vector2 velocity(BodyId body) const override { return world_.velocity(body); }
-  bool is_free(const Vector2& centre, double radius) const override { return world_.is_free(centre, radius); }
-  bool is_free(const Vector2& centre, const Vector2& half_extent) const override { return world_.is_free(centre, half_extent); }
+  bool is_free(const Vector2& centre, double radius) const override {
+    return world_.is_free(centre, radius);
+  }
+  bool is_free(const Vector2& centre, const Vector2& half_extent) const override {
+    return world_.is_free(centre, half_extent);
+  }
 
   Counters counters() const override { return world_.counters(); }
   double spin(BodyId body) const override { return world_.spin(body); }
@@ -65,7 +73,9 @@ class ExactSimulator final : public Simulator {
   World world_;
 };
 
-bool is_among(const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 std::string text_of(double number) {
   std::ostringstream text;
@@ -89,9 +99,13 @@ const std::vector<std::string>& engine_names() {
 const std::vector<std::string>& integrator_names() { return paper::integrator_names(); }
 
 std::optional<std::string> objection(const SimulatorChoice& choice) {
-  if (!is_among(engine_names(), choice.engine)) return "the engine " + choice.engine + " is unknown: expected one of " + listed(engine_names());
-  if (!is_among(integrator_names(), choice.integrator)) return "the integrator " + choice.integrator + " is unknown: expected one of " + listed(integrator_names());
-  if (!std::isfinite(choice.dt) || choice.dt <= 0.0) return "frames of " + text_of(choice.dt) + " s: expected a finite length above 0 s";
+  if (!is_among(engine_names(), choice.engine))
+    return "the engine " + choice.engine + " is unknown: expected one of " + listed(engine_names());
+  if (!is_among(integrator_names(), choice.integrator))
+    return "the integrator " + choice.integrator + " is unknown: expected one of " +
+           listed(integrator_names());
+  if (!std::isfinite(choice.dt) || choice.dt <= 0.0)
+    return "frames of " + text_of(choice.dt) + " s: expected a finite length above 0 s";
   return std::nullopt;
 }
 
@@ -99,11 +113,16 @@ std::unique_ptr<Simulator> make_simulator(const WorldSpec& spec, const Simulator
   assert(!objection(choice));
   if (choice.engine == "exact") return std::make_unique<ExactSimulator>(spec);
   const paper::Integrator integrator = *paper::integrator_named(choice.integrator);
-  if (choice.engine == "naive") return std::make_unique<paper::NaiveSimulator>(spec, integrator, choice.dt);
-  return std::make_unique<paper::PaperSimulator>(spec, integrator, choice.dt, choice.has_sharp_corners ? paper::Corners::sharp : paper::Corners::rounded);
+  if (choice.engine == "naive")
+    return std::make_unique<paper::NaiveSimulator>(spec, integrator, choice.dt);
+  return std::make_unique<paper::PaperSimulator>(
+      spec, integrator, choice.dt,
+      choice.has_sharp_corners ? paper::Corners::sharp : paper::Corners::rounded);
 }
 
-std::unique_ptr<Simulator> exact_simulator(World world) { return std::make_unique<ExactSimulator>(std::move(world)); }
+std::unique_ptr<Simulator> exact_simulator(World world) {
+  return std::make_unique<ExactSimulator>(std::move(world));
+}
 
 std::uint32_t escape_count(const Simulator& simulator) {
   const Field& field = simulator.spec().field;
@@ -111,7 +130,8 @@ std::uint32_t escape_count(const Simulator& simulator) {
   for (BodyId body; body.index < simulator.body_count(); ++body.index) {
     if (!simulator.is_in_play(body)) continue;
     const Vector2 position = simulator.position(body);
-    const bool is_inside = position.x() >= 0.0 && position.x() <= field.length && position.y() >= 0.0 && position.y() <= field.width;
+    const bool is_inside = position.x() >= 0.0 && position.x() <= field.length &&
+                           position.y() >= 0.0 && position.y() <= field.width;
     if (!is_inside) ++count;  // also where a coordinate is not a number
   }
   return count;

@@ -14,8 +14,9 @@
 
 namespace rink::physics {
 
-/// One engine at work on one set of bodies. Questions and their meaning are those of World (world.h); all are answered at now(). Whoever has no use for a choice of engines
-/// uses World itself.
+/// One engine at work on one set of bodies. Questions and their meaning are those of World
+/// (world.h); all are answered at now(). Whoever has no use for a choice of engines uses World
+/// itself.
 class Simulator {
  public:
   virtual ~Simulator() = default;
@@ -55,14 +56,17 @@ class Simulator {
   virtual double max_overlap() const = 0;
   virtual std::uint64_t hash() const = 0;
 
-  /// Another that goes on from here with the same bits, recorded events apart; null for engines that cannot be copied, all but the exact one.
+  /// Another that goes on from here with the same bits, recorded events apart; null for engines
+  /// that cannot be copied, all but the exact one.
   virtual std::unique_ptr<Simulator> copy() const { return nullptr; }
 
-  /// The world behind the exact engine, for those who need its closed forms; null for every other engine.
+  /// The world behind the exact engine, for those who need its closed forms; null for every other
+  /// engine.
   virtual const World* exact_world() const { return nullptr; }
 };
 
-/// `engine` is one of engine_names(), `integrator` one of integrator_names(). `integrator` and the length of a frame `dt` [s] apply to the stepped engines, paper and naive.
+/// `engine` is one of engine_names(), `integrator` one of integrator_names(). `integrator` and the
+/// length of a frame `dt` [s] apply to the stepped engines, paper and naive.
 struct SimulatorChoice {
   std::string engine = "exact";
   std::string integrator = "euler";
@@ -70,16 +74,19 @@ struct SimulatorChoice {
   bool has_sharp_corners = true;  ///< of bats, where the paper's engine lets a disc meet them
 };
 
-/// exact: events at their exact times (docs/physics.md). paper: frames with times of impact; naive: frames with static tests only (docs/paper-engine.md).
+/// exact: events at their exact times (docs/physics.md). paper: frames with times of impact; naive:
+/// frames with static tests only (docs/paper-engine.md).
 const std::vector<std::string>& engine_names();
-/// euler (explicit), semi_implicit (Euler), verlet (velocity Verlet) and rk4 (classical Runge-Kutta).
+/// euler (explicit), semi_implicit (Euler), verlet (velocity Verlet) and rk4 (classical
+/// Runge-Kutta).
 const std::vector<std::string>& integrator_names();
 
 /// Why make_simulator() cannot make this, naming what would be possible; nothing if it can.
 std::optional<std::string> objection(const SimulatorChoice& choice);
 
 /// An engine without bodies. There must be no objection (asserted).
-std::unique_ptr<Simulator> make_simulator(const WorldSpec& spec, const SimulatorChoice& choice = {});
+std::unique_ptr<Simulator> make_simulator(const WorldSpec& spec,
+                                          const SimulatorChoice& choice = {});
 
 /// The exact engine, going on from `world`.
 std::unique_ptr<Simulator> exact_simulator(World world);

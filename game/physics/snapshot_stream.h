@@ -1,4 +1,5 @@
-// Numbers to bytes and back, the same bytes on every machine: little endian, floating point by its bits, a checksum at the end.
+// Numbers to bytes and back, the same bytes on every machine: little endian, floating point by its
+// bits, a checksum at the end.
 #pragma once
 
 #include <bit>
@@ -11,7 +12,8 @@
 
 namespace rink::physics {
 
-/// What writer and reader share: how a value is made of 64-bit words. Derived has `bool word(std::uint64_t&, int byte_count)`.
+/// What writer and reader share: how a value is made of 64-bit words. Derived has `bool
+/// word(std::uint64_t&, int byte_count)`.
 template <class Derived>
 class SnapshotStream {
  public:
@@ -85,7 +87,9 @@ class SnapshotWriter : public SnapshotStream<SnapshotWriter> {
   bool word(std::uint64_t& value, int byte_count) {
     const std::size_t begin = bytes_.size();
     bytes_.resize(begin + static_cast<std::size_t>(byte_count));
-    for (int byte = 0; byte < byte_count; ++byte) bytes_[begin + static_cast<std::size_t>(byte)] = static_cast<std::uint8_t>(value >> (8 * byte));
+    for (int byte = 0; byte < byte_count; ++byte)
+      bytes_[begin + static_cast<std::size_t>(byte)] =
+          static_cast<std::uint8_t>(value >> (8 * byte));
     return true;
   }
   static std::uint64_t count_max() { return 0xffffffff; }
@@ -117,7 +121,8 @@ class SnapshotReader : public SnapshotStream<SnapshotReader> {
   bool word(std::uint64_t& value, int byte_count) {
     if (bytes_.size() < static_cast<std::size_t>(byte_count)) return false;
     value = 0;
-    for (int byte = 0; byte < byte_count; ++byte) value |= static_cast<std::uint64_t>(bytes_[static_cast<std::size_t>(byte)]) << (8 * byte);
+    for (int byte = 0; byte < byte_count; ++byte)
+      value |= static_cast<std::uint64_t>(bytes_[static_cast<std::size_t>(byte)]) << (8 * byte);
     bytes_ = bytes_.subspan(static_cast<std::size_t>(byte_count));
     return true;
   }

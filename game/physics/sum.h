@@ -5,7 +5,8 @@
 
 namespace rink::physics {
 
-/// Neumaier's compensated summation (Z. Angew. Math. Mech. 54, 1974): what each addition rounds away is kept beside the sum.
+/// Neumaier's compensated summation (Z. Angew. Math. Mech. 54, 1974): what each addition rounds
+/// away is kept beside the sum.
 template <class Real>
 class BasicSum {
  public:

@@ -1,4 +1,5 @@
-// The exact rink: every body moves on a closed form between events, and every event happens at its exact time.
+// The exact rink: every body moves on a closed form between events, and every event happens at its
+// exact time.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,8 @@ namespace rink::physics {
 template <class Real>
 class BasicEngine;
 
-/// What happened to `body` and `other` at `time` [s]; `other` is nothing for a wall, the edge of a goal, and wherever one body alone is concerned.
+/// What happened to `body` and `other` at `time` [s]; `other` is nothing for a wall, the edge of a
+/// goal, and wherever one body alone is concerned.
 template <class Real>
 struct BasicEvent {
   Real time = 0.0;
@@ -26,8 +28,9 @@ struct BasicEvent {
 };
 using Event = BasicEvent<double>;
 
-/// A set of bodies in a field, and a simulated time that only moves forward. Pure: the same calls give the same bits, whatever the cell size and however often
-/// advance() stops on the way. Method, proofs and limits: docs/physics.md.
+/// A set of bodies in a field, and a simulated time that only moves forward. Pure: the same calls
+/// give the same bits, whatever the cell size and however often advance() stops on the way. Method,
+/// proofs and limits: docs/physics.md.
 template <class Real>
 class BasicWorld {
  public:
@@ -44,66 +47,82 @@ class BasicWorld {
   /// Takes the body out of the world at now(), for good. What it held in place is released.
   void remove(BodyId body);
 
-  /// From now() on `bat` accelerates by `acceleration` [m/s^2] less its drag. Handing in the present thrust changes nothing.
+  /// From now() on `bat` accelerates by `acceleration` [m/s^2] less its drag. Handing in the
+  /// present thrust changes nothing.
   void set_thrust(BodyId bat, const Vector2& acceleration);
 
   /// Puts a puck that is out of play back at now(). The place must be free (asserted).
   void place(BodyId puck, const Vector2& position, const Vector2& velocity);
 
-  /// Processes every event up to and including `until` [s] (not before now()), or up to the first goal, which it returns at the goal's exact time. Where it stops never
-  /// changes the motion: an instant that it has been to is over, and what set_thrust(), place(), add() or remove() bring about there happens when it goes on.
+  /// Processes every event up to and including `until` [s] (not before now()), or up to the first
+  /// goal, which it returns at the goal's exact time. Where it stops never changes the motion: an
+  /// instant that it has been to is over, and what set_thrust(), place(), add() or remove() bring
+  /// about there happens when it goes on.
   std::optional<BasicGoal<Real>> advance(Real until);
 
-  /// From now on keeps a record of every event, for observers; off at first. Never changes the motion.
+  /// From now on keeps a record of every event, for observers; off at first. Never changes the
+  /// motion.
   void record_events(bool is_wanted);
-  /// Recorded since the last forget_events(), in order of time; valid until anything else is asked of the world.
+  /// Recorded since the last forget_events(), in order of time; valid until anything else is asked
+  /// of the world.
   std::span<const BasicEvent<Real>> events() const;
   void forget_events();
 
-  Real now() const;                      ///< s
-  BasicVector2<Real> position(BodyId body) const;     ///< centre at now() [m], evaluated on demand; where it left play for a puck that did
-  BasicVector2<Real> velocity(BodyId body) const;     ///< at now() [m/s]
-  Real spin(BodyId body) const;          ///< at now(), anticlockwise [rad/s]; changed by impacts alone
+  Real now() const;  ///< s
+  BasicVector2<Real> position(BodyId body)
+      const;  ///< centre at now() [m], evaluated on demand; where it left play for a puck that did
+  BasicVector2<Real> velocity(BodyId body) const;  ///< at now() [m/s]
+  Real spin(BodyId body) const;  ///< at now(), anticlockwise [rad/s]; changed by impacts alone
 
-  /// Closed form since the body's last event, valid until its next: what a distant replica needs to follow it exactly.
+  /// Closed form since the body's last event, valid until its next: what a distant replica needs to
+  /// follow it exactly.
   BasicMotion<Real> motion(BodyId body) const;
   /// Grows by one or more whenever motion() changes.
   std::uint32_t motion_version(BodyId body) const;
 
-  std::uint32_t body_count() const;        ///< bodies ever added; valid ids are below
+  std::uint32_t body_count() const;  ///< bodies ever added; valid ids are below
   BodyKind kind(BodyId body) const;
-  Real radius(BodyId body) const;        ///< of a puck or post [m]; 0 for a bat
+  Real radius(BodyId body) const;                     ///< of a puck or post [m]; 0 for a bat
   BasicVector2<Real> half_extent(BodyId body) const;  ///< of the body's bounding box [m]
-  Real mass(BodyId body) const;          ///< kg; infinity for a post
+  Real mass(BodyId body) const;                       ///< kg; infinity for a post
   MaterialId material(BodyId body) const;
-  BasicVector2<Real> thrust(BodyId body) const;       ///< as set, whether or not the body yields to it [m/s^2]
-  bool is_in_play(BodyId body) const;      ///< false once it has scored or was removed
+  BasicVector2<Real> thrust(
+      BodyId body) const;              ///< as set, whether or not the body yields to it [m/s^2]
+  bool is_in_play(BodyId body) const;  ///< false once it has scored or was removed
   bool is_removed(BodyId body) const;
-  bool is_resting(BodyId body) const;      ///< at rest, and will be until something else acts on it
-  bool is_held(BodyId body) const;         ///< in rest contact along some axis, or part of a jam in equilibrium
+  bool is_resting(BodyId body) const;  ///< at rest, and will be until something else acts on it
+  bool is_held(
+      BodyId body) const;  ///< in rest contact along some axis, or part of a jam in equilibrium
 
-  /// Whether a disc (or rectangle) centred there would lie inside the field and overlap no body at now(); touching is free.
+  /// Whether a disc (or rectangle) centred there would lie inside the field and overlap no body at
+  /// now(); touching is free.
   bool is_free(const Vector2& centre, double radius) const;
   bool is_free(const Vector2& centre, const Vector2& half_extent) const;
 
-  /// The state as bytes: the same on every machine for the same bits. Recorded events are an observer's and not among it.
+  /// The state as bytes: the same on every machine for the same bits. Recorded events are an
+  /// observer's and not among it.
   std::vector<std::uint8_t> save() const;
-  /// A world that goes on from there with the same bits; nothing if the bytes are no intact snapshot of this version and scalar.
+  /// A world that goes on from there with the same bits; nothing if the bytes are no intact
+  /// snapshot of this version and scalar.
   static std::optional<BasicWorld> restore(std::span<const std::uint8_t> bytes);
 
   const WorldSpec& spec() const;
   const Counters& counters() const;
-  Real kinetic_energy() const;           ///< of the bodies in play at now(), spin included [J]
-  /// The books of energy at now() [J], each from its own closed forms; all 0 unless WorldSpec::accounts_energy. Always kinetic_energy() = energy_introduced() +
-  /// work_of_thrust() - dissipated(), but for rounding.
-  Real energy_introduced() const;        ///< of bodies as they were added or placed, less that of bodies as they were removed or scored
+  Real kinetic_energy() const;  ///< of the bodies in play at now(), spin included [J]
+  /// The books of energy at now() [J], each from its own closed forms; all 0 unless
+  /// WorldSpec::accounts_energy. Always kinetic_energy() = energy_introduced() + work_of_thrust() -
+  /// dissipated(), but for rounding.
+  Real energy_introduced() const;  ///< of bodies as they were added or placed, less that of bodies
+                                   ///< as they were removed or scored
   Real work_of_thrust() const;
-  Real dissipated() const;               ///< lost to drag, to friction and in impacts
-  BasicVector2<Real> momentum() const;                ///< likewise [kg m/s]
-  /// The deepest overlap of any two bodies, or of a body and a wall, at now() [m]; 0 if none overlap. Looks at every body.
+  Real dissipated() const;              ///< lost to drag, to friction and in impacts
+  BasicVector2<Real> momentum() const;  ///< likewise [kg m/s]
+  /// The deepest overlap of any two bodies, or of a body and a wall, at now() [m]; 0 if none
+  /// overlap. Looks at every body.
   Real max_overlap() const;
 
-  /// FNV-1a of the last-event states of all bodies in order of their ids. Equal for equal histories, whatever the cell size and wherever advance() stopped.
+  /// FNV-1a of the last-event states of all bodies in order of their ids. Equal for equal
+  /// histories, whatever the cell size and wherever advance() stopped.
   std::uint64_t hash() const;
 
  private:

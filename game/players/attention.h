@@ -1,4 +1,5 @@
-// Which pucks a player has an eye on: the nearest few, looked for anew now and then only, since looking at everything is what costs.
+// Which pucks a player has an eye on: the nearest few, looked for anew now and then only, since
+// looking at everything is what costs.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +10,9 @@
 
 namespace rink::game {
 
-/// Looks about at every so many of its decisions and in between follows what it saw then: on a crowded rink this makes a decision three times cheaper, and nobody
-/// comes near enough within a quarter of a second to matter who was not among the nearest before.
+/// Looks about at every so many of its decisions and in between follows what it saw then: on a
+/// crowded rink this makes a decision three times cheaper, and nobody comes near enough within a
+/// quarter of a second to matter who was not among the nearest before.
 inline constexpr std::uint64_t look_about_interval = 5;
 
 /// The nearest `most` of what it is shown.
@@ -25,7 +27,9 @@ class Nearest {
   void show(const Thing& thing, double square) {
     if (found_.size() == most_ && (most_ == 0 || square >= found_.back().square)) return;
     if (found_.size() == most_) found_.pop_back();
-    const auto place = std::upper_bound(found_.begin(), found_.end(), square, [](double value, const Entry& entry) { return value < entry.square; });
+    const auto place =
+        std::upper_bound(found_.begin(), found_.end(), square,
+                         [](double value, const Entry& entry) { return value < entry.square; });
     found_.insert(place, Entry{square, thing});
   }
   struct Entry {

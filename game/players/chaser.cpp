@@ -1,4 +1,5 @@
-// All geometry is that of one who attacks towards larger x; a player of the other team sees the rink mirrored.
+// All geometry is that of one who attacks towards larger x; a player of the other team sees the
+// rink mirrored.
 #include "game/players/chaser.h"
 
 #include <algorithm>
@@ -19,17 +20,33 @@ double folded(double y, double low, double high) {
 }
 
 /// How often it was folded.
-double fold_count(double y, double low, double high) { return std::abs(std::floor((y - low) / std::max(high - low, 1e-9))); }
+double fold_count(double y, double low, double high) {
+  return std::abs(std::floor((y - low) / std::max(high - low, 1e-9)));
+}
 
 }  // namespace
 
-Chaser::Chaser(const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t seed, const Skill& skill)
-    : rules_(rules), seat_(seat), skill_(skill), attacks_right_(seat.team != Team::right), reach_(reach_of(rules, seat)), random_(seed, seat.number), hands_(skill.delay),
-      decision_(physics::warp(decision_period, rules.bat_drag)), delay_{0.0, decision_period * skill.delay, {}, physics::warp(decision_period * skill.delay, rules.puck_drag)} {
-  if (!attacks_right_) reach_ = {turned({reach_.high.x(), reach_.low.y()}), turned({reach_.low.x(), reach_.high.y()})};
+Chaser::Chaser(const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t seed,
+               const Skill& skill)
+    : rules_(rules),
+      seat_(seat),
+      skill_(skill),
+      attacks_right_(seat.team != Team::right),
+      reach_(reach_of(rules, seat)),
+      random_(seed, seat.number),
+      hands_(skill.delay),
+      decision_(physics::warp(decision_period, rules.bat_drag)),
+      delay_{0.0,
+             decision_period * skill.delay,
+             {},
+             physics::warp(decision_period * skill.delay, rules.puck_drag)} {
+  if (!attacks_right_)
+    reach_ = {turned({reach_.high.x(), reach_.low.y()}), turned({reach_.low.x(), reach_.high.y()})};
   for (std::size_t k = 0; k < spans_.size(); ++k) {
-    const double ahead = decision_period * static_cast<double>(k < fine_count ? k + 1 : 2 * k + 2 - fine_count);
-    spans_[k] = {ahead, ahead + delay_.puck_ahead, physics::warp(ahead, rules.bat_drag), physics::warp(ahead + delay_.puck_ahead, rules.puck_drag)};
+    const double ahead =
+        decision_period * static_cast<double>(k < fine_count ? k + 1 : 2 * k + 2 - fine_count);
+    spans_[k] = {ahead, ahead + delay_.puck_ahead, physics::warp(ahead, rules.bat_drag),
+                 physics::warp(ahead + delay_.puck_ahead, rules.puck_drag)};
   }
 }
 
@@ -39,7 +56,9 @@ KeysHeld Chaser::decide(const PlayerView& view, double) {
   return hands_.hold(is_idle ? KeysHeld{} : keys_for(view), view.velocity, random_);
 }
 
-physics::WarpedTime Chaser::flight(const Vector2& puck_velocity, const Span& span) const { return under_friction(span.puck, span.puck_ahead, puck_velocity, rules_); }
+physics::WarpedTime Chaser::flight(const Vector2& puck_velocity, const Span& span) const {
+  return under_friction(span.puck, span.puck_ahead, puck_velocity, rules_);
+}
 
 /// The keys in the pipeline still move the bat before new ones do.
 void Chaser::foresee_bat(const PlayerView& view, Sight& sight) const {
@@ -47,8 +66,12 @@ void Chaser::foresee_bat(const PlayerView& view, Sight& sight) const {
   sight.bat_velocity = turned_velocity(view.velocity);
   for (std::uint32_t age = skill_.delay; age > 0; --age) {
     const KeysHeld keys = hands_.wished(age);
-    const auto along = [&](Key plus, Key minus) { return rules_.thrust * (static_cast<double>(keys.is_down(plus)) - static_cast<double>(keys.is_down(minus))); };
-    const Vector2 thrust = turned_velocity({along(Key::right, Key::left), along(Key::up, Key::down)});
+    const auto along = [&](Key plus, Key minus) {
+      return rules_.thrust *
+             (static_cast<double>(keys.is_down(plus)) - static_cast<double>(keys.is_down(minus)));
+    };
+    const Vector2 thrust =
+        turned_velocity({along(Key::right, Key::left), along(Key::up, Key::down)});
     sight.bat += sight.bat_velocity * decision_.s + thrust * decision_.q;
     sight.bat_velocity = sight.bat_velocity * decision_.e + thrust * decision_.s;
   }
@@ -72,13 +95,15 @@ KeysHeld Chaser::keys_for(const PlayerView& view) {
   double nearest_square = std::numeric_limits<double>::infinity();
   for (const SeenEntity& puck : view.pucks) {
     const Sight sight = sight_of(puck, bat);
-    constexpr double loyalty = 0.3;  // or two equal pucks would be chased in turn, and neither reached
+    constexpr double loyalty =
+        0.3;  // or two equal pucks would be chased in turn, and neither reached
     const bool is_chased = is_chasing_ && puck.id == chased_;
     if (std::optional<Shot> shot = best_shot(sight)) {
       shot->value += is_chased ? loyalty : 0.0;
       if (!best || shot->value > best->value) best = shot, best_id = puck.id;
     }
-    const double square = (sight.puck - sight.bat).squaredNorm() * (is_chased ? 0.7 : 1.0) * (is_within_reach(sight) ? 1.0 : 100.0);
+    const double square = (sight.puck - sight.bat).squaredNorm() * (is_chased ? 0.7 : 1.0) *
+                          (is_within_reach(sight) ? 1.0 : 100.0);
     if (square < nearest_square) {
       nearest_square = square;
       nearest = sight;
@@ -90,18 +115,27 @@ KeysHeld Chaser::keys_for(const PlayerView& view) {
   if (best) {
     const Vector2 push = turned_velocity(best->push) / rules_.thrust;
     const KeysHeld held = hands_.last_wish();
-    constexpr double start = 0.25, stop = 0.0;  // a higher start lets a bat that is nearly there wait for ever
-    return keys_towards(pushed_along(push_x(held), push.x(), start, stop), pushed_along(push_y(held), push.y(), start, stop));
+    constexpr double start = 0.25,
+                     stop = 0.0;  // a higher start lets a bat that is nearly there wait for ever
+    return keys_towards(pushed_along(push_x(held), push.x(), start, stop),
+                        pushed_along(push_y(held), push.y(), start, stop));
   }
-  if (!nearest) return keys_to(bat, Vector2(reach_.low.x() + 0.2 * reach_.size().x(), 0.5 * rules_.field.width));
-  return keys_to(*nearest, is_within_reach(*nearest) ? place_behind(*nearest) : place_to_guard(*nearest));
+  if (!nearest)
+    return keys_to(bat,
+                   Vector2(reach_.low.x() + 0.2 * reach_.size().x(), 0.5 * rules_.field.width));
+  return keys_to(*nearest,
+                 is_within_reach(*nearest) ? place_behind(*nearest) : place_to_guard(*nearest));
 }
 
-bool Chaser::is_within_reach(const Sight& sight) const { return sight.puck.x() - sight.radius - seat_.half_extent.x() < reach_.high.x(); }
+bool Chaser::is_within_reach(const Sight& sight) const {
+  return sight.puck.x() - sight.radius - seat_.half_extent.x() < reach_.high.x();
+}
 
 std::optional<Chaser::Shot> Chaser::best_shot(const Sight& sight) const {
   std::optional<Shot> best;
-  const double gap = sight.puck.x() + sight.puck_velocity.x() * flight(sight.puck_velocity, delay_).s - sight.bat.x() - seat_.half_extent.x() - sight.radius;
+  const double gap = sight.puck.x() +
+                     sight.puck_velocity.x() * flight(sight.puck_velocity, delay_).s -
+                     sight.bat.x() - seat_.half_extent.x() - sight.radius;
   if (gap < -0.5 * sight.radius) return best;  // it would have to be met from the front
   for (const Span& span : spans_) {
     std::optional<Shot> shot = shot_at(sight, span);
@@ -113,23 +147,29 @@ std::optional<Chaser::Shot> Chaser::best_shot(const Sight& sight) const {
   return best;
 }
 
-/// The shot from a contact after `span`, if thrust can bring the bat's front there by then and the bat is the faster one.
+/// The shot from a contact after `span`, if thrust can bring the bat's front there by then and the
+/// bat is the faster one.
 std::optional<Chaser::Shot> Chaser::shot_at(const Sight& sight, const Span& span) const {
   const double low = sight.radius, high = rules_.field.width - sight.radius;
   const physics::WarpedTime flown = flight(sight.puck_velocity, span);
   const Vector2 there = sight.puck + sight.puck_velocity * flown.s;
-  const double sure = 0.9 * rules_.thrust * span.bat.q;  // not all of the thrust: four keys give it in steps only
-  const double run = there.x() - sight.radius - seat_.half_extent.x() - sight.bat.x() - sight.bat_velocity.x() * span.bat.s;
-  if (std::abs(run) > sure) return std::nullopt;  // most contacts are out of reach, which costs little to see
+  const double sure =
+      0.9 * rules_.thrust * span.bat.q;  // not all of the thrust: four keys give it in steps only
+  const double run = there.x() - sight.radius - seat_.half_extent.x() - sight.bat.x() -
+                     sight.bat_velocity.x() * span.bat.s;
+  if (std::abs(run) > sure)
+    return std::nullopt;  // most contacts are out of reach, which costs little to see
   const Vector2 puck(there.x(), folded(there.y(), low, high));
   if (puck.x() < low || puck.x() > rules_.field.length - low) return std::nullopt;
   const double bounces = fold_count(there.y(), low, high);
   const Vector2 velocity = sight.puck_velocity * flown.e;
-  const Vector2 puck_velocity(velocity.x(), std::fmod(bounces, 2.0) == 0.0 ? velocity.y() : -velocity.y());
+  const Vector2 puck_velocity(velocity.x(),
+                              std::fmod(bounces, 2.0) == 0.0 ? velocity.y() : -velocity.y());
 
   const Vector2 drift = sight.bat + sight.bat_velocity * span.bat.s;  // without keys
   const double face = 0.6 * seat_.half_extent.y();
-  const Vector2 contact(puck.x() - sight.radius - seat_.half_extent.x(), std::clamp(drift.y(), puck.y() - face, puck.y() + face));
+  const Vector2 contact(puck.x() - sight.radius - seat_.half_extent.x(),
+                        std::clamp(drift.y(), puck.y() - face, puck.y() + face));
   if (reach_.clamped({contact.x(), drift.y()}).x() != contact.x()) return std::nullopt;
   const Vector2 place = reach_.clamped(contact);
   const Vector2 push = (place - drift) / span.bat.q;
@@ -138,8 +178,10 @@ std::optional<Chaser::Shot> Chaser::shot_at(const Sight& sight, const Span& span
   const double closing = bat_speed - puck_velocity.x();
   constexpr double least_closing = 0.1;
   if (closing < least_closing) return std::nullopt;
-  const double gain = (1.0 + rules_.restitution) * rules_.bat_mass / (rules_.bat_mass + rules_.puck_mass);
-  return Shot{value_of(puck, {puck_velocity.x() + gain * closing, puck_velocity.y()}, sight.radius), push};
+  const double gain =
+      (1.0 + rules_.restitution) * rules_.bat_mass / (rules_.bat_mass + rules_.puck_mass);
+  return Shot{value_of(puck, {puck_velocity.x() + gain * closing, puck_velocity.y()}, sight.radius),
+              push};
 }
 
 /// What it is worth that a puck leaves `place` at `velocity`: going in counts most, then speed.
@@ -147,21 +189,29 @@ double Chaser::value_of(const Vector2& place, const Vector2& velocity, double ra
   constexpr double goal_value = 2.0, speed_value = 0.3, bounce_cost = 0.3, backwards_value = -1.0;
   if (velocity.x() <= 0.0) return backwards_value;
   const double low = radius, high = rules_.field.width - radius;
-  const double straight = place.y() + velocity.y() / velocity.x() * (rules_.field.length - place.x());
+  const double straight =
+      place.y() + velocity.y() / velocity.x() * (rules_.field.length - place.x());
   const double miss = std::abs(folded(straight, low, high) - 0.5 * rules_.field.width);
   const bool goes_in = miss < 0.5 * rules_.field.goal_width - radius;
-  return speed_value * std::min(velocity.x(), 5.0) + (goes_in ? goal_value - bounce_cost * fold_count(straight, low, high) : 0.0);
+  return speed_value * std::min(velocity.x(), 5.0) +
+         (goes_in ? goal_value - bounce_cost * fold_count(straight, low, high) : 0.0);
 }
 
-/// Where to be so that the puck lies between the bat and the opponents' end; when the puck is further back than the bat, first past it on the side that has more room.
+/// Where to be so that the puck lies between the bat and the opponents' end; when the puck is
+/// further back than the bat, first past it on the side that has more room.
 Vector2 Chaser::place_behind(const Sight& sight) const {
-  const double clearance = 0.5 * sight.radius, side = seat_.half_extent.y() + sight.radius + clearance, back = seat_.half_extent.x() + sight.radius + clearance;
+  const double clearance = 0.5 * sight.radius,
+               side = seat_.half_extent.y() + sight.radius + clearance,
+               back = seat_.half_extent.x() + sight.radius + clearance;
   const Vector2 puck = sight.puck + sight.puck_velocity * flight(sight.puck_velocity, spans_[3]).s;
   const double run_up = 4.0 * sight.radius;
   if (sight.bat.x() + back <= puck.x() + clearance) return {puck.x() - back - run_up, puck.y()};
   const double off = sight.bat.y() - puck.y();
   if (std::abs(off) >= side) return {puck.x() - back - run_up, sight.bat.y()};
-  const bool has_room_above = puck.y() + side + seat_.half_extent.y() < rules_.field.width, has_room_below = puck.y() - side - seat_.half_extent.y() > 0.0;
+  const bool has_room_above =
+      puck.y() + side +
+      seat_.half_extent
+          .y()<rules_.field.width, has_room_below = puck.y() - side - seat_.half_extent.y()> 0.0;
   const bool goes_above = has_room_above && (off > 0.0 || !has_room_below);
   return {std::max(sight.bat.x(), puck.x()), puck.y() + (goes_above ? 1.3 : -1.3) * side};
 }
@@ -171,7 +221,8 @@ Vector2 Chaser::place_to_guard(const Sight& sight) const {
   const double middle = 0.5 * rules_.field.width, x = reach_.low.x() + 0.2 * reach_.size().x();
   double y = middle + (sight.puck.y() - middle) * 0.4;
   if (sight.puck_velocity.x() < -0.1) {
-    const double straight = sight.puck.y() + sight.puck_velocity.y() / sight.puck_velocity.x() * (x - sight.puck.x());
+    const double straight =
+        sight.puck.y() + sight.puck_velocity.y() / sight.puck_velocity.x() * (x - sight.puck.x());
     y = folded(straight, sight.radius, rules_.field.width - sight.radius);
   }
   const double most = 0.5 * rules_.field.goal_width;
@@ -179,8 +230,10 @@ Vector2 Chaser::place_to_guard(const Sight& sight) const {
 }
 
 KeysHeld Chaser::keys_to(const Sight& sight, const Vector2& target) const {
-  const PlayerView view{.position = turned(sight.bat), .velocity = turned_velocity(sight.bat_velocity), .pucks = {}};
-  return keys_to_reach(view, turned(reach_.clamped(target)), top_speed(rules_), rules_, hands_.last_wish());
+  const PlayerView view{
+      .position = turned(sight.bat), .velocity = turned_velocity(sight.bat_velocity), .pucks = {}};
+  return keys_to_reach(view, turned(reach_.clamped(target)), top_speed(rules_), rules_,
+                       hands_.last_wish());
 }
 
 }  // namespace rink::game

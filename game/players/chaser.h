@@ -1,4 +1,5 @@
-// The player who plays to win: meets a puck from behind, at the instant and speed that send it into the opponents' goal.
+// The player who plays to win: meets a puck from behind, at the instant and speed that send it into
+// the opponents' goal.
 #pragma once
 
 #include <array>
@@ -11,16 +12,20 @@ namespace rink::game {
 
 /// How good a chaser is.
 struct Skill {
-  std::uint32_t delay = 2;   ///< decisions from what is seen to the key, at most Hands::delay_max; each takes decision_period
-  double aim_error = 0.02;   ///< radius of the disc in which a puck's place is misjudged [m]
-  double effort = 1.0;       ///< the part of the decisions at which keys are held at all, above 0 to 1
+  std::uint32_t delay = 2;  ///< decisions from what is seen to the key, at most Hands::delay_max;
+                            ///< each takes decision_period
+  double aim_error = 0.02;  ///< radius of the disc in which a puck's place is misjudged [m]
+  double effort = 1.0;  ///< the part of the decisions at which keys are held at all, above 0 to 1
 };
 
-inline constexpr Skill beginner_skill{5, 0.06, 0.7}, club_skill{2, 0.02, 1.0}, expert_skill{0, 0.0, 1.0};
+inline constexpr Skill beginner_skill{5, 0.06, 0.7}, club_skill{2, 0.02, 1.0},
+    expert_skill{0, 0.0, 1.0};
 
-/// Looks at the nearest pucks, extrapolates them and its bat by the closed forms of their motion (straight under drag, folded at the side walls), and picks the puck, the
-/// instant and the speed of the best shot that its thrust allows. When there is none it gets behind the nearest puck, round it if need be, so as not to push it to
-/// its own goal; when none can be reached it guards its goal.
+/// Looks at the nearest pucks, extrapolates them and its bat by the closed forms of their motion
+/// (straight under drag, folded at the side walls), and picks the puck, the instant and the speed
+/// of the best shot that its thrust allows. When there is none it gets behind the nearest puck,
+/// round it if need be, so as not to push it to its own goal; when none can be reached it guards
+/// its goal.
 class Chaser : public Player {
  public:
   Chaser(const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t seed, const Skill& skill);
@@ -28,7 +33,8 @@ class Chaser : public Player {
   std::uint32_t pucks_wanted() const override { return 4; }
 
  private:
-  /// Contacts are sought at each of the next 10 decision instants, and at every second one of the 20 after them.
+  /// Contacts are sought at each of the next 10 decision instants, and at every second one of the
+  /// 20 after them.
   static constexpr std::size_t fine_count = 10, coarse_count = 10;
 
   /// What happens within `ahead` [s]: to the bat from when keys take effect, to a puck from now.
@@ -47,8 +53,12 @@ class Chaser : public Player {
     Vector2 push{0.0, 0.0};  ///< the acceleration that takes the bat there [m/s^2]
   };
 
-  Vector2 turned(const Vector2& place) const { return attacks_right_ ? place : Vector2(rules_.field.length - place.x(), place.y()); }
-  Vector2 turned_velocity(const Vector2& velocity) const { return attacks_right_ ? velocity : Vector2(-velocity.x(), velocity.y()); }
+  Vector2 turned(const Vector2& place) const {
+    return attacks_right_ ? place : Vector2(rules_.field.length - place.x(), place.y());
+  }
+  Vector2 turned_velocity(const Vector2& velocity) const {
+    return attacks_right_ ? velocity : Vector2(-velocity.x(), velocity.y());
+  }
   void foresee_bat(const PlayerView& view, Sight& sight) const;
   physics::WarpedTime flight(const Vector2& puck_velocity, const Span& span) const;
   Sight sight_of(const SeenEntity& puck, const Sight& bat) const;

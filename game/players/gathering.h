@@ -1,11 +1,13 @@
-// Players who move about in groups: reference-point group mobility (Hong, Gerla, Pei and Chiang 1999).
+// Players who move about in groups: reference-point group mobility (Hong, Gerla, Pei and Chiang
+// 1999).
 #pragma once
 
 #include "game/players/steering.h"
 
 namespace rink::game {
 
-/// The path of a group's centre: a random waypoint walk at a constant speed, a function of seed, group and time alone, so that the members agree on it without a word.
+/// The path of a group's centre: a random waypoint walk at a constant speed, a function of seed,
+/// group and time alone, so that the members agree on it without a word.
 class GroupRoute {
  public:
   /// `speed` [m/s], above 0, within `reach`.
@@ -22,7 +24,8 @@ class GroupRoute {
   double begin_s_ = 0.0, end_s_ = 0.0;
 };
 
-/// One of a group of up to eight, who are numbered in a row: keeps to its own reference point about the group's centre, drawn uniformly in a disc, and strays from it a little.
+/// One of a group of up to eight, who are numbered in a row: keeps to its own reference point about
+/// the group's centre, drawn uniformly in a disc, and strays from it a little.
 class Gathering : public Player {
  public:
   static constexpr std::uint32_t group_size = 8;
@@ -38,7 +41,8 @@ class Gathering : public Player {
   RandomStream random_;
   GroupRoute route_;
   double spread_;
-  Vector2 place_, stray_{0.0, 0.0};  ///< of the reference point about the centre, and of the member about that
+  Vector2 place_,
+      stray_{0.0, 0.0};  ///< of the reference point about the centre, and of the member about that
   double stray_until_s_ = 0.0;
   Hands hands_;
 };

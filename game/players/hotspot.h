@@ -1,4 +1,5 @@
-// Players drawn to a few hot places, as crowds of virtual worlds are: the popularity of places follows Zipf's law.
+// Players drawn to a few hot places, as crowds of virtual worlds are: the popularity of places
+// follows Zipf's law.
 #pragma once
 
 #include <optional>
@@ -8,10 +9,12 @@
 
 namespace rink::game {
 
-/// The places that all players of one seed find hot: place k, counted from 1, is chosen with probability proportional to 1/k.
+/// The places that all players of one seed find hot: place k, counted from 1, is chosen with
+/// probability proportional to 1/k.
 class HotPlaces {
  public:
-  /// One place per `area_per_place` of the field, 3 to 1,000 of them; each a disc that is `area_fraction` of the field.
+  /// One place per `area_per_place` of the field, 3 to 1,000 of them; each a disc that is
+  /// `area_fraction` of the field.
   HotPlaces(const physics::Field& field, std::uint64_t seed);
 
   static constexpr double area_per_place = 25.0;  ///< m^2
@@ -32,7 +35,8 @@ class HotPlaces {
   double radius_;
 };
 
-/// Travels like Waypoint, but four journeys of five lead to a hot place, within which it then makes three more trips on average: people linger where it is hot.
+/// Travels like Waypoint, but four journeys of five lead to a hot place, within which it then makes
+/// three more trips on average: people linger where it is hot.
 class Hotspot : public Player {
  public:
   static constexpr double attraction = 0.8, lingering = 0.75;

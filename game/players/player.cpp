@@ -26,7 +26,8 @@ std::unique_ptr<Player> made(const PlayerRules& rules, const PlayerSeat& seat, s
 }
 
 template <const Skill& skill>
-std::unique_ptr<Player> chaser(const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t seed) {
+std::unique_ptr<Player> chaser(const PlayerRules& rules, const PlayerSeat& seat,
+                               std::uint64_t seed) {
   return std::make_unique<Chaser>(rules, seat, seed, skill);
 }
 
@@ -46,7 +47,9 @@ double decision_phase(std::uint32_t number) {
 }
 
 PlayerRules rules_of(const Scene& scene, std::uint32_t number) {
-  PlayerRules rules{.field = scene.world.field, .puck_drag = scene.world.puck_drag, .bat_drag = scene.world.bat_drag};
+  PlayerRules rules{.field = scene.world.field,
+                    .puck_drag = scene.world.puck_drag,
+                    .bat_drag = scene.world.bat_drag};
   rules.puck_friction = scene.world.puck_friction;
   if (scene.bodies.bats.empty()) return rules;
   assert(number < scene.bodies.bats.size());
@@ -63,8 +66,10 @@ PlayerRules rules_of(const Scene& scene, std::uint32_t number) {
 Reach reach_of(const PlayerRules& rules, const PlayerSeat& seat) {
   const physics::Field& field = rules.field;
   Reach reach{seat.half_extent, Vector2(field.length, field.width) - seat.half_extent};
-  if (field.bats_keep_to_half && seat.team == Team::left) reach.high.x() = field.length / 2 - seat.half_extent.x();
-  if (field.bats_keep_to_half && seat.team == Team::right) reach.low.x() = field.length / 2 + seat.half_extent.x();
+  if (field.bats_keep_to_half && seat.team == Team::left)
+    reach.high.x() = field.length / 2 - seat.half_extent.x();
+  if (field.bats_keep_to_half && seat.team == Team::right)
+    reach.low.x() = field.length / 2 + seat.half_extent.x();
   return reach;
 }
 
@@ -77,10 +82,14 @@ const std::vector<std::string>& player_kinds() {
   return names;
 }
 
-bool is_player_kind(std::string_view name) { return name == "random" || std::ranges::find(player_kinds(), name) != player_kinds().end(); }
+bool is_player_kind(std::string_view name) {
+  return name == "random" || std::ranges::find(player_kinds(), name) != player_kinds().end();
+}
 
-std::unique_ptr<Player> make_player(std::string_view kind, const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t seed) {
-  const auto found = std::ranges::find_if(kinds, [&](const Kind& other) { return other.name == kind; });
+std::unique_ptr<Player> make_player(std::string_view kind, const PlayerRules& rules,
+                                    const PlayerSeat& seat, std::uint64_t seed) {
+  const auto found =
+      std::ranges::find_if(kinds, [&](const Kind& other) { return other.name == kind; });
   assert(found != std::end(kinds));
   return found->make(rules, seat, seed);
 }

@@ -1,4 +1,5 @@
-// What a player is: an object that looks at what it knows of the game and says which keys it holds down.
+// What a player is: an object that looks at what it knows of the game and says which keys it holds
+// down.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +13,13 @@
 
 namespace rink::game {
 
-/// Players decide so often [s]: about as often as people can change their minds, and rarely enough for a thousand of them in one process.
+/// Players decide so often [s]: about as often as people can change their minds, and rarely enough
+/// for a thousand of them in one process.
 inline constexpr double decision_period = 0.05;
 
-/// When within each period player `number` decides [s]: spread by the golden ratio, so that any number of players load a processor evenly, over 25 slots, so that a
-/// process that plays them all need not wake more than 500 times a second.
+/// When within each period player `number` decides [s]: spread by the golden ratio, so that any
+/// number of players load a processor evenly, over 25 slots, so that a process that plays them all
+/// need not wake more than 500 times a second.
 double decision_phase(std::uint32_t number);
 
 /// What is true of a game before it starts and every player may know.
@@ -29,7 +32,8 @@ struct PlayerRules {
   double puck_friction = 0.0;              ///< with the table [m/s^2]
 };
 
-/// The rules of `scene` for the one who plays bat `number`, which must be there unless the scene has no bats.
+/// The rules of `scene` for the one who plays bat `number`, which must be there unless the scene
+/// has no bats.
 PlayerRules rules_of(const Scene& scene, std::uint32_t number);
 
 /// Whom a player plays.
@@ -58,11 +62,12 @@ struct SeenEntity {
 /// All that a player has to go by when it decides.
 struct PlayerView {
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< of the own bat [m, m/s]
-  std::span<const SeenEntity> pucks;               ///< the nearest, as many as the player wants to see or fewer
+  std::span<const SeenEntity> pucks;  ///< the nearest, as many as the player wants to see or fewer
 };
 
-/// Pure: knows no clock and no network, and the same seat, seed and views give the same keys. The same player plays on the true state when a log is recorded and
-/// on a client's mirror when it plays live.
+/// Pure: knows no clock and no network, and the same seat, seed and views give the same keys. The
+/// same player plays on the true state when a log is recorded and on a client's mirror when it
+/// plays live.
 class Player {
  public:
   virtual ~Player() = default;
@@ -72,13 +77,16 @@ class Player {
   virtual std::uint32_t pucks_wanted() const { return 0; }
 };
 
-/// Every kind of player that decides: all that an experiment's or a command's `players` may name but "random", whose keys are drawn before the game (random_plan.h).
+/// Every kind of player that decides: all that an experiment's or a command's `players` may name
+/// but "random", whose keys are drawn before the game (random_plan.h).
 const std::vector<std::string>& player_kinds();
 
 /// Whether `name` is one of these, or "random".
 bool is_player_kind(std::string_view name);
 
-/// The player of `kind`, which must be one of player_kinds(). Places that a population shares, such as hot ones, depend on `seed` alone; all else on `seed` and the seat.
-std::unique_ptr<Player> make_player(std::string_view kind, const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t seed);
+/// The player of `kind`, which must be one of player_kinds(). Places that a population shares, such
+/// as hot ones, depend on `seed` alone; all else on `seed` and the seat.
+std::unique_ptr<Player> make_player(std::string_view kind, const PlayerRules& rules,
+                                    const PlayerSeat& seat, std::uint64_t seed);
 
 }  // namespace rink::game

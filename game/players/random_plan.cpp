@@ -1,4 +1,5 @@
-// Seeded key plans from our own generator and distributions, since the standard library's distributions differ between libraries.
+// Seeded key plans from our own generator and distributions, since the standard library's
+// distributions differ between libraries.
 #include "game/players/random_plan.h"
 
 #include <algorithm>
@@ -13,13 +14,16 @@ namespace {
 
 constexpr Key keys_of_axis[2][2] = {{Key::left, Key::right}, {Key::up, Key::down}};
 
-/// An exponential wait that is never below `shortest_s` and keeps the mean, in whole microseconds: a last-bit difference between two libraries'
-/// logarithms cannot reach the plan. The logarithm's argument is within (0, 1].
+/// An exponential wait that is never below `shortest_s` and keeps the mean, in whole microseconds:
+/// a last-bit difference between two libraries' logarithms cannot reach the plan. The logarithm's
+/// argument is within (0, 1].
 std::int64_t wait_us(RandomStream& random, double mean_s, double shortest_s) {
-  return std::llround((shortest_s - (mean_s - shortest_s) * std::log(random.uniform() + 0x1p-53)) * 1e6);
+  return std::llround((shortest_s - (mean_s - shortest_s) * std::log(random.uniform() + 0x1p-53)) *
+                      1e6);
 }
 
-void plan_axis(std::vector<InputEvent>& keys, std::uint64_t seed, std::uint32_t player, std::size_t axis, double duration_s, const PressHabits& habits) {
+void plan_axis(std::vector<InputEvent>& keys, std::uint64_t seed, std::uint32_t player,
+               std::size_t axis, double duration_s, const PressHabits& habits) {
   RandomStream random(seed, 2 * std::uint64_t{player} + axis);
   const auto end_us = static_cast<std::int64_t>(std::floor(duration_s * 1e6));
   std::int64_t now_us = 0;
@@ -42,15 +46,18 @@ void sort_by_time(std::vector<InputEvent>& keys) {
 
 }  // namespace
 
-std::vector<InputEvent> random_player_plan(std::uint64_t seed, std::uint32_t player, double duration_s, const PressHabits& habits) {
-  assert(habits.shortest_s > 0.0 && habits.press_mean_s > habits.shortest_s && habits.pause_mean_s > habits.shortest_s);
+std::vector<InputEvent> random_player_plan(std::uint64_t seed, std::uint32_t player,
+                                           double duration_s, const PressHabits& habits) {
+  assert(habits.shortest_s > 0.0 && habits.press_mean_s > habits.shortest_s &&
+         habits.pause_mean_s > habits.shortest_s);
   std::vector<InputEvent> keys;
   for (const std::size_t axis : {0u, 1u}) plan_axis(keys, seed, player, axis, duration_s, habits);
   sort_by_time(keys);
   return keys;
 }
 
-std::vector<InputEvent> random_plan(std::uint64_t seed, std::uint32_t players, double duration_s, const PressHabits& habits) {
+std::vector<InputEvent> random_plan(std::uint64_t seed, std::uint32_t players, double duration_s,
+                                    const PressHabits& habits) {
   std::vector<InputEvent> keys;
   for (std::uint32_t player = 0; player < players; ++player) {
     const std::vector<InputEvent> own = random_player_plan(seed, player, duration_s, habits);

@@ -14,32 +14,46 @@ KeysHeld keys_towards(int push_x, int push_y) {
   return keys;
 }
 
-double speed_to_stop_within(double distance, double thrust) { return std::sqrt(2.0 * thrust * distance); }
+double speed_to_stop_within(double distance, double thrust) {
+  return std::sqrt(2.0 * thrust * distance);
+}
 
-double top_speed(const PlayerRules& rules) { return rules.bat_drag > 0.0 ? rules.thrust / rules.bat_drag : rules.thrust; }
+double top_speed(const PlayerRules& rules) {
+  return rules.bat_drag > 0.0 ? rules.thrust / rules.bat_drag : rules.thrust;
+}
 
 int pushed_along(int held, double need, double start, double stop) {
   if (held != 0 && held * need > stop) return held;
   return need > start ? 1 : need < -start ? -1 : 0;
 }
 
-int push_x(KeysHeld keys) { return (keys.is_down(Key::right) ? 1 : 0) - (keys.is_down(Key::left) ? 1 : 0); }
-int push_y(KeysHeld keys) { return (keys.is_down(Key::up) ? 1 : 0) - (keys.is_down(Key::down) ? 1 : 0); }
+int push_x(KeysHeld keys) {
+  return (keys.is_down(Key::right) ? 1 : 0) - (keys.is_down(Key::left) ? 1 : 0);
+}
+int push_y(KeysHeld keys) {
+  return (keys.is_down(Key::up) ? 1 : 0) - (keys.is_down(Key::down) ? 1 : 0);
+}
 
-KeysHeld keys_to_reach(const PlayerView& view, const Vector2& target, double cruise_speed, const PlayerRules& rules, KeysHeld held) {
+KeysHeld keys_to_reach(const PlayerView& view, const Vector2& target, double cruise_speed,
+                       const PlayerRules& rules, KeysHeld held) {
   const Vector2 way = target - view.position;
   const double distance = std::sqrt(way.squaredNorm());
   // Half the thrust for braking: a decision may come a whole period late for it.
   const double speed = std::min(cruise_speed, speed_to_stop_within(distance, 0.5 * rules.thrust));
-  const double there = 2.0 * rules.thrust * decision_period * decision_period;  // nearer than this four keys cannot hold a bat
+  const double there = 2.0 * rules.thrust * decision_period *
+                       decision_period;  // nearer than this four keys cannot hold a bat
   const Vector2 wanted = distance > there ? Vector2(way * (speed / distance)) : Vector2(0.0, 0.0);
-  // What drag will take until the next decision has to be made good as well. In units of what the thrust of one decision changes:
-  const Vector2 missing = (wanted - view.velocity * (1.0 - rules.bat_drag * decision_period)) / (rules.thrust * decision_period);
+  // What drag will take until the next decision has to be made good as well. In units of what the
+  // thrust of one decision changes:
+  const Vector2 missing = (wanted - view.velocity * (1.0 - rules.bat_drag * decision_period)) /
+                          (rules.thrust * decision_period);
   constexpr double start = 1.0, stop = 0.0;
-  return keys_towards(pushed_along(push_x(held), missing.x(), start, stop), pushed_along(push_y(held), missing.y(), start, stop));
+  return keys_towards(pushed_along(push_x(held), missing.x(), start, stop),
+                      pushed_along(push_y(held), missing.y(), start, stop));
 }
 
-physics::WarpedTime under_friction(const physics::WarpedTime& free, double ahead, const Vector2& velocity, const PlayerRules& rules) {
+physics::WarpedTime under_friction(const physics::WarpedTime& free, double ahead,
+                                   const Vector2& velocity, const PlayerRules& rules) {
   if (rules.puck_friction == 0.0 || velocity.isZero(0.0)) return free;
   const double drag = rules.puck_drag, slowing = rules.puck_friction / velocity.norm();
   const double rest = drag > 0.0 ? physics::log1p_of(drag / slowing) / drag : 1.0 / slowing;
@@ -62,7 +76,9 @@ KeysHeld Hands::hold(KeysHeld wanted, const Vector2& velocity, RandomStream& ran
   if (stuck_ < stuck_decisions) return held_ = due;
   stuck_ = 0;
   escaping_ = escape_decisions;
-  const int up = static_cast<int>(random.below(3)) - 1, right = static_cast<int>(random.below(3)) - 1;  // apart: the order of arguments is the compiler's
+  const int up = static_cast<int>(random.below(3)) - 1,
+            right = static_cast<int>(random.below(3)) -
+                    1;  // apart: the order of arguments is the compiler's
   escape_ = keys_towards(right, up);
   return held_ = escape_;
 }

@@ -1,15 +1,19 @@
-// The random-waypoint model (Johnson and Maltz 1996): go straight to a random place, pause, choose the next.
+// The random-waypoint model (Johnson and Maltz 1996): go straight to a random place, pause, choose
+// the next.
 #pragma once
 
 #include "game/players/steering.h"
 
 namespace rink::game {
 
-/// Goes from place to place and rests at each; where to is for the kinds of players to say. Speeds are uniform between a quarter of and the whole top speed: without
-/// a lower bound slow trips take ever more of the time and the mean speed decays for as long as a run lasts (Yoon, Liu and Noble 2003).
+/// Goes from place to place and rests at each; where to is for the kinds of players to say. Speeds
+/// are uniform between a quarter of and the whole top speed: without a lower bound slow trips take
+/// ever more of the time and the mean speed decays for as long as a run lasts (Yoon, Liu and Noble
+/// 2003).
 class Traveller {
  public:
-  Traveller(const PlayerRules& rules, const PlayerSeat& seat) : rules_(rules), reach_(reach_of(rules, seat)), tolerance_(seat.half_extent.maxCoeff()) {}
+  Traveller(const PlayerRules& rules, const PlayerSeat& seat)
+      : rules_(rules), reach_(reach_of(rules, seat)), tolerance_(seat.half_extent.maxCoeff()) {}
 
   static constexpr double slowest = 0.25;     ///< of the top speed
   static constexpr double pause_max_s = 1.0;  ///< pauses are uniform from 0
@@ -31,7 +35,8 @@ class Traveller {
   Reach reach_;
   double tolerance_, speed_ = 0.0;
   Vector2 target_{0.0, 0.0};
-  double until_s_ = 0.0;  ///< the end of the rest, or when a trip is given up because others stand in the way
+  double until_s_ =
+      0.0;  ///< the end of the rest, or when a trip is given up because others stand in the way
   State state_ = State::idle;
 };
 

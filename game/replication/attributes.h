@@ -1,4 +1,5 @@
-// What the attributes and parameters of Rink's object model hold; one function writes and reads each (docs/wire.md).
+// What the attributes and parameters of Rink's object model hold; one function writes and reads
+// each (docs/wire.md).
 #pragma once
 
 #include <cstddef>
@@ -11,16 +12,20 @@
 
 namespace rink::game {
 
-/// Where an entity's centre is [m], in single precision: on a 20 m field that rounds by at most 1e-6 m.
+/// Where an entity's centre is [m], in single precision: on a 20 m field that rounds by at most
+/// 1e-6 m.
 struct Position {
   float x = 0.0f, y = 0.0f;
   friend bool operator==(const Position&, const Position&) = default;
 };
 
 /// What a federate is told of a centre at `position` [m].
-inline Position rounded(const physics::Vector2& position) { return {static_cast<float>(position.x()), static_cast<float>(position.y())}; }
+inline Position rounded(const physics::Vector2& position) {
+  return {static_cast<float>(position.x()), static_cast<float>(position.y())};
+}
 
-/// Where an entity's centre is [m] and how fast it moves [m/s]; the object model says how finely it travels.
+/// Where an entity's centre is [m] and how fast it moves [m/s]; the object model says how finely it
+/// travels.
 struct Snapshot {
   physics::Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};
   friend bool operator==(const Snapshot&, const Snapshot&) = default;
@@ -33,7 +38,8 @@ struct Shape {
   float half_length = 0.0f, half_width = 0.0f;
 };
 
-/// How many of its player's key events a bat has felt, and the keys that are down (bit k for Key k).
+/// How many of its player's key events a bat has felt, and the keys that are down (bit k for Key
+/// k).
 struct Input {
   std::uint32_t count = 0;
   std::uint8_t held = 0;
@@ -56,19 +62,21 @@ struct KeyCharacter {
   std::uint8_t character = 0;
 };
 
-/// Which bat a player was given (bat k is the object called "bat-k"; all bits set for none) and where it is: enough to declare a first interest.
+/// Which bat a player was given (bat k is the object called "bat-k"; all bits set for none) and
+/// where it is: enough to declare a first interest.
 struct SeatOffer {
   static constexpr std::uint32_t no_bat = 0xffffffffu;
   std::uint32_t bat = no_bat;
   Position position;
 };
 
-/// How a server ticks, for players who take turns or keep logical time with it (docs/rti.md, "The game under time management").
+/// How a server ticks, for players who take turns or keep logical time with it (docs/rti.md, "The
+/// game under time management").
 struct Pace {
   double ticks_per_second = 0.0;    ///< above 0
   std::uint8_t is_synchronous = 0;  ///< the server steps when every player has said Update
   std::uint8_t is_time_managed = 0;
-  std::uint8_t is_late = 0;         ///< this player came after the call to the start
+  std::uint8_t is_late = 0;  ///< this player came after the call to the start
 };
 
 /// Whether a player wants a match to stop or to go on.
@@ -105,10 +113,16 @@ bool exchange(Stream& stream, SceneText& scene) {
 
 template <class Stream>
 bool exchange(Stream& stream, MatchState& state) {
-  auto phase = static_cast<std::uint8_t>(state.phase), wants = static_cast<std::uint8_t>((state.wants_rematch[0] ? 1 : 0) | (state.wants_rematch[1] ? 2 : 0) | (state.is_unrecorded ? 4 : 0));
+  auto phase = static_cast<std::uint8_t>(state.phase),
+       wants = static_cast<std::uint8_t>((state.wants_rematch[0] ? 1 : 0) |
+                                         (state.wants_rematch[1] ? 2 : 0) |
+                                         (state.is_unrecorded ? 4 : 0));
   auto winner = static_cast<std::uint8_t>(state.winner.value_or(Team::none));
-  const bool is_sound = stream.number(state.number) && stream.range(phase, static_cast<std::uint8_t>(MatchPhase::over)) && stream.range(wants, 7) && stream.range(winner, 2) &&
-                        stream.finite(state.until_s) && stream.finite(state.clock_real_s) && stream.finite(state.clock_simulated_s);
+  const bool is_sound = stream.number(state.number) &&
+                        stream.range(phase, static_cast<std::uint8_t>(MatchPhase::over)) &&
+                        stream.range(wants, 7) && stream.range(winner, 2) &&
+                        stream.finite(state.until_s) && stream.finite(state.clock_real_s) &&
+                        stream.finite(state.clock_simulated_s);
   if (!is_sound || !Stream::is_reading) return is_sound;
   state.phase = static_cast<MatchPhase>(phase);
   state.wants_rematch = {(wants & 1) != 0, (wants & 2) != 0};
@@ -125,12 +139,14 @@ bool exchange(Stream& stream, Position& position) {
 
 template <class Stream>
 bool exchange(Stream& stream, Snapshot& snapshot) {
-  return stream.finite(snapshot.position.x()) && stream.finite(snapshot.position.y()) && stream.finite(snapshot.velocity.x()) && stream.finite(snapshot.velocity.y());
+  return stream.finite(snapshot.position.x()) && stream.finite(snapshot.position.y()) &&
+         stream.finite(snapshot.velocity.x()) && stream.finite(snapshot.velocity.y());
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Shape& shape) {
-  return stream.number(shape.kind) && stream.number(shape.team) && stream.number(shape.half_length) && stream.number(shape.half_width);
+  return stream.number(shape.kind) && stream.number(shape.team) &&
+         stream.number(shape.half_length) && stream.number(shape.half_width);
 }
 
 template <class Stream>
@@ -160,7 +176,9 @@ bool exchange(Stream& stream, SeatOffer& seat) {
 
 template <class Stream>
 bool exchange(Stream& stream, Pace& pace) {
-  return stream.finite(pace.ticks_per_second) && pace.ticks_per_second > 0.0 && stream.range(pace.is_synchronous, 1) && stream.range(pace.is_time_managed, 1) && stream.range(pace.is_late, 1);
+  return stream.finite(pace.ticks_per_second) && pace.ticks_per_second > 0.0 &&
+         stream.range(pace.is_synchronous, 1) && stream.range(pace.is_time_managed, 1) &&
+         stream.range(pace.is_late, 1);
 }
 
 /// The values one after the other, in `buffer`, which is overwritten; valid as long as it is.
@@ -172,7 +190,8 @@ rti::Bytes encode(std::vector<std::byte>& buffer, Values... values) {
   return buffer;
 }
 
-/// Reads `value` from exactly all of `bytes`, which came from a stranger: false otherwise, and the value may be half read.
+/// Reads `value` from exactly all of `bytes`, which came from a stranger: false otherwise, and the
+/// value may be half read.
 template <class Value>
 bool decode(rti::Bytes bytes, Value& value) {
   rti::Reader reader(bytes);

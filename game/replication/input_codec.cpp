@@ -31,9 +31,11 @@ std::optional<std::size_t> InputCodec::size(rti::Bytes coded) const {
 bool InputCodec::decode(rti::Bytes coded, double, std::vector<std::byte>& value) const {
   if (size(coded) != coded.size()) return false;
   std::uint64_t packed = 0;
-  for (std::size_t k = 0; k < coded.size(); ++k) packed |= (static_cast<std::uint64_t>(coded[k]) & 0x7f) << 7 * k;
+  for (std::size_t k = 0; k < coded.size(); ++k)
+    packed |= (static_cast<std::uint64_t>(coded[k]) & 0x7f) << 7 * k;
   if (packed >> held_bits > std::numeric_limits<std::uint32_t>::max()) return false;
-  Input input{.count = static_cast<std::uint32_t>(packed >> held_bits), .held = static_cast<std::uint8_t>(packed & 15u)};
+  Input input{.count = static_cast<std::uint32_t>(packed >> held_bits),
+              .held = static_cast<std::uint8_t>(packed & 15u)};
   rti::Writer writer(value);
   exchange(writer, input);
   return true;

@@ -1,4 +1,5 @@
-// The form in which a bat's input travels: most have felt few keys, and nobody holds more than four.
+// The form in which a bat's input travels: most have felt few keys, and nobody holds more than
+// four.
 #pragma once
 
 #include <string>
@@ -7,7 +8,8 @@
 
 namespace rink::game {
 
-/// Codes the object model's type Input: one varint, the keys held in its four low bits and the count above, so 2 bytes up to 1,023 keys and 3 up to 131,071 instead of 5.
+/// Codes the object model's type Input: one varint, the keys held in its four low bits and the
+/// count above, so 2 bytes up to 1,023 keys and 3 up to 131,071 instead of 5.
 class InputCodec : public rti::AttributeCodec {
  public:
   std::string name() const override { return "rink-input-1"; }

@@ -22,7 +22,8 @@ void Mirror::discover(rti::ObjectHandle object, rti::ObjectClassHandle object_cl
   }
 }
 
-void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) {
+void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
+                     const rti::Stamp& stamp) {
   const Known* told = known_.find(object);
   if (told == nullptr) return;
   ++counters_.updates;
@@ -32,7 +33,9 @@ void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti
     MirroredEntity& entity = entities_[told->slot];
     entity.stamp = stamp;
     is_sound = reflect_entity(entity, attributes, values);
-    entity.is_placed |= is_sound && (attributes.contains(model_.position) || attributes.contains(model_.trajectory) || attributes.contains(model_.snapshot));
+    entity.is_placed |= is_sound && (attributes.contains(model_.position) ||
+                                     attributes.contains(model_.trajectory) ||
+                                     attributes.contains(model_.snapshot));
   } else if (told->kind == Kind::score) {
     is_sound = decode(values, goals_);
   } else if (told->kind == Kind::field) {
@@ -43,7 +46,8 @@ void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti
   if (!is_sound) ++counters_.malformed;
 }
 
-bool Mirror::reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes, rti::Bytes values) {
+bool Mirror::reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes,
+                            rti::Bytes values) {
   if (attributes == position_) {  // nearly all of the traffic
     Position heard;
     if (!decode(values, heard)) return false;
@@ -69,7 +73,8 @@ bool Mirror::reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes
   Position position;
   const bool is_told_position = attributes.contains(model_.position);
   if (is_told_position && !exchange(reader, position)) return false;
-  if (attributes.contains(model_.trajectory) && !exchange(reader, heard.trajectory.emplace())) return false;
+  if (attributes.contains(model_.trajectory) && !exchange(reader, heard.trajectory.emplace()))
+    return false;
   if (attributes.contains(model_.snapshot) && !reflect_snapshot(reader, heard)) return false;
   if (!reader.is_at_end()) return false;
   if (is_told_position) place(heard, position);
@@ -80,17 +85,24 @@ bool Mirror::reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes
 
 /// With linear drag g the way of a time t is v (e^(gt) - 1)/g, v being the velocity at its end.
 void Mirror::place(MirroredEntity& entity, const Position& position) const {
-  const physics::Vector2 from(static_cast<double>(entity.position.x), static_cast<double>(entity.position.y));
+  const physics::Vector2 from(static_cast<double>(entity.position.x),
+                              static_cast<double>(entity.position.y));
   const double gap_s = entity.stamp.time - entity.placed_s;
-  const bool has_way = extrapolates_ && entity.is_placed && gap_s > 0.0 && gap_s <= foretold_gap_max;
+  const bool has_way =
+      extrapolates_ && entity.is_placed && gap_s > 0.0 && gap_s <= foretold_gap_max;
   entity.position = position;
   entity.placed_s = entity.stamp.time;
   entity.is_foretold = false;
   if (!has_way) return;
-  const physics::Vector2 at(static_cast<double>(position.x), static_cast<double>(position.y)), way = at - from;
+  const physics::Vector2 at(static_cast<double>(position.x), static_cast<double>(position.y)),
+      way = at - from;
   if (way.isZero(0.0) || way.norm() > foretold_speed_max * gap_s) return;
   const double g = drag_.of(static_cast<physics::BodyKind>(entity.shape.kind)).drag;
-  entity.motion = {.time = entity.stamp.time, .position = at, .velocity = way * (g > 0.0 ? g / std::expm1(g * gap_s) : 1.0 / gap_s), .acceleration = {0.0, 0.0}, .drag = {g, g}};
+  entity.motion = {.time = entity.stamp.time,
+                   .position = at,
+                   .velocity = way * (g > 0.0 ? g / std::expm1(g * gap_s) : 1.0 / gap_s),
+                   .acceleration = {0.0, 0.0},
+                   .drag = {g, g}};
   entity.is_foretold = true;
 }
 
@@ -98,7 +110,8 @@ void Mirror::place(MirroredEntity& entity, const Position& position) const {
 bool Mirror::reflect_snapshot(rti::Reader& reader, MirroredEntity& entity) const {
   Snapshot heard;
   if (!exchange(reader, heard)) return false;
-  entity.trajectory = Trajectory{.time = entity.stamp.time, .position = heard.position, .velocity = heard.velocity};
+  entity.trajectory =
+      Trajectory{.time = entity.stamp.time, .position = heard.position, .velocity = heard.velocity};
   return true;
 }
 
@@ -134,7 +147,8 @@ bool Mirror::reflect_match(rti::AttributeSet attributes, rti::Bytes values) {
 
 void Mirror::follow_law(MirroredEntity& entity) const {
   if (!entity.trajectory) return;
-  entity.motion = motion_of(*entity.trajectory, drag_.of(static_cast<physics::BodyKind>(entity.shape.kind)));
+  entity.motion =
+      motion_of(*entity.trajectory, drag_.of(static_cast<physics::BodyKind>(entity.shape.kind)));
   entity.position = rounded(entity.motion.position);
 }
 
@@ -161,6 +175,8 @@ MirroredEntity* Mirror::entity(rti::ObjectHandle object) {
   return told != nullptr && told->kind == Kind::entity ? &entities_[told->slot] : nullptr;
 }
 
-const MirroredEntity* Mirror::find(rti::ObjectHandle object) const { return const_cast<Mirror*>(this)->entity(object); }
+const MirroredEntity* Mirror::find(rti::ObjectHandle object) const {
+  return const_cast<Mirror*>(this)->entity(object);
+}
 
 }  // namespace rink::game

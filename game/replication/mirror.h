@@ -1,4 +1,5 @@
-// What one federate knows of the rink: the entities in its interest as it was last told, and nothing else.
+// What one federate knows of the rink: the entities in its interest as it was last told, and
+// nothing else.
 #pragma once
 
 #include <algorithm>
@@ -22,20 +23,25 @@ struct MirroredEntity {
   rti::ObjectHandle object;
   Shape shape;
   Input input;
-  Position position;                    ///< as last told; of those that are told trajectories, where it began
-  std::optional<Trajectory> trajectory; ///< as last told, or begun by the last snapshot; of entities that are told either
-  physics::Motion motion;               ///< the law it stands for
-  rti::Stamp stamp;       ///< of the newest update
-  double placed_s = 0.0;      ///< of what is told positions: the instant of the last
-  bool is_foretold = false;   ///< of what is told positions: `motion` leads on from the last
-  bool is_placed = false; ///< it was told where it is since it last left: who discovers an entity, or has it again, may hear that later
-  bool in_scope = false;  ///< false: it left the federate's interest, the rest is what was true then
+  Position position;  ///< as last told; of those that are told trajectories, where it began
+  std::optional<Trajectory> trajectory;  ///< as last told, or begun by the last snapshot; of
+                                         ///< entities that are told either
+  physics::Motion motion;                ///< the law it stands for
+  rti::Stamp stamp;                      ///< of the newest update
+  double placed_s = 0.0;                 ///< of what is told positions: the instant of the last
+  bool is_foretold = false;  ///< of what is told positions: `motion` leads on from the last
+  bool is_placed = false;  ///< it was told where it is since it last left: who discovers an entity,
+                           ///< or has it again, may hear that later
+  bool in_scope =
+      false;  ///< false: it left the federate's interest, the rest is what was true then
 
-  /// Where the federate believes its centre to be at simulated `instant` [s]: on its trajectory if it was told one, else ahead of where it was last told, or there.
+  /// Where the federate believes its centre to be at simulated `instant` [s]: on its trajectory if
+  /// it was told one, else ahead of where it was last told, or there.
   physics::Vector2 position_at(double instant) const {
     if (is_foretold) return motion.at(std::max(instant, motion.time)).position;
     if (!trajectory) return {static_cast<double>(position.x), static_cast<double>(position.y)};
-    return trajectory->is_resting() ? motion.position : motion.at(std::max(instant, motion.time)).position;
+    return trajectory->is_resting() ? motion.position
+                                    : motion.at(std::max(instant, motion.time)).position;
   }
 };
 
@@ -44,23 +50,31 @@ struct MirrorCounters {
   std::uint64_t updates = 0, entered = 0, left = 0, malformed = 0;
 };
 
-/// Applies the RTI's callbacks about objects. Look-ups take constant time; nothing is allocated once all entities are known.
+/// Applies the RTI's callbacks about objects. Look-ups take constant time; nothing is allocated
+/// once all entities are known.
 class Mirror {
  public:
-  explicit Mirror(const ObjectModel& model) : model_(model), position_{model.position}, trajectory_{model.trajectory}, snapshot_{model.snapshot} {}
+  explicit Mirror(const ObjectModel& model)
+      : model_(model),
+        position_{model.position},
+        trajectory_{model.trajectory},
+        snapshot_{model.snapshot} {}
 
-  /// From now on entities that are told positions are foretold by the velocity between the last two. One that went faster than `foretold_speed_max` was put elsewhere,
-  /// and of two that lie further apart than `foretold_gap_max` the older says nothing of how it moves.
+  /// From now on entities that are told positions are foretold by the velocity between the last
+  /// two. One that went faster than `foretold_speed_max` was put elsewhere, and of two that lie
+  /// further apart than `foretold_gap_max` the older says nothing of how it moves.
   void extrapolate() { extrapolates_ = true; }
   static constexpr double foretold_speed_max = 50.0;  ///< m/s
   static constexpr double foretold_gap_max = 1.0;     ///< s
 
   void discover(rti::ObjectHandle object, rti::ObjectClassHandle object_class);
-  void reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp);
+  void reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
+               const rti::Stamp& stamp);
   void set_scope(rti::ObjectHandle object, bool in_scope);
   void remove(rti::ObjectHandle object);
 
-  /// The entity called `object`, or null if the federate never heard of it or it was removed. Valid until the next discovery or removal.
+  /// The entity called `object`, or null if the federate never heard of it or it was removed. Valid
+  /// until the next discovery or removal.
   const MirroredEntity* find(rti::ObjectHandle object) const;
   /// All that were heard of and not removed, in scope or not, in no particular order.
   std::span<const MirroredEntity> entities() const { return entities_; }
@@ -73,10 +87,14 @@ class Mirror {
   const std::string& match_scene() const { return match_scene_; }
   double match_tick() const { return match_tick_; }  ///< s; 0 before it was heard of
   bool has_match() const { return has_match_; }
-  const rti::Stamp& newest() const { return newest_; }  ///< the stamp of the newest update of any object
+  const rti::Stamp& newest() const {
+    return newest_;
+  }  ///< the stamp of the newest update of any object
   const MirrorCounters& counters() const { return counters_; }
   /// Of tables, the mirror itself not counted.
-  std::size_t memory_bytes() const { return known_.memory_bytes() + entities_.capacity() * sizeof(MirroredEntity); }
+  std::size_t memory_bytes() const {
+    return known_.memory_bytes() + entities_.capacity() * sizeof(MirroredEntity);
+  }
 
  private:
   enum class Kind : std::uint8_t { entity, score, field, match };

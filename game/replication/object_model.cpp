@@ -10,7 +10,8 @@ namespace rink::game {
 namespace {
 
 [[noreturn]] void refuse(const rti::Fom& fom, const std::string& what) {
-  throw rti::FileError("object model '" + fom.name() + "': " + what + "; use the rink.fom.xml that comes with this version");
+  throw rti::FileError("object model '" + fom.name() + "': " + what +
+                       "; use the rink.fom.xml that comes with this version");
 }
 
 rti::ObjectClassHandle object_class(const rti::Fom& fom, const char* name) {
@@ -26,20 +27,25 @@ rti::InteractionClassHandle interaction_class(const rti::Fom& fom, const char* n
 }
 
 template <class Value>
-rti::AttributeHandle attribute(const rti::Fom& fom, rti::ObjectClassHandle owner, const char* name) {
+rti::AttributeHandle attribute(const rti::Fom& fom, rti::ObjectClassHandle owner,
+                               const char* name) {
   const std::string full = fom.at(owner).name + "." + name;
   const std::optional<rti::AttributeHandle> found = fom.attribute(owner, name);
   if (!found) refuse(fom, "has no attribute '" + full + "'");
   rti::Measurer measurer;
   Value value;
   exchange(measurer, value);
-  if (fom.values_size(owner, {*found}) != measurer.size()) refuse(fom, "attribute '" + full + "' is not " + std::to_string(measurer.size()) + " bytes long");
+  if (fom.values_size(owner, {*found}) != measurer.size())
+    refuse(fom,
+           "attribute '" + full + "' is not " + std::to_string(measurer.size()) + " bytes long");
   return *found;
 }
 
-rti::AttributeHandle varying_attribute(const rti::Fom& fom, rti::ObjectClassHandle owner, const char* name) {
+rti::AttributeHandle varying_attribute(const rti::Fom& fom, rti::ObjectClassHandle owner,
+                                       const char* name) {
   const std::optional<rti::AttributeHandle> found = fom.attribute(owner, name);
-  if (!found || fom.values_size(owner, {*found})) refuse(fom, "has no attribute '" + fom.at(owner).name + "." + name + "' whose size varies");
+  if (!found || fom.values_size(owner, {*found}))
+    refuse(fom, "has no attribute '" + fom.at(owner).name + "." + name + "' whose size varies");
   return *found;
 }
 

@@ -7,21 +7,29 @@
 #include "game/replication/trajectory.h"
 
 namespace rink::game {
-Publisher::Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy, const Game& game, const RegionSweep& sweep)
-    : model_(model), ambassador_(ambassador), policy_(policy), motion_(policy.motion_attribute(model)), sweep_(sweep) {
+Publisher::Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy,
+                     const Game& game, const RegionSweep& sweep)
+    : model_(model),
+      ambassador_(ambassador),
+      policy_(policy),
+      motion_(policy.motion_attribute(model)),
+      sweep_(sweep) {
   ambassador_.publish_object_class_attributes(model_.entity, {model_.shape, model_.input, motion_});
   ambassador_.publish_object_class_attributes(model_.score, {model_.goals});
   ambassador_.publish_object_class_attributes(model_.field, {model_.extent, model_.drag});
   field_ = ambassador_.register_object_instance(model_.field, "field");
   score_ = ambassador_.register_object_instance(model_.score, "score");
   const physics::Field& field = game.world().spec().field;
-  const Extent extent{.length = static_cast<float>(field.length), .width = static_cast<float>(field.width)};
+  const Extent extent{.length = static_cast<float>(field.length),
+                      .width = static_cast<float>(field.width)};
   const Drag drag = policy.told_drag(game.world().spec());
-  ambassador_.update_attribute_values(field_, {model_.extent, model_.drag}, encode(encoded_, extent, drag), {});
+  ambassador_.update_attribute_values(field_, {model_.extent, model_.drag},
+                                      encode(encoded_, extent, drag), {});
   ambassador_.update_attribute_values(score_, {model_.goals}, encode(encoded_, goals_), {});
 }
 
-void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt, const rti::Stamp& stamp) {
+void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt,
+                        const rti::Stamp& stamp) {
   ++tick_;
   moved_.clear();
   registered_.clear();
@@ -30,12 +38,12 @@ void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt, c
   if (!game.spawned().empty()) retire_gone(game);
   for (const Entity& entity : game.entities()) {
     Input input;
-    if (entity.player) input = {.count = *entity.player < felt.size() ? felt[*entity.player] : 0u, .held = game.keys_held(*entity.player).bits()};
+    if (entity.player)
+      input = {.count = *entity.player < felt.size() ? felt[*entity.player] : 0u,
+               .held = game.keys_held(*entity.player).bits()};
     if (entity.id.index >= published_.size()) published_.resize(entity.id.index + 1);
-    if (published_[entity.id.index].object)
-      update(game, entity, input, stamp);
-    else
-      add(game, entity, input, stamp);
+    if (published_[entity.id.index].object) update(game, entity, input, stamp);
+    else add(game, entity, input, stamp);
     published_[entity.id.index].tick = tick_;
   }
   retire_absent();
@@ -43,16 +51,25 @@ void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt, c
   publish_score(game, stamp);
 }
 
-void Publisher::add(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp) {
+void Publisher::add(const Game& game, const Entity& entity, const Input& input,
+                    const rti::Stamp& stamp) {
   Published& published = published_[entity.id.index];
-  published.object = ambassador_.register_object_instance(model_.entity, entity.player ? bat_name(*entity.player) : "");
-  if (published.object && keeps_order_) ambassador_.change_attribute_order_type(published.object, {model_.input, motion_}, rti::Order::timestamp);
-  if (!published.object) return;  // a federate's handles are used up by 262,144 registrations: this bat came too late to be seen, the others play on
+  published.object = ambassador_.register_object_instance(
+      model_.entity, entity.player ? bat_name(*entity.player) : "");
+  if (published.object && keeps_order_)
+    ambassador_.change_attribute_order_type(published.object, {model_.input, motion_},
+                                            rti::Order::timestamp);
+  if (!published.object)
+    return;  // a federate's handles are used up by 262,144 registrations: this bat came too late to
+             // be seen, the others play on
   registered_.push_back({published.object, entity});
   published.region = ambassador_.create_region();
   published.position = rounded(game.position(entity.id));
   published.input = input;
-  ambassador_.set_region(published.region, sweep_.is_on() ? sweep_.region(game.world(), entity.id, published.swept) : bounding_box(game.position(entity.id), entity.half_extent));
+  ambassador_.set_region(published.region,
+                         sweep_.is_on()
+                             ? sweep_.region(game.world(), entity.id, published.swept)
+                             : bounding_box(game.position(entity.id), entity.half_extent));
   ambassador_.commit_region_modifications(published.region);
   ambassador_.associate_regions_for_updates(published.object, published.region);
   const Shape shape{.kind = static_cast<std::uint8_t>(entity.kind),
@@ -62,18 +79,24 @@ void Publisher::add(const Game& game, const Entity& entity, const Input& input, 
   encode(encoded_, shape, input);
   rti::Writer writer(encoded_);
   policy_.write(game, entity, writer);
-  ambassador_.update_attribute_values(published.object, {model_.shape, model_.input, motion_}, encoded_, stamp);
+  ambassador_.update_attribute_values(published.object, {model_.shape, model_.input, motion_},
+                                      encoded_, stamp);
 }
 
 void Publisher::keep_order() {
   keeps_order_ = true;
   ambassador_.change_attribute_order_type(score_, {model_.goals}, rti::Order::timestamp);
   for (const Published& each : published_)
-    if (each.object) ambassador_.change_attribute_order_type(each.object, {model_.input, motion_}, rti::Order::timestamp);
+    if (each.object)
+      ambassador_.change_attribute_order_type(each.object, {model_.input, motion_},
+                                              rti::Order::timestamp);
 }
 
-void Publisher::tell(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) {
-  if (keeps_order_ && stamp.time >= ambassador_.clock().earliest()) ambassador_.update_attribute_values(object, attributes, values, rti::LogicalTime(stamp.time), stamp.tag);
+void Publisher::tell(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
+                     const rti::Stamp& stamp) {
+  if (keeps_order_ && stamp.time >= ambassador_.clock().earliest())
+    ambassador_.update_attribute_values(object, attributes, values, rti::LogicalTime(stamp.time),
+                                        stamp.tag);
   else ambassador_.update_attribute_values(object, attributes, values, stamp);
 }
 
@@ -83,7 +106,9 @@ void Publisher::follow(const Game& game, const Entity& entity, Published& publis
     if (sweep_.still_holds(game.world(), entity.id, published.swept)) return;
     moved_.push_back({published.region, sweep_.region(game.world(), entity.id, published.swept)});
   } else {
-    if (entity.kind == physics::BodyKind::post || (hands_in_flights_ && fly(game, entity, published))) return;
+    if (entity.kind == physics::BodyKind::post ||
+        (hands_in_flights_ && fly(game, entity, published)))
+      return;
     const physics::Vector2 centre = game.position(entity.id);
     const Position position = rounded(centre);
     if (position == published.position) return;
@@ -93,28 +118,35 @@ void Publisher::follow(const Game& game, const Entity& entity, Published& publis
   ++counters_.regions_moved;
 }
 
-/// True if the entity flies by the law of pucks; its flight then says where it is, and its region how large it is.
+/// True if the entity flies by the law of pucks; its flight then says where it is, and its region
+/// how large it is.
 bool Publisher::fly(const Game& game, const Entity& entity, Published& published) {
   const std::uint32_t version = game.world().motion_version(entity.id);
-  const bool is_in_play = game.world().is_in_play(entity.id);  // a scored puck lies where it left play, whatever its motion was
+  const bool is_in_play = game.world().is_in_play(
+      entity.id);  // a scored puck lies where it left play, whatever its motion was
   if (is_in_play && published.flown == version) return true;
   const physics::Motion motion = game.world().motion(entity.id);
   const double drag = game.world().spec().puck_drag;
-  const bool has_law = motion.drag.x() == drag && motion.drag.y() == drag && motion.rest_time == std::numeric_limits<double>::infinity();
-  if (!is_in_play || !motion.acceleration.isZero(0.0) || !(has_law || motion.velocity.isZero(0.0))) {
+  const bool has_law = motion.drag.x() == drag && motion.drag.y() == drag &&
+                       motion.rest_time == std::numeric_limits<double>::infinity();
+  if (!is_in_play || !motion.acceleration.isZero(0.0) ||
+      !(has_law || motion.velocity.isZero(0.0))) {
     published.flown.reset();
     return false;
   }
   published.flown = version;
   published.position = rounded(game.position(entity.id));
   moved_.push_back({published.region, bounding_box(game.position(entity.id), entity.half_extent)});
-  flights_.push_back({published.object, {motion.position.x(), motion.position.y(), motion.velocity.x(), motion.velocity.y(), motion.time}});
+  flights_.push_back({published.object,
+                      {motion.position.x(), motion.position.y(), motion.velocity.x(),
+                       motion.velocity.y(), motion.time}});
   ++counters_.regions_moved;
   return true;
 }
 
 /// Motion if the policy says so, input if it changed, in one update.
-void Publisher::update(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp) {
+void Publisher::update(const Game& game, const Entity& entity, const Input& input,
+                       const rti::Stamp& stamp) {
   Published& published = published_[entity.id.index];
   follow(game, entity, published);
   const bool is_due = policy_.is_due(game, entity), has_felt = input != published.input;
@@ -151,7 +183,8 @@ void Publisher::retire_absent() {
     if (published.object && published.tick != tick_) retire(published);
 }
 
-/// Before anything is registered: a bat that left and came back within one tick has the name that it had.
+/// Before anything is registered: a bat that left and came back within one tick has the name that
+/// it had.
 void Publisher::retire_gone(const Game& game) {
   for (std::uint32_t index = 0; index < published_.size(); ++index)
     if (published_[index].object && !game.is_there(EntityId{index})) retire(published_[index]);
@@ -165,7 +198,9 @@ void Publisher::retire(Published& published) {
 
 void Publisher::publish_score(const Game& game, const rti::Stamp& stamp) {
   const Score& score = game.score();
-  const Goals goals{.left = score.left, .right = score.right, .is_over = static_cast<std::uint8_t>(game.is_over())};
+  const Goals goals{.left = score.left,
+                    .right = score.right,
+                    .is_over = static_cast<std::uint8_t>(game.is_over())};
   if (goals == goals_) return;
   goals_ = goals;
   tell(score_, {model_.goals}, encode(encoded_, goals), stamp);

@@ -1,4 +1,5 @@
-// Turns what a game did since the last tick into RTI updates: the only way by which entities leave the server.
+// Turns what a game did since the last tick into RTI updates: the only way by which entities leave
+// the server.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +21,21 @@ struct PublisherCounters {
   std::uint64_t motions_sent = 0, inputs_sent = 0, regions_moved = 0, entities_skipped = 0;
 };
 
-/// Registers a game's entities as RTI objects, each with its bounding box as update region, and keeps both up to date.
-/// Motion goes out when and as the policy says, the rest when it changes.
+/// Registers a game's entities as RTI objects, each with its bounding box as update region, and
+/// keeps both up to date. Motion goes out when and as the policy says, the rest when it changes.
 class Publisher {
  public:
   /// `ambassador` must have joined. Publishes the classes and registers the field and the score.
-  Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy, const Game& game, const RegionSweep& sweep = {});
+  Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy,
+            const Game& game, const RegionSweep& sweep = {});
 
-  /// Hands everything new to the ambassador: entities that came or went, moved regions, due motions, felt keys, the score.
-  /// `felt[k]` is the number of player k's key events that the game has felt; players beyond its end felt none.
+  /// Hands everything new to the ambassador: entities that came or went, moved regions, due
+  /// motions, felt keys, the score. `felt[k]` is the number of player k's key events that the game
+  /// has felt; players beyond its end felt none.
   void publish(const Game& game, std::span<const std::uint32_t> felt, const rti::Stamp& stamp);
 
-  /// From now on what changes of entities and score is said in time-stamp order, wherever its stamp lies ahead of the ambassador's logical time by its lookahead.
+  /// From now on what changes of entities and score is said in time-stamp order, wherever its stamp
+  /// lies ahead of the ambassador's logical time by its lookahead.
   void keep_order();
 
   /// Deletes the objects of all entities: another game begins.
@@ -44,8 +48,10 @@ class Publisher {
   };
   std::span<const Registered> registered() const { return registered_; }
 
-  /// From now on the region of what flies freely is moved only when it takes another flight, and `flights` lists these: for a filter that knows how things fly on. Bats under thrust, and
-  /// pucks that friction brings to rest, fly by another law, so their regions follow them as ever. Changes nothing where regions are swept.
+  /// From now on the region of what flies freely is moved only when it takes another flight, and
+  /// `flights` lists these: for a filter that knows how things fly on. Bats under thrust, and pucks
+  /// that friction brings to rest, fly by another law, so their regions follow them as ever.
+  /// Changes nothing where regions are swept.
   void hand_in_flights() { hands_in_flights_ = !sweep_.is_on(); }
   struct Flown {
     rti::ObjectHandle object;
@@ -68,7 +74,7 @@ class Publisher {
     rti::RegionHandle region;
     Position position;  ///< that its region was last moved to
     Input input;
-    std::uint64_t tick = 0;  ///< of its last appearance in the game
+    std::uint64_t tick = 0;              ///< of its last appearance in the game
     std::optional<std::uint32_t> flown;  ///< version of the motion whose flight was handed in
     RegionSweep::Swept swept;
   };
@@ -80,7 +86,8 @@ class Publisher {
   void follow(const Game& game, const Entity& entity, Published& published);
   bool fly(const Game& game, const Entity& entity, Published& published);
   void update(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
-  void tell(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp);
+  void tell(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
+            const rti::Stamp& stamp);
   void publish_score(const Game& game, const rti::Stamp& stamp);
 
   const ObjectModel& model_;

@@ -1,4 +1,5 @@
-// Update regions that reach ahead: where an entity is and will be over the next ticks, so that a filter's decision still holds when it has aged.
+// Update regions that reach ahead: where an entity is and will be over the next ticks, so that a
+// filter's decision still holds when it has aged.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +11,21 @@
 namespace rink::game {
 
 /// The bounding box of a body with its centre there.
-inline im::Region bounding_box(const physics::Vector2& centre, const physics::Vector2& half_extent) {
-  return {centre.x() - half_extent.x(), centre.y() - half_extent.y(), centre.x() + half_extent.x(), centre.y() + half_extent.y()};
+inline im::Region bounding_box(const physics::Vector2& centre,
+                               const physics::Vector2& half_extent) {
+  return {centre.x() - half_extent.x(), centre.y() - half_extent.y(), centre.x() + half_extent.x(),
+          centre.y() + half_extent.y()};
 }
 
-/// The box that holds the centre of a body on `motion` at every instant from `from` to `until` [s], neither before motion.time.
+/// The box that holds the centre of a body on `motion` at every instant from `from` to `until` [s],
+/// neither before motion.time.
 im::Region path_box(const physics::Motion& motion, double from, double until);
 
-/// Decides how far update regions reach. A region is the box of the entity's own path over the next `ticks`, grown by what an impact within one tick can
-/// add: 2 (|v| + s) tick with v its own and s the greatest speed on the rink, for a body of speed s, however heavy, gives another at most 2 s and the grown
-/// region is replaced at the next tick (docs/im.md). Regions that still hold are not handed in again, so a filter has less to do.
+/// Decides how far update regions reach. A region is the box of the entity's own path over the next
+/// `ticks`, grown by what an impact within one tick can add: 2 (|v| + s) tick with v its own and s
+/// the greatest speed on the rink, for a body of speed s, however heavy, gives another at most 2 s
+/// and the grown region is replaced at the next tick (docs/im.md). Regions that still hold are not
+/// handed in again, so a filter has less to do.
 class RegionSweep {
  public:
   /// What a region that was handed in was made from.
@@ -42,9 +48,9 @@ class RegionSweep {
  private:
   std::uint32_t ticks_ = 0;
   double tick_s_ = 0.0;
-  double fastest_ = 0.0;                   ///< m/s, no body is faster until something hits it
-  std::vector<std::uint32_t> versions_;    ///< by body, of the motion that `speeds_` belongs to
-  std::vector<double> speeds_;             ///< by body: bound of its speed on its present path [m/s]
+  double fastest_ = 0.0;                 ///< m/s, no body is faster until something hits it
+  std::vector<std::uint32_t> versions_;  ///< by body, of the motion that `speeds_` belongs to
+  std::vector<double> speeds_;           ///< by body: bound of its speed on its present path [m/s]
 };
 
 }  // namespace rink::game

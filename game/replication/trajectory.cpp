@@ -12,9 +12,12 @@ using physics::Motion;
 using physics::Vector2;
 
 double rounded_to(double step, double value) { return std::nearbyint(value / step) * step; }
-Vector2 rounded_to(double step, const Vector2& value) { return {rounded_to(step, value.x()), rounded_to(step, value.y())}; }
+Vector2 rounded_to(double step, const Vector2& value) {
+  return {rounded_to(step, value.x()), rounded_to(step, value.y())};
+}
 
-/// `motion` at an instant that may be a little before its time, where Motion::at may not be asked: the same closed form run backwards.
+/// `motion` at an instant that may be a little before its time, where Motion::at may not be asked:
+/// the same closed form run backwards.
 Motion at_or_before(const Motion& motion, double instant) {
   if (instant >= motion.time) return motion.at(instant);
   Motion moved = motion;
@@ -31,23 +34,32 @@ Motion at_or_before(const Motion& motion, double instant) {
 
 Resistance own_resistance(const physics::World& world, physics::BodyId body) {
   const physics::WorldSpec& spec = world.spec();
-  return Drag{.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction}.of(world.kind(body));
+  return Drag{.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction}
+      .of(world.kind(body));
 }
 
-/// What drives the body besides friction, which every receiver works out from its velocity: nothing else drives a puck that slides on its own (and will thus have come to rest at a
-/// known time). One that a bat pushes has a law of its own.
-Vector2 thrust_of(const Motion& motion, const Resistance& own) { return own.friction > 0.0 && std::isfinite(motion.rest_time) ? Vector2(0.0, 0.0) : motion.acceleration; }
+/// What drives the body besides friction, which every receiver works out from its velocity: nothing
+/// else drives a puck that slides on its own (and will thus have come to rest at a known time). One
+/// that a bat pushes has a law of its own.
+Vector2 thrust_of(const Motion& motion, const Resistance& own) {
+  return own.friction > 0.0 && std::isfinite(motion.rest_time) ? Vector2(0.0, 0.0)
+                                                               : motion.acceleration;
+}
 
 Vector2 told_drag(const Motion& motion, double own) {
-  return {motion.drag.x() == own ? Trajectory::of_its_kind : motion.drag.x(), motion.drag.y() == own ? Trajectory::of_its_kind : motion.drag.y()};
+  return {motion.drag.x() == own ? Trajectory::of_its_kind : motion.drag.x(),
+          motion.drag.y() == own ? Trajectory::of_its_kind : motion.drag.y()};
 }
 
-bool can_move(const physics::World& world, physics::BodyId body) { return world.is_in_play(body) && !world.is_resting(body); }
+bool can_move(const physics::World& world, physics::BodyId body) {
+  return world.is_in_play(body) && !world.is_resting(body);
+}
 
 }  // namespace
 
 Trajectory trajectory_of(const physics::World& world, physics::BodyId body) {
-  if (!can_move(world, body)) return {.position = rounded_to(trajectory_position_step, world.position(body))};
+  if (!can_move(world, body))
+    return {.position = rounded_to(trajectory_position_step, world.position(body))};
   const Motion motion = world.motion(body);
   const Resistance own = own_resistance(world, body);
   const double time = std::floor(world.now() / trajectory_time_step) * trajectory_time_step;
@@ -57,23 +69,37 @@ Trajectory trajectory_of(const physics::World& world, physics::BodyId body) {
                   .velocity = rounded_to(trajectory_velocity_step, there.velocity),
                   .acceleration = single_precision(thrust_of(motion, own)),
                   .drag = told_drag(motion, own.drag)};
-  if (told.is_resting()) told = {.position = rounded_to(trajectory_position_step, world.position(body))};
+  if (told.is_resting())
+    told = {.position = rounded_to(trajectory_position_step, world.position(body))};
   return told;
 }
 
-Trajectory extrapolation_of(const Vector2& position, const Vector2& velocity, double now, const Resistance& own) {
-  Motion onwards{.time = now, .position = position, .velocity = velocity, .acceleration = {0.0, 0.0}, .drag = {own.drag, own.drag}};
+Trajectory extrapolation_of(const Vector2& position, const Vector2& velocity, double now,
+                            const Resistance& own) {
+  Motion onwards{.time = now,
+                 .position = position,
+                 .velocity = velocity,
+                 .acceleration = {0.0, 0.0},
+                 .drag = {own.drag, own.drag}};
   if (own.friction > 0.0) onwards.slide(own.friction);
   const double time = std::floor(now / trajectory_time_step) * trajectory_time_step;
   const Motion there = at_or_before(onwards, time);
-  const Trajectory told{.time = time, .position = rounded_to(trajectory_position_step, there.position), .velocity = rounded_to(trajectory_velocity_step, there.velocity)};
+  const Trajectory told{.time = time,
+                        .position = rounded_to(trajectory_position_step, there.position),
+                        .velocity = rounded_to(trajectory_velocity_step, there.velocity)};
   if (told.is_resting()) return {.position = rounded_to(trajectory_position_step, position)};
   return told;
 }
 
 physics::Motion motion_of(const Trajectory& told, const Resistance& own) {
-  const auto drag = [&own](double value) { return value == Trajectory::of_its_kind ? own.drag : value; };
-  Motion motion{.time = told.time, .position = told.position, .velocity = told.velocity, .acceleration = told.acceleration, .drag = {drag(told.drag.x()), drag(told.drag.y())}};
+  const auto drag = [&own](double value) {
+    return value == Trajectory::of_its_kind ? own.drag : value;
+  };
+  Motion motion{.time = told.time,
+                .position = told.position,
+                .velocity = told.velocity,
+                .acceleration = told.acceleration,
+                .drag = {drag(told.drag.x()), drag(told.drag.y())}};
   if (own.friction > 0.0 && told.acceleration.isZero(0.0)) motion.slide(own.friction);
   return motion;
 }
@@ -82,17 +108,29 @@ double holds_until(const physics::World& world, physics::BodyId body, const Traj
   constexpr double forever = std::numeric_limits<double>::infinity(), never = -forever;
   const double now = world.now();
   const Resistance own = own_resistance(world, body);
-  if (!can_move(world, body)) return told.is_resting() && (told.position - world.position(body)).norm() <= trajectory_error_max ? forever : never;
+  if (!can_move(world, body))
+    return told.is_resting() &&
+                   (told.position - world.position(body)).norm() <= trajectory_error_max
+               ? forever
+               : never;
   const Motion motion = world.motion(body), law = motion_of(told, own);
   const Vector2 thrust = thrust_of(motion, own);
-  // One that was told to rest has no law yet: a body that creeps on without thrust is compared with its own.
+  // One that was told to rest has no law yet: a body that creeps on without thrust is compared with
+  // its own.
   const bool is_told_to_rest = told.is_resting();
-  if (is_told_to_rest ? !thrust.isZero(0.0) : told.acceleration != single_precision(thrust) || told.drag != told_drag(motion, own.drag)) return never;
-  const Motion exact = motion.at(std::max(now, motion.time)), followed = law.at(std::max(now, told.time));
-  // The difference of two motions of one law follows that law: dp + dv s(t) + da t^2/2 at most, and s grows towards 1/g. Friction only brings velocities nearer.
+  if (is_told_to_rest ? !thrust.isZero(0.0)
+                      : told.acceleration != single_precision(thrust) ||
+                            told.drag != told_drag(motion, own.drag))
+    return never;
+  const Motion exact = motion.at(std::max(now, motion.time)),
+               followed = law.at(std::max(now, told.time));
+  // The difference of two motions of one law follows that law: dp + dv s(t) + da t^2/2 at most, and
+  // s grows towards 1/g. Friction only brings velocities nearer.
   const double oldest = is_told_to_rest ? forever : told.time + trajectory_age_max;
-  const double astray = (followed.position - exact.position).norm(), growth = (followed.velocity - exact.velocity).norm();
-  const double thrust_error = (told.acceleration - thrust).norm() * 0.5 * trajectory_age_max * trajectory_age_max;
+  const double astray = (followed.position - exact.position).norm(),
+               growth = (followed.velocity - exact.velocity).norm();
+  const double thrust_error =
+      (told.acceleration - thrust).norm() * 0.5 * trajectory_age_max * trajectory_age_max;
   const double room = trajectory_error_max - astray - thrust_error, g = motion.drag.minCoeff();
   if (room <= 0.0) return never;
   if (growth * 1.0 <= g * room) return oldest;

@@ -1,4 +1,5 @@
-// The law by which an entity moves until it is told otherwise: what goes out instead of positions under "on-event" and the dead-reckoning policies.
+// The law by which an entity moves until it is told otherwise: what goes out instead of positions
+// under "on-event" and the dead-reckoning policies.
 #pragma once
 
 #include <bit>
@@ -9,11 +10,13 @@
 
 namespace rink::game {
 
-/// A physics::Motion as receivers get it; its acceleration is that of thrust alone, for friction follows from the velocity. Its time is a multiple of
-/// `trajectory_time_step`, so it may start a little before the event that it follows.
+/// A physics::Motion as receivers get it; its acceleration is that of thrust alone, for friction
+/// follows from the velocity. Its time is a multiple of `trajectory_time_step`, so it may start a
+/// little before the event that it follows.
 struct Trajectory {
-  static constexpr double of_its_kind = -1.0;  ///< a drag that the receiver knows: that of all pucks, or of all bats
-  double time = 0.0;                           ///< s
+  static constexpr double of_its_kind =
+      -1.0;           ///< a drag that the receiver knows: that of all pucks, or of all bats
+  double time = 0.0;  ///< s
   physics::Vector2 position{0.0, 0.0}, velocity{0.0, 0.0}, acceleration{0.0, 0.0};
   physics::Vector2 drag{of_its_kind, of_its_kind};  ///< 1/s
   friend bool operator==(const Trajectory&, const Trajectory&) = default;
@@ -30,7 +33,10 @@ struct Resistance {
 struct Drag {
   double pucks = 0.0, bats = 0.0;  ///< 1/s
   double puck_friction = 0.0;      ///< m/s^2
-  Resistance of(physics::BodyKind kind) const { return kind == physics::BodyKind::bat ? Resistance{bats, 0.0} : Resistance{pucks, puck_friction}; }
+  Resistance of(physics::BodyKind kind) const {
+    return kind == physics::BodyKind::bat ? Resistance{bats, 0.0}
+                                          : Resistance{pucks, puck_friction};
+  }
 };
 
 template <class Stream>
@@ -40,7 +46,8 @@ bool exchange(Stream& stream, Drag& drag) {
   return true;
 }
 
-/// False for what no body can follow: a number that is not finite, or a drag below 0 that is not `of_its_kind`.
+/// False for what no body can follow: a number that is not finite, or a drag below 0 that is not
+/// `of_its_kind`.
 template <class Stream>
 bool exchange(Stream& stream, Trajectory& t) {
   if (!stream.finite(t.time)) return false;
@@ -50,33 +57,43 @@ bool exchange(Stream& stream, Trajectory& t) {
   return is_drag(t.drag.x()) && is_drag(t.drag.y());
 }
 
-/// What is rounded, and how finely. All are powers of two, so that rounded values are exact in every form in which they are kept.
+/// What is rounded, and how finely. All are powers of two, so that rounded values are exact in
+/// every form in which they are kept.
 inline constexpr double trajectory_time_step = 0x1p-4;       ///< s
 inline constexpr double trajectory_position_step = 0x1p-11;  ///< m; rounds by at most 0.244 mm
 inline constexpr double trajectory_velocity_step = 0x1p-11;  ///< m/s; rounds by at most 0.244 mm/s
-/// No receiver's trajectory is further than this from the body at any tick [m]: one that rounding leads astray is sent again before.
+/// No receiver's trajectory is further than this from the body at any tick [m]: one that rounding
+/// leads astray is sent again before.
 inline constexpr double trajectory_error_max = 1e-3;
-/// Nor is any older than this [s], so that a receiver who hears of it late can tell which one of the times it may mean (docs/replication.md).
+/// Nor is any older than this [s], so that a receiver who hears of it late can tell which one of
+/// the times it may mean (docs/replication.md).
 inline constexpr double trajectory_age_max = 12.0;
 
-/// The double that is no finer than single precision nearest to `value`, of ordinary size. By its bits, for GCC 12 (-O2, vectorised) leaves out the casts to float and back.
+/// The double that is no finer than single precision nearest to `value`, of ordinary size. By its
+/// bits, for GCC 12 (-O2, vectorised) leaves out the casts to float and back.
 inline double single_precision(double value) {
   constexpr std::uint64_t finer = (1u << 29) - 1;
   return std::bit_cast<double>((std::bit_cast<std::uint64_t>(value) + (finer >> 1) + 1) & ~finer);
 }
-inline physics::Vector2 single_precision(const physics::Vector2& value) { return {single_precision(value.x()), single_precision(value.y())}; }
+inline physics::Vector2 single_precision(const physics::Vector2& value) {
+  return {single_precision(value.x()), single_precision(value.y())};
+}
 
 /// The trajectory of `body` at world.now(), rounded. It rests if the body is out of play.
 Trajectory trajectory_of(const physics::World& world, physics::BodyId body);
 
-/// What a receiver is told of a body at `position` [m] with `velocity` [m/s] at `now` [s] who is to let it go on with `own` resistance and no thrust; rounded.
-Trajectory extrapolation_of(const physics::Vector2& position, const physics::Vector2& velocity, double now, const Resistance& own);
+/// What a receiver is told of a body at `position` [m] with `velocity` [m/s] at `now` [s] who is to
+/// let it go on with `own` resistance and no thrust; rounded.
+Trajectory extrapolation_of(const physics::Vector2& position, const physics::Vector2& velocity,
+                            double now, const Resistance& own);
 
-/// The law that a receiver who knows the `own` resistance of the entity's kind follows; it must not be asked for instants before its time.
+/// The law that a receiver who knows the `own` resistance of the entity's kind follows; it must not
+/// be asked for instants before its time.
 physics::Motion motion_of(const Trajectory& trajectory, const Resistance& own);
 
-/// The last instant up to which `told` is within `trajectory_error_max` of `body` if nothing happens to it, and no older than `trajectory_age_max`; before world.now()
-/// if `told` has the wrong law or is too far off already.
+/// The last instant up to which `told` is within `trajectory_error_max` of `body` if nothing
+/// happens to it, and no older than `trajectory_age_max`; before world.now() if `told` has the
+/// wrong law or is too far off already.
 double holds_until(const physics::World& world, physics::BodyId body, const Trajectory& told);
 
 }  // namespace rink::game

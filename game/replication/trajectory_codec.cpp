@@ -19,17 +19,22 @@ using physics::Vector2;
 
 /// In two bits; a third one, behind that of `full`, makes it `driven`.
 enum Form : std::uint8_t { resting, near, wide, full, driven = 7 };
-constexpr unsigned form_bits = 2, time_bits = 8, near_position_bits = 17, near_velocity_bits = 14, wide_position_bits = 24, wide_velocity_bits = 20;
-constexpr double near_origin = 1.0;                                      // m: what leaves play is up to so far outside the field, on the low side
+constexpr unsigned form_bits = 2, time_bits = 8, near_position_bits = 17, near_velocity_bits = 14,
+                   wide_position_bits = 24, wide_velocity_bits = 20;
+constexpr double near_origin =
+    1.0;  // m: what leaves play is up to so far outside the field, on the low side
 constexpr double time_window = (1u << time_bits) * trajectory_time_step;  // s: 16
-constexpr double time_ahead = 0.5;                                       // s: a trajectory may start so far after the time by which it is read
-constexpr double time_max = 1e12;                                        // s: beyond, multiples of the step are no longer exact
+constexpr double time_ahead =
+    0.5;  // s: a trajectory may start so far after the time by which it is read
+constexpr double time_max = 1e12;  // s: beyond, multiples of the step are no longer exact
 constexpr std::size_t full_size = 1 + 9 * sizeof(double);
 
 using rti::BitReader, rti::BitWriter;
 
 /// The `count` lowest bits of `value`.
-void put(BitWriter& bits, std::uint64_t value, unsigned count) { bits.bits(value & ((std::uint64_t{1} << count) - 1), count); }
+void put(BitWriter& bits, std::uint64_t value, unsigned count) {
+  bits.bits(value & ((std::uint64_t{1} << count) - 1), count);
+}
 /// Must not be asked for more than is there.
 std::uint64_t get(BitReader& bits, unsigned count) {
   std::uint64_t value = 0;
@@ -47,26 +52,37 @@ bool fits(double value, double step, unsigned bits) {
   const double count = value / step, limit = std::ldexp(1.0, static_cast<int>(bits) - 1);
   return count == std::nearbyint(count) && count >= -limit && count < limit;
 }
-bool fits(const Vector2& value, double step, unsigned bits) { return fits(value.x(), step, bits) && fits(value.y(), step, bits); }
+bool fits(const Vector2& value, double step, unsigned bits) {
+  return fits(value.x(), step, bits) && fits(value.y(), step, bits);
+}
 
 /// Near positions are counted from the middle of their range.
-constexpr double near_middle = 0.5 * (1u << near_position_bits) * trajectory_position_step - near_origin;
+constexpr double near_middle =
+    0.5 * (1u << near_position_bits) * trajectory_position_step - near_origin;
 Vector2 from_middle(const Vector2& position) { return position - Vector2::Constant(near_middle); }
 bool is_near(const Vector2& position) {
   const Vector2 offset = from_middle(position);
-  return fits(position, trajectory_position_step, 40) && fits(offset, trajectory_position_step, near_position_bits);
+  return fits(position, trajectory_position_step, 40) &&
+         fits(offset, trajectory_position_step, near_position_bits);
 }
 
 void put(BitWriter& bits, const Vector2& value, double step, unsigned count) {
-  for (const double each : {value.x(), value.y()}) put(bits, static_cast<std::uint64_t>(static_cast<std::int64_t>(each / step)), count);
+  for (const double each : {value.x(), value.y()})
+    put(bits, static_cast<std::uint64_t>(static_cast<std::int64_t>(each / step)), count);
 }
 Vector2 get(BitReader& bits, double step, unsigned count) {
-  const double x = static_cast<double>(get_signed(bits, count)) * step, y = static_cast<double>(get_signed(bits, count)) * step;
+  const double x = static_cast<double>(get_signed(bits, count)) * step,
+               y = static_cast<double>(get_signed(bits, count)) * step;
   return {x, y};
 }
 
-bool is_of_its_kind(const Vector2& drag) { return drag == Vector2::Constant(Trajectory::of_its_kind); }
-bool is_single(double value) { return value == 0.0 || (std::abs(value) > 1e-30 && std::abs(value) < 1e30 && single_precision(value) == value); }
+bool is_of_its_kind(const Vector2& drag) {
+  return drag == Vector2::Constant(Trajectory::of_its_kind);
+}
+bool is_single(double value) {
+  return value == 0.0 ||
+         (std::abs(value) > 1e-30 && std::abs(value) < 1e30 && single_precision(value) == value);
+}
 bool is_single(const Vector2& value) { return is_single(value.x()) && is_single(value.y()); }
 
 /// As one or two held keys push: equally hard along both axes, or along one only.
@@ -79,13 +95,18 @@ bool is_push(const Vector2& acceleration) {
 Form form_of(const Trajectory& t, double time) {
   const bool is_straight = t.acceleration.isZero(0.0) && is_of_its_kind(t.drag);
   if (is_straight && t.time == 0.0 && t.velocity.isZero(0.0) && is_near(t.position)) return resting;
-  const bool is_timely = std::abs(time) < time_max && t.time <= time + time_ahead && t.time > time - 1.0 && fits(t.time, trajectory_time_step, 50);
+  const bool is_timely = std::abs(time) < time_max && t.time <= time + time_ahead &&
+                         t.time > time - 1.0 && fits(t.time, trajectory_time_step, 50);
   if (!is_timely || !is_single(t.acceleration)) return full;
-  if (is_of_its_kind(t.drag) && is_near(t.position) && fits(t.velocity, trajectory_velocity_step, near_velocity_bits)) {
+  if (is_of_its_kind(t.drag) && is_near(t.position) &&
+      fits(t.velocity, trajectory_velocity_step, near_velocity_bits)) {
     if (is_straight) return near;
     if (is_push(t.acceleration)) return driven;
   }
-  return fits(t.position, trajectory_position_step, wide_position_bits) && fits(t.velocity, trajectory_velocity_step, wide_velocity_bits) ? wide : full;
+  return fits(t.position, trajectory_position_step, wide_position_bits) &&
+                 fits(t.velocity, trajectory_velocity_step, wide_velocity_bits)
+             ? wide
+             : full;
 }
 
 void append(std::vector<std::byte>& bytes, Trajectory t) {
@@ -96,7 +117,9 @@ void append(std::vector<std::byte>& bytes, Trajectory t) {
 
 /// What is not rounded may be anything when it comes from a stranger.
 bool has_sound_law(const Trajectory& t) {
-  const auto is_drag = [](double drag) { return (std::isfinite(drag) && drag >= 0.0) || drag == Trajectory::of_its_kind; };
+  const auto is_drag = [](double drag) {
+    return (std::isfinite(drag) && drag >= 0.0) || drag == Trajectory::of_its_kind;
+  };
   return t.acceleration.allFinite() && is_drag(t.drag.x()) && is_drag(t.drag.y());
 }
 
@@ -111,17 +134,24 @@ void encode_law(const Trajectory& t, std::vector<std::byte>& coded) {
     if (each != Trajectory::of_its_kind) writer.number(each);
 }
 
-constexpr std::size_t wide_size = 13, wide_flags_at = form_bits + time_bits + 2 * wide_position_bits + 2 * wide_velocity_bits;
-static_assert(wide_flags_at + 3 <= 8 * wide_size && form_bits + 2 * near_position_bits <= 8 * 5 && form_bits + time_bits + 2 * near_position_bits + 2 * near_velocity_bits == 8 * 9);
+constexpr std::size_t wide_size = 13,
+                      wide_flags_at =
+                          form_bits + time_bits + 2 * wide_position_bits + 2 * wide_velocity_bits;
+static_assert(wide_flags_at + 3 <= 8 * wide_size && form_bits + 2 * near_position_bits <= 8 * 5 &&
+              form_bits + time_bits + 2 * near_position_bits + 2 * near_velocity_bits == 8 * 9);
 
-constexpr unsigned push_bits = 2, push_short_at = 3 + time_bits + 2 * near_position_bits + 2 * near_velocity_bits + 2 * push_bits;
+constexpr unsigned push_bits = 2, push_short_at = 3 + time_bits + 2 * near_position_bits +
+                                                  2 * near_velocity_bits + 2 * push_bits;
 constexpr std::size_t driven_size = 10;  // and two or four bytes of acceleration
 static_assert(push_short_at < 8 * driven_size);
 
-/// Along each axis 0, 1 forwards or 2 backwards; then how hard: the upper half of a float if the lower one is 0.
+/// Along each axis 0, 1 forwards or 2 backwards; then how hard: the upper half of a float if the
+/// lower one is 0.
 void encode_push(const Vector2& acceleration, BitWriter& bits, std::vector<std::byte>& coded) {
-  for (const double each : {acceleration.x(), acceleration.y()}) put(bits, each == 0.0 ? 0u : each > 0.0 ? 1u : 2u, push_bits);
-  const auto size = std::bit_cast<std::uint32_t>(static_cast<float>(acceleration.cwiseAbs().maxCoeff()));
+  for (const double each : {acceleration.x(), acceleration.y()})
+    put(bits, each == 0.0 ? 0u : each > 0.0 ? 1u : 2u, push_bits);
+  const auto size =
+      std::bit_cast<std::uint32_t>(static_cast<float>(acceleration.cwiseAbs().maxCoeff()));
   const bool is_short = (size & 0xffffu) == 0;
   put(bits, is_short, 1);
   bits.finish();
@@ -137,16 +167,20 @@ bool decode_push(rti::Bytes coded, BitReader& bits, Vector2& acceleration) {
   rti::Reader reader(coded);
   std::uint16_t upper = 0, lower = 0;
   if (!reader.number(upper) || (!is_short && !reader.number(lower))) return false;
-  const auto size = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(upper) << 16 | lower));
+  const auto size =
+      static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(upper) << 16 | lower));
   if (!std::isfinite(size) || size <= 0.0 || along[0] > 2 || along[1] > 2) return false;
-  for (int axis = 0; axis < 2; ++axis) acceleration[axis] = along[axis] == 0 ? 0.0 : along[axis] == 1 ? size : -size;
+  for (int axis = 0; axis < 2; ++axis)
+    acceleration[axis] = along[axis] == 0 ? 0.0 : along[axis] == 1 ? size : -size;
   return true;
 }
 
 /// The latest time of that residue that is no more than `time_ahead` after `time`.
 double resolved(std::uint64_t residue, double time) {
-  const auto latest = static_cast<std::int64_t>(std::floor((time + time_ahead) / trajectory_time_step));
-  const std::int64_t behind = (latest - static_cast<std::int64_t>(residue)) & ((1 << time_bits) - 1);
+  const auto latest =
+      static_cast<std::int64_t>(std::floor((time + time_ahead) / trajectory_time_step));
+  const std::int64_t behind =
+      (latest - static_cast<std::int64_t>(residue)) & ((1 << time_bits) - 1);
   return static_cast<double>(latest - behind) * trajectory_time_step;
 }
 
@@ -165,17 +199,21 @@ bool decode_law(rti::Bytes coded, bool has_acceleration, const bool (&is_own)[2]
 /// As its first bytes tell, whether or not the rest is there.
 std::optional<std::size_t> told_size(rti::Bytes coded) {
   if (coded.empty()) return std::nullopt;
-  const unsigned first = static_cast<unsigned>(coded[0]), form = (first & 7u) == driven ? first & 7u : first & 3u;
+  const unsigned first = static_cast<unsigned>(coded[0]),
+                 form = (first & 7u) == driven ? first & 7u : first & 3u;
   if (form == resting) return 5;
   if (form == near) return 9;
   if (form == full) return full_size;
   if (form == driven) {
     if (coded.size() < driven_size) return std::nullopt;
-    return driven_size + ((static_cast<unsigned>(coded[push_short_at / 8]) >> push_short_at % 8 & 1u) != 0 ? 2u : 4u);
+    return driven_size +
+           ((static_cast<unsigned>(coded[push_short_at / 8]) >> push_short_at % 8 & 1u) != 0 ? 2u
+                                                                                             : 4u);
   }
   if (coded.size() < wide_size) return std::nullopt;
   const auto flags = static_cast<unsigned>(coded[wide_flags_at / 8]) >> wide_flags_at % 8;
-  return wide_size + ((flags & 1u) != 0 ? 8u : 0u) + ((flags & 2u) != 0 ? 0u : 8u) + ((flags & 4u) != 0 ? 0u : 8u);
+  return wide_size + ((flags & 1u) != 0 ? 8u : 0u) + ((flags & 2u) != 0 ? 0u : 8u) +
+         ((flags & 4u) != 0 ? 0u : 8u);
 }
 
 }  // namespace
@@ -191,11 +229,15 @@ void TrajectoryCodec::encode(rti::Bytes value, double time, std::vector<std::byt
     bits.finish();
     return append(coded, t);
   }
-  if (form != resting) put(bits, static_cast<std::uint64_t>(static_cast<std::int64_t>(t.time / trajectory_time_step)), time_bits);
+  if (form != resting)
+    put(bits, static_cast<std::uint64_t>(static_cast<std::int64_t>(t.time / trajectory_time_step)),
+        time_bits);
   if (form == wide) put(bits, t.position, trajectory_position_step, wide_position_bits);
   else put(bits, from_middle(t.position), trajectory_position_step, near_position_bits);
   if (form == near) put(bits, t.velocity, trajectory_velocity_step, near_velocity_bits);
-  if (form == driven) put(bits, t.velocity, trajectory_velocity_step, near_velocity_bits), encode_push(t.acceleration, bits, coded);
+  if (form == driven)
+    put(bits, t.velocity, trajectory_velocity_step, near_velocity_bits),
+        encode_push(t.acceleration, bits, coded);
   if (form != wide) return;
   put(bits, t.velocity, trajectory_velocity_step, wide_velocity_bits);
   put(bits, !t.acceleration.isZero(0.0), 1);
@@ -223,12 +265,18 @@ bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byt
   if (form != resting && !(std::abs(time) < 2.0 * time_max)) return false;
   if (form != resting) t.time = resolved(get(bits, time_bits), time);
   t.position = form == wide ? get(bits, trajectory_position_step, wide_position_bits)
-                            : Vector2(get(bits, trajectory_position_step, near_position_bits) + Vector2::Constant(near_middle));
-  if (form != resting) t.velocity = get(bits, trajectory_velocity_step, form == wide ? wide_velocity_bits : near_velocity_bits);
-  if (form == driven && !decode_push(coded.subspan(driven_size), bits, t.acceleration)) return false;
+                            : Vector2(get(bits, trajectory_position_step, near_position_bits) +
+                                      Vector2::Constant(near_middle));
+  if (form != resting)
+    t.velocity =
+        get(bits, trajectory_velocity_step, form == wide ? wide_velocity_bits : near_velocity_bits);
+  if (form == driven && !decode_push(coded.subspan(driven_size), bits, t.acceleration))
+    return false;
   if (form == wide) {
-    const bool has_acceleration = get(bits, 1) != 0, is_own_x = get(bits, 1) != 0, is_own_y = get(bits, 1) != 0;
-    if (!decode_law(coded.subspan(wide_size), has_acceleration, {is_own_x, is_own_y}, t)) return false;
+    const bool has_acceleration = get(bits, 1) != 0, is_own_x = get(bits, 1) != 0,
+               is_own_y = get(bits, 1) != 0;
+    if (!decode_law(coded.subspan(wide_size), has_acceleration, {is_own_x, is_own_y}, t))
+      return false;
   }
   if (!has_sound_law(t)) return false;
   append(value, t);

@@ -9,8 +9,9 @@
 
 namespace rink::game {
 
-/// Codes the object model's type Trajectory without loss (docs/replication.md, "The codec"): rounded ones (game/replication/trajectory.h) in 5, 9, 12 or 13 bytes and more
-/// for unusual laws, all others in full.
+/// Codes the object model's type Trajectory without loss (docs/replication.md, "The codec"):
+/// rounded ones (game/replication/trajectory.h) in 5, 9, 12 or 13 bytes and more for unusual laws,
+/// all others in full.
 class TrajectoryCodec : public rti::AttributeCodec {
  public:
   std::string name() const override { return "rink-trajectory-2"; }

@@ -1,4 +1,5 @@
-// The paper's policy, positions every tick; delta snapshots; dead reckoning; and the one of exact motion, a trajectory when it changes.
+// The paper's policy, positions every tick; delta snapshots; dead reckoning; and the one of exact
+// motion, a trajectory when it changes.
 #include "game/replication/update_policy.h"
 
 #include <algorithm>
@@ -11,9 +12,14 @@ namespace {
 
 class Periodic : public UpdatePolicy {
  public:
-  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override { return model.position; }
-  /// Posts never move: their position is part of the state that a federate gets when they enter its interest.
-  bool is_due(const Game&, const Entity& entity) override { return entity.kind != physics::BodyKind::post; }
+  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override {
+    return model.position;
+  }
+  /// Posts never move: their position is part of the state that a federate gets when they enter its
+  /// interest.
+  bool is_due(const Game&, const Entity& entity) override {
+    return entity.kind != physics::BodyKind::post;
+  }
   void write(const Game& game, const Entity& entity, rti::Writer& value) override {
     Position position = rounded(game.position(entity.id));
     exchange(value, position);
@@ -28,12 +34,16 @@ Snapshot snapshot_of(const physics::World& world, physics::BodyId body) {
   return snapshot;
 }
 
-/// Sends where every moving body is and how fast, every tick: delta snapshots, for the RTI tells each receiver the difference to what the velocity foretold from a state that it acknowledged.
+/// Sends where every moving body is and how fast, every tick: delta snapshots, for the RTI tells
+/// each receiver the difference to what the velocity foretold from a state that it acknowledged.
 class Snapshots : public UpdatePolicy {
  public:
-  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override { return model.snapshot; }
+  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override {
+    return model.snapshot;
+  }
   bool is_due(const Game& game, const Entity& entity) override {
-    return entity.kind != physics::BodyKind::post && snapshot_of(game.world(), entity.id) != told_[entity.id.index];
+    return entity.kind != physics::BodyKind::post &&
+           snapshot_of(game.world(), entity.id) != told_[entity.id.index];
   }
   void write(const Game& game, const Entity& entity, rti::Writer& value) override {
     if (told_.size() <= entity.id.index) told_.resize(entity.id.index + 1);
@@ -46,17 +56,21 @@ class Snapshots : public UpdatePolicy {
   std::vector<Snapshot> told_;  ///< by entity
 };
 
-/// Sends where a body is, how fast and by which law when the one told last no longer foretells it; between, receivers evaluate the engine's own closed form.
+/// Sends where a body is, how fast and by which law when the one told last no longer foretells it;
+/// between, receivers evaluate the engine's own closed form.
 class OnEvent : public UpdatePolicy {
  public:
-  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override { return model.trajectory; }
+  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override {
+    return model.trajectory;
+  }
 
   bool is_due(const Game& game, const Entity& entity) override {
     if (entity.kind == physics::BodyKind::post) return false;
     Told& told = told_[entity.id.index];
     const std::uint32_t version = game.world().motion_version(entity.id);
     if (version == told.version && game.now() <= told.until_s) return false;
-    // An event that changes next to nothing, as those of bodies pressed to each other, need not be told.
+    // An event that changes next to nothing, as those of bodies pressed to each other, need not be
+    // told.
     told.version = version;
     told.until_s = holds_until(game.world(), entity.id, told.trajectory);
     return told.until_s < game.now() + worthwhile_s;
@@ -72,7 +86,8 @@ class OnEvent : public UpdatePolicy {
   }
 
  private:
-  static constexpr double worthwhile_s = 0.1;  ///< one that is to be replaced so soon may as well be replaced now
+  static constexpr double worthwhile_s =
+      0.1;  ///< one that is to be replaced so soon may as well be replaced now
   struct Told {
     std::uint32_t version = 0;
     double until_s = 0.0;
@@ -81,20 +96,28 @@ class OnEvent : public UpdatePolicy {
   std::vector<Told> told_;  ///< by entity
 };
 
-/// Sends where a body is and how fast when receivers, who let it go on from what they were told last, are off by more than a threshold (IEEE 1278.1-2012, 4.2.2 and
-/// annex E). They know of no thrust; of drag only if the field tells them.
+/// Sends where a body is and how fast when receivers, who let it go on from what they were told
+/// last, are off by more than a threshold (IEEE 1278.1-2012, 4.2.2 and annex E). They know of no
+/// thrust; of drag only if the field tells them.
 class DeadReckoning : public UpdatePolicy {
  public:
-  DeadReckoning(double threshold, bool knows_drag) : threshold_(threshold), knows_drag_(knows_drag) {}
-  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override { return model.trajectory; }
-  Drag told_drag(const physics::WorldSpec& spec) const override { return knows_drag_ ? UpdatePolicy::told_drag(spec) : Drag{}; }
+  DeadReckoning(double threshold, bool knows_drag)
+      : threshold_(threshold), knows_drag_(knows_drag) {}
+  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override {
+    return model.trajectory;
+  }
+  Drag told_drag(const physics::WorldSpec& spec) const override {
+    return knows_drag_ ? UpdatePolicy::told_drag(spec) : Drag{};
+  }
 
   bool is_due(const Game& game, const Entity& entity) override {
     if (entity.kind == physics::BodyKind::post) return false;
     const Told& told = told_[entity.id.index];
     const bool is_resting = told.trajectory.is_resting();
     if (!is_resting && game.now() > told.trajectory.time + trajectory_age_max) return true;
-    const physics::Vector2 shown = is_resting ? told.trajectory.position : told.law.at(std::max(game.now(), told.law.time)).position;
+    const physics::Vector2 shown = is_resting
+                                       ? told.trajectory.position
+                                       : told.law.at(std::max(game.now(), told.law.time)).position;
     return (shown - game.position(entity.id)).norm() > threshold_;
   }
 
@@ -120,16 +143,20 @@ class DeadReckoning : public UpdatePolicy {
 
 }  // namespace
 
-std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name, const UpdatePolicySettings& settings) {
+std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name,
+                                                 const UpdatePolicySettings& settings) {
   if (name == "periodic") return std::make_unique<Periodic>();
   if (name == "snapshot") return std::make_unique<Snapshots>();
   if (name == "dead-reckoning") return std::make_unique<DeadReckoning>(settings.threshold, false);
-  if (name == "dead-reckoning-drag") return std::make_unique<DeadReckoning>(settings.threshold, true);
+  if (name == "dead-reckoning-drag")
+    return std::make_unique<DeadReckoning>(settings.threshold, true);
   if (name == "on-event") return std::make_unique<OnEvent>();
   return nullptr;
 }
 
-std::vector<std::string> update_policy_names() { return {"periodic", "snapshot", "dead-reckoning", "dead-reckoning-drag", "on-event"}; }
+std::vector<std::string> update_policy_names() {
+  return {"periodic", "snapshot", "dead-reckoning", "dead-reckoning-drag", "on-event"};
+}
 
 bool takes_threshold(const std::string& policy) { return policy.starts_with("dead-reckoning"); }
 

@@ -1,4 +1,5 @@
-// When an entity's motion is sent, and as what. Each policy is one class; the publisher asks it once for each entity and tick.
+// When an entity's motion is sent, and as what. Each policy is one class; the publisher asks it
+// once for each entity and tick.
 #pragma once
 
 #include <memory>
@@ -20,21 +21,26 @@ class UpdatePolicy {
   virtual rti::AttributeHandle motion_attribute(const ObjectModel& model) const = 0;
   /// Asked of entities that were written before.
   virtual bool is_due(const Game& game, const Entity& entity) = 0;
-  /// Appends that attribute's value as of game.now(), which is sent: the first time for an entity that is new, later when it is due.
+  /// Appends that attribute's value as of game.now(), which is sent: the first time for an entity
+  /// that is new, later when it is due.
   virtual void write(const Game& game, const Entity& entity, rti::Writer& value) = 0;
   /// What slows bodies down, as receivers are told it to work out where they are between updates.
-  virtual Drag told_drag(const physics::WorldSpec& spec) const { return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction}; }
+  virtual Drag told_drag(const physics::WorldSpec& spec) const {
+    return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction};
+  }
 };
 
 /// Default of `UpdatePolicySettings::threshold`.
 inline constexpr double threshold_default = 0.005;
 
 struct UpdatePolicySettings {
-  double threshold = threshold_default;  ///< of the dead-reckoning policies: how far receivers may be off before they are told anew [m], above 0
+  double threshold = threshold_default;  ///< of the dead-reckoning policies: how far receivers may
+                                         ///< be off before they are told anew [m], above 0
 };
 
 /// The policy called `name`, or nothing if there is none. Names: see `update_policy_names`.
-std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name, const UpdatePolicySettings& settings = {});
+std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name,
+                                                 const UpdatePolicySettings& settings = {});
 
 /// True of the policies that take a threshold.
 bool takes_threshold(const std::string& policy);

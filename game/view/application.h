@@ -1,4 +1,5 @@
-// What a window shows and does from start to end: menus, matches, keys. Knows no window, no clock and no OpenGL context of its own.
+// What a window shows and does from start to end: menus, matches, keys. Knows no window, no clock
+// and no OpenGL context of its own.
 #pragma once
 
 #include <functional>
@@ -7,30 +8,32 @@
 #include <string>
 #include <vector>
 
-#include "game/view/window/event_queue.h"
-#include "game/view/overlays/interest_overlay.h"
 #include "game/view/interface.h"
 #include "game/view/match_source.h"
 #include "game/view/menu.h"
+#include "game/view/overlays/interest_overlay.h"
 #include "game/view/picture_of.h"
 #include "game/view/settings.h"
+#include "game/view/window/event_queue.h"
 
 namespace rink::view {
 
 /// What the application cannot do itself. Every function may be empty but `make_match`.
 struct Surroundings {
-  std::function<std::unique_ptr<MatchSource>(const MatchWish&)> make_match{};  ///< throws std::exception with what is to be told
+  std::function<std::unique_ptr<MatchSource>(const MatchWish&)>
+      make_match{};  ///< throws std::exception with what is to be told
   std::function<void(bool)> set_full_screen{};
   std::function<void(const Settings&)> save_settings{};
   std::function<void(const std::vector<Noise>&, const Settings&)> sound{};
-  std::function<void(const std::string&)> tell{};                              ///< troubles, for the standard error
+  std::function<void(const std::string&)> tell{};  ///< troubles, for the standard error
 };
 
 class Application {
  public:
   Application(Surroundings surroundings, const Settings& settings);
 
-  /// Starts a match instead of showing the menu; once it ends the menu is shown. What goes wrong is explained there.
+  /// Starts a match instead of showing the menu; once it ends the menu is shown. What goes wrong is
+  /// explained there.
   void play(const MatchWish& wish);
   /// Explained in the menu and told.
   void explain(const std::string& trouble);
@@ -38,11 +41,13 @@ class Application {
 
   void show_figures() { shows_figures_ = true; }
 
-  /// Takes effect when the next instant is drawn, or one after it: each press is seen by one drawing at least (event_queue.h).
+  /// Takes effect when the next instant is drawn, or one after it: each press is seen by one
+  /// drawing at least (event_queue.h).
   void hear(const WindowEvent& event) { events_.push(event); }
-  /// Draws the instant `now_s` [s], which never falls; an Interface, and so a context of OpenGL, must exist.
-  /// Without a renderer the instant passes unseen: nothing is drawn.
-  void draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas, double now_s);
+  /// Draws the instant `now_s` [s], which never falls; an Interface, and so a context of OpenGL,
+  /// must exist. Without a renderer the instant passes unseen: nothing is drawn.
+  void draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas,
+            double now_s);
 
   bool wants_to_quit() const { return wants_to_quit_; }
   /// Of a match that was started by play(): true once it is over or gone.

@@ -14,15 +14,19 @@
 
 namespace rink::view {
 
-HostProcess::HostProcess(const std::string& port, const std::string& records, const std::string& key_file) {
-  const std::string server = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rink-serve").string();
-  std::vector<std::string> words{server, "match", "--address", "0.0.0.0", "--port", port, "--record", records};
+HostProcess::HostProcess(const std::string& port, const std::string& records,
+                         const std::string& key_file) {
+  const std::string server =
+      (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rink-serve").string();
+  std::vector<std::string> words{server,   "match", "--address", "0.0.0.0",
+                                 "--port", port,    "--record",  records};
   if (!key_file.empty()) words.insert(words.end(), {"--key-file", key_file});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("cannot host: no pipe to the server");
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw std::runtime_error("cannot host: no pipe to the server");
   const pid_t owner = getpid();
   process_ = fork();
   if (process_ == 0) {
@@ -36,7 +40,8 @@ HostProcess::HostProcess(const std::string& port, const std::string& records, co
   close(ends[1]);
   said_ = ends[0];
   std::string said;
-  for (char letter = 0; process_ > 0 && letter != '\n' && read(said_, &letter, 1) == 1;) said += letter;
+  for (char letter = 0; process_ > 0 && letter != '\n' && read(said_, &letter, 1) == 1;)
+    said += letter;
   if (said.starts_with("listening")) {
     fcntl(said_, F_SETFL, O_NONBLOCK);
     return;
@@ -44,13 +49,15 @@ HostProcess::HostProcess(const std::string& port, const std::string& records, co
   if (process_ > 0) waitpid(process_, nullptr, 0);
   close(said_);
   process_ = -1;
-  throw std::runtime_error("cannot host: " + (said.empty() ? server + " cannot be run" : said.substr(0, said.find('\n'))));
+  throw std::runtime_error("cannot host: " + (said.empty() ? server + " cannot be run"
+                                                           : said.substr(0, said.find('\n'))));
 }
 
 std::string HostProcess::take_words() {
   std::array<char, 4096> buffer;
   std::string words;
-  for (ssize_t count; (count = read(said_, buffer.data(), buffer.size())) > 0;) words.append(buffer.data(), static_cast<std::size_t>(count));
+  for (ssize_t count; (count = read(said_, buffer.data(), buffer.size())) > 0;)
+    words.append(buffer.data(), static_cast<std::size_t>(count));
   return words;
 }
 

@@ -16,17 +16,30 @@ namespace rink::view {
 namespace {
 
 /// Where distributions put DejaVu; without it Dear ImGui's own small font is enlarged.
-constexpr std::array font_files{"/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans-Bold.ttf", "/usr/share/fonts/TTF/DejaVuSans-Bold.ttf"};
+constexpr std::array font_files{"/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
+                                "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans-Bold.ttf",
+                                "/usr/share/fonts/TTF/DejaVuSans-Bold.ttf"};
 
 /// Line heights of small print, menus and headlines at a window 720 pixels high.
 constexpr std::array font_sizes{21.0f, 34.0f, 112.0f};
 
-constexpr std::pair<ImGuiKey_, KeyCode> mapped_keys[] = {
-    {ImGuiKey_Tab, GLFW_KEY_TAB},   {ImGuiKey_LeftArrow, GLFW_KEY_LEFT}, {ImGuiKey_RightArrow, GLFW_KEY_RIGHT}, {ImGuiKey_UpArrow, GLFW_KEY_UP},
-    {ImGuiKey_DownArrow, GLFW_KEY_DOWN}, {ImGuiKey_Home, GLFW_KEY_HOME}, {ImGuiKey_End, GLFW_KEY_END},          {ImGuiKey_Delete, GLFW_KEY_DELETE},
-    {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE}, {ImGuiKey_Enter, GLFW_KEY_ENTER}, {ImGuiKey_Escape, GLFW_KEY_ESCAPE}, {ImGuiKey_Space, GLFW_KEY_SPACE}};
+constexpr std::pair<ImGuiKey_, KeyCode> mapped_keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                                         {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                                         {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                                         {ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                                         {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                                         {ImGuiKey_Home, GLFW_KEY_HOME},
+                                                         {ImGuiKey_End, GLFW_KEY_END},
+                                                         {ImGuiKey_Delete, GLFW_KEY_DELETE},
+                                                         {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                                         {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                                         {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                                                         {ImGuiKey_Space, GLFW_KEY_SPACE}};
 
-ImU32 packed(const Colour& colour, float alpha = 1.0f) { return ImGui::ColorConvertFloat4ToU32({colour.red, colour.green, colour.blue, colour.alpha * alpha}); }
+ImU32 packed(const Colour& colour, float alpha = 1.0f) {
+  return ImGui::ColorConvertFloat4ToU32(
+      {colour.red, colour.green, colour.blue, colour.alpha * alpha});
+}
 
 void set_style(float unit) {
   ImGuiStyle style;
@@ -76,11 +89,13 @@ void Interface::hear(const WindowEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
   if (event.kind == Kind::key && event.key >= 0 && event.key < IM_ARRAYSIZE(io.KeysDown)) {
     const bool is_enter = event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
-    if (is_enter && !io.WantTextInput) io.KeysDown[GLFW_KEY_SPACE] = event.is_down;  // which alone presses buttons
+    if (is_enter && !io.WantTextInput)
+      io.KeysDown[GLFW_KEY_SPACE] = event.is_down;  // which alone presses buttons
     io.KeysDown[event.key] = event.is_down;
   }
   if (event.kind == Kind::text) io.AddInputCharacter(event.character);
-  else if (event.kind == Kind::mouse_move) io.MousePos = {static_cast<float>(event.x), static_cast<float>(event.y)};
+  else if (event.kind == Kind::mouse_move)
+    io.MousePos = {static_cast<float>(event.x), static_cast<float>(event.y)};
   else if (event.kind == Kind::mouse_button) io.MouseDown[0] = event.is_down;
   else if (event.kind == Kind::scroll) io.MouseWheel += static_cast<float>(event.y);
   else if (event.kind == Kind::focus_lost) std::ranges::fill(io.KeysDown, false);
@@ -89,12 +104,15 @@ void Interface::hear(const WindowEvent& event) {
 void Interface::make_fonts(float step) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
-  const auto file = std::ranges::find_if(font_files, [](const char* name) { return std::filesystem::exists(name); });
+  const auto file = std::ranges::find_if(
+      font_files, [](const char* name) { return std::filesystem::exists(name); });
   for (std::size_t i = 0; i < font_sizes.size(); ++i) {
     ImFontConfig config;
     config.SizePixels = std::round(font_sizes[i] * step);
     config.OversampleH = i == 2 ? 1 : 2;
-    fonts_[i] = file != font_files.end() ? atlas.AddFontFromFileTTF(*file, config.SizePixels, &config) : atlas.AddFontDefault(&config);
+    fonts_[i] = file != font_files.end()
+                    ? atlas.AddFontFromFileTTF(*file, config.SizePixels, &config)
+                    : atlas.AddFontDefault(&config);
   }
   atlas.Build();
   ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -106,7 +124,8 @@ void Interface::begin(const WindowSize& size, double elapsed_s) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(size.width), static_cast<float>(size.height)};
   io.DeltaTime = std::max(1e-4f, static_cast<float>(elapsed_s));
-  unit_ = std::min(static_cast<float>(size.height) / 720.0f, static_cast<float>(size.width) / 900.0f);
+  unit_ =
+      std::min(static_cast<float>(size.height) / 720.0f, static_cast<float>(size.width) / 900.0f);
   const float step = std::clamp(std::round(unit_ * 4.0f) / 4.0f, 0.5f, 3.0f);
   if (step != font_step_) make_fonts(step);
   set_style(unit_);
@@ -119,20 +138,29 @@ void Interface::begin(const WindowSize& size, double elapsed_s) {
 void Interface::draw(const Picture& picture) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  if (picture.dimming > 0.0f) list.AddRectFilled({0.0f, 0.0f}, size, packed({0.01f, 0.015f, 0.03f, picture.dimming}));
-  if (picture.is_split) list.AddRectFilled({0.5f * size.x - 2.0f * unit_, 0.0f}, {0.5f * size.x + 2.0f * unit_, size.y}, packed({0.02f, 0.03f, 0.05f, 1.0f}));
+  if (picture.dimming > 0.0f)
+    list.AddRectFilled({0.0f, 0.0f}, size, packed({0.01f, 0.015f, 0.03f, picture.dimming}));
+  if (picture.is_split)
+    list.AddRectFilled({0.5f * size.x - 2.0f * unit_, 0.0f}, {0.5f * size.x + 2.0f * unit_, size.y},
+                       packed({0.02f, 0.03f, 0.05f, 1.0f}));
   for (const Text& text : picture.texts) {
     const float height = text.size * 720.0f * unit_;
-    const auto larger = std::ranges::find_if(fonts_, [height](const ImFont* font) { return font->FontSize >= 0.8f * height; });
+    const auto larger = std::ranges::find_if(
+        fonts_, [height](const ImFont* font) { return font->FontSize >= 0.8f * height; });
     ImFont* font = larger != std::end(fonts_) ? *larger : fonts_[2];
     const ImVec2 extent = font->CalcTextSizeA(height, 1e6f, 0.0f, text.words.c_str());
-    const float part = text.align == Text::Align::left ? 0.0f : text.align == Text::Align::right ? 1.0f : 0.5f;
-    const ImVec2 place(std::round(text.x * size.x - part * extent.x), std::round(text.y * size.y - 0.5f * extent.y));
+    const float part = text.align == Text::Align::left    ? 0.0f
+                       : text.align == Text::Align::right ? 1.0f
+                                                          : 0.5f;
+    const ImVec2 place(std::round(text.x * size.x - part * extent.x),
+                       std::round(text.y * size.y - 0.5f * extent.y));
     const float around = 0.3f * height;
-    const ImVec2 low(place.x - 1.5f * around, place.y - 0.5f * around), high(place.x + extent.x + 1.5f * around, place.y + extent.y + 0.5f * around);
+    const ImVec2 low(place.x - 1.5f * around, place.y - 0.5f * around),
+        high(place.x + extent.x + 1.5f * around, place.y + extent.y + 0.5f * around);
     if (text.has_plate) list.AddRectFilled(low, high, packed({0.03f, 0.04f, 0.07f, 0.78f}), around);
     const float drop = std::clamp(0.04f * height, 1.0f, 3.5f * unit_);
-    list.AddText(font, height, {place.x + drop, place.y + drop}, packed({0.0f, 0.0f, 0.02f, 0.75f}, text.colour.alpha), text.words.c_str());
+    list.AddText(font, height, {place.x + drop, place.y + drop},
+                 packed({0.0f, 0.0f, 0.02f, 0.75f}, text.colour.alpha), text.words.c_str());
     list.AddText(font, height, place, packed(text.colour), text.words.c_str());
   }
 }

@@ -22,7 +22,8 @@ class Interface {
   Interface& operator=(const Interface&) = delete;
 
   void hear(const WindowEvent& event);
-  /// Between begin and finish the widgets of Dear ImGui may be called. `elapsed_s` since the last begin.
+  /// Between begin and finish the widgets of Dear ImGui may be called. `elapsed_s` since the last
+  /// begin.
   void begin(const WindowSize& size, double elapsed_s);
   /// Texts and darkness of `picture`, under all widgets.
   void draw(const Picture& picture);

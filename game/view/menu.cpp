@@ -7,13 +7,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "game/view/window/glfw.h"
 #include "game/view/picture_of.h"
+#include "game/view/window/glfw.h"
 
 namespace rink::view {
 namespace {
 
-ImVec4 vector_of(const Colour& colour) { return {colour.red, colour.green, colour.blue, colour.alpha}; }
+ImVec4 vector_of(const Colour& colour) {
+  return {colour.red, colour.green, colour.blue, colour.alpha};
+}
 
 void words_in_the_middle(const char* words) {
   ImGui::SetCursorPosX(0.5f * (ImGui::GetWindowWidth() - ImGui::CalcTextSize(words).x));
@@ -40,7 +42,9 @@ bool Menu::take_key(KeyCode code, Settings& settings, MenuWish& wish) {
     const Binding binding = *std::exchange(binding_, std::nullopt);
     if (code == GLFW_KEY_ESCAPE || !key_code_name(code)) return true;
     KeyCode& place = settings.keys[binding.hand][binding.key];
-    if (const auto other = bound(settings, code)) settings.keys[other->hand][static_cast<std::size_t>(other->key)] = place;  // keys change places, so that none has two meanings
+    if (const auto other = bound(settings, code))
+      settings.keys[other->hand][static_cast<std::size_t>(other->key)] =
+          place;  // keys change places, so that none has two meanings
     place = code;
     wish.kind = MenuWish::Kind::settings_changed;
     return true;
@@ -64,17 +68,21 @@ void Menu::begin_panel(const char* name, float width, float middle) const {
   ImGui::SetNextWindowPos({0.5f * size.x, middle * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({width * unit_, 0.0f}, ImGuiCond_Always);
   if (is_fresh_) ImGui::SetNextWindowFocus();
-  ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
 }
 
 void Menu::draw_title() const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   ImFont* font = interface_->title_font();
   const float height = 128.0f * unit_;
-  const ImVec2 screen = ImGui::GetIO().DisplaySize, extent = font->CalcTextSizeA(height, 1e6f, 0.0f, "RINK");
+  const ImVec2 screen = ImGui::GetIO().DisplaySize,
+               extent = font->CalcTextSizeA(height, 1e6f, 0.0f, "RINK");
   ImVec2 place(0.5f * (screen.x - extent.x), 0.155f * screen.y - 0.5f * extent.y);
   for (const auto& [letters, colour] : {std::pair{"RI", left_colour}, {"NK", right_colour}}) {
-    list.AddText(font, height, {place.x + 5.0f * unit_, place.y + 5.0f * unit_}, IM_COL32(0, 0, 6, 190), letters);
+    list.AddText(font, height, {place.x + 5.0f * unit_, place.y + 5.0f * unit_},
+                 IM_COL32(0, 0, 6, 190), letters);
     list.AddText(font, height, place, ImGui::ColorConvertFloat4ToU32(vector_of(colour)), letters);
     place.x += font->CalcTextSizeA(height, 1e6f, 0.0f, letters).x;
   }
@@ -98,15 +106,32 @@ MenuWish Menu::draw(const Interface& interface, Settings& settings, const MatchS
   unit_ = interface.unit();
   if (screen_ != Screen::none && screen_ != Screen::over && screen_ != Screen::paused) draw_title();
   switch (screen_) {
-    case Screen::none: break;
-    case Screen::main: draw_main(wish); break;
-    case Screen::bot: draw_bot(wish); break;
-    case Screen::host: draw_address(wish, MatchWish::Kind::host, "Host a match", "port", "Host"); break;
-    case Screen::join: draw_address(wish, MatchWish::Kind::join, "Join a match", "host:port", "Join"); break;
-    case Screen::watch: draw_address(wish, MatchWish::Kind::watch, "Watch a match or a crowd", "host:port", "Watch"); break;
-    case Screen::settings: draw_settings(settings, wish); break;
-    case Screen::paused: draw_paused(wish); break;
-    case Screen::over: draw_over(wish, sight); break;
+    case Screen::none:
+      break;
+    case Screen::main:
+      draw_main(wish);
+      break;
+    case Screen::bot:
+      draw_bot(wish);
+      break;
+    case Screen::host:
+      draw_address(wish, MatchWish::Kind::host, "Host a match", "port", "Host");
+      break;
+    case Screen::join:
+      draw_address(wish, MatchWish::Kind::join, "Join a match", "host:port", "Join");
+      break;
+    case Screen::watch:
+      draw_address(wish, MatchWish::Kind::watch, "Watch a match or a crowd", "host:port", "Watch");
+      break;
+    case Screen::settings:
+      draw_settings(settings, wish);
+      break;
+    case Screen::paused:
+      draw_paused(wish);
+      break;
+    case Screen::over:
+      draw_over(wish, sight);
+      break;
   }
   if (wish.kind == MenuWish::Kind::play) trouble_.clear();
   return wish;
@@ -114,7 +139,8 @@ MenuWish Menu::draw(const Interface& interface, Settings& settings, const MatchS
 
 void Menu::draw_main(MenuWish& wish) {
   begin_panel("main", 470.0f, 0.60f);
-  if (button("Two players")) wish = {MenuWish::Kind::play, {.kind = MatchWish::Kind::two, .address = {}}};
+  if (button("Two players"))
+    wish = {MenuWish::Kind::play, {.kind = MatchWish::Kind::two, .address = {}}};
   if (button("Against a bot")) open(Screen::bot);
   if (button("Host a match")) open(Screen::host);
   if (button("Join a match")) open(Screen::join);
@@ -130,19 +156,24 @@ void Menu::draw_bot(MenuWish& wish) {
   words_in_the_middle("How strong?");
   constexpr std::array labels{"Beginner", "Club player", "Expert"};
   for (std::size_t i = 0; i < labels.size(); ++i)
-    if (button(labels[i])) wish = {MenuWish::Kind::play, {.kind = MatchWish::Kind::bot, .strength = bot_strengths[i], .address = {}}};
+    if (button(labels[i]))
+      wish = {MenuWish::Kind::play,
+              {.kind = MatchWish::Kind::bot, .strength = bot_strengths[i], .address = {}}};
   ImGui::Separator();
   if (button("Back")) open(Screen::main);
   ImGui::End();
 }
 
-void Menu::draw_address(MenuWish& wish, MatchWish::Kind kind, const char* title, const char* hint, const char* verb) {
+void Menu::draw_address(MenuWish& wish, MatchWish::Kind kind, const char* title, const char* hint,
+                        const char* verb) {
   begin_panel("address", 560.0f, 0.56f);
   words_in_the_middle(title);
   std::string& text = kind == MatchWish::Kind::host ? port_ : address_;
   if (std::exchange(is_fresh_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
-  const bool is_entered = ImGui::InputTextWithHint("##address", hint, &text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const bool is_entered = ImGui::InputTextWithHint(
+      "##address", hint, &text,
+      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   if (button(verb) || is_entered) wish = {MenuWish::Kind::play, {.kind = kind, .address = text}};
   ImGui::Separator();
   if (button("Back")) open(Screen::main);
@@ -154,7 +185,8 @@ void Menu::draw_keys(Settings& settings) {
   constexpr std::array directions{"left", "right", "up", "down"};
   if (!ImGui::BeginTable("keys", 3, ImGuiTableFlags_SizingStretchSame)) return;
   ImGui::TableNextRow();
-  for (const auto& [column, words, colour] : {std::tuple{1, "Red", left_colour}, {2, "Blue", right_colour}}) {
+  for (const auto& [column, words, colour] :
+       {std::tuple{1, "Red", left_colour}, {2, "Blue", right_colour}}) {
     ImGui::TableSetColumnIndex(column);
     ImGui::TextColored(vector_of(colour), "%s", words);
   }
@@ -166,7 +198,9 @@ void Menu::draw_keys(Settings& settings) {
     for (std::size_t hand = 0; hand < settings.keys.size(); ++hand) {
       ImGui::TableSetColumnIndex(static_cast<int>(hand) + 1);
       const bool is_waiting = binding_ && binding_->hand == hand && binding_->key == key;
-      const std::string words = (is_waiting ? "press a key" : key_code_name(settings.keys[hand][key]).value_or("?")) + "##" + std::to_string(hand * 4 + key);
+      const std::string words =
+          (is_waiting ? "press a key" : key_code_name(settings.keys[hand][key]).value_or("?")) +
+          "##" + std::to_string(hand * 4 + key);
       if (button(words.c_str())) binding_ = Binding{hand, key};
     }
   }
@@ -183,15 +217,18 @@ void Menu::draw_settings(Settings& settings, MenuWish& wish) {
   ImGui::SameLine();
   float volume = static_cast<float>(settings.volume);
   ImGui::SetNextItemWidth(320.0f * unit_);
-  if (ImGui::SliderFloat("Volume", &volume, 0.0f, 1.0f, "%.2f")) settings.volume = std::clamp(static_cast<double>(volume), 0.0, 1.0);
-  if (ImGui::Checkbox("Full screen", &settings.is_full_screen)) wish.kind = MenuWish::Kind::full_screen;
+  if (ImGui::SliderFloat("Volume", &volume, 0.0f, 1.0f, "%.2f"))
+    settings.volume = std::clamp(static_cast<double>(volume), 0.0, 1.0);
+  if (ImGui::Checkbox("Full screen", &settings.is_full_screen))
+    wish.kind = MenuWish::Kind::full_screen;
   ImGui::SameLine();
   ImGui::Checkbox("Split screen for two", &settings.is_split);
   ImGui::PopFont();
   if (button("Keys as they were")) settings.keys = default_keys();
   if (button("Back")) open(back_);
   ImGui::End();
-  if (settings != before && wish.kind == MenuWish::Kind::nothing) wish.kind = MenuWish::Kind::settings_changed;
+  if (settings != before && wish.kind == MenuWish::Kind::nothing)
+    wish.kind = MenuWish::Kind::settings_changed;
 }
 
 void Menu::draw_paused(MenuWish& wish) {

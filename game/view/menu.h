@@ -1,4 +1,5 @@
-// The screens between matches: what to play, settings, pause, the end of a match. They say what the player wishes; somebody else does it.
+// The screens between matches: what to play, settings, pause, the end of a match. They say what the
+// player wishes; somebody else does it.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +17,25 @@ namespace rink::view {
 struct MatchWish {
   enum class Kind : std::uint8_t { two, bot, host, join, watch, replay, peer, bots };
   Kind kind = Kind::two;
-  std::string strength = "club";   ///< of a bot: one of bot_strengths
-  std::string address{};           ///< HOST:PORT of join and watch, PORT of host, the file of a replay, HOST:PORT of a peer that is there or nothing
+  std::string strength = "club";  ///< of a bot: one of bot_strengths
+  std::string address{};  ///< HOST:PORT of join and watch, PORT of host, the file of a replay,
+                          ///< HOST:PORT of a peer that is there or nothing
 };
 
 inline constexpr std::array<const char*, 3> bot_strengths{"beginner", "club", "expert"};
 
 /// What was chosen in a frame.
 struct MenuWish {
-  enum class Kind : std::uint8_t { nothing, play, resume, rematch, leave, quit, settings_changed, full_screen };
+  enum class Kind : std::uint8_t {
+    nothing,
+    play,
+    resume,
+    rematch,
+    leave,
+    quit,
+    settings_changed,
+    full_screen
+  };
   Kind kind = Kind::nothing;
   MatchWish match;
 };
@@ -34,7 +45,8 @@ class Menu {
   enum class Screen : std::uint8_t { none, main, bot, host, join, watch, settings, paused, over };
 
   Screen screen() const { return screen_; }
-  /// Whether the screen has been drawn so often that its first button has the focus: a key before that would go nowhere.
+  /// Whether the screen has been drawn so often that its first button has the focus: a key before
+  /// that would go nowhere.
   bool is_ready() const { return drawn_ >= 2; }
   void open(Screen screen);
   /// Back to the main menu with what went wrong.
@@ -57,7 +69,8 @@ class Menu {
   void begin_panel(const char* name, float width, float middle) const;
   void draw_main(MenuWish& wish);
   void draw_bot(MenuWish& wish);
-  void draw_address(MenuWish& wish, MatchWish::Kind kind, const char* title, const char* hint, const char* verb);
+  void draw_address(MenuWish& wish, MatchWish::Kind kind, const char* title, const char* hint,
+                    const char* verb);
   void draw_settings(Settings& settings, MenuWish& wish);
   void draw_keys(Settings& settings);
   void draw_paused(MenuWish& wish);

@@ -12,13 +12,14 @@ enum class Viewpoint : std::uint8_t { left_end, right_end, side, above };
 /// What the player chose to see.
 struct ViewChoice {
   Viewpoint viewpoint = Viewpoint::side;
-  double zoom = 1.0;             ///< from above: 1 shows the whole field, more shows less of it
-  Vector2 centre{0.5, 0.5};      ///< from above: the point in the middle, as a part of the field
-  bool shows_link = false;       ///< figures of the connection
-  double frames_per_s = 0.0;     ///< shown with them
+  double zoom = 1.0;          ///< from above: 1 shows the whole field, more shows less of it
+  Vector2 centre{0.5, 0.5};   ///< from above: the point in the middle, as a part of the field
+  bool shows_link = false;    ///< figures of the connection
+  double frames_per_s = 0.0;  ///< shown with them
 };
 
-inline constexpr Colour left_colour{1.0f, 0.36f, 0.27f, 1.0f}, right_colour{0.13f, 0.62f, 1.0f, 1.0f};
+inline constexpr Colour left_colour{1.0f, 0.36f, 0.27f, 1.0f},
+    right_colour{0.13f, 0.62f, 1.0f, 1.0f};
 
 /// "left" is red and "right" is blue, everywhere.
 Colour colour_of(game::Team team);
@@ -27,9 +28,11 @@ Colour colour_of(game::Team team);
 Camera camera_of(const physics::Field& field, const ViewChoice& choice, double aspect);
 
 /// `overlay` lies over the table as it is.
-Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewChoice& choice, double aspect);
+Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewChoice& choice,
+                   double aspect);
 
-/// The key of the field that the player's key means who sees the field from `viewpoint`: forward is away from the player.
+/// The key of the field that the player's key means who sees the field from `viewpoint`: forward is
+/// away from the player.
 game::Key seen_from(Viewpoint viewpoint, game::Key key);
 
 }  // namespace rink::view

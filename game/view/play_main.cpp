@@ -15,9 +15,9 @@
 #include "game/match/local_match.h"
 #include "game/match/replay_match.h"
 #include "game/model/scene_file.h"
+#include "game/net/client/joined_match.h"
 #include "game/net/exit_status.h"
 #include "game/net/interrupt.h"
-#include "game/net/client/joined_match.h"
 #include "game/net/peer/playing_peer.h"
 #include "game/version/version.h"
 #include "game/view/application.h"
@@ -34,22 +34,31 @@ namespace {
 using namespace rink;
 using view::MatchWish;
 
-constexpr double offscreen_frame_s = 1.0 / 60.0, shortest_frame_s = 1.0 / 250.0;  // the latter where the driver does not wait for the screen
+constexpr double offscreen_frame_s = 1.0 / 60.0,
+                 shortest_frame_s =
+                     1.0 / 250.0;  // the latter where the driver does not wait for the screen
 
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 void tell(const std::string& trouble) { std::cerr << "rink play: " << trouble << '\n'; }
 
-std::string bot_kind(const std::string& strength) { return strength == "club" ? "chaser" : "chaser-" + strength; }
+std::string bot_kind(const std::string& strength) {
+  return strength == "club" ? "chaser" : "chaser-" + strength;
+}
 
 std::string records_folder(const view::PlayOptions& options) {
   if (!options.records.empty()) return options.records;
-  if (const char* folder = std::getenv("XDG_DATA_HOME"); folder != nullptr && *folder != '\0') return std::string(folder) + "/rink/matches";
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') return std::string(home) + "/.local/share/rink/matches";
+  if (const char* folder = std::getenv("XDG_DATA_HOME"); folder != nullptr && *folder != '\0')
+    return std::string(folder) + "/rink/matches";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+    return std::string(home) + "/.local/share/rink/matches";
   return "matches";
 }
 
-/// Where a host keeps its records: a folder that cannot be written to is told of and replaced, for it is the match that matters.
+/// Where a host keeps its records: a folder that cannot be written to is told of and replaced, for
+/// it is the match that matters.
 std::string host_records(const std::string& folder) {
   const auto trouble = game::MatchRecords(folder).test();
   if (!trouble) return folder;
@@ -58,10 +67,13 @@ std::string host_records(const std::string& folder) {
   return other;
 }
 
-/// A local match whose records are kept, also of one that is given up. A record that cannot be written is told of; the match goes on.
+/// A local match whose records are kept, also of one that is given up. A record that cannot be
+/// written is told of; the match goes on.
 class RecordedMatch final : public game::MatchSource {
  public:
-  RecordedMatch(const game::Scene& scene, const game::LocalMatchSettings& settings, const std::string& folder) : match_(scene, settings), records_(folder) {}
+  RecordedMatch(const game::Scene& scene, const game::LocalMatchSettings& settings,
+                const std::string& folder)
+      : match_(scene, settings), records_(folder) {}
   ~RecordedMatch() override {
     match_.finish();
     keep();
@@ -72,7 +84,9 @@ class RecordedMatch final : public game::MatchSource {
   }
   const game::MatchSight& sight() const override { return match_.sight(); }
   std::uint32_t hand_count() const override { return match_.hand_count(); }
-  void press(std::uint32_t hand, game::Key key, bool is_down) override { match_.press(hand, key, is_down); }
+  void press(std::uint32_t hand, game::Key key, bool is_down) override {
+    match_.press(hand, key, is_down);
+  }
   void pause(bool is_wanted) override { match_.pause(is_wanted); }
   void rematch() override { match_.rematch(); }
 
@@ -87,7 +101,8 @@ class RecordedMatch final : public game::MatchSource {
   game::MatchRecords records_;
 };
 
-/// A match that is hosted here and played here: the server is there before the connection to it, and ends after it.
+/// A match that is hosted here and played here: the server is there before the connection to it,
+/// and ends after it.
 class HostedMatch final : public game::MatchSource {
  public:
   HostedMatch(const std::string& port, const std::string& records, const std::string& key_file)
@@ -98,7 +113,9 @@ class HostedMatch final : public game::MatchSource {
   }
   const game::MatchSight& sight() const override { return match_.sight(); }
   std::uint32_t hand_count() const override { return match_.hand_count(); }
-  void press(std::uint32_t hand, game::Key key, bool is_down) override { match_.press(hand, key, is_down); }
+  void press(std::uint32_t hand, game::Key key, bool is_down) override {
+    match_.press(hand, key, is_down);
+  }
   void pause(bool is_wanted) override { match_.pause(is_wanted); }
   void rematch() override { match_.rematch(); }
 
@@ -117,7 +134,9 @@ class SharedMatch final : public game::MatchSource {
   }
   const game::MatchSight& sight() const override { return peer_.sight(); }
   std::uint32_t hand_count() const override { return peer_.hand_count(); }
-  void press(std::uint32_t hand, game::Key key, bool is_down) override { peer_.press(hand, key, is_down); }
+  void press(std::uint32_t hand, game::Key key, bool is_down) override {
+    peer_.press(hand, key, is_down);
+  }
   void pause(bool is_wanted) override { peer_.pause(is_wanted); }
   void rematch() override { peer_.rematch(); }
 
@@ -131,12 +150,22 @@ game::PlayingPeerSettings peer_settings(const view::PlayOptions& options) {
   return settings;
 }
 
-std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const view::PlayOptions& options) {
+std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish,
+                                              const view::PlayOptions& options) {
   using Kind = MatchWish::Kind;
   const std::string records = records_folder(options);
-  if (wish.kind == Kind::host) return std::make_unique<HostedMatch>(wish.address, host_records(records), options.key_file);
-  if (wish.kind == Kind::join) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())}, options.key_file);
-  if (wish.kind == Kind::watch) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "watcher-" + std::to_string(getpid()), .only_watches = true}, options.key_file);
+  if (wish.kind == Kind::host)
+    return std::make_unique<HostedMatch>(wish.address, host_records(records), options.key_file);
+  if (wish.kind == Kind::join)
+    return std::make_unique<game::JoinedMatch>(
+        wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())},
+        options.key_file);
+  if (wish.kind == Kind::watch)
+    return std::make_unique<game::JoinedMatch>(
+        wish.address,
+        game::NetworkMatchSettings{.name = "watcher-" + std::to_string(getpid()),
+                                   .only_watches = true},
+        options.key_file);
   if (wish.kind == Kind::replay) return std::make_unique<game::ReplayMatch>(wish.address);
   if (wish.kind == Kind::peer) return std::make_unique<SharedMatch>(peer_settings(options));
   const game::Scene scene = game::load_scene("match");
@@ -157,13 +186,17 @@ std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const view:
 /// The application with what it needs of the process: settings on disk, sound, standard error.
 class Process {
  public:
-  explicit Process(const view::PlayOptions& options) : options_(options), settings_file_(options.settings_file.empty() ? view::settings_file() : options.settings_file) {
+  explicit Process(const view::PlayOptions& options)
+      : options_(options),
+        settings_file_(options.settings_file.empty() ? view::settings_file()
+                                                     : options.settings_file) {
     view::ReadSettings read = view::read_settings(settings_file_);
     settings_ = read.settings;
     is_misread_ = !read.troubles.empty();
     if (options.is_muted) settings_.is_muted = true;
     if (options.is_full_screen) settings_.is_full_screen = true;
-    for (const std::string& trouble : read.troubles) troubles_ += (troubles_.empty() ? "" : "\n") + trouble;
+    for (const std::string& trouble : read.troubles)
+      troubles_ += (troubles_.empty() ? "" : "\n") + trouble;
     if (!options.script.empty()) script_ = view::read_script(options.script);
     if (!options.screenshot.empty()) {
       script_.push_back({.time = options.at_s, .events = {}, .picture = options.screenshot});
@@ -196,7 +229,9 @@ class Process {
 
   void open(view::Window* window);
   void close();
-  void picture(const std::string& file, GLuint framebuffer, const view::WindowSize& size) const { view::write_png(file, view::read_pixels(framebuffer, size.width, size.height)); }
+  void picture(const std::string& file, GLuint framebuffer, const view::WindowSize& size) const {
+    view::write_png(file, view::read_pixels(framebuffer, size.width, size.height));
+  }
   void draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen);
 
   view::PlayOptions options_;
@@ -219,7 +254,10 @@ void Process::open(view::Window* window) {
   if (window != nullptr) {
     sounds_ = std::make_unique<view::Sounds>();
     surroundings.set_full_screen = [window](bool is_wanted) { window->set_full_screen(is_wanted); };
-    surroundings.sound = [this](const std::vector<view::Noise>& noises, const view::Settings& settings) { sounds_->play(noises, settings.is_muted ? 0.0 : settings.volume); };
+    surroundings.sound = [this](const std::vector<view::Noise>& noises,
+                                const view::Settings& settings) {
+      sounds_->play(noises, settings.is_muted ? 0.0 : settings.volume);
+    };
   }
   surroundings.save_settings = [this](const view::Settings& settings) {
     if (std::exchange(is_misread_, false))
@@ -234,8 +272,11 @@ void Process::open(view::Window* window) {
 }
 
 void Process::draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen) {
-  if (is_seen && !renderer_) renderer_ = std::make_unique<view::Renderer>();  // half a second in software, for which a script that takes no picture does not wait
-  application_->draw(*interface_, is_seen ? renderer_.get() : nullptr, size, {framebuffer, 0, 0, size.width, size.height}, now);
+  if (is_seen && !renderer_)
+    renderer_ = std::make_unique<view::Renderer>();  // half a second in software, for which a
+                                                     // script that takes no picture does not wait
+  application_->draw(*interface_, is_seen ? renderer_.get() : nullptr, size,
+                     {framebuffer, 0, 0, size.width, size.height}, now);
 }
 
 /// Several things may be asked of one instant: keys first, then the frame, then its picture.
@@ -265,17 +306,23 @@ void Process::run_in_window(const view::WindowSize& size) {
   }
 }
 
-/// Time is counted in frames, so the same script gives the same pictures; frames that nobody asks a picture of are not drawn. Who plays over a network has others to keep pace with.
+/// Time is counted in frames, so the same script gives the same pictures; frames that nobody asks a
+/// picture of are not drawn. Who plays over a network has others to keep pace with.
 void Process::run_offscreen(const view::WindowSize& size) {
   const view::OffscreenContext context;
   const Opened opened(*this, nullptr);
   const view::Target target(size.width, size.height, 0);
   const double start_s = now_s();
-  const bool is_shared = !options_.host.empty() || !options_.join.empty() || !options_.watch.empty() || !options_.peer.empty() || !options_.peer_listen.empty();
+  const bool is_shared = !options_.host.empty() || !options_.join.empty() ||
+                         !options_.watch.empty() || !options_.peer.empty() ||
+                         !options_.peer_listen.empty();
   bool is_ended = false;
-  for (std::uint64_t frame = 0; !application_->wants_to_quit() && !is_ended && !game::is_interrupted && next_step_ < script_.size(); ++frame) {
+  for (std::uint64_t frame = 0; !application_->wants_to_quit() && !is_ended &&
+                                !game::is_interrupted && next_step_ < script_.size();
+       ++frame) {
     const double now = static_cast<double>(frame) * offscreen_frame_s;
-    if (is_shared && start_s + now > now_s()) std::this_thread::sleep_for(std::chrono::duration<double>(start_s + now - now_s()));
+    if (is_shared && start_s + now > now_s())
+      std::this_thread::sleep_for(std::chrono::duration<double>(start_s + now - now_s()));
     const auto due = view::due_steps(script_, next_step_, now);
     bool is_seen = false;
     for (const view::ScriptStep& step : due) {
@@ -284,7 +331,9 @@ void Process::run_offscreen(const view::WindowSize& size) {
       is_ended = is_ended || step.is_end;
     }
     draw(size, target.framebuffer(), now, is_seen);
-    if (is_seen) do draw(size, target.framebuffer(), now, true);  // the first may be drawn as of a camera that moves
+    if (is_seen) do
+        draw(size, target.framebuffer(), now,
+             true);  // the first may be drawn as of a camera that moves
       while (!renderer_->is_settled());
     for (const view::ScriptStep& step : due)
       if (!step.picture.empty()) picture(step.picture, target.framebuffer(), size);
@@ -300,8 +349,12 @@ void Process::close() {
 
 game::ExitStatus play(const view::PlayOptions& options) {
   const auto size = view::size_of(options.size);
-  if (!size) throw CLI::ValidationError("--size", options.size + " is not a size like 1280x720, from 320x240 to 8192x8192");
-  if (options.is_offscreen && options.script.empty() && options.screenshot.empty()) throw CLI::ValidationError("--offscreen", "nobody could see it or press a key; give a --script or a --screenshot");
+  if (!size)
+    throw CLI::ValidationError(
+        "--size", options.size + " is not a size like 1280x720, from 320x240 to 8192x8192");
+  if (options.is_offscreen && options.script.empty() && options.screenshot.empty())
+    throw CLI::ValidationError(
+        "--offscreen", "nobody could see it or press a key; give a --script or a --screenshot");
   Process process(options);
   if (options.is_offscreen) process.run_offscreen(*size);
   else process.run_in_window(*size);
@@ -316,10 +369,13 @@ int main(int count, char** values) {
   app.set_version_flag("--version", game::version_line("rink-play"));
   view::PlayOptions options;
   view::add_options(app, options);
-  app.footer(std::string("Example: rink play --bot club\n"
-                         "Keys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, V splits the screen for two, + and - zoom and F follows from above, M mutes,\n"
-                         "F3 shows figures, F11 fills the screen.\n") +
-             "Exit status: 0 done, 1 failed, 2 bad flag or file, 18 no display, 130 interrupted. A match that ends wrongly is told of in the menu and on standard error.");
+  app.footer(
+      std::string("Example: rink play --bot club\n"
+                  "Keys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, V "
+                  "splits the screen for two, + and - zoom and F follows from above, M mutes,\n"
+                  "F3 shows figures, F11 fills the screen.\n") +
+      "Exit status: 0 done, 1 failed, 2 bad flag or file, 18 no display, 130 interrupted. A match "
+      "that ends wrongly is told of in the menu and on standard error.");
   try {
     app.parse(count, values);
     return static_cast<int>(play(options));

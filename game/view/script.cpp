@@ -11,7 +11,9 @@ namespace {
 
 constexpr double tap_s = 0.05;
 
-WindowEvent key_event(KeyCode code, bool is_down) { return {.kind = WindowEvent::Kind::key, .key = code, .is_down = is_down}; }
+WindowEvent key_event(KeyCode code, bool is_down) {
+  return {.kind = WindowEvent::Kind::key, .key = code, .is_down = is_down};
+}
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
@@ -22,11 +24,15 @@ void read_step(std::istringstream& line, const std::string& where, std::vector<S
   ScriptStep step;
   std::string what, rest;
   if (!(line >> step.time >> what) || !std::isfinite(step.time) || step.time < 0.0)
-    throw ScriptError(where + "expected a time in seconds, 0 or more, and one of: down, up, tap, text, picture, end");
+    throw ScriptError(
+        where +
+        "expected a time in seconds, 0 or more, and one of: down, up, tap, text, picture, end");
   std::getline(line, rest);
   rest = trimmed(rest);
   if (what == "text") {
-    for (const char letter : rest) step.events.push_back({.kind = WindowEvent::Kind::text, .character = static_cast<unsigned char>(letter)});
+    for (const char letter : rest)
+      step.events.push_back(
+          {.kind = WindowEvent::Kind::text, .character = static_cast<unsigned char>(letter)});
   } else if (what == "picture") {
     if (rest.empty()) throw ScriptError(where + "picture needs the name of a file");
     step.picture = rest;
@@ -34,9 +40,14 @@ void read_step(std::istringstream& line, const std::string& where, std::vector<S
     step.is_end = true;
   } else if (what == "down" || what == "up" || what == "tap") {
     const auto code = key_code_from_name(rest);
-    if (!code) throw ScriptError(where + "there is no key '" + rest + "'; keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...");
+    if (!code)
+      throw ScriptError(
+          where + "there is no key '" + rest +
+          "'; keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...");
     step.events.push_back(key_event(*code, what != "up"));
-    if (what == "tap") steps.push_back({.time = step.time + tap_s, .events = {key_event(*code, false)}, .picture = {}});
+    if (what == "tap")
+      steps.push_back(
+          {.time = step.time + tap_s, .events = {key_event(*code, false)}, .picture = {}});
   } else {
     throw ScriptError(where + "'" + what + "' is none of: down, up, tap, text, picture, end");
   }
@@ -67,7 +78,8 @@ std::vector<ScriptStep> read_script(const std::string& file) {
   return parse_script(text.str(), file);
 }
 
-std::span<const ScriptStep> due_steps(const std::vector<ScriptStep>& steps, std::size_t& next, double now) {
+std::span<const ScriptStep> due_steps(const std::vector<ScriptStep>& steps, std::size_t& next,
+                                      double now) {
   const std::size_t first = next;
   while (next < steps.size() && steps[next].time <= now) ++next;
   return std::span(steps).subspan(first, next - first);

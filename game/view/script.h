@@ -1,4 +1,5 @@
-// Keys pressed by a file instead of a person, and pictures taken at given times: how tests and demonstrations drive the window.
+// Keys pressed by a file instead of a person, and pictures taken at given times: how tests and
+// demonstrations drive the window.
 #pragma once
 
 #include <span>
@@ -21,16 +22,18 @@ class ScriptError : public std::runtime_error {
 struct ScriptStep {
   double time = 0.0;
   std::vector<WindowEvent> events;
-  std::string picture;   ///< file to write the window's content to, or empty
-  bool is_end = false;   ///< the window is to be closed
+  std::string picture;  ///< file to write the window's content to, or empty
+  bool is_end = false;  ///< the window is to be closed
 };
 
-/// One step a line: `TIME down KEY`, `TIME up KEY`, `TIME tap KEY` (down, and up 0.05 s later), `TIME text WORDS`, `TIME picture FILE.png`, `TIME end`; a # starts a comment.
-/// Ordered by time. Throws ScriptError; `file` is named in errors.
+/// One step a line: `TIME down KEY`, `TIME up KEY`, `TIME tap KEY` (down, and up 0.05 s later),
+/// `TIME text WORDS`, `TIME picture FILE.png`, `TIME end`; a # starts a comment. Ordered by time.
+/// Throws ScriptError; `file` is named in errors.
 std::vector<ScriptStep> parse_script(std::string_view text, const std::string& file);
 std::vector<ScriptStep> read_script(const std::string& file);
 
 /// The steps from `next` on that are due at `now` [s]; moves `next` behind them.
-std::span<const ScriptStep> due_steps(const std::vector<ScriptStep>& steps, std::size_t& next, double now);
+std::span<const ScriptStep> due_steps(const std::vector<ScriptStep>& steps, std::size_t& next,
+                                      double now);
 
 }  // namespace rink::view

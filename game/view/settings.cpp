@@ -15,9 +15,10 @@
 namespace rink::view {
 namespace {
 
-constexpr const char* how_called = "' (keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...)";
+constexpr const char* how_called =
+    "' (keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...)";
 constexpr std::array<const char*, 2> player_tables{"left", "right"};
-constexpr std::size_t troubles_most = 4;           ///< said at once; they are to fit on a small screen
+constexpr std::size_t troubles_most = 4;  ///< said at once; they are to fit on a small screen
 constexpr std::uintmax_t file_largest = 1u << 20;  ///< bytes
 
 class Reader {
@@ -29,7 +30,9 @@ class Reader {
     refuse_double_use();
     for (const auto& [line, words] : troubles_) {
       if (read_.troubles.size() == troubles_most) {
-        read_.troubles.push_back(file_ + ": and " + std::to_string(troubles_.size() - troubles_most) + " more like these");
+        read_.troubles.push_back(file_ + ": and " +
+                                 std::to_string(troubles_.size() - troubles_most) +
+                                 " more like these");
         break;
       }
       read_.troubles.push_back(file_ + ":" + std::to_string(line) + ": " + words);
@@ -37,12 +40,17 @@ class Reader {
   }
 
  private:
-  void trouble(const toml::node& node, const std::string& what) { troubles_.emplace(node.source().begin.line, what); }
+  void trouble(const toml::node& node, const std::string& what) {
+    troubles_.emplace(node.source().begin.line, what);
+  }
 
   void read_entry(std::string_view key, const toml::node& node) {
     Settings& settings = read_.settings;
     if (key == "mute" || key == "full_screen" || key == "split_screen") {
-      if (const auto value = node.value_exact<bool>()) (key == "mute" ? settings.is_muted : key == "full_screen" ? settings.is_full_screen : settings.is_split) = *value;
+      if (const auto value = node.value_exact<bool>())
+        (key == "mute"          ? settings.is_muted
+         : key == "full_screen" ? settings.is_full_screen
+                                : settings.is_split) = *value;
       else trouble(node, std::string(key) + " must be true or false");
     } else if (key == "volume") {
       const auto value = node.value<double>();
@@ -51,15 +59,21 @@ class Reader {
     } else if (key == "keys" && node.is_table()) {
       read_keys(*node.as_table());
     } else {
-      trouble(node, "there is no setting '" + std::string(key) + "'; there are: mute, volume, full_screen, split_screen, keys.left, keys.right");
+      trouble(node,
+              "there is no setting '" + std::string(key) +
+                  "'; there are: mute, volume, full_screen, split_screen, keys.left, keys.right");
     }
   }
 
   void read_keys(const toml::table& table) {
     for (const auto& [name, node] : table) {
       const auto player = std::ranges::find(player_tables, name.str());
-      if (player == player_tables.end() || !node.is_table()) trouble(node, "keys." + std::string(name.str()) + " is no player; there are: keys.left, keys.right");
-      else read_key_set(*node.as_table(), read_.settings.keys[static_cast<std::size_t>(player - player_tables.begin())]);
+      if (player == player_tables.end() || !node.is_table())
+        trouble(node, "keys." + std::string(name.str()) +
+                          " is no player; there are: keys.left, keys.right");
+      else
+        read_key_set(*node.as_table(),
+                     read_.settings.keys[static_cast<std::size_t>(player - player_tables.begin())]);
     }
   }
 
@@ -67,11 +81,13 @@ class Reader {
     for (const auto& [name, node] : table) {
       const auto key = game::key_from_name(name.str());
       if (!key) {
-        trouble(node, "'" + std::string(name.str()) + "' is no direction; there are: left, right, up, down");
+        trouble(node, "'" + std::string(name.str()) +
+                          "' is no direction; there are: left, right, up, down");
         continue;
       }
       KeyCode& place = keys[static_cast<std::size_t>(*key)];
-      const std::string stays = " for " + std::string(name.str()) + "; it stays '" + key_code_name(place).value_or("?") + how_called;
+      const std::string stays = " for " + std::string(name.str()) + "; it stays '" +
+                                key_code_name(place).value_or("?") + how_called;
       const auto text = node.value_exact<std::string>();
       const auto code = text ? key_code_from_name(*text) : std::nullopt;
       if (code) place = *code;
@@ -86,7 +102,8 @@ class Reader {
     for (const KeySet& keys : read_.settings.keys)
       for (const KeyCode code : keys) {
         if (std::ranges::find(seen, code) != seen.end()) {
-          read_.troubles.push_back(file_ + ": the key '" + key_code_name(code).value_or("?") + "' is given two meanings; all keys are as by default");
+          read_.troubles.push_back(file_ + ": the key '" + key_code_name(code).value_or("?") +
+                                   "' is given two meanings; all keys are as by default");
           read_.settings.keys = default_keys();
           return;
         }
@@ -104,7 +121,8 @@ class Reader {
 Settings::Settings() : keys(default_keys()) {}
 
 std::array<KeySet, 2> default_keys() {
-  return {KeySet{GLFW_KEY_A, GLFW_KEY_D, GLFW_KEY_W, GLFW_KEY_S}, KeySet{GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_UP, GLFW_KEY_DOWN}};
+  return {KeySet{GLFW_KEY_A, GLFW_KEY_D, GLFW_KEY_W, GLFW_KEY_S},
+          KeySet{GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_UP, GLFW_KEY_DOWN}};
 }
 
 std::optional<Bound> bound(const Settings& settings, KeyCode code) {
@@ -119,20 +137,25 @@ ReadSettings parse_settings(std::string_view text, const std::string& file) {
   try {
     Reader(file, read).read(toml::parse(text, file));
   } catch (const toml::parse_error& error) {
-    read.troubles.push_back(file + ":" + std::to_string(error.source().begin.line) + ": " + std::string(error.description()) + "; all settings are as by default");
+    read.troubles.push_back(file + ":" + std::to_string(error.source().begin.line) + ": " +
+                            std::string(error.description()) + "; all settings are as by default");
   }
   return read;
 }
 
 std::string settings_text(const Settings& settings) {
   std::ostringstream text;
-  text << "# Rink's settings for playing. Keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...\n";
-  text << "mute = " << (settings.is_muted ? "true" : "false") << "\nvolume = " << settings.volume << "\nfull_screen = " << (settings.is_full_screen ? "true" : "false")
+  text << "# Rink's settings for playing. Keys are called: a, 7, up, left shift, space, f1, keypad "
+          "4, comma, ...\n";
+  text << "mute = " << (settings.is_muted ? "true" : "false") << "\nvolume = " << settings.volume
+       << "\nfull_screen = " << (settings.is_full_screen ? "true" : "false")
        << "\nsplit_screen = " << (settings.is_split ? "true" : "false") << '\n';
   for (std::size_t player = 0; player < player_tables.size(); ++player) {
     text << "\n[keys." << player_tables[player] << "]\n";
     for (const game::Key key : game::all_keys)
-      text << game::key_name(key) << " = \"" << key_code_name(settings.keys[player][static_cast<std::size_t>(key)]).value_or("") << "\"\n";
+      text << game::key_name(key) << " = \""
+           << key_code_name(settings.keys[player][static_cast<std::size_t>(key)]).value_or("")
+           << "\"\n";
   }
   return text.str();
 }
@@ -142,9 +165,12 @@ ReadSettings read_settings(const std::string& file) {
   if (file.empty() || !std::filesystem::exists(file, ignored)) return {};
   ReadSettings read;
   std::ifstream stream;
-  if (!std::filesystem::is_regular_file(file, ignored)) read.troubles = {file + ": not a file; all settings are as by default"};
-  else if (std::filesystem::file_size(file, ignored) > file_largest) read.troubles = {file + ": larger than 1 MiB; all settings are as by default"};
-  else if (stream.open(file); !stream) read.troubles = {file + ": cannot be read; all settings are as by default"};
+  if (!std::filesystem::is_regular_file(file, ignored))
+    read.troubles = {file + ": not a file; all settings are as by default"};
+  else if (std::filesystem::file_size(file, ignored) > file_largest)
+    read.troubles = {file + ": larger than 1 MiB; all settings are as by default"};
+  else if (stream.open(file); !stream)
+    read.troubles = {file + ": cannot be read; all settings are as by default"};
   if (!read.troubles.empty()) return read;
   std::ostringstream text;
   text << stream.rdbuf();
@@ -154,7 +180,8 @@ ReadSettings read_settings(const std::string& file) {
 std::optional<std::string> set_settings_aside(const std::string& file) {
   std::error_code trouble;
   std::filesystem::rename(file, file + ".old", trouble);
-  return trouble ? std::nullopt : std::optional("what stood in '" + file + "' is kept as '" + file + ".old'");
+  return trouble ? std::nullopt
+                 : std::optional("what stood in '" + file + "' is kept as '" + file + ".old'");
 }
 
 /// By way of a second file: one who is interrupted here has the old settings or the new ones.
@@ -173,8 +200,10 @@ std::optional<std::string> write_settings(const Settings& settings, const std::s
 }
 
 std::string settings_file() {
-  if (const char* folder = std::getenv("XDG_CONFIG_HOME"); folder != nullptr && *folder != '\0') return std::string(folder) + "/rink/play.toml";
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') return std::string(home) + "/.config/rink/play.toml";
+  if (const char* folder = std::getenv("XDG_CONFIG_HOME"); folder != nullptr && *folder != '\0')
+    return std::string(folder) + "/rink/play.toml";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+    return std::string(home) + "/.config/rink/play.toml";
   return {};
 }
 

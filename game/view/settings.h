@@ -1,4 +1,5 @@
-// What a player wants every time: keys, sound, size of the window. A small TOML file that people may edit.
+// What a player wants every time: keys, sound, size of the window. A small TOML file that people
+// may edit.
 #pragma once
 
 #include <array>
@@ -25,9 +26,9 @@ using KeySet = std::array<KeyCode, 4>;
 struct Settings {
   std::array<KeySet, 2> keys;  ///< of the left and the right player
   bool is_muted = false;
-  double volume = 0.7;         ///< 0 to 1
+  double volume = 0.7;  ///< 0 to 1
   bool is_full_screen = false;
-  bool is_split = true;        ///< two at one keyboard see the table each from the own end
+  bool is_split = true;  ///< two at one keyboard see the table each from the own end
   Settings();
   friend bool operator==(const Settings&, const Settings&) = default;
 };
@@ -42,19 +43,22 @@ struct Bound {
 };
 std::optional<Bound> bound(const Settings& settings, KeyCode code);
 
-/// Settings and what was wrong with the file, in the order of its lines, no more than fits on a screen: what could not be read is as by default.
+/// Settings and what was wrong with the file, in the order of its lines, no more than fits on a
+/// screen: what could not be read is as by default.
 struct ReadSettings {
   Settings settings;
   std::vector<std::string> troubles;
 };
 
-/// `text` is the file's content, `file` its name in messages, which say line, key, value and what was expected.
+/// `text` is the file's content, `file` its name in messages, which say line, key, value and what
+/// was expected.
 ReadSettings parse_settings(std::string_view text, const std::string& file);
 std::string settings_text(const Settings& settings);
 
 /// No file is no trouble.
 ReadSettings read_settings(const std::string& file);
-/// A file with troubles is not lost by what is written later: it is given another name. Which, or nothing if it could not be done.
+/// A file with troubles is not lost by what is written later: it is given another name. Which, or
+/// nothing if it could not be done.
 std::optional<std::string> set_settings_aside(const std::string& file);
 /// Makes the folder if need be. The trouble, or nothing.
 std::optional<std::string> write_settings(const Settings& settings, const std::string& file);

@@ -27,9 +27,11 @@ class Mix {
   explicit Mix(double duration_s) : samples_(static_cast<std::size_t>(duration_s * sound_rate)) {}
 
   Mix& add(const Partial& partial) {
-    for (std::size_t i = static_cast<std::size_t>(partial.start * sound_rate); i < samples_.size(); ++i) {
+    for (std::size_t i = static_cast<std::size_t>(partial.start * sound_rate); i < samples_.size();
+         ++i) {
       const double t = static_cast<double>(i) / sound_rate - partial.start;
-      samples_[i] += partial.loudness * std::exp(-t / partial.decay) * std::min(1.0, t / 0.002) * std::sin(6.283185307179586 * partial.pitch * t);
+      samples_[i] += partial.loudness * std::exp(-t / partial.decay) * std::min(1.0, t / 0.002) *
+                     std::sin(6.283185307179586 * partial.pitch * t);
     }
     return *this;
   }
@@ -39,7 +41,8 @@ class Mix {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       state = state * 1664525u + 1013904223u;
       const double t = static_cast<double>(i) / sound_rate;
-      samples_[i] += loudness * std::exp(-t / decay) * std::min(1.0, t / 0.0005) * (static_cast<double>(state >> 8) * 0x1p-23 - 1.0);
+      samples_[i] += loudness * std::exp(-t / decay) * std::min(1.0, t / 0.0005) *
+                     (static_cast<double>(state >> 8) * 0x1p-23 - 1.0);
     }
     return *this;
   }
@@ -49,7 +52,8 @@ class Mix {
     constexpr double fade_s = 0.005;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const double left_s = static_cast<double>(samples.size() - 1 - i) / sound_rate;
-      samples[i] = static_cast<std::int16_t>(32'000.0 * std::tanh(samples_[i]) * std::min(1.0, left_s / fade_s));
+      samples[i] = static_cast<std::int16_t>(32'000.0 * std::tanh(samples_[i]) *
+                                             std::min(1.0, left_s / fade_s));
     }
     return samples;
   }
@@ -63,22 +67,55 @@ class Mix {
 std::vector<std::int16_t> sound_of(Noise::Kind kind) {
   using Kind = Noise::Kind;
   switch (kind) {
-    case Kind::puck_on_wall: return Mix(0.12).add({0.0, 420.0, 0.5, 0.020}).add({0.0, 1050.0, 0.25, 0.010}).add_noise(0.35, 0.006).take();
-    case Kind::puck_on_bat: return Mix(0.16).add({0.0, 260.0, 0.75, 0.030}).add({0.0, 720.0, 0.3, 0.014}).add_noise(0.45, 0.008).take();
-    case Kind::puck_on_post: return Mix(0.45).add({0.0, 1730.0, 0.35, 0.10}).add({0.0, 2890.0, 0.22, 0.07}).add({0.0, 4410.0, 0.10, 0.05}).add_noise(0.2, 0.004).take();
-    case Kind::puck_on_puck: return Mix(0.10).add({0.0, 1250.0, 0.45, 0.014}).add_noise(0.3, 0.004).take();
-    case Kind::count: return Mix(0.22).add({0.0, 660.0, 0.45, 0.07}).add({0.0, 1320.0, 0.12, 0.04}).take();
-    case Kind::face_off: return Mix(0.5).add({0.0, 990.0, 0.5, 0.16}).add({0.0, 1980.0, 0.15, 0.10}).take();
-    case Kind::goal: return Mix(1.1).add({0.0, 196.0, 0.45, 0.5}).add({0.0, 293.7, 0.35, 0.5}).add({0.05, 392.0, 0.35, 0.5}).add({0.10, 587.3, 0.2, 0.4}).add_noise(0.10, 0.25).take();
+    case Kind::puck_on_wall:
+      return Mix(0.12)
+          .add({0.0, 420.0, 0.5, 0.020})
+          .add({0.0, 1050.0, 0.25, 0.010})
+          .add_noise(0.35, 0.006)
+          .take();
+    case Kind::puck_on_bat:
+      return Mix(0.16)
+          .add({0.0, 260.0, 0.75, 0.030})
+          .add({0.0, 720.0, 0.3, 0.014})
+          .add_noise(0.45, 0.008)
+          .take();
+    case Kind::puck_on_post:
+      return Mix(0.45)
+          .add({0.0, 1730.0, 0.35, 0.10})
+          .add({0.0, 2890.0, 0.22, 0.07})
+          .add({0.0, 4410.0, 0.10, 0.05})
+          .add_noise(0.2, 0.004)
+          .take();
+    case Kind::puck_on_puck:
+      return Mix(0.10).add({0.0, 1250.0, 0.45, 0.014}).add_noise(0.3, 0.004).take();
+    case Kind::count:
+      return Mix(0.22).add({0.0, 660.0, 0.45, 0.07}).add({0.0, 1320.0, 0.12, 0.04}).take();
+    case Kind::face_off:
+      return Mix(0.5).add({0.0, 990.0, 0.5, 0.16}).add({0.0, 1980.0, 0.15, 0.10}).take();
+    case Kind::goal:
+      return Mix(1.1)
+          .add({0.0, 196.0, 0.45, 0.5})
+          .add({0.0, 293.7, 0.35, 0.5})
+          .add({0.05, 392.0, 0.35, 0.5})
+          .add({0.10, 587.3, 0.2, 0.4})
+          .add_noise(0.10, 0.25)
+          .take();
     case Kind::win:
-      return Mix(1.8).add({0.0, 392.0, 0.4, 0.25}).add({0.18, 493.9, 0.4, 0.25}).add({0.36, 587.3, 0.4, 0.25}).add({0.54, 784.0, 0.5, 0.6}).add({0.54, 392.0, 0.3, 0.6}).take();
+      return Mix(1.8)
+          .add({0.0, 392.0, 0.4, 0.25})
+          .add({0.18, 493.9, 0.4, 0.25})
+          .add({0.36, 587.3, 0.4, 0.25})
+          .add({0.54, 784.0, 0.5, 0.6})
+          .add({0.54, 392.0, 0.3, 0.6})
+          .take();
   }
   return {};
 }
 
 namespace {
 
-/// Nothing that is written to standard error while it lives is seen: each of OpenAL's drivers complains in its own way, and no device is no trouble.
+/// Nothing that is written to standard error while it lives is seen: each of OpenAL's drivers
+/// complains in its own way, and no device is no trouble.
 class Silence {
  public:
   Silence() : kept_(dup(STDERR_FILENO)) {
@@ -125,7 +162,8 @@ Sounds::Sounds() {
   alGenSources(source_count, device_->sources.data());
   for (std::size_t kind = 0; kind < kind_count; ++kind) {
     const std::vector<std::int16_t> samples = sound_of(static_cast<Noise::Kind>(kind));
-    alBufferData(device_->buffers[kind], AL_FORMAT_MONO16, samples.data(), static_cast<ALsizei>(samples.size() * sizeof samples[0]), sound_rate);
+    alBufferData(device_->buffers[kind], AL_FORMAT_MONO16, samples.data(),
+                 static_cast<ALsizei>(samples.size() * sizeof samples[0]), sound_rate);
   }
 }
 
@@ -144,7 +182,8 @@ void Sounds::play(const std::vector<Noise>& noises, double volume) {
     const ALuint source = device_->sources[device_->next++ % source_count];
     const auto aside = static_cast<float>(std::clamp(2.0 * noise.place - 1.0, -1.0, 1.0));
     alSourceStop(source);
-    alSourcei(source, AL_BUFFER, static_cast<ALint>(device_->buffers[static_cast<std::size_t>(noise.kind)]));
+    alSourcei(source, AL_BUFFER,
+              static_cast<ALint>(device_->buffers[static_cast<std::size_t>(noise.kind)]));
     alSourcei(source, AL_SOURCE_RELATIVE, AL_TRUE);
     alSource3f(source, AL_POSITION, 0.7f * aside, 0.0f, -std::sqrt(1.0f - 0.49f * aside * aside));
     alSourcef(source, AL_GAIN, static_cast<float>(volume * std::clamp(noise.strength, 0.0, 1.0)));

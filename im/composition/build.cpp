@@ -67,27 +67,37 @@ std::string judge_parameter(const Expression& owner, std::size_t i) {
     if (owner.name != key.owner) continue;
     known.emplace_back(key.key);
     if (own.key != key.key) continue;
-    if (!(own.value >= key.low && own.value <= key.high) || (key.is_whole && own.value != std::floor(own.value)))
-      return owner.name + ": " + own.key + " = " + shown(own.value) + " is not " + (key.is_whole ? "a whole number" : "a number") + " from " + shown(key.low) + " to " + shown(key.high);
+    if (!(own.value >= key.low && own.value <= key.high) ||
+        (key.is_whole && own.value != std::floor(own.value)))
+      return owner.name + ": " + own.key + " = " + shown(own.value) + " is not " +
+             (key.is_whole ? "a whole number" : "a number") + " from " + shown(key.low) + " to " +
+             shown(key.high);
     for (std::size_t k = 0; k < i; ++k)
-      if (owner.parameters[k].key == own.key && !(key.is_list && owner.parameters[k].value < own.value))
+      if (owner.parameters[k].key == own.key &&
+          !(key.is_list && owner.parameters[k].value < own.value))
         return owner.name + ": " + own.key + (key.is_list ? " must ascend" : " is given twice");
     return {};
   }
-  return owner.name + " has no parameter " + own.key + (known.empty() ? ", nor any other" : "; it has " + listed(known));
+  return owner.name + " has no parameter " + own.key +
+         (known.empty() ? ", nor any other" : "; it has " + listed(known));
 }
 
 std::string judge_parameters(const Expression& owner) {
   for (std::size_t i = 0; i < owner.parameters.size(); ++i)
     if (std::string complaint = judge_parameter(owner, i); !complaint.empty()) return complaint;
   for (const Key& key : keys)
-    if (owner.name == key.owner && key.is_needed && std::isnan(owner.parameter(key.key, std::numeric_limits<double>::quiet_NaN()))) return owner.name + " needs " + key.key + "=NUMBER";
-  if (owner.name == "tiers" && owner.parameters.size() >= PairStates::filter_max) return "tiers: more than 15 of them";
+    if (owner.name == key.owner && key.is_needed &&
+        std::isnan(owner.parameter(key.key, std::numeric_limits<double>::quiet_NaN())))
+      return owner.name + " needs " + key.key + "=NUMBER";
+  if (owner.name == "tiers" && owner.parameters.size() >= PairStates::filter_max)
+    return "tiers: more than 15 of them";
   return {};
 }
 
 /// A scheme that no combination looks into.
-bool is_operand(const Expression& expression) { return expression.kind == Kind::scheme || expression.kind == Kind::stage; }
+bool is_operand(const Expression& expression) {
+  return expression.kind == Kind::scheme || expression.kind == Kind::stage;
+}
 
 std::size_t operand_count(const Expression& expression) {
   if (is_operand(expression)) return 1;
@@ -98,24 +108,33 @@ std::size_t operand_count(const Expression& expression) {
 
 /// Whether what it says of a pair depends on where the two are.
 bool looks_at_places(const Expression& expression) {
-  if (expression.kind == Kind::scheme) return expression.name != "always" && expression.name != "none" && expression.name != "owner" && expression.name != "team";
+  if (expression.kind == Kind::scheme)
+    return expression.name != "always" && expression.name != "none" && expression.name != "owner" &&
+           expression.name != "team";
   return std::any_of(expression.operands.begin(), expression.operands.end(), looks_at_places);
 }
 
-/// Of who is swept, an operand says whether it is true anywhere on the way. Under a `not`, `is_negated`, what counts is whether it is true everywhere on the way. That is
-/// not known, so it is taken as false.
-void flatten(const Expression& expression, const FilterSettings& settings, bool is_negated, std::vector<std::unique_ptr<Filter>>& operands, std::vector<Step>& steps) {
+/// Of who is swept, an operand says whether it is true anywhere on the way. Under a `not`,
+/// `is_negated`, what counts is whether it is true everywhere on the way. That is not known, so it
+/// is taken as false.
+void flatten(const Expression& expression, const FilterSettings& settings, bool is_negated,
+             std::vector<std::unique_ptr<Filter>>& operands, std::vector<Step>& steps) {
   if (is_operand(expression)) {
     steps.push_back(static_cast<Step>(operands.size()));
-    if (is_negated && looks_at_places(expression)) steps.insert(steps.end(), {Step::is_still, Step::conjunction});
+    if (is_negated && looks_at_places(expression))
+      steps.insert(steps.end(), {Step::is_still, Step::conjunction});
     operands.push_back(build_filter(expression, settings));
     return;
   }
-  for (const Expression& operand : expression.operands) flatten(operand, settings, is_negated != (expression.kind == Kind::negation), operands, steps);
-  steps.push_back(expression.kind == Kind::negation ? Step::negation : expression.kind == Kind::conjunction ? Step::conjunction : Step::alternative);
+  for (const Expression& operand : expression.operands)
+    flatten(operand, settings, is_negated != (expression.kind == Kind::negation), operands, steps);
+  steps.push_back(expression.kind == Kind::negation      ? Step::negation
+                  : expression.kind == Kind::conjunction ? Step::conjunction
+                                                         : Step::alternative);
 }
 
-std::unique_ptr<Filter> build_combination(const Expression& expression, const FilterSettings& settings) {
+std::unique_ptr<Filter> build_combination(const Expression& expression,
+                                          const FilterSettings& settings) {
   std::vector<std::unique_ptr<Filter>> operands;
   std::vector<Step> steps;
   flatten(expression, settings, false, operands, steps);
@@ -143,18 +162,24 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
     auto enter = build_inner();
     return make_hysteresis(std::move(enter), build_inner(), stage.parameter("margin", 0.0));
   }
-  if (stage.name == "dwell") return make_dwell(build_inner(), static_cast<std::uint32_t>(stage.parameter("matches", 1.0)));
-  if (stage.name == "swept") return make_swept(build_inner(), stage.parameter("horizon", 0.0), stage.parameter("drag", settings.drag), stage.parameter("disc", 0.0) != 0.0);
-  if (stage.name == "priority") return make_priority(build_inner(), static_cast<std::size_t>(stage.parameter("budget", 0.0)));
+  if (stage.name == "dwell")
+    return make_dwell(build_inner(), static_cast<std::uint32_t>(stage.parameter("matches", 1.0)));
+  if (stage.name == "swept")
+    return make_swept(build_inner(), stage.parameter("horizon", 0.0),
+                      stage.parameter("drag", settings.drag), stage.parameter("disc", 0.0) != 0.0);
+  if (stage.name == "priority")
+    return make_priority(build_inner(), static_cast<std::size_t>(stage.parameter("budget", 0.0)));
   // Rings measure where those who fly are now, if what they stand behind knows of flights.
   const Expression* const swept = swept_in(inner);
   const auto make_ring = [&] {
     auto ring = make_scheme("aura", settings);
-    return swept ? make_swept(std::move(ring), 0.0, swept->parameter("drag", settings.drag), false) : std::move(ring);
+    return swept ? make_swept(std::move(ring), 0.0, swept->parameter("drag", settings.drag), false)
+                 : std::move(ring);
   };
   std::vector<std::unique_ptr<Filter>> rings;
   std::vector<double> fractions;
-  for (const auto& at : stage.parameters) rings.push_back(make_ring()), fractions.push_back(at.value);
+  for (const auto& at : stage.parameters)
+    rings.push_back(make_ring()), fractions.push_back(at.value);
   return make_tiers(build_inner(), std::move(rings), std::move(fractions));
 }
 
@@ -163,7 +188,8 @@ template <class IsOne>
 bool has_scheme(const std::string& text, const IsOne& is_one) {
   const auto search = [&is_one](const auto& self, const Expression& expression) -> bool {
     if (expression.kind == Kind::scheme && is_one(expression)) return true;
-    return std::any_of(expression.operands.begin(), expression.operands.end(), [&](const Expression& operand) { return self(self, operand); });
+    return std::any_of(expression.operands.begin(), expression.operands.end(),
+                       [&](const Expression& operand) { return self(self, operand); });
   };
   Expression expression;
   return read_expression(text, expression).empty() && search(search, expression);
@@ -171,12 +197,16 @@ bool has_scheme(const std::string& text, const IsOne& is_one) {
 
 std::string judge_settings(const FilterSettings& settings) {
   if (const auto rejection = check_world(settings.world)) return describe(*rejection);
-  if (!(settings.cell_size >= 0.0) || !std::isfinite(settings.cell_size)) return describe({Fault::bad_cell_size, Subject::cells});
-  if (!(settings.half_angle_deg >= 0.0 && settings.half_angle_deg <= 180.0)) return "the half angle of a view is not a number from 0 to 180";
-  if (!(settings.drag >= 0.0) || !std::isfinite(settings.drag)) return "the drag of flights is not a finite number from 0";
+  if (!(settings.cell_size >= 0.0) || !std::isfinite(settings.cell_size))
+    return describe({Fault::bad_cell_size, Subject::cells});
+  if (!(settings.half_angle_deg >= 0.0 && settings.half_angle_deg <= 180.0))
+    return "the half angle of a view is not a number from 0 to 180";
+  if (!(settings.drag >= 0.0) || !std::isfinite(settings.drag))
+    return "the drag of flights is not a finite number from 0";
   for (std::size_t i = 0; i < settings.posts.size(); ++i) {
     const Disc& post = settings.posts[i];
-    if (!std::isfinite(post.x) || !std::isfinite(post.y) || !std::isfinite(post.radius)) return "post " + std::to_string(i) + " is not finite: a number is infinite or not a number";
+    if (!std::isfinite(post.x) || !std::isfinite(post.y) || !std::isfinite(post.radius))
+      return "post " + std::to_string(i) + " is not finite: a number is infinite or not a number";
     if (post.radius < 0.0) return "post " + std::to_string(i) + " has a negative radius";
   }
   return {};
@@ -187,15 +217,20 @@ std::string judge_own(const Expression& expression) {
   const auto names = expression.kind == Kind::stage ? stage_names() : filter_names();
   if (is_operand(expression)) {
     if (std::find(names.begin(), names.end(), expression.name) == names.end())
-      return std::string("no ") + (expression.kind == Kind::stage ? "stage" : "scheme") + " is called '" + expression.name + "'; there are " + listed(names);
+      return std::string("no ") + (expression.kind == Kind::stage ? "stage" : "scheme") +
+             " is called '" + expression.name + "'; there are " + listed(names);
     if (std::string complaint = judge_parameters(expression); !complaint.empty()) return complaint;
   } else if (operand_count(expression) >= PairStates::filter_max) {
     return "more than 15 schemes in one combination";
   }
   for (const Expression& operand : expression.operands) {
-    const bool is_last = operand.kind == Kind::stage && (operand.name == "tiers" || operand.name == "priority");
+    const bool is_last =
+        operand.kind == Kind::stage && (operand.name == "tiers" || operand.name == "priority");
     const bool is_tiers_in_priority = expression.name == "priority" && operand.name == "tiers";
-    if (is_last && !is_tiers_in_priority) return "after " + operand.name + " nothing may follow" + (operand.name == "tiers" ? " but priority" : "") + ": it says more of a pair than that it is relevant";
+    if (is_last && !is_tiers_in_priority)
+      return "after " + operand.name + " nothing may follow" +
+             (operand.name == "tiers" ? " but priority" : "") +
+             ": it says more of a pair than that it is relevant";
   }
   return {};
 }
@@ -209,9 +244,11 @@ const Expression* stage_in(const Expression& expression) {
 
 std::string why_not_momentary(const Expression& stage) {
   const bool goes_by_before = stage.name == "hysteresis" || stage.name == "dwell";
-  return stage.name + (goes_by_before               ? " goes by what was relevant before"
-                       : stage.name == "swept" ? " goes by what is foreseen"
-                                               : " says how often something is told, not whether it is relevant") +
+  return stage.name +
+         (goes_by_before ? " goes by what was relevant before"
+          : stage.name == "swept"
+              ? " goes by what is foreseen"
+              : " says how often something is told, not whether it is relevant") +
          ": what is relevant at an instant is said by schemes alone";
 }
 
@@ -219,7 +256,8 @@ std::string why_not_momentary(const Expression& stage) {
 
 std::string judge_expression(const Expression& expression, Expression::Place* place) {
   for (const Expression& operand : expression.operands)
-    if (std::string complaint = judge_expression(operand, place); !complaint.empty()) return complaint;
+    if (std::string complaint = judge_expression(operand, place); !complaint.empty())
+      return complaint;
   if (place) *place = expression.place;
   return judge_own(expression);
 }
@@ -237,7 +275,8 @@ std::string usage_of(const std::string& name) {
   std::string parameters;
   for (const Key& key : keys) {
     if (name != key.owner) continue;
-    const std::string one = std::string(key.key) + "=" + shown(key.low) + ".." + shown(key.high) + (key.is_list ? " ..." : "");
+    const std::string one = std::string(key.key) + "=" + shown(key.low) + ".." + shown(key.high) +
+                            (key.is_list ? " ..." : "");
     parameters += (parameters.empty() ? "" : " ") + (key.is_needed ? one : "[" + one + "]");
   }
   return parameters.empty() ? name : name + "(" + parameters + ")";
@@ -245,7 +284,8 @@ std::string usage_of(const std::string& name) {
 
 std::vector<std::string> stage_names() { return {stages.begin(), stages.end()}; }
 
-std::optional<std::string> complaint_about(const std::string& text, const FilterSettings& settings) {
+std::optional<std::string> complaint_about(const std::string& text,
+                                           const FilterSettings& settings) {
   Expression expression;
   std::string complaint = read_expression(text, expression);
   if (complaint.empty()) complaint = judge_expression(expression);
@@ -258,7 +298,8 @@ std::optional<ExpressionFault> fault_in(const std::string& text) {
   Expression::Place place;
   std::string complaint = read_expression(text, expression, &place);
   if (complaint.empty()) complaint = judge_expression(expression, &place);
-  return complaint.empty() ? std::nullopt : std::optional(ExpressionFault{complaint, place.character + 1});
+  return complaint.empty() ? std::nullopt
+                           : std::optional(ExpressionFault{complaint, place.character + 1});
 }
 
 std::optional<ExpressionFault> fault_in_momentary(const std::string& text) {
@@ -266,7 +307,9 @@ std::optional<ExpressionFault> fault_in_momentary(const std::string& text) {
   Expression expression;
   read_expression(text, expression);
   const Expression* const stage = stage_in(expression);
-  return stage ? std::optional(ExpressionFault{why_not_momentary(*stage), stage->place.character + 1}) : std::nullopt;
+  return stage
+             ? std::optional(ExpressionFault{why_not_momentary(*stage), stage->place.character + 1})
+             : std::nullopt;
 }
 
 std::unique_ptr<Filter> make_filter(const std::string& text, const FilterSettings& settings) {
@@ -278,13 +321,17 @@ std::unique_ptr<Filter> make_filter(const std::string& text, const FilterSetting
 
 bool say_the_same(const std::string& text, const std::string& other) {
   Expression one, another;
-  return read_expression(text, one).empty() && read_expression(other, another).empty() && one == another;
+  return read_expression(text, one).empty() && read_expression(other, another).empty() &&
+         one == another;
 }
 
 bool takes_cell_size(const std::string& text) {
   return has_scheme(text, [](const Expression& scheme) {
-    const bool has_cells = std::any_of(keys.begin(), keys.end(), [&](const Key& key) { return scheme.name == key.owner && std::string_view(key.key) == "cell_size"; });
-    return has_cells && std::isnan(scheme.parameter("cell_size", std::numeric_limits<double>::quiet_NaN()));
+    const bool has_cells = std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
+      return scheme.name == key.owner && std::string_view(key.key) == "cell_size";
+    });
+    return has_cells &&
+           std::isnan(scheme.parameter("cell_size", std::numeric_limits<double>::quiet_NaN()));
   });
 }
 

@@ -1,4 +1,5 @@
-// Keeps what each operand says of a pair and looks at the pair again when one of them changes its mind.
+// Keeps what each operand says of a pair and looks at the pair again when one of them changes its
+// mind.
 #include "im/composition/combination.h"
 
 #include <algorithm>
@@ -12,8 +13,10 @@ namespace {
 
 class Combination final : public ReviewedParts {
  public:
-  Combination(std::vector<std::unique_ptr<Filter>> operands, std::vector<Step> steps) : ReviewedParts(std::move(operands)), steps_(std::move(steps)) {
-    assert(parts_.size() <= PairStates::filter_max && !follow(steps_, 0, true) && !follow(steps_, 0, false));
+  Combination(std::vector<std::unique_ptr<Filter>> operands, std::vector<Step> steps)
+      : ReviewedParts(std::move(operands)), steps_(std::move(steps)) {
+    assert(parts_.size() <= PairStates::filter_max && !follow(steps_, 0, true) &&
+           !follow(steps_, 0, false));
     minds_sweeps_ = std::find(steps_.begin(), steps_.end(), Step::is_still) != steps_.end();
   }
 
@@ -29,7 +32,8 @@ class Combination final : public ReviewedParts {
     mark_entity(entity, from != to);
     Parts::set_swept_update_region(entity, from, to);
   }
-  void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) override {
+  void set_swept_subscription_region(Subscriber subscriber, const Region& from,
+                                     const Region& to) override {
     mark_subscriber(subscriber, from != to);
     Parts::set_swept_subscription_region(subscriber, from, to);
   }
@@ -42,9 +46,11 @@ class Combination final : public ReviewedParts {
     ReviewedParts::remove_subscriber(subscriber);
   }
   std::span<const Change> match() override {
-    return matched([this](Subscriber subscriber, Entity entity, PairStates::Says says, PairStates::Level) {
-      return PairStates::Level{follow(steps_, says, !swept_subscribers_.has(subscriber) && !swept_entities_.has(entity))};
-    });
+    return matched(
+        [this](Subscriber subscriber, Entity entity, PairStates::Says says, PairStates::Level) {
+          return PairStates::Level{follow(
+              steps_, says, !swept_subscribers_.has(subscriber) && !swept_entities_.has(entity))};
+        });
   }
 
  private:
@@ -52,7 +58,8 @@ class Combination final : public ReviewedParts {
     if (minds_sweeps_ && swept_entities_.set(entity, is_swept)) pairs_.touch_entity(entity);
   }
   void mark_subscriber(Subscriber subscriber, bool is_swept) {
-    if (minds_sweeps_ && swept_subscribers_.set(subscriber, is_swept)) pairs_.touch_subscriber(subscriber);
+    if (minds_sweeps_ && swept_subscribers_.set(subscriber, is_swept))
+      pairs_.touch_subscriber(subscriber);
   }
 
   std::vector<Step> steps_;
@@ -76,7 +83,8 @@ bool follow(const std::vector<Step>& steps, std::uint16_t says, bool is_still) {
   return (stack & 1u) != 0;
 }
 
-std::unique_ptr<Filter> make_combination(std::vector<std::unique_ptr<Filter>> operands, std::vector<Step> steps) {
+std::unique_ptr<Filter> make_combination(std::vector<std::unique_ptr<Filter>> operands,
+                                         std::vector<Step> steps) {
   return std::make_unique<Combination>(std::move(operands), std::move(steps));
 }
 

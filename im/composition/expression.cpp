@@ -10,7 +10,8 @@ namespace {
 
 /// Nobody writes so many parentheses; a stranger may not exhaust the stack with them.
 constexpr int depth_max = 32;
-/// Nor so many stages, each of which may double the filters behind it; and what is read is walked by recursion.
+/// Nor so many stages, each of which may double the filters behind it; and what is read is walked
+/// by recursion.
 constexpr int stages_max = 8;
 constexpr std::size_t expression_size_max = 4000;
 
@@ -34,8 +35,13 @@ class Reader {
   void next() {
     while (!rest_.empty() && rest_.front() == ' ') rest_.remove_prefix(1);
     std::size_t length = rest_.empty() ? 0 : 1;
-    const auto is_part = [this](char c) { return is_letter(rest_.front()) ? is_letter(c) || is_digit(c) : is_number_ && (is_digit(c) || c == '.' || c == 'e' || c == '-' || c == '+'); };
-    is_number_ = length > 0 && (is_digit(rest_.front()) || rest_.front() == '-' || rest_.front() == '.' || rest_.front() == '+');
+    const auto is_part = [this](char c) {
+      return is_letter(rest_.front())
+                 ? is_letter(c) || is_digit(c)
+                 : is_number_ && (is_digit(c) || c == '.' || c == 'e' || c == '-' || c == '+');
+    };
+    is_number_ = length > 0 && (is_digit(rest_.front()) || rest_.front() == '-' ||
+                                rest_.front() == '.' || rest_.front() == '+');
     while (length > 0 && length < rest_.size() && is_part(rest_[length])) ++length;
     token_ = rest_.substr(0, length);
     rest_.remove_prefix(length);
@@ -54,10 +60,12 @@ class Reader {
   Expression::Place here() const { return {static_cast<std::size_t>(token_.data() - begin_)}; }
 
   Expression whole() {
-    if (++depth_ > depth_max) return complain("more than 32 levels of parentheses and 'not'"), Expression{};
+    if (++depth_ > depth_max)
+      return complain("more than 32 levels of parentheses and 'not'"), Expression{};
     Expression result = joined(Expression::Kind::alternative);
     while (take("with")) {
-      if (++stages_ > stages_max) return complain("more than " + std::to_string(stages_max) + " stages"), Expression{};
+      if (++stages_ > stages_max)
+        return complain("more than " + std::to_string(stages_max) + " stages"), Expression{};
       Expression stage = named(Expression::Kind::stage, "expected the name of a stage");
       stage.operands.push_back(std::move(result));
       result = std::move(stage);
@@ -70,7 +78,8 @@ class Reader {
     const auto operand = [&] { return is_or ? joined(Expression::Kind::conjunction) : term(); };
     Expression result = operand();
     while (take(is_or ? "or" : "and")) {
-      Expression both{.kind = kind, .name = {}, .parameters = {}, .operands = {}, .place = result.place};
+      Expression both{
+          .kind = kind, .name = {}, .parameters = {}, .operands = {}, .place = result.place};
       both.operands.push_back(std::move(result));
       both.operands.push_back(operand());
       result = std::move(both);
@@ -79,20 +88,32 @@ class Reader {
   }
   Expression term() {
     if (take("not")) {
-      if (++depth_ > depth_max) return complain("more than 32 levels of parentheses and 'not'"), Expression{};
-      Expression negation{.kind = Expression::Kind::negation, .name = {}, .parameters = {}, .operands = {}, .place = here()};
+      if (++depth_ > depth_max)
+        return complain("more than 32 levels of parentheses and 'not'"), Expression{};
+      Expression negation{.kind = Expression::Kind::negation,
+                          .name = {},
+                          .parameters = {},
+                          .operands = {},
+                          .place = here()};
       negation.operands.push_back(term());
       --depth_;
       return negation;
     }
-    if (!take("(")) return named(Expression::Kind::scheme, "expected the name of a scheme, 'not' or '('");
+    if (!take("("))
+      return named(Expression::Kind::scheme, "expected the name of a scheme, 'not' or '('");
     Expression inner = whole();
     if (!take(")")) complain("expected ')'");
     return inner;
   }
   Expression named(Expression::Kind kind, const char* expected) {
-    Expression result{.kind = kind, .name = std::string(token_), .parameters = {}, .operands = {}, .place = here()};
-    if (token_.empty() || !is_letter(token_.front()) || token_ == "and" || token_ == "or" || token_ == "not" || token_ == "with") complain(expected);
+    Expression result{.kind = kind,
+                      .name = std::string(token_),
+                      .parameters = {},
+                      .operands = {},
+                      .place = here()};
+    if (token_.empty() || !is_letter(token_.front()) || token_ == "and" || token_ == "or" ||
+        token_ == "not" || token_ == "with")
+      complain(expected);
     next();
     if (!take("(")) return result;
     while (complaint_.empty() && !take(")")) result.parameters.push_back(parameter());
@@ -105,7 +126,8 @@ class Reader {
     if (!take("=")) complain("expected '=' after '" + result.key + "'");
     const char* const end = token_.data() + token_.size();
     const auto [stop, fault] = std::from_chars(token_.data(), end, result.value);
-    if (token_.empty() || fault != std::errc() || stop != end || !std::isfinite(result.value)) complain("expected a number after '" + result.key + "='");
+    if (token_.empty() || fault != std::errc() || stop != end || !std::isfinite(result.value))
+      complain("expected a number after '" + result.key + "='");
     next();
     return result;
   }
@@ -126,7 +148,8 @@ double Expression::parameter(std::string_view key, double otherwise) const {
   return otherwise;
 }
 
-std::string read_expression(std::string_view text, Expression& expression, Expression::Place* place) {
+std::string read_expression(std::string_view text, Expression& expression,
+                            Expression::Place* place) {
   if (text.size() > expression_size_max) {
     if (place) *place = {expression_size_max};
     return "longer than " + std::to_string(expression_size_max) + " characters";

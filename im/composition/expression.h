@@ -1,4 +1,5 @@
-// How a scheme is written: names with parameters, and, or, not, parentheses, and stages after `with`.
+// How a scheme is written: names with parameters, and, or, not, parentheses, and stages after
+// `with`.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +14,8 @@ namespace rink::im {
 
 /// A composed scheme as a tree.
 ///
-///     expression = alternative { "with" stage }        stage, scheme = name [ "(" { key "=" number } ")" ]
-///     alternative = conjunction { "or" conjunction }   conjunction = term { "and" term }
+///     expression = alternative { "with" stage }        stage, scheme = name [ "(" { key "=" number
+///     } ")" ] alternative = conjunction { "or" conjunction }   conjunction = term { "and" term }
 ///     term = "not" term | "(" expression ")" | scheme
 struct Expression {
   enum class Kind { scheme, stage, conjunction, alternative, negation };
@@ -40,10 +41,13 @@ struct Expression {
   double parameter(std::string_view key, double otherwise) const;
 };
 
-/// Reads `text` into `expression`. Returns what is wrong with it, naming the offender, whose `place` is said to who asks; an empty text if nothing is.
-std::string read_expression(std::string_view text, Expression& expression, Expression::Place* place = nullptr);
+/// Reads `text` into `expression`. Returns what is wrong with it, naming the offender, whose
+/// `place` is said to who asks; an empty text if nothing is.
+std::string read_expression(std::string_view text, Expression& expression,
+                            Expression::Place* place = nullptr);
 
-/// What is wrong with the names and parameters in `expression`, and likewise where; an empty text if nothing is.
+/// What is wrong with the names and parameters in `expression`, and likewise where; an empty text
+/// if nothing is.
 std::string judge_expression(const Expression& expression, Expression::Place* place = nullptr);
 
 /// The filter that a judged expression says.

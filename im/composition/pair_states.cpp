@@ -5,7 +5,8 @@ namespace rink::im {
 
 PairStates::Entry* PairStates::find(Buffer<Entry>& entries, Entity entity) {
   Entry* const end = entries.data() + entries.size();
-  Entry* const place = std::lower_bound(entries.data(), end, entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
+  Entry* const place = std::lower_bound(
+      entries.data(), end, entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
   return place == end || place->entity != entity ? nullptr : place;
 }
 
@@ -29,24 +30,29 @@ void PairStates::touch_entity(Entity entity) {
 
 void PairStates::touch_subscriber(Subscriber subscriber) {
   if (subscriber >= entries_.size()) return;
-  for (const Entry& entry : entries_[subscriber].span()) news_.push_back({subscriber, entry.entity, 0, 0});
+  for (const Entry& entry : entries_[subscriber].span())
+    news_.push_back({subscriber, entry.entity, 0, 0});
 }
 
 void PairStates::take(std::size_t k, std::span<const Change> changes) {
   const auto bit = static_cast<Says>(1u << k);
   for (const Change& change : changes) {
-    if (change.transition == Transition::entered) news_.push_back({change.subscriber, change.entity, bit, 0});
-    if (change.transition == Transition::left) news_.push_back({change.subscriber, change.entity, 0, bit});
+    if (change.transition == Transition::entered)
+      news_.push_back({change.subscriber, change.entity, bit, 0});
+    if (change.transition == Transition::left)
+      news_.push_back({change.subscriber, change.entity, 0, bit});
   }
 }
 
 void PairStates::join_news() {
-  if (!std::is_sorted(news_.data(), news_.data() + news_.size(), is_before)) std::sort(news_.data(), news_.data() + news_.size(), is_before);
+  if (!std::is_sorted(news_.data(), news_.data() + news_.size(), is_before))
+    std::sort(news_.data(), news_.data() + news_.size(), is_before);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < news_.size(); ++i) {
     if (kept > 0 && !is_before(news_[kept - 1], news_[i])) {
       News& last = news_[kept - 1];
-      last.on = static_cast<Says>(last.on | news_[i].on), last.off = static_cast<Says>(last.off | news_[i].off);
+      last.on = static_cast<Says>(last.on | news_[i].on),
+      last.off = static_cast<Says>(last.off | news_[i].off);
     } else {
       news_[kept++] = news_[i];
     }

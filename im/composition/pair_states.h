@@ -12,7 +12,8 @@
 
 namespace rink::im {
 
-/// Keeps the pairs of which some filter says that they are relevant, 8 bytes each, and looks again at those about which one has changed its mind; at no others.
+/// Keeps the pairs of which some filter says that they are relevant, 8 bytes each, and looks again
+/// at those about which one has changed its mind; at no others.
 class PairStates {
  public:
   /// Bit k: filter k says that it is relevant.
@@ -30,7 +31,8 @@ class PairStates {
 
   /// Takes the changes of filter `k` at this match; to be called for each of them before `review`.
   void take(std::size_t k, std::span<const Change> changes);
-  /// Asks `decide(subscriber, entity, says, was)` for the level of each pair about which something was taken, and appends what changed to `changes`, ordered. Returns how many it asked about.
+  /// Asks `decide(subscriber, entity, says, was)` for the level of each pair about which something
+  /// was taken, and appends what changed to `changes`, ordered. Returns how many it asked about.
   template <class Decide>
   std::size_t review(const Decide& decide, Buffer<Change>& changes);
 
@@ -47,7 +49,9 @@ class PairStates {
   };
   /// That of the entity; null if there is none.
   static Entry* find(Buffer<Entry>& entries, Entity entity);
-  static bool is_before(const News& a, const News& b) { return a.subscriber != b.subscriber ? a.subscriber < b.subscriber : a.entity < b.entity; }
+  static bool is_before(const News& a, const News& b) {
+    return a.subscriber != b.subscriber ? a.subscriber < b.subscriber : a.entity < b.entity;
+  }
   void join_news();
   template <class Decide>
   void look(const News& news, Entry entry, const Decide& decide, Buffer<Change>& changes);
@@ -58,13 +62,17 @@ class PairStates {
 };
 
 template <class Decide>
-void PairStates::look(const News& news, Entry entry, const Decide& decide, Buffer<Change>& changes) {
+void PairStates::look(const News& news, Entry entry, const Decide& decide,
+                      Buffer<Change>& changes) {
   const Level was = entry.level;
   entry.says = static_cast<Says>((entry.says | news.on) & ~news.off);
   entry.level = decide(news.subscriber, news.entity, entry.says, was);
   const auto tier = static_cast<std::uint8_t>(entry.level == 0 ? 0 : entry.level - 1);
-  if ((was == 0) != (entry.level == 0)) changes.push_back({news.subscriber, news.entity, was == 0 ? Transition::entered : Transition::left, tier});
-  else if (was != entry.level) changes.push_back({news.subscriber, news.entity, Transition::tier_changed, tier});
+  if ((was == 0) != (entry.level == 0))
+    changes.push_back(
+        {news.subscriber, news.entity, was == 0 ? Transition::entered : Transition::left, tier});
+  else if (was != entry.level)
+    changes.push_back({news.subscriber, news.entity, Transition::tier_changed, tier});
   if (entry.says != 0 || entry.level != 0) merged_.push_back(entry);
 }
 
@@ -79,7 +87,8 @@ std::size_t PairStates::review(const Decide& decide, Buffer<Change>& changes) {
     std::size_t i = 0;
     for (; next < news_.size() && news_[next].subscriber == subscriber; ++next) {
       const News& news = news_[next];
-      for (; i < entries.size() && entries[i].entity < news.entity; ++i) merged_.push_back(entries[i]);
+      for (; i < entries.size() && entries[i].entity < news.entity; ++i)
+        merged_.push_back(entries[i]);
       const bool is_known = i < entries.size() && entries[i].entity == news.entity;
       look(news, is_known ? entries[i++] : Entry{news.entity, 0, 0}, decide, changes);
     }

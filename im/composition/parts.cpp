@@ -18,7 +18,8 @@ void Parts::remove_subscriber(Subscriber subscriber) {
 void Parts::set_swept_update_region(Entity entity, const Region& from, const Region& to) {
   for (const auto& part : parts_) part->set_swept_update_region(entity, from, to);
 }
-void Parts::set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) {
+void Parts::set_swept_subscription_region(Subscriber subscriber, const Region& from,
+                                          const Region& to) {
   for (const auto& part : parts_) part->set_swept_subscription_region(subscriber, from, to);
 }
 void Parts::set_heading(Subscriber subscriber, const Heading& heading) {
@@ -47,7 +48,8 @@ Traits Parts::traits() const {
   Traits all;
   for (const auto& part : parts_) {
     const Traits own = part->traits();
-    all.uses_roles |= own.uses_roles, all.uses_headings |= own.uses_headings, all.uses_flights |= own.uses_flights, all.says_tiers |= own.says_tiers;
+    all.uses_roles |= own.uses_roles, all.uses_headings |= own.uses_headings,
+        all.uses_flights |= own.uses_flights, all.says_tiers |= own.says_tiers;
   }
   return all;
 }
@@ -73,7 +75,8 @@ std::span<const Change> Parts::reported(std::span<const Change> changes) {
     counters_.pairs_tested += part->counters().pairs_tested;
   }
   counters_.changes += changes.size();
-  for (const Change& change : changes) counters_.entries += change.transition == Transition::entered ? 1u : 0u;
+  for (const Change& change : changes)
+    counters_.entries += change.transition == Transition::entered ? 1u : 0u;
   return changes;
 }
 

@@ -21,7 +21,8 @@ class Parts : public Filter {
   void set_subscription_region(Subscriber subscriber, const Region& region) override;
   void remove_subscriber(Subscriber subscriber) override;
   void set_swept_update_region(Entity entity, const Region& from, const Region& to) override;
-  void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) override;
+  void set_swept_subscription_region(Subscriber subscriber, const Region& from,
+                                     const Region& to) override;
   void set_heading(Subscriber subscriber, const Heading& heading) override;
   void set_entity_role(Entity entity, const Role& role) override;
   void set_subscriber_role(Subscriber subscriber, const Role& role) override;

@@ -1,4 +1,5 @@
-// A filter made of other filters that looks at a pair again when one of them changes its mind about it.
+// A filter made of other filters that looks at a pair again when one of them changes its mind about
+// it.
 #pragma once
 
 #include <memory>
@@ -11,7 +12,8 @@
 
 namespace rink::im {
 
-/// What those derive from whose answer about a pair follows from what each part says of it and from what it was.
+/// What those derive from whose answer about a pair follows from what each part says of it and from
+/// what it was.
 class ReviewedParts : public Parts {
  public:
   explicit ReviewedParts(std::vector<std::unique_ptr<Filter>> parts) : Parts(std::move(parts)) {}
@@ -26,7 +28,8 @@ class ReviewedParts : public Parts {
   }
 
  protected:
-  /// Lets every part match and asks `decide(subscriber, entity, says, was)` for the level of each pair about which one of them changed its mind. Returns what is to be reported.
+  /// Lets every part match and asks `decide(subscriber, entity, says, was)` for the level of each
+  /// pair about which one of them changed its mind. Returns what is to be reported.
   template <class Decide>
   std::span<const Change> matched(const Decide& decide) {
     for (std::size_t k = 0; k < parts_.size(); ++k) pairs_.take(k, parts_[k]->match());

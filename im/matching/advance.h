@@ -1,10 +1,11 @@
-// Takes up where boxes are now that were known where they were, and measures how far and how wide they have become.
+// Takes up where boxes are now that were known where they were, and measures how far and how wide
+// they have become.
 #pragma once
 
 #include <cstdint>
 
-#include "im/matching/projection.h"
 #include "im/matching/index/scan.h"
+#include "im/matching/projection.h"
 #include "im/matching/region_history.h"
 
 namespace rink::im {
@@ -14,7 +15,8 @@ struct BoxColumnsOut {
   float *low_x, *low_y, *high_x, *high_y;
 };
 
-/// Some boxes of an index. `now` holds where they were binned, which may be where they were before `before`, and receives where they are.
+/// Some boxes of an index. `now` holds where they were binned, which may be where they were before
+/// `before`, and receives where they are.
 struct Advancing {
   const std::uint32_t* ids;
   const RegionHistory& regions;
@@ -27,12 +29,14 @@ struct Advancing {
 struct Advanced {
   float widest_x = 0.0f, widest_y = 0.0f;  ///< side of the hull of a box before and now
   float shift_x = 0.0f, shift_y = 0.0f;    ///< way of a low corner from before to now
-  float begun_x = 0.0f, begun_y = 0.0f;    ///< way up of a low corner from where it was binned to before
-  bool is_exact = true;                    ///< no projection lost anything; may stay true where nobody asked
+  float begun_x = 0.0f,
+        begun_y = 0.0f;  ///< way up of a low corner from where it was binned to before
+  bool is_exact = true;  ///< no projection lost anything; may stay true where nobody asked
 };
 
 /// Of the boxes at places `first` to `end`. `asks_exact`: whether `is_exact` is wanted.
-using Advance = Advanced (*)(const Advancing& boxes, std::size_t first, std::size_t end, bool asks_exact);
+using Advance = Advanced (*)(const Advancing& boxes, std::size_t first, std::size_t end,
+                             bool asks_exact);
 
 /// One box after the other, several at a time, or as the processor can: the same numbers.
 Advance advance(Instructions instructions);

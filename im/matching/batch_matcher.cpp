@@ -12,7 +12,8 @@ struct ExactRegions {
 
 Verdict judge(const void* context, std::uint32_t subscription, std::uint32_t update) {
   const auto& exact = *static_cast<const ExactRegions*>(context);
-  return overlap(exact.updates[update], exact.subscriptions[subscription]) ? Verdict::match : Verdict::no;
+  return overlap(exact.updates[update], exact.subscriptions[subscription]) ? Verdict::match
+                                                                           : Verdict::no;
 }
 
 }  // namespace
@@ -23,7 +24,8 @@ std::optional<Rejection> BatchMatcher::set_world(const Region& world) {
   return rejection;
 }
 
-void BatchMatcher::stage(std::span<const Region> regions, Subject subject, BoxIndex& index, std::vector<Rejection>& rejections) const {
+void BatchMatcher::stage(std::span<const Region> regions, Subject subject, BoxIndex& index,
+                         std::vector<Rejection>& rejections) const {
   index.begin(world_, regions.size(), false);
   for (std::uint32_t id = 0; id < regions.size(); ++id) {
     if (is_valid(regions[id])) index.stage(id, regions[id]);
@@ -37,10 +39,15 @@ void BatchMatcher::match(std::span<const Region> updates, std::span<const Region
   join_.clear();
   Worker* const worker = for_regions(worker_, updates.size() + subscriptions.size());
   join_.share_with(worker);
-  run_both(worker, [&] { stage(updates, Subject::update_region, updates_, rejections_); }, [&] { stage(subscriptions, Subject::subscription_region, subscriptions_, other_rejections_); });
+  run_both(
+      worker, [&] { stage(updates, Subject::update_region, updates_, rejections_); },
+      [&] {
+        stage(subscriptions, Subject::subscription_region, subscriptions_, other_rejections_);
+      });
   rejections_.insert(rejections_.end(), other_rejections_.begin(), other_rejections_.end());
   const ExactRegions exact{updates, subscriptions};
-  join_.add_overlaps(updates_, subscriptions_, {!(updates_.is_exact() && subscriptions_.is_exact()), judge, &exact});
+  join_.add_overlaps(updates_, subscriptions_,
+                     {!(updates_.is_exact() && subscriptions_.is_exact()), judge, &exact});
 }
 
 }  // namespace rink::im

@@ -11,16 +11,19 @@
 
 namespace rink::im {
 
-/// Matches n closed rectangles with m others, exactly: touching is overlap, to the last bit. Keeps its memory for the next time. The same regions give the
-/// same pairs in the same order, whatever the instructions.
+/// Matches n closed rectangles with m others, exactly: touching is overlap, to the last bit. Keeps
+/// its memory for the next time. The same regions give the same pairs in the same order, whatever
+/// the instructions.
 class BatchMatcher {
  public:
   explicit BatchMatcher(Instructions instructions = Instructions::best) : join_(instructions) {}
 
-  /// Where most regions are [m]; others are served too, only slower. A bad one is rejected and the one before stays; it begins as the unit square.
+  /// Where most regions are [m]; others are served too, only slower. A bad one is rejected and the
+  /// one before stays; it begins as the unit square.
   std::optional<Rejection> set_world(const Region& world);
 
-  /// Who takes half where there is enough to match (`WorthSharing`); null, as at first: nobody. It must outlive the matcher. Pairs and their order are the same.
+  /// Who takes half where there is enough to match (`WorthSharing`); null, as at first: nobody. It
+  /// must outlive the matcher. Pairs and their order are the same.
   void share_with(Worker* worker) { worker_ = worker; }
 
   /// A region's id is its place. A bad region is left out and rejected; it overlaps nothing.
@@ -28,7 +31,8 @@ class BatchMatcher {
 
   // What the last match found, valid until the next.
   std::size_t pair_count() const { return join_.found_count(); }
-  /// Calls `take(subscription, updates)` for each subscription, in the order of its place in the world; `updates` is a span of ids.
+  /// Calls `take(subscription, updates)` for each subscription, in the order of its place in the
+  /// world; `updates` is a span of ids.
   template <class Take>
   void for_each_subscription(const Take& take) const {
     for (std::size_t i = 0; i < join_.asker_count(); ++i) take(join_.asker(i), join_.found(i));
@@ -41,7 +45,8 @@ class BatchMatcher {
   const char* instructions() const { return join_.instructions(); }
 
  private:
-  void stage(std::span<const Region> regions, Subject subject, BoxIndex& index, std::vector<Rejection>& rejections) const;
+  void stage(std::span<const Region> regions, Subject subject, BoxIndex& index,
+             std::vector<Rejection>& rejections) const;
 
   Region world_{0.0, 0.0, 1.0, 1.0};
   BoxIndex updates_, subscriptions_;

@@ -12,7 +12,9 @@ namespace {
 
 constexpr std::size_t line = 64, huge_page = std::size_t{2} << 20;
 
-std::align_val_t alignment(std::size_t bytes) { return std::align_val_t{bytes >= huge_page ? huge_page : line}; }
+std::align_val_t alignment(std::size_t bytes) {
+  return std::align_val_t{bytes >= huge_page ? huge_page : line};
+}
 
 }  // namespace
 

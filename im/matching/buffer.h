@@ -10,21 +10,27 @@
 
 namespace rink::im {
 
-/// Memory of `bytes`, aligned to a cache line; from 2 MB on aligned to and advised for huge pages, which halves the time of a join of a million boxes
-/// (a box's columns are megabytes apart, so that each column of each row otherwise wants an address translation of its own).
+/// Memory of `bytes`, aligned to a cache line; from 2 MB on aligned to and advised for huge pages,
+/// which halves the time of a join of a million boxes (a box's columns are megabytes apart, so that
+/// each column of each row otherwise wants an address translation of its own).
 std::byte* allocate_buffer(std::size_t bytes);
 void free_buffer(std::byte* memory, std::size_t bytes);
 
-/// Like a vector without initialisation: what `reserve` and `resize` give has no values yet. Never shrinks.
+/// Like a vector without initialisation: what `reserve` and `resize` give has no values yet. Never
+/// shrinks.
 template <class Value>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<Value>);
 
  public:
   Buffer() = default;
-  Buffer(Buffer&& other) noexcept : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)), capacity_(std::exchange(other.capacity_, 0)) {}
+  Buffer(Buffer&& other) noexcept
+      : data_(std::exchange(other.data_, nullptr)),
+        size_(std::exchange(other.size_, 0)),
+        capacity_(std::exchange(other.capacity_, 0)) {}
   Buffer& operator=(Buffer&& other) noexcept {
-    std::swap(data_, other.data_), std::swap(size_, other.size_), std::swap(capacity_, other.capacity_);
+    std::swap(data_, other.data_), std::swap(size_, other.size_),
+        std::swap(capacity_, other.capacity_);
     return *this;
   }
   ~Buffer() { free_buffer(reinterpret_cast<std::byte*>(data_), capacity_ * sizeof(Value)); }

@@ -10,7 +10,8 @@ namespace {
 
 /// With more movers than this part of all, binning everyone costs less than asking for each.
 constexpr std::size_t few_means_one_in = 6;
-/// With more subscribers than this their order in space decides how often a line of memory is fetched twice.
+/// With more subscribers than this their order in space decides how often a line of memory is
+/// fetched twice.
 constexpr std::size_t unordered_subscriber_max = 4096;
 /// How many motions ahead memory is asked for.
 constexpr std::size_t stage_ahead = 16;
@@ -25,7 +26,9 @@ bool is_met(const Region& asker, const Region& asked) {
   return question == Question::of_discs ? touches_disc(asker, asked) : touches_disc(asked, asker);
 }
 
-Verdict verdict(bool was, bool is) { return was == is ? Verdict::no : is ? Verdict::entered : Verdict::match; }
+Verdict verdict(bool was, bool is) {
+  return was == is ? Verdict::no : is ? Verdict::entered : Verdict::match;
+}
 
 template <Question question>
 Verdict judge_moved(const void* context, std::uint32_t asker, std::uint32_t asked) {
@@ -34,7 +37,8 @@ Verdict judge_moved(const void* context, std::uint32_t asker, std::uint32_t aske
   return verdict(is_met<question>(a.before, b.before), is_met<question>(a.now, b.now));
 }
 
-/// While the asked one stays where it was, or has come already. Empty lanes tie with a box as large as numbers go.
+/// While the asked one stays where it was, or has come already. Empty lanes tie with a box as large
+/// as numbers go.
 template <Question question, Region Motion::*place>
 Verdict judge_standing(const void* context, std::uint32_t asker, std::uint32_t asked) {
   if (asked == LiveIndex::nobody) return Verdict::no;
@@ -47,20 +51,26 @@ Verdict judge_standing(const void* context, std::uint32_t asker, std::uint32_t a
 using Judge = Verdict (*)(const void*, std::uint32_t, std::uint32_t);
 
 Judge moved_judge(Question question) {
-  return question == Question::rectangles ? judge_moved<Question::rectangles> : question == Question::of_discs ? judge_moved<Question::of_discs> : judge_moved<Question::about_discs>;
+  return question == Question::rectangles ? judge_moved<Question::rectangles>
+         : question == Question::of_discs ? judge_moved<Question::of_discs>
+                                          : judge_moved<Question::about_discs>;
 }
 template <Region Motion::*place>
 Judge standing_judge(Question question) {
-  return question == Question::of_discs ? judge_standing<Question::of_discs, place> : judge_standing<Question::about_discs, place>;
+  return question == Question::of_discs ? judge_standing<Question::of_discs, place>
+                                        : judge_standing<Question::about_discs, place>;
 }
 
-Question of_subscribers(Shape shape) { return shape == Shape::rectangle ? Question::rectangles : Question::of_discs; }
+Question of_subscribers(Shape shape) {
+  return shape == Shape::rectangle ? Question::rectangles : Question::of_discs;
+}
 
 /// Grows a side that is none.
 Region with_area(Region world) {
   const auto widen = [](double& low, double& high) {
     if (high - low >= 1e-300 && high - low <= 1e300) return;
-    const double middle = std::clamp(0.5 * low + 0.5 * high, -1e300, 1e300), half = std::max(0.5, 1e-9 * std::abs(middle));
+    const double middle = std::clamp(0.5 * low + 0.5 * high, -1e300, 1e300),
+                 half = std::max(0.5, 1e-9 * std::abs(middle));
     low = middle - half, high = middle + half;
   };
   widen(world.low_x, world.high_x), widen(world.low_y, world.high_y);
@@ -69,20 +79,26 @@ Region with_area(Region world) {
 
 }  // namespace
 
-ChangeJoin::ChangeJoin(const Region& world, Instructions instructions, Shape shape) : world_(with_area(world)), instructions_(instructions), shape_(shape), join_(instructions) {}
+ChangeJoin::ChangeJoin(const Region& world, Instructions instructions, Shape shape)
+    : world_(with_area(world)), instructions_(instructions), shape_(shape), join_(instructions) {}
 
-std::span<const Change> ChangeJoin::find(const RegionHistory& entities, std::span<const std::uint32_t> moved_entities, const RegionHistory& subscribers,
+std::span<const Change> ChangeJoin::find(const RegionHistory& entities,
+                                         std::span<const std::uint32_t> moved_entities,
+                                         const RegionHistory& subscribers,
                                          std::span<const std::uint32_t> moved_subscribers) {
   changes_.clear();
   const std::size_t moved = moved_entities.size() + moved_subscribers.size();
   if (moved == 0) return {};
-  const Side entity_side{entities, moved_entities, entities_}, subscriber_side{subscribers, moved_subscribers, subscribers_};
-  if (moved * few_means_one_in > entities.size() + subscribers.size()) join_everyone(entity_side, subscriber_side);
+  const Side entity_side{entities, moved_entities, entities_},
+      subscriber_side{subscribers, moved_subscribers, subscribers_};
+  if (moved * few_means_one_in > entities.size() + subscribers.size())
+    join_everyone(entity_side, subscriber_side);
   else join_movers(entity_side, subscriber_side);
   return changes_.ordered(subscribers.size());
 }
 
-/// Stages all of `side`, in the order in which they lay in space at the last time if that is known: then sorting them moves little.
+/// Stages all of `side`, in the order in which they lay in space at the last time if that is known:
+/// then sorting them moves little.
 void ChangeJoin::stage(const Side& side) {
   Standing& standing = side.standing;
   BoxIndex& index = standing.swept;
@@ -101,10 +117,13 @@ void ChangeJoin::stage(const Side& side) {
     if (is_nowhere(side.regions[id].before)) index.stage(id, side.regions[id]);
 }
 
-/// Has the index hold everyone of `side`: those whom it held at the last match stay in their cells while they are near.
+/// Has the index hold everyone of `side`: those whom it held at the last match stay in their cells
+/// while they are near.
 void ChangeJoin::place(const Side& side) {
   Standing& standing = side.standing;
-  if (standing.is_placed && standing.swept.size() == side.regions.present_count() && standing.swept.follow(side.regions, instructions_)) return;
+  if (standing.is_placed && standing.swept.size() == side.regions.present_count() &&
+      standing.swept.follow(side.regions, instructions_))
+    return;
   stage(side);
   standing.swept.build();
   const std::span<const std::uint32_t> ids = standing.swept.ids();
@@ -130,15 +149,20 @@ void ChangeJoin::join_everyone(const Side& entities, const Side& subscribers) {
   if (is_ordered) join(entities.standing.swept, subscribers.standing.swept, entities, subscribers);
   else join(entities.standing.swept, probes_, entities, subscribers);
   changes_.add_by_subscriber(join_);
-  for (const Side* side : {&entities, &subscribers}) side->standing.is_live = side->standing.is_live && side->moved.empty();
+  for (const Side* side : {&entities, &subscribers})
+    side->standing.is_live = side->standing.is_live && side->moved.empty();
 }
 
 template <class Askers>
-void ChangeJoin::join(const BoxIndex& asked, const Askers& askers, const Side& entities, const Side& subscribers) {
+void ChangeJoin::join(const BoxIndex& asked, const Askers& askers, const Side& entities,
+                      const Side& subscribers) {
   const ExactMotions exact{subscribers.regions, entities.regions};
   join_.clear();
   const Question question = of_subscribers(shape_);
-  join_.add_changes(asked, askers, {question != Question::rectangles || !(asked.is_exact() && askers.is_exact()), moved_judge(question), &exact}, question);
+  join_.add_changes(asked, askers,
+                    {question != Question::rectangles || !(asked.is_exact() && askers.is_exact()),
+                     moved_judge(question), &exact},
+                    question);
   pairs_tested_ += join_.candidate_count();
 }
 
@@ -146,12 +170,14 @@ void ChangeJoin::join(const BoxIndex& asked, const Askers& askers, const Side& e
 void ChangeJoin::list(const Side& movers) {
   probes_.begin(world_);
   for (std::size_t i = 0; i < movers.moved.size(); ++i) {
-    if (i + stage_ahead < movers.moved.size()) movers.regions.prefetch(movers.moved[i + stage_ahead]);
+    if (i + stage_ahead < movers.moved.size())
+      movers.regions.prefetch(movers.moved[i + stage_ahead]);
     probes_.add(movers.moved[i], movers.regions[movers.moved[i]]);
   }
 }
 
-/// What changes for `asked`, all of them at `place`, while the askers go from where they were to where they are.
+/// What changes for `asked`, all of them at `place`, while the askers go from where they were to
+/// where they are.
 template <Region Motion::*place>
 void ChangeJoin::ask_lines(const Side& askers, const Side& asked, bool is_by_entity) {
   LineIndex& lines = asked.standing.lines;
@@ -162,8 +188,15 @@ void ChangeJoin::ask_lines(const Side& askers, const Side& asked, bool is_by_ent
   Worker* const worker = for_movers(worker_, askers.moved.size());
   const std::size_t count = probes_.size(), middle = worker != nullptr ? count / 2 : count;
   answers_.clear(), other_answers_.clear();
-  run_both(worker, [&] { lines.find_changes(probes_, 0, middle, judge, asked.regions, instructions_, answers_); },
-           [&] { lines.find_changes(probes_, middle, count, judge, asked.regions, instructions_, other_answers_); });
+  run_both(
+      worker,
+      [&] {
+        lines.find_changes(probes_, 0, middle, judge, asked.regions, instructions_, answers_);
+      },
+      [&] {
+        lines.find_changes(probes_, middle, count, judge, asked.regions, instructions_,
+                           other_answers_);
+      });
   for (const LineIndex::Answers* answers : {&answers_, &other_answers_}) {
     if (is_by_entity) changes_.add_by_entity(answers->found.span());
     else changes_.add_by_subscriber(answers->found.span());
@@ -195,7 +228,8 @@ void ChangeJoin::Standing::forget(std::uint32_t id, const Region& place) {
   if (is_live && lines.is_built() && !is_nowhere(place)) lines.remove(id, place);
 }
 
-/// First the entities move, then the subscribers: so nobody needs to ask whether the other has moved as well, and what the second undoes of the first cancels out.
+/// First the entities move, then the subscribers: so nobody needs to ask whether the other has
+/// moved as well, and what the second undoes of the first cancels out.
 void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
   if (!entities.moved.empty()) {
     list(entities);
@@ -220,12 +254,14 @@ void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
   for (const Side* side : {&entities, &subscribers}) {
     side->standing.is_placed = false;
     const auto is_newcomer = [&](std::uint32_t id) { return is_nowhere(side->regions[id].before); };
-    side->standing.is_ordered = side->standing.is_ordered && std::none_of(side->moved.begin(), side->moved.end(), is_newcomer);
+    side->standing.is_ordered = side->standing.is_ordered &&
+                                std::none_of(side->moved.begin(), side->moved.end(), is_newcomer);
   }
 }
 
 std::size_t ChangeJoin::bytes() const {
-  return entities_.bytes() + subscribers_.bytes() + probes_.bytes() + join_.bytes() + answers_.bytes() + other_answers_.bytes() + changes_.bytes();
+  return entities_.bytes() + subscribers_.bytes() + probes_.bytes() + join_.bytes() +
+         answers_.bytes() + other_answers_.bytes() + changes_.bytes();
 }
 
 }  // namespace rink::im

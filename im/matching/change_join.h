@@ -1,36 +1,46 @@
-// Net changes of overlap between two sets of moving boxes: the one matching engine behind all schemes that are overlap of rectangles.
+// Net changes of overlap between two sets of moving boxes: the one matching engine behind all
+// schemes that are overlap of rectangles.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
-#include "im/matching/index/box_index.h"
 #include "im/matching/change_list.h"
 #include "im/matching/disc.h"
-#include "im/matching/join.h"
+#include "im/matching/index/box_index.h"
 #include "im/matching/index/line_index.h"
 #include "im/matching/index/live_index.h"
+#include "im/matching/join.h"
 #include "im/matching/region_history.h"
 
 namespace rink::im {
 
-/// Keeps no pairs: a pair has changed if its overlap before and now differ, so both places are looked at at once. Two ways, the same result:
-/// when many moved, all boxes are binned anew by the hull of their two places and joined; when few did, first the entities that moved ask the subscribers where
-/// those were, then the subscribers that moved ask the entities where those are now, and a pair that changed twice has not changed.
+/// Keeps no pairs: a pair has changed if its overlap before and now differ, so both places are
+/// looked at at once. Two ways, the same result: when many moved, all boxes are binned anew by the
+/// hull of their two places and joined; when few did, first the entities that moved ask the
+/// subscribers where those were, then the subscribers that moved ask the entities where those are
+/// now, and a pair that changed twice has not changed.
 class ChangeJoin {
  public:
-  explicit ChangeJoin(const Region& world, Instructions instructions = Instructions::best, Shape shape = Shape::rectangle);
+  explicit ChangeJoin(const Region& world, Instructions instructions = Instructions::best,
+                      Shape shape = Shape::rectangle);
 
-  /// Every change, ordered by (subscriber, entity); `moved_...` are those whose place now is not the one before, ascending. Valid until the next call.
-  std::span<const Change> find(const RegionHistory& entities, std::span<const std::uint32_t> moved_entities, const RegionHistory& subscribers,
+  /// Every change, ordered by (subscriber, entity); `moved_...` are those whose place now is not
+  /// the one before, ascending. Valid until the next call.
+  std::span<const Change> find(const RegionHistory& entities,
+                               std::span<const std::uint32_t> moved_entities,
+                               const RegionHistory& subscribers,
                                std::span<const std::uint32_t> moved_subscribers);
 
-  /// Who takes half where there is enough to match (worker.h); null, as at first: nobody. It must outlive this. Changes and their order are the same.
+  /// Who takes half where there is enough to match (worker.h); null, as at first: nobody. It must
+  /// outlive this. Changes and their order are the same.
   void share_with(Worker* worker) { worker_ = worker; }
 
   /// `place` is where it was at the last match, maybe nowhere.
   void forget_entity(std::uint32_t entity, const Region& place) { entities_.forget(entity, place); }
-  void forget_subscriber(std::uint32_t subscriber, const Region& place) { subscribers_.forget(subscriber, place); }
+  void forget_subscriber(std::uint32_t subscriber, const Region& place) {
+    subscribers_.forget(subscriber, place);
+  }
 
   std::uint64_t pairs_tested() const { return pairs_tested_; }
   std::size_t bytes() const;
@@ -46,7 +56,10 @@ class ChangeJoin {
     BoxIndex swept;               // everyone, if everyone was joined at the last match
     bool is_placed = false;       // `swept` holds all who were somewhere before, where they were
     void forget(std::uint32_t id, const Region& place);
-    std::size_t bytes() const { return lines.bytes() + live.bytes() + sizeof(std::uint32_t) * order.capacity() + swept.bytes(); }
+    std::size_t bytes() const {
+      return lines.bytes() + live.bytes() + sizeof(std::uint32_t) * order.capacity() +
+             swept.bytes();
+    }
   };
   /// One of the two sets, at this match.
   struct Side {
@@ -65,7 +78,8 @@ class ChangeJoin {
   void ask_live(const Side& askers, const Side& asked, Question question);
   void put(const Side& movers);
   template <class Askers>
-  void join(const BoxIndex& asked, const Askers& askers, const Side& entities, const Side& subscribers);
+  void join(const BoxIndex& asked, const Askers& askers, const Side& entities,
+            const Side& subscribers);
 
   Region world_;
   Instructions instructions_;

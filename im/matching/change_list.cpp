@@ -11,10 +11,13 @@ namespace {
 constexpr unsigned digit_bits_max = 12;
 
 /// The last bit is the transition: it does not decide the order of pairs.
-std::uint64_t key(std::uint32_t subscriber, std::uint32_t entity, bool is_entered) { return std::uint64_t{subscriber} << 32 | entity << 1 | (is_entered ? 1u : 0u); }
+std::uint64_t key(std::uint32_t subscriber, std::uint32_t entity, bool is_entered) {
+  return std::uint64_t{subscriber} << 32 | entity << 1 | (is_entered ? 1u : 0u);
+}
 
 Change change(std::uint64_t key) {
-  return {static_cast<Subscriber>(key >> 32), static_cast<Entity>(key) >> 1, (key & 1u) != 0 ? Transition::entered : Transition::left};
+  return {static_cast<Subscriber>(key >> 32), static_cast<Entity>(key) >> 1,
+          (key & 1u) != 0 ? Transition::entered : Transition::left};
 }
 
 /// Runs are short.
@@ -36,7 +39,8 @@ void ChangeList::add_by_subscriber(const Join& join) {
   keys_.resize(count + join.found_count());
   for (std::size_t i = 0; i < join.asker_count(); ++i) {
     const std::size_t first = count;
-    for (const std::uint32_t found : join.found(i)) keys_[count++] = key(join.asker(i), found & ~entered_bit, (found & entered_bit) != 0);
+    for (const std::uint32_t found : join.found(i))
+      keys_[count++] = key(join.asker(i), found & ~entered_bit, (found & entered_bit) != 0);
     sort_run(keys_.data() + first, keys_.data() + count);
   }
 }
@@ -45,31 +49,44 @@ void ChangeList::add_by_entity(const Join& join) {
   std::size_t count = keys_.size();
   keys_.resize(count + join.found_count());
   for (std::size_t i = 0; i < join.asker_count(); ++i)
-    for (const std::uint32_t found : join.found(i)) keys_[count++] = key(found & ~entered_bit, join.asker(i), (found & entered_bit) != 0);
+    for (const std::uint32_t found : join.found(i))
+      keys_[count++] = key(found & ~entered_bit, join.asker(i), (found & entered_bit) != 0);
 }
 
 void ChangeList::add_by_subscriber(std::span<const std::uint64_t> found) {
-  for (const std::uint64_t pair : found) keys_.push_back(key(static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair) & ~entered_bit, (pair & entered_bit) != 0));
+  for (const std::uint64_t pair : found)
+    keys_.push_back(key(static_cast<std::uint32_t>(pair >> 32),
+                        static_cast<std::uint32_t>(pair) & ~entered_bit,
+                        (pair & entered_bit) != 0));
 }
 
 void ChangeList::add_by_entity(std::span<const std::uint64_t> found) {
-  for (const std::uint64_t pair : found) keys_.push_back(key(static_cast<std::uint32_t>(pair) & ~entered_bit, static_cast<std::uint32_t>(pair >> 32), (pair & entered_bit) != 0));
+  for (const std::uint64_t pair : found)
+    keys_.push_back(key(static_cast<std::uint32_t>(pair) & ~entered_bit,
+                        static_cast<std::uint32_t>(pair >> 32), (pair & entered_bit) != 0));
 }
 
-/// From the last digit to the first. Above the highest bits that differ nothing is looked at, and digits are as wide as makes the fewest steps: over the keys twice for each digit, over its
+/// From the last digit to the first. Above the highest bits that differ nothing is looked at, and
+/// digits are as wide as makes the fewest steps: over the keys twice for each digit, over its
 /// values once.
 void ChangeList::sort_by_digits() {
   std::uint64_t varying = 0;
   for (const std::uint64_t key : keys_.span()) varying |= key ^ keys_[0];
-  const auto low_bits = static_cast<unsigned>(std::bit_width(varying & 0xFFFFFFFFu)), bits = low_bits + static_cast<unsigned>(std::bit_width(varying >> 32));
+  const auto low_bits = static_cast<unsigned>(std::bit_width(varying & 0xFFFFFFFFu)),
+             bits = low_bits + static_cast<unsigned>(std::bit_width(varying >> 32));
   const auto digit_count = [&](unsigned width) { return (bits + width - 1) / width; };
-  const auto steps = [&](unsigned width) { return digit_count(width) * (2 * keys_.size() + (std::size_t{1} << width)); };
+  const auto steps = [&](unsigned width) {
+    return digit_count(width) * (2 * keys_.size() + (std::size_t{1} << width));
+  };
   unsigned width = 4;
   for (unsigned wider = 5; wider <= digit_bits_max; ++wider)
     if (steps(wider) < steps(width)) width = wider;
   // The bits of the entity and, next to them, those of the subscriber.
-  const std::uint64_t mask = (std::uint64_t{1} << width) - 1, low_mask = (std::uint64_t{1} << low_bits) - 1;
-  const auto digit = [=](std::uint64_t key, unsigned shift) { return ((key >> 32 << low_bits) | (key & low_mask)) >> shift & mask; };
+  const std::uint64_t mask = (std::uint64_t{1} << width) - 1,
+                      low_mask = (std::uint64_t{1} << low_bits) - 1;
+  const auto digit = [=](std::uint64_t key, unsigned shift) {
+    return ((key >> 32 << low_bits) | (key & low_mask)) >> shift & mask;
+  };
   sorted_.resize(keys_.size());
   for (unsigned shift = 0; shift < bits; shift += width) {
     starts_.fill(mask + 2, 0);
@@ -91,7 +108,8 @@ void ChangeList::sort(std::size_t subscriber_count) {
   sorted_.resize(keys_.size());
   // Afterwards a start is where its run ends. Runs from one join are in order already.
   for (const std::uint64_t key : keys_.span()) sorted_[starts_[key >> 32]++] = key;
-  for (std::size_t i = 0, first = 0; i < subscriber_count; first = starts_[i++]) sort_run(sorted_.data() + first, sorted_.data() + starts_[i]);
+  for (std::size_t i = 0, first = 0; i < subscriber_count; first = starts_[i++])
+    sort_run(sorted_.data() + first, sorted_.data() + starts_[i]);
   std::swap(keys_, sorted_);
 }
 

@@ -17,13 +17,18 @@ class ChangeList {
   void add_by_subscriber(const Join& join);
   /// All that entities found among subscribers.
   void add_by_entity(const Join& join);
-  /// The same, from numbers whose high half is who asked, the low half whom he found with `entered_bit`.
+  /// The same, from numbers whose high half is who asked, the low half whom he found with
+  /// `entered_bit`.
   void add_by_subscriber(std::span<const std::uint64_t> found);
   void add_by_entity(std::span<const std::uint64_t> found);
-  /// Orders the changes of subscribers below `subscriber_count`. A pair that is there twice entered and left, and is left out. Valid until the next call.
+  /// Orders the changes of subscribers below `subscriber_count`. A pair that is there twice entered
+  /// and left, and is left out. Valid until the next call.
   std::span<const Change> ordered(std::size_t subscriber_count);
 
-  std::size_t bytes() const { return sizeof(std::uint64_t) * (keys_.capacity() + sorted_.capacity()) + sizeof(std::uint32_t) * starts_.capacity() + sizeof(Change) * changes_.capacity(); }
+  std::size_t bytes() const {
+    return sizeof(std::uint64_t) * (keys_.capacity() + sorted_.capacity()) +
+           sizeof(std::uint32_t) * starts_.capacity() + sizeof(Change) * changes_.capacity();
+  }
 
  private:
   void sort(std::size_t subscriber_count);

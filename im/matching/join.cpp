@@ -1,4 +1,5 @@
-// Finds the stretches for a block of probes, then scans them: the first loads of the one hide behind each other, the second runs over what has arrived.
+// Finds the stretches for a block of probes, then scans them: the first loads of the one hide
+// behind each other, the second runs over what has arrived.
 #include "im/matching/join.h"
 
 #include <algorithm>
@@ -19,7 +20,8 @@ void Join::Part::clear() {
 void Join::clear() { own_.clear(); }
 
 template <class Index, class Askers, class Find>
-void Join::Part::add(const Index& index, const Askers& all, std::size_t begin, std::size_t end, const TieJudge& judge, Scan scan, const Find& find) {
+void Join::Part::add(const Index& index, const Askers& all, std::size_t begin, std::size_t end,
+                     const TieJudge& judge, Scan scan, const Find& find) {
   const Candidates candidates = index.candidates();
   std::array<Probe, block_size> probes;
   std::array<std::uint32_t, block_size> block_ends;
@@ -38,7 +40,8 @@ void Join::Part::add(const Index& index, const Askers& all, std::size_t begin, s
     candidate_count += block_candidates;
     const std::size_t found_before = found.size();
     found.reserve(found_before + block_candidates + 8);
-    const std::size_t found_now = scan(candidates, {probes.data(), count}, stretches.data(), judge, found.data() + found_before, block_ends.data());
+    const std::size_t found_now = scan(candidates, {probes.data(), count}, stretches.data(), judge,
+                                       found.data() + found_before, block_ends.data());
     found.resize(found_before + found_now);
     for (std::size_t i = 0; i < count; ++i, ++place) {
       askers[place] = probes[i].id;
@@ -55,29 +58,42 @@ void Join::Part::append(const Part& other) {
   askers.resize(place + other.askers.size());
   std::copy(other.askers.span().begin(), other.askers.span().end(), askers.data() + place);
   ends.resize(place + other.ends.size());
-  for (std::size_t i = 0; i < other.ends.size(); ++i) ends[place + i] = found_before + other.ends[i];
+  for (std::size_t i = 0; i < other.ends.size(); ++i)
+    ends[place + i] = found_before + other.ends[i];
 }
 
 template <class Index, class Askers, class Find>
-void Join::add(const Index& index, const Askers& askers, const TieJudge& judge, Scan scan, const Find& find) {
+void Join::add(const Index& index, const Askers& askers, const TieJudge& judge, Scan scan,
+               const Find& find) {
   const std::size_t count = askers.size(), middle = worker_ ? count / 2 : count;
   if (middle == count) return own_.add(index, askers, 0, count, judge, scan, find);
   other_.clear();
-  run_both(worker_, [&] { own_.add(index, askers, 0, middle, judge, scan, find); }, [&] { other_.add(index, askers, middle, count, judge, scan, find); });
+  run_both(
+      worker_, [&] { own_.add(index, askers, 0, middle, judge, scan, find); },
+      [&] { other_.add(index, askers, middle, count, judge, scan, find); });
   own_.append(other_);
 }
 
 void Join::add_overlaps(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge) {
-  add(index, askers, judge, scans_.overlaps, [&](const Probe& probe, Buffer<Stretch>& stretches) { return index.find_overlaps(probe.now, stretches); });
+  add(index, askers, judge, scans_.overlaps, [&](const Probe& probe, Buffer<Stretch>& stretches) {
+    return index.find_overlaps(probe.now, stretches);
+  });
 }
 
 template <class Index, class Askers>
-void Join::add_changes(const Index& index, const Askers& askers, const TieJudge& judge, Question question) {
+void Join::add_changes(const Index& index, const Askers& askers, const TieJudge& judge,
+                       Question question) {
   if (question == Question::of_discs)
-    return add(index, askers, judge, scans_.changes_of_discs, [&](const Probe& probe, Buffer<Stretch>& stretches) { return index.find_disc_changes(probe, stretches); });
-  // A subscription that lies inside of a box has its disc there too, so what rectangles leave out may be left out of discs.
+    return add(index, askers, judge, scans_.changes_of_discs,
+               [&](const Probe& probe, Buffer<Stretch>& stretches) {
+                 return index.find_disc_changes(probe, stretches);
+               });
+  // A subscription that lies inside of a box has its disc there too, so what rectangles leave out
+  // may be left out of discs.
   const Scan scan = question == Question::rectangles ? scans_.changes : scans_.changes_about_discs;
-  add(index, askers, judge, scan, [&](const Probe& probe, Buffer<Stretch>& stretches) { return index.find_changes(probe, stretches); });
+  add(index, askers, judge, scan, [&](const Probe& probe, Buffer<Stretch>& stretches) {
+    return index.find_changes(probe, stretches);
+  });
 }
 
 template void Join::add_changes(const BoxIndex&, const BoxIndex&, const TieJudge&, Question);
@@ -85,7 +101,9 @@ template void Join::add_changes(const BoxIndex&, const ProbeList&, const TieJudg
 template void Join::add_changes(const LiveIndex&, const ProbeList&, const TieJudge&, Question);
 
 std::size_t Join::Part::bytes() const {
-  return sizeof(Stretch) * stretches.capacity() + sizeof(std::uint32_t) * (askers.capacity() + found.capacity()) + sizeof(std::size_t) * ends.capacity();
+  return sizeof(Stretch) * stretches.capacity() +
+         sizeof(std::uint32_t) * (askers.capacity() + found.capacity()) +
+         sizeof(std::size_t) * ends.capacity();
 }
 
 std::size_t Join::bytes() const { return own_.bytes() + other_.bytes(); }

@@ -16,13 +16,16 @@ class Join {
   explicit Join(Instructions instructions) : scans_(scans(instructions)) {}
 
   void clear();
-  /// Who takes half of what is added from now on; null: nobody. The answers are the same, in the same order.
+  /// Who takes half of what is added from now on; null: nobody. The answers are the same, in the
+  /// same order.
   void share_with(Worker* worker) { worker_ = worker; }
   /// All pairs of `askers` and `index` that overlap now.
   void add_overlaps(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge);
-  /// All pairs whose answer to `question` before and now differ. Index: BoxIndex or LiveIndex; askers: BoxIndex or ProbeList.
+  /// All pairs whose answer to `question` before and now differ. Index: BoxIndex or LiveIndex;
+  /// askers: BoxIndex or ProbeList.
   template <class Index, class Askers>
-  void add_changes(const Index& index, const Askers& askers, const TieJudge& judge, Question question);
+  void add_changes(const Index& index, const Askers& askers, const TieJudge& judge,
+                   Question question);
 
   std::size_t asker_count() const { return own_.askers.size(); }
   std::uint32_t asker(std::size_t i) const { return own_.askers[i]; }
@@ -46,11 +49,13 @@ class Join {
     void clear();
     void append(const Part& other);
     template <class Index, class Askers, class Find>
-    void add(const Index& index, const Askers& askers, std::size_t begin, std::size_t end, const TieJudge& judge, Scan scan, const Find& find);
+    void add(const Index& index, const Askers& askers, std::size_t begin, std::size_t end,
+             const TieJudge& judge, Scan scan, const Find& find);
     std::size_t bytes() const;
   };
   template <class Index, class Askers, class Find>
-  void add(const Index& index, const Askers& askers, const TieJudge& judge, Scan scan, const Find& find);
+  void add(const Index& index, const Askers& askers, const TieJudge& judge, Scan scan,
+           const Find& find);
 
   const Scans& scans_;
   Worker* worker_ = nullptr;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "im/matching/buffer.h"
-#include "im/matching/projection.h"
 #include "im/matching/index/scan.h"
+#include "im/matching/projection.h"
 #include "im/matching/region_history.h"
 
 namespace rink::im {

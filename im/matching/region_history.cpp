@@ -66,7 +66,8 @@ std::span<const std::uint32_t> RegionHistory::take_moved() {
   settled_.clear();
   if (has_removed_) drop_removed();
   // Whoever moves everything does so in order; then there is nothing to sort.
-  if (!std::is_sorted(moved_.data(), moved_.data() + moved_.size())) std::sort(moved_.data(), moved_.data() + moved_.size());
+  if (!std::is_sorted(moved_.data(), moved_.data() + moved_.size()))
+    std::sort(moved_.data(), moved_.data() + moved_.size());
   return moved_.span();
 }
 

@@ -1,4 +1,5 @@
-// Where every region is and where it was at the last match, with a list of those that moved in between.
+// Where every region is and where it was at the last match, with a list of those that moved in
+// between.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,8 @@ inline bool is_nowhere(const Region& region) { return region.low_x > region.high
 
 /// Touching is overlap. Written without branches: in a join neither outcome is the likely one.
 inline bool overlap(const Region& a, const Region& b) {
-  return (a.low_x <= b.high_x) & (b.low_x <= a.high_x) & (a.low_y <= b.high_y) & (b.low_y <= a.high_y);
+  return (a.low_x <= b.high_x) & (b.low_x <= a.high_x) & (a.low_y <= b.high_y) &
+         (b.low_y <= a.high_y);
 }
 
 /// A region's two places: at the last match and now. Either may be `nowhere`. One line of memory.
@@ -27,8 +29,10 @@ struct alignas(64) Motion {
   Region before = nowhere, now = nowhere;
 };
 
-/// The regions of all entities, or of all subscribers, by id. Memory: 64 bytes and a bit per id up to the largest one used, 8 more per id that moved.
-/// Most often all move at every match, so `before` is written when a region first moves, to its line that is at hand anyway, and not by a pass over all.
+/// The regions of all entities, or of all subscribers, by id. Memory: 64 bytes and a bit per id up
+/// to the largest one used, 8 more per id that moved. Most often all move at every match, so
+/// `before` is written when a region first moves, to its line that is at hand anyway, and not by a
+/// pass over all.
 class RegionHistory {
  public:
   /// Ids are less than this.
@@ -36,10 +40,13 @@ class RegionHistory {
 
   /// Adds or moves `id`; false, and nothing done, if it is there already.
   bool set(std::uint32_t id, const Region& region);
-  /// Lists `id` as if it had moved, though it stays: something else about it changed. Nothing if it is not known.
+  /// Lists `id` as if it had moved, though it stays: something else about it changed. Nothing if it
+  /// is not known.
   void touch(std::uint32_t id);
   /// True if `id` is somewhere.
-  bool contains(std::uint32_t id) const { return id < motions_.size() && !is_nowhere(motions_[id].now); }
+  bool contains(std::uint32_t id) const {
+    return id < motions_.size() && !is_nowhere(motions_[id].now);
+  }
   /// Forgets `id`, its past included; false if it is not known.
   bool remove(std::uint32_t id);
 
@@ -50,9 +57,12 @@ class RegionHistory {
   const Motion& operator[](std::uint32_t id) const { return motions_[id]; }
   bool has_moved(std::uint32_t id) const { return is_listed(id); }
   /// Where `id`, which is known, was at the last match; maybe nowhere.
-  const Region& last_place(std::uint32_t id) const { return is_listed(id) ? motions_[id].before : motions_[id].now; }
+  const Region& last_place(std::uint32_t id) const {
+    return is_listed(id) ? motions_[id].before : motions_[id].now;
+  }
 
-  /// Those that were set to another place since the last match (and maybe back again), in ascending order; has_moved and `before` agree from here to `settle`.
+  /// Those that were set to another place since the last match (and maybe back again), in ascending
+  /// order; has_moved and `before` agree from here to `settle`.
   std::span<const std::uint32_t> take_moved();
   /// The same again, until `settle`.
   std::span<const std::uint32_t> moved() const { return moved_.span(); }
@@ -62,7 +72,10 @@ class RegionHistory {
   /// Asks the processor for a motion that will be wanted soon.
   void prefetch(std::uint32_t id) const { __builtin_prefetch(&motions_[id]); }
 
-  std::size_t bytes() const { return sizeof(Motion) * motions_.capacity() + sizeof(std::uint64_t) * listed_.capacity() + sizeof(std::uint32_t) * (moved_.capacity() + settled_.capacity()); }
+  std::size_t bytes() const {
+    return sizeof(Motion) * motions_.capacity() + sizeof(std::uint64_t) * listed_.capacity() +
+           sizeof(std::uint32_t) * (moved_.capacity() + settled_.capacity());
+  }
 
  private:
   void grow(std::size_t count);
@@ -74,9 +87,11 @@ class RegionHistory {
   Buffer<Motion> motions_;
   Buffer<std::uint64_t> listed_;  // a bit for each id
   Buffer<std::uint32_t> moved_;
-  Buffer<std::uint32_t> settled_;   // moved at the match before: their `before` is out of date unless they move again
+  Buffer<std::uint32_t>
+      settled_;  // moved at the match before: their `before` is out of date unless they move again
   bool has_removed_ = false;
-  std::size_t absent_count_ = 0;  // nearly always there are none, and then no new region is asked whether it is that of a newcomer
+  std::size_t absent_count_ = 0;  // nearly always there are none, and then no new region is asked
+                                  // whether it is that of a newcomer
 };
 
 }  // namespace rink::im

@@ -9,17 +9,38 @@
 
 namespace rink::im {
 
-enum class Fault : std::uint8_t { inverted, not_finite, unknown_id, doubled_id, id_too_large, no_area, bad_cell_size, too_fast, goes_back };
-enum class Subject : std::uint8_t { update_region, subscription_region, world, cells, heading, entity_flight, subscriber_flight, clock };
+enum class Fault : std::uint8_t {
+  inverted,
+  not_finite,
+  unknown_id,
+  doubled_id,
+  id_too_large,
+  no_area,
+  bad_cell_size,
+  too_fast,
+  goes_back
+};
+enum class Subject : std::uint8_t {
+  update_region,
+  subscription_region,
+  world,
+  cells,
+  heading,
+  entity_flight,
+  subscriber_flight,
+  clock
+};
 
 struct Rejection {
   Fault fault;
   Subject subject;
-  std::uint32_t id = 0;  ///< of the region, subscriber or entity; the world, the cells and the clock have none
+  std::uint32_t id =
+      0;  ///< of the region, subscriber or entity; the world, the cells and the clock have none
   friend bool operator==(const Rejection&, const Rejection&) = default;
 };
 
-/// A sentence that names the offender, such as "subscription region 7 is inverted: its low exceeds its high".
+/// A sentence that names the offender, such as "subscription region 7 is inverted: its low exceeds
+/// its high".
 std::string describe(const Rejection& rejection);
 
 /// Nothing if `region` is finite and not inverted.

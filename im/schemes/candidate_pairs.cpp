@@ -36,7 +36,9 @@ void CandidatePairs::remove_entity(Entity entity) {
   for (const Subscriber subscriber : subscribers_[entity].span()) {
     Buffer<Entry>& entries = entries_[subscriber];
     Entry* const end = entries.data() + entries.size();
-    Entry* const place = std::lower_bound(entries.data(), end, entity << 1, [](Entry entry, std::uint32_t key) { return entry.key < key; });
+    Entry* const place =
+        std::lower_bound(entries.data(), end, entity << 1,
+                         [](Entry entry, std::uint32_t key) { return entry.key < key; });
     assert(place != end && entity_of(*place) == entity);
     std::copy(place + 1, end, place);
     entries.resize(entries.size() - 1);
@@ -61,7 +63,8 @@ void CandidatePairs::touch(Subscriber subscriber) {
 void CandidatePairs::wake(Subscriber subscriber) {
   if (subscriber >= entries_.size()) return;
   Buffer<Entry>& entries = entries_[subscriber];
-  for (std::size_t i = 0; i < entries.size(); ++i) entries[i].rests_until = -std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    entries[i].rests_until = -std::numeric_limits<float>::infinity();
 }
 
 void CandidatePairs::touch_near(Entity entity) {
@@ -70,7 +73,8 @@ void CandidatePairs::touch_near(Entity entity) {
 }
 
 std::size_t CandidatePairs::bytes() const {
-  return bytes_of(entries_) + bytes_of(subscribers_) + sizeof(Entry) * merged_.capacity() + sizeof(Subscriber) * touched_.capacity() + is_touched_.capacity() / 8;
+  return bytes_of(entries_) + bytes_of(subscribers_) + sizeof(Entry) * merged_.capacity() +
+         sizeof(Subscriber) * touched_.capacity() + is_touched_.capacity() / 8;
 }
 
 }  // namespace rink::im

@@ -1,4 +1,5 @@
-// The pairs whose boxes overlap, with what was last said about each: what an exact test has to look at again when one of the two moves.
+// The pairs whose boxes overlap, with what was last said about each: what an exact test has to look
+// at again when one of the two moves.
 #pragma once
 
 #include <algorithm>
@@ -21,14 +22,17 @@ class CandidatePairs {
   void remove_entity(Entity entity);
   void remove_subscriber(Subscriber subscriber);
 
-  /// Has `review` look at the pairs of `subscriber`, or at those of all whose box overlaps that of `entity`.
+  /// Has `review` look at the pairs of `subscriber`, or at those of all whose box overlaps that of
+  /// `entity`.
   void touch(Subscriber subscriber);
   void touch_near(Entity entity);
   /// Forgets until when the pairs of `subscriber` may rest.
   void wake(Subscriber subscriber);
 
-  /// Takes up what changed among the boxes, which must be ordered, and asks `decide(subscriber, entity, is_relevant, rests_until)` for each pair of those touched, whose third
-  /// argument is what it said last; the fourth, if it takes one, is its own to keep, below all numbers at first. Appends what changed to `changes`, ordered.
+  /// Takes up what changed among the boxes, which must be ordered, and asks `decide(subscriber,
+  /// entity, is_relevant, rests_until)` for each pair of those touched, whose third argument is
+  /// what it said last; the fourth, if it takes one, is its own to keep, below all numbers at
+  /// first. Appends what changed to `changes`, ordered.
   template <class Decide>
   void review(std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes);
 
@@ -46,7 +50,8 @@ class CandidatePairs {
   void add(Subscriber subscriber, Entity entity);
   void forget(Subscriber subscriber, Entity entity);
   template <class Decide>
-  std::size_t merge(Subscriber subscriber, std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes);
+  std::size_t merge(Subscriber subscriber, std::span<const Change> box_changes,
+                    const Decide& decide, Buffer<Change>& changes);
 
   std::vector<Buffer<Entry>> entries_;           // by subscriber, ascending
   std::vector<Buffer<Subscriber>> subscribers_;  // by entity, in no order
@@ -56,7 +61,8 @@ class CandidatePairs {
 };
 
 template <class Decide>
-void CandidatePairs::review(std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes) {
+void CandidatePairs::review(std::span<const Change> box_changes, const Decide& decide,
+                            Buffer<Change>& changes) {
   for (const Change& change : box_changes) touch(change.subscriber);
   std::sort(touched_.data(), touched_.data() + touched_.size());
   for (const Subscriber subscriber : touched_.span()) {
@@ -68,17 +74,22 @@ void CandidatePairs::review(std::span<const Change> box_changes, const Decide& d
 
 /// Returns how many of `box_changes`, the first, were of `subscriber`.
 template <class Decide>
-std::size_t CandidatePairs::merge(Subscriber subscriber, std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes) {
+std::size_t CandidatePairs::merge(Subscriber subscriber, std::span<const Change> box_changes,
+                                  const Decide& decide, Buffer<Change>& changes) {
   Buffer<Entry>& entries = entries_[subscriber];
   std::size_t next = 0;
-  const auto has_change = [&] { return next < box_changes.size() && box_changes[next].subscriber == subscriber; };
+  const auto has_change = [&] {
+    return next < box_changes.size() && box_changes[next].subscriber == subscriber;
+  };
   const auto looked_at = [&](Entry entry) -> Entry {
     const Entity entity = entity_of(entry);
     const bool was = is_relevant(entry);
     bool is = was;
-    if constexpr (std::is_invocable_v<const Decide&, Subscriber, Entity, bool, float&>) is = decide(subscriber, entity, was, entry.rests_until);
+    if constexpr (std::is_invocable_v<const Decide&, Subscriber, Entity, bool, float&>)
+      is = decide(subscriber, entity, was, entry.rests_until);
     else is = decide(subscriber, entity, was);
-    if (is != was) changes.push_back({subscriber, entity, is ? Transition::entered : Transition::left});
+    if (is != was)
+      changes.push_back({subscriber, entity, is ? Transition::entered : Transition::left});
     return {entity << 1 | (is ? 1u : 0u), entry.rests_until};
   };
   if (!has_change()) {
@@ -88,7 +99,8 @@ std::size_t CandidatePairs::merge(Subscriber subscriber, std::span<const Change>
   const auto enter_below = [&](std::uint64_t end) {
     for (; has_change() && box_changes[next].entity < end; ++next) {
       add(subscriber, box_changes[next].entity);
-      merged_.push_back(looked_at({box_changes[next].entity << 1, -std::numeric_limits<float>::infinity()}));
+      merged_.push_back(
+          looked_at({box_changes[next].entity << 1, -std::numeric_limits<float>::infinity()}));
     }
   };
   merged_.clear();

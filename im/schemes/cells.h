@@ -1,4 +1,5 @@
-// How schemes with cells number them: half-open, counted from the world's low corner, without a last one.
+// How schemes with cells number them: half-open, counted from the world's low corner, without a
+// last one.
 #pragma once
 
 #include <algorithm>
@@ -12,34 +13,43 @@ namespace rink::im {
 
 inline constexpr double largest = std::numeric_limits<double>::max();
 
-/// At 5 % of a square world per subscription, 7 of these make its side and three quarters of what is sent is wanted (docs/im.md).
+/// At 5 % of a square world per subscription, 7 of these make its side and three quarters of what
+/// is sent is wanted (docs/im.md).
 inline constexpr double cells_across = 32.0;
 
 /// The side that `settings` give, or one that suits their world [m].
 inline double cell_size_of(const FilterSettings& settings) {
   if (settings.cell_size > 0.0) return settings.cell_size;
-  const double width = settings.world.high_x - settings.world.low_x, height = settings.world.high_y - settings.world.low_y;
-  const double side = width > 0.0 && height > 0.0 ? std::sqrt(width) * std::sqrt(height) : std::max(width, height);
+  const double width = settings.world.high_x - settings.world.low_x,
+               height = settings.world.high_y - settings.world.low_y;
+  const double side =
+      width > 0.0 && height > 0.0 ? std::sqrt(width) * std::sqrt(height) : std::max(width, height);
   return side > 0.0 ? side / cells_across : 1.0;
 }
 
-/// The largest whole number that is not above `number`. The library's floor is a call where the processor that is built for has no instruction for it, and half of a pass.
+/// The largest whole number that is not above `number`. The library's floor is a call where the
+/// processor that is built for has no instruction for it, and half of a pass.
 inline double floored(double number) {
   if (!(std::abs(number) < 0x1p52)) return std::floor(number);  // whole already, or no number
   const auto towards_zero = static_cast<double>(static_cast<std::int64_t>(number));
   return towards_zero - (number < towards_zero ? 1.0 : 0.0);
 }
 
-/// A whole number in a double, so that no coordinate is too far; what lies beyond the largest shares the last cell.
-inline double cell_of(double coordinate, double origin, double size) { return std::clamp(floored((coordinate - origin) / size), -largest, largest); }
+/// A whole number in a double, so that no coordinate is too far; what lies beyond the largest
+/// shares the last cell.
+inline double cell_of(double coordinate, double origin, double size) {
+  return std::clamp(floored((coordinate - origin) / size), -largest, largest);
+}
 
 /// The cells that a region touches, first and last along each axis.
 inline Region cells_of(const Region& region, const Region& world, double size) {
-  return {cell_of(region.low_x, world.low_x, size), cell_of(region.low_y, world.low_y, size), cell_of(region.high_x, world.low_x, size), cell_of(region.high_y, world.low_y, size)};
+  return {cell_of(region.low_x, world.low_x, size), cell_of(region.low_y, world.low_y, size),
+          cell_of(region.high_x, world.low_x, size), cell_of(region.high_y, world.low_y, size)};
 }
 
 inline Region centre_of(const Region& region) {
-  const double x = 0.5 * region.low_x + 0.5 * region.high_x, y = 0.5 * region.low_y + 0.5 * region.high_y;
+  const double x = 0.5 * region.low_x + 0.5 * region.high_x,
+               y = 0.5 * region.low_y + 0.5 * region.high_y;
   return {x, y, x, y};
 }
 

@@ -1,4 +1,5 @@
-// The scheme `grid`: an entity matters to a subscriber while the cell of its centre is one that the subscriber's region touches.
+// The scheme `grid`: an entity matters to a subscriber while the cell of its centre is one that the
+// subscriber's region touches.
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -11,7 +12,8 @@ namespace {
 
 class GridFilter final : public OverlapFilter {
  public:
-  GridFilter(const Region& world, double cell_size) : OverlapFilter(cells_of(world, world, cell_size)), world_(world), cell_size_(cell_size) {}
+  GridFilter(const Region& world, double cell_size)
+      : OverlapFilter(cells_of(world, world, cell_size)), world_(world), cell_size_(cell_size) {}
 
   void set_update_region(Entity entity, const Region& region) override {
     const Region centre = centre_of(region);
@@ -23,7 +25,8 @@ class GridFilter final : public OverlapFilter {
   }
   /// All cells of the rectangle that its centre crosses.
   void set_swept_update_region(Entity entity, const Region& from, const Region& to) override {
-    OverlapFilter::set_update_region(entity, cells_of(hull_of(centre_of(from), centre_of(to)), world_, cell_size_));
+    OverlapFilter::set_update_region(
+        entity, cells_of(hull_of(centre_of(from), centre_of(to)), world_, cell_size_));
     if (entity < cells_.size()) cells_[entity] = unpacked;
   }
   void remove_entity(Entity entity) override {
@@ -39,7 +42,8 @@ class GridFilter final : public OverlapFilter {
   /// Of no cell that can be packed.
   static constexpr std::uint64_t unpacked = 0x8000000080000000u;
 
-  /// The cell of a point in whole numbers of 32 bits; `unpacked` if it is farther from the origin than those go.
+  /// The cell of a point in whole numbers of 32 bits; `unpacked` if it is farther from the origin
+  /// than those go.
   std::uint64_t packed(double x, double y) const {
     constexpr double bound = 1 << 30;
     const double across = (x - world_.low_x) / cell_size_, up = (y - world_.low_y) / cell_size_;
@@ -54,13 +58,16 @@ class GridFilter final : public OverlapFilter {
 
   Region world_;
   double cell_size_;
-  std::vector<std::uint64_t> cells_;  // of each entity: nearly always it is in the same as before, and 8 bytes say so where its history takes a line of 64
+  std::vector<std::uint64_t> cells_;  // of each entity: nearly always it is in the same as before,
+                                      // and 8 bytes say so where its history takes a line of 64
 };
 
 }  // namespace
 
 std::unique_ptr<Filter> make_grid_filter(const FilterSettings& settings);
 
-std::unique_ptr<Filter> make_grid_filter(const FilterSettings& settings) { return std::make_unique<GridFilter>(settings.world, cell_size_of(settings)); }
+std::unique_ptr<Filter> make_grid_filter(const FilterSettings& settings) {
+  return std::make_unique<GridFilter>(settings.world, cell_size_of(settings));
+}
 
 }  // namespace rink::im

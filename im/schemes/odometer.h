@@ -1,4 +1,5 @@
-// How far regions have come in all: an upper bound that lets a pair rest until its two could have come far enough.
+// How far regions have come in all: an upper bound that lets a pair rest until its two could have
+// come far enough.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,8 @@
 
 namespace rink::im {
 
-/// The sum of all steps of each id, a step being the greatest change of any of its four coordinates [m]. Never less than that: rounding is added.
+/// The sum of all steps of each id, a step being the greatest change of any of its four coordinates
+/// [m]. Never less than that: rounding is added.
 class Odometer {
  public:
   /// Takes up the steps of all who moved.
@@ -18,14 +20,18 @@ class Odometer {
     for (const std::uint32_t id : regions.moved())
       if (const Motion& motion = regions[id]; !is_nowhere(motion.before)) add(id, step(motion));
   }
-  void add(std::uint32_t id, double length) { way_[id] += length * (1.0 + 0x1p-40) + way_[id] * 0x1p-52; }
+  void add(std::uint32_t id, double length) {
+    way_[id] += length * (1.0 + 0x1p-40) + way_[id] * 0x1p-52;
+  }
   double operator[](std::uint32_t id) const { return way_[id]; }
   std::size_t bytes() const { return sizeof(double) * way_.capacity(); }
 
  private:
   static double step(const Motion& motion) {
-    return std::max(std::max(std::abs(motion.now.low_x - motion.before.low_x), std::abs(motion.now.low_y - motion.before.low_y)),
-                    std::max(std::abs(motion.now.high_x - motion.before.high_x), std::abs(motion.now.high_y - motion.before.high_y)));
+    return std::max(std::max(std::abs(motion.now.low_x - motion.before.low_x),
+                             std::abs(motion.now.low_y - motion.before.low_y)),
+                    std::max(std::abs(motion.now.high_x - motion.before.high_x),
+                             std::abs(motion.now.high_y - motion.before.high_y)));
   }
   Buffer<double> way_;
 };

@@ -26,7 +26,8 @@ void OverlapFilter::remove_subscriber(Subscriber subscriber) {
 std::span<const Change> OverlapFilter::find() {
   const auto moved_entities = entities_.take_moved(), moved_subscribers = subscribers_.take_moved();
   const std::uint64_t tested_before = join_.pairs_tested();
-  const std::span<const Change> changes = join_.find(entities_, moved_entities, subscribers_, moved_subscribers);
+  const std::span<const Change> changes =
+      join_.find(entities_, moved_entities, subscribers_, moved_subscribers);
   counters_.pairs_tested += join_.pairs_tested() - tested_before;
   return changes;
 }
@@ -35,7 +36,8 @@ void OverlapFilter::settle(std::span<const Change> changes) {
   entities_.settle();
   subscribers_.settle();
   counters_.changes += changes.size();
-  for (const Change& change : changes) counters_.entries += change.transition == Transition::entered ? 1u : 0u;
+  for (const Change& change : changes)
+    counters_.entries += change.transition == Transition::entered ? 1u : 0u;
 }
 
 std::span<const Change> OverlapFilter::match() {
@@ -44,6 +46,8 @@ std::span<const Change> OverlapFilter::match() {
   return changes;
 }
 
-std::size_t OverlapFilter::bytes() const { return entities_.bytes() + subscribers_.bytes() + join_.bytes(); }
+std::size_t OverlapFilter::bytes() const {
+  return entities_.bytes() + subscribers_.bytes() + join_.bytes();
+}
 
 }  // namespace rink::im

@@ -1,4 +1,5 @@
-// The short path to a scheme: makes a whole filter of a predicate that says whether one entity matters to one subscriber.
+// The short path to a scheme: makes a whole filter of a predicate that says whether one entity
+// matters to one subscriber.
 #pragma once
 
 #include <algorithm>
@@ -10,33 +11,38 @@
 #include <utility>
 #include <vector>
 
-#include "im/schemes/candidate_pairs.h"
 #include "im/marks.h"
+#include "im/schemes/candidate_pairs.h"
 #include "im/schemes/odometer.h"
 #include "im/schemes/overlap_filter.h"
 
 namespace rink::im {
 
-/// One of the two that a predicate is asked about: an entity with its update region, or a subscriber with its subscription region.
+/// One of the two that a predicate is asked about: an entity with its update region, or a
+/// subscriber with its subscription region.
 struct Party {
   std::uint32_t id;
   const Region& region;
 };
 
-/// What a predicate may return instead of a bool: the answer, and how far both may come from here, the sum of the greatest changes of any coordinate of either [m], before
-/// it can be another, as if nothing were rounded. 0: not known, ask again whenever one has moved.
+/// What a predicate may return instead of a bool: the answer, and how far both may come from here,
+/// the sum of the greatest changes of any coordinate of either [m], before it can be another, as if
+/// nothing were rounded. 0: not known, ask again whenever one has moved.
 struct Judgement {
   bool is_relevant;
   double slack;
 };
 
-/// An entity matters to a subscriber while their closed rectangles overlap and `relevant(subscriber, entity)`, a pure function of two `Party`s, is true. The
-/// engine behind `OverlapFilter` finds the pairs whose rectangles overlap; the predicate is asked about those of which one has moved, and about no other.
-/// Who wants to be found from farther than his rectangle reaches derives from it and hands in a wider one, as schemes do that map regions to cells.
+/// An entity matters to a subscriber while their closed rectangles overlap and
+/// `relevant(subscriber, entity)`, a pure function of two `Party`s, is true. The engine behind
+/// `OverlapFilter` finds the pairs whose rectangles overlap; the predicate is asked about those of
+/// which one has moved, and about no other. Who wants to be found from farther than his rectangle
+/// reaches derives from it and hands in a wider one, as schemes do that map regions to cells.
 template <class Relevant>
 class PredicateFilter : public OverlapFilter {
  public:
-  explicit PredicateFilter(const Region& world, Relevant relevant = {}) : OverlapFilter(world), relevant_(std::move(relevant)) {}
+  explicit PredicateFilter(const Region& world, Relevant relevant = {})
+      : OverlapFilter(world), relevant_(std::move(relevant)) {}
 
   void set_update_region(Entity entity, const Region& region) override {
     swept_entities_.unset(entity);
@@ -46,12 +52,14 @@ class PredicateFilter : public OverlapFilter {
     swept_subscribers_.unset(subscriber);
     OverlapFilter::set_subscription_region(subscriber, region);
   }
-  /// While one of both is swept the predicate is not asked: it knows one place, and may be true at another. That their rectangles overlap somewhere is enough.
+  /// While one of both is swept the predicate is not asked: it knows one place, and may be true at
+  /// another. That their rectangles overlap somewhere is enough.
   void set_swept_update_region(Entity entity, const Region& from, const Region& to) override {
     if (from == to) set_update_region(entity, from);
     else sweep_entity(entity, hull_of(from, to));
   }
-  void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) override {
+  void set_swept_subscription_region(Subscriber subscriber, const Region& from,
+                                     const Region& to) override {
     set_subscription_region(subscriber, hull_of(from, to));
     if (from != to) swept_subscribers_.set(subscriber);
   }
@@ -71,13 +79,21 @@ class PredicateFilter : public OverlapFilter {
     for (const Entity entity : entities_.moved()) pairs_.touch_near(entity);
     entity_ways_.follow(entities_), subscriber_ways_.follow(subscribers_);
     changes_.clear();
-    pairs_.review(box_changes, [this](Subscriber subscriber, Entity entity, bool was, float& rests_until) { return decide(subscriber, entity, was, rests_until); }, changes_);
+    pairs_.review(
+        box_changes,
+        [this](Subscriber subscriber, Entity entity, bool was, float& rests_until) {
+          return decide(subscriber, entity, was, rests_until);
+        },
+        changes_);
     settle(changes_.span());
     return changes_.span();
   }
 
   /// Memory held.
-  std::size_t bytes() const { return OverlapFilter::bytes() + pairs_.bytes() + sizeof(Change) * changes_.capacity() + entity_ways_.bytes() + subscriber_ways_.bytes(); }
+  std::size_t bytes() const {
+    return OverlapFilter::bytes() + pairs_.bytes() + sizeof(Change) * changes_.capacity() +
+           entity_ways_.bytes() + subscriber_ways_.bytes();
+  }
 
  protected:
   /// Of an entity that is swept over `hull`.
@@ -85,22 +101,29 @@ class PredicateFilter : public OverlapFilter {
     OverlapFilter::set_update_region(entity, hull);
     swept_entities_.set(entity);
   }
-  /// Something else than its region changed what `subscriber` wants: by no more than a change of its region by so many metres would, or by who knows how much.
+  /// Something else than its region changed what `subscriber` wants: by no more than a change of
+  /// its region by so many metres would, or by who knows how much.
   void turned(Subscriber subscriber, double length) { subscriber_ways_.add(subscriber, length); }
   void turned(Subscriber subscriber) { pairs_.wake(subscriber); }
 
  private:
   static Judgement judgement(bool is_relevant) { return {is_relevant, 0.0}; }
   static Judgement judgement(const Judgement& judgement) { return judgement; }
-  /// What a few sums and products of the coordinates of `region` may be wrong by, thousands of times over.
+  /// What a few sums and products of the coordinates of `region` may be wrong by, thousands of
+  /// times over.
   static double rounding(const Region& region) {
-    return 1e-12 * std::max(std::max(std::abs(region.low_x), std::abs(region.high_x)), std::max(std::abs(region.low_y), std::abs(region.high_y))) + 1e-300;
+    return 1e-12 * std::max(std::max(std::abs(region.low_x), std::abs(region.high_x)),
+                            std::max(std::abs(region.low_y), std::abs(region.high_y))) +
+           1e-300;
   }
 
   bool decide(Subscriber subscriber, Entity entity, bool was, float& rests_until) {
-    if (swept_entities_.has(entity) || swept_subscribers_.has(subscriber)) return rests_until = -std::numeric_limits<float>::infinity(), true;
+    if (swept_entities_.has(entity) || swept_subscribers_.has(subscriber))
+      return rests_until = -std::numeric_limits<float>::infinity(), true;
     const double way = entity_ways_[entity] + subscriber_ways_[subscriber];
-    if (way < static_cast<double>(rests_until) || (!entities_.has_moved(entity) && !subscribers_.has_moved(subscriber))) return was;
+    if (way < static_cast<double>(rests_until) ||
+        (!entities_.has_moved(entity) && !subscribers_.has_moved(subscriber)))
+      return was;
     ++counters_.pairs_tested;
     const Region &mine = subscribers_[subscriber].now, &its = entities_[entity].now;
     const Judgement is = judgement(relevant_(Party{subscriber, mine}, Party{entity, its}));

@@ -1,4 +1,5 @@
-// The schemes `always`, `team` and `owner`: an entity matters to a subscriber by what it is, wherever both are.
+// The schemes `always`, `team` and `owner`: an entity matters to a subscriber by what it is,
+// wherever both are.
 #include "im/schemes/overlap_filter.h"
 
 namespace rink::im {
@@ -8,10 +9,14 @@ using Place = Region (*)(const Role&);
 
 Region at(double x) { return {x, 0.0, x, 0.0}; }
 
-/// Puts all of a kind in one place of a line, so that overlap says who belongs together and nobody moves but by a change of role.
+/// Puts all of a kind in one place of a line, so that overlap says who belongs together and nobody
+/// moves but by a change of role.
 class RoleFilter final : public OverlapFilter {
  public:
-  RoleFilter(Place of_entity, Place of_subscriber) : OverlapFilter(Region{-2.0, 0.0, 64.0, 1.0}), of_entity_(of_entity), of_subscriber_(of_subscriber) {}
+  RoleFilter(Place of_entity, Place of_subscriber)
+      : OverlapFilter(Region{-2.0, 0.0, 64.0, 1.0}),
+        of_entity_(of_entity),
+        of_subscriber_(of_subscriber) {}
 
   void set_update_region(Entity entity, const Region&) override {
     if (!entities_.contains(entity)) set_entity_role(entity, {}, true);
@@ -19,8 +24,12 @@ class RoleFilter final : public OverlapFilter {
   void set_subscription_region(Subscriber subscriber, const Region&) override {
     if (!subscribers_.contains(subscriber)) set_subscriber_role(subscriber, {}, true);
   }
-  void set_entity_role(Entity entity, const Role& role) override { set_entity_role(entity, role, entities_.contains(entity)); }
-  void set_subscriber_role(Subscriber subscriber, const Role& role) override { set_subscriber_role(subscriber, role, subscribers_.contains(subscriber)); }
+  void set_entity_role(Entity entity, const Role& role) override {
+    set_entity_role(entity, role, entities_.contains(entity));
+  }
+  void set_subscriber_role(Subscriber subscriber, const Role& role) override {
+    set_subscriber_role(subscriber, role, subscribers_.contains(subscriber));
+  }
   Traits traits() const override { return {.uses_roles = true}; }
 
  private:
@@ -34,11 +43,13 @@ class RoleFilter final : public OverlapFilter {
   Place of_entity_, of_subscriber_;
 };
 
-/// Who has none meets nobody: entities without one stand to the left of all numbers, and subscribers still farther.
+/// Who has none meets nobody: entities without one stand to the left of all numbers, and
+/// subscribers still farther.
 template <std::uint32_t Role::*number>
 std::unique_ptr<Filter> make_by() {
-  return std::make_unique<RoleFilter>([](const Role& role) { return role.*number == Role::none ? at(-1.0) : at(role.*number); },
-                                      [](const Role& role) { return role.*number == Role::none ? at(-2.0) : at(role.*number); });
+  return std::make_unique<RoleFilter>(
+      [](const Role& role) { return role.*number == Role::none ? at(-1.0) : at(role.*number); },
+      [](const Role& role) { return role.*number == Role::none ? at(-2.0) : at(role.*number); });
 }
 
 }  // namespace
@@ -48,7 +59,9 @@ std::unique_ptr<Filter> make_owner_filter(const FilterSettings& settings);
 std::unique_ptr<Filter> make_team_filter(const FilterSettings& settings);
 
 std::unique_ptr<Filter> make_always_filter(const FilterSettings&) {
-  return std::make_unique<RoleFilter>([](const Role& role) { return at(role.is_always_relevant ? 0.0 : 1.0); }, [](const Role&) { return at(0.0); });
+  return std::make_unique<RoleFilter>(
+      [](const Role& role) { return at(role.is_always_relevant ? 0.0 : 1.0); },
+      [](const Role&) { return at(0.0); });
 }
 std::unique_ptr<Filter> make_owner_filter(const FilterSettings&) { return make_by<&Role::owner>(); }
 std::unique_ptr<Filter> make_team_filter(const FilterSettings&) { return make_by<&Role::team>(); }

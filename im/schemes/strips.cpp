@@ -1,4 +1,5 @@
-// The scheme `strips`: an entity matters to a subscriber while the upright strip that its middle is in is one that the subscription touches, as in corridors.
+// The scheme `strips`: an entity matters to a subscriber while the upright strip that its middle is
+// in is one that the subscription touches, as in corridors.
 #include "im/schemes/cells.h"
 #include "im/schemes/overlap_filter.h"
 
@@ -8,13 +9,20 @@ namespace {
 /// Maps both to whole numbers along a line, so that a move within a strip is none.
 class StripsFilter final : public OverlapFilter {
  public:
-  StripsFilter(const Region& world, double width) : OverlapFilter(strips_of(cells_of(world, world, width))), world_(world), width_(width) {}
+  StripsFilter(const Region& world, double width)
+      : OverlapFilter(strips_of(cells_of(world, world, width))), world_(world), width_(width) {}
 
-  void set_update_region(Entity entity, const Region& region) override { OverlapFilter::set_update_region(entity, strips_of(cells_of(centre_of(region), world_, width_))); }
-  void set_subscription_region(Subscriber subscriber, const Region& region) override { OverlapFilter::set_subscription_region(subscriber, strips_of(cells_of(region, world_, width_))); }
+  void set_update_region(Entity entity, const Region& region) override {
+    OverlapFilter::set_update_region(entity,
+                                     strips_of(cells_of(centre_of(region), world_, width_)));
+  }
+  void set_subscription_region(Subscriber subscriber, const Region& region) override {
+    OverlapFilter::set_subscription_region(subscriber, strips_of(cells_of(region, world_, width_)));
+  }
   /// All strips that its middle crosses.
   void set_swept_update_region(Entity entity, const Region& from, const Region& to) override {
-    OverlapFilter::set_update_region(entity, strips_of(cells_of(hull_of(centre_of(from), centre_of(to)), world_, width_)));
+    OverlapFilter::set_update_region(
+        entity, strips_of(cells_of(hull_of(centre_of(from), centre_of(to)), world_, width_)));
   }
   double cell_size() const override { return width_; }
 
@@ -29,6 +37,8 @@ class StripsFilter final : public OverlapFilter {
 
 std::unique_ptr<Filter> make_strips_filter(const FilterSettings& settings);
 
-std::unique_ptr<Filter> make_strips_filter(const FilterSettings& settings) { return std::make_unique<StripsFilter>(settings.world, cell_size_of(settings)); }
+std::unique_ptr<Filter> make_strips_filter(const FilterSettings& settings) {
+  return std::make_unique<StripsFilter>(settings.world, cell_size_of(settings));
+}
 
 }  // namespace rink::im

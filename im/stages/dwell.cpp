@@ -7,10 +7,12 @@
 namespace rink::im {
 namespace {
 
-/// Matches are counted; a pair that would leave too early is kept on a list of those due at the match at which it may.
+/// Matches are counted; a pair that would leave too early is kept on a list of those due at the
+/// match at which it may.
 class Dwell final : public Parts {
  public:
-  Dwell(std::vector<std::unique_ptr<Filter>> inner, std::uint32_t matches) : Parts(std::move(inner)), matches_(matches), due_(matches + std::size_t{1}) {}
+  Dwell(std::vector<std::unique_ptr<Filter>> inner, std::uint32_t matches)
+      : Parts(std::move(inner)), matches_(matches), due_(matches + std::size_t{1}) {}
 
   void remove_entity(Entity entity) override {
     Parts::remove_entity(entity);
@@ -38,7 +40,7 @@ class Dwell final : public Parts {
   /// A pair that is relevant here.
   struct Entry {
     Entity entity;
-    bool is_leaving;     ///< the part said that it left
+    bool is_leaving;      ///< the part said that it left
     std::uint64_t since;  ///< the match at which it entered
   };
   struct Due {
@@ -47,7 +49,8 @@ class Dwell final : public Parts {
   };
 
   static Entry* place_of(Buffer<Entry>& entries, Entity entity) {
-    return std::lower_bound(entries.data(), entries.data() + entries.size(), entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
+    return std::lower_bound(entries.data(), entries.data() + entries.size(), entity,
+                            [](const Entry& entry, Entity id) { return entry.entity < id; });
   }
   static Entry* find(Buffer<Entry>& entries, Entity entity) {
     Entry* const place = place_of(entries, entity);
@@ -58,7 +61,8 @@ class Dwell final : public Parts {
     entries.resize(entries.size() - 1);
   }
   static void insert(Buffer<Entry>& entries, const Entry& entry) {
-    const auto at = static_cast<std::size_t>(place_of(entries, entry.entity) - entries.data()), count = entries.size();
+    const auto at = static_cast<std::size_t>(place_of(entries, entry.entity) - entries.data()),
+               count = entries.size();
     entries.push_back(entry);
     std::copy_backward(entries.data() + at, entries.data() + count, entries.data() + count + 1);
     entries[at] = entry;
@@ -81,12 +85,15 @@ class Dwell final : public Parts {
       ++put_off_;
     }
   }
-  /// Lets go those whose time is up and who did not come back; they may have been put off more than once.
+  /// Lets go those whose time is up and who did not come back; they may have been put off more than
+  /// once.
   void release() {
     Buffer<Due>& due = due_[now_ % due_.size()];
     if (due.empty()) return;
     for (const Due& each : due.span()) {
-      Entry* const entry = each.subscriber < entries_.size() ? find(entries_[each.subscriber], each.entity) : nullptr;
+      Entry* const entry = each.subscriber < entries_.size()
+                               ? find(entries_[each.subscriber], each.entity)
+                               : nullptr;
       if (!entry || !entry->is_leaving || entry->since + matches_ != now_) continue;
       erase(entries_[each.subscriber], entry);
       changes_.push_back({each.subscriber, each.entity, Transition::left});

@@ -18,7 +18,9 @@ struct WarpedSpan {
 };
 constexpr WarpedSpan never{infinite, -infinite};
 
-WarpedSpan both(const WarpedSpan& a, const WarpedSpan& b) { return {std::max(a.first, b.first), std::min(a.last, b.last)}; }
+WarpedSpan both(const WarpedSpan& a, const WarpedSpan& b) {
+  return {std::max(a.first, b.first), std::min(a.last, b.last)};
+}
 /// The hull, which is the union of two parts of a convex set.
 WarpedSpan either(const WarpedSpan& a, const WarpedSpan& b) {
   if (a.is_empty()) return b;
@@ -32,9 +34,12 @@ WarpedSpan within(double offset, double speed, double half) {
   return {std::min(one, other), std::max(one, other)};
 }
 
-/// |(x, y) + (u, v) s| <= radius. The discriminant is factored as in the design's time of impact, for b^2 - a c cancels, and so does one of the two sums of roots.
+/// |(x, y) + (u, v) s| <= radius. The discriminant is factored as in the design's time of impact,
+/// for b^2 - a c cancels, and so does one of the two sums of roots.
 WarpedSpan within_disc(double x, double y, double u, double v, double radius) {
-  const double square = u * u + v * v, gap = x * x + y * y - radius * radius, closing = -(x * u + y * v), miss = std::abs(x * v - y * u), reach = radius * std::sqrt(square);
+  const double square = u * u + v * v, gap = x * x + y * y - radius * radius,
+               closing = -(x * u + y * v), miss = std::abs(x * v - y * u),
+               reach = radius * std::sqrt(square);
   if (square == 0.0) return gap <= 0.0 ? WarpedSpan{} : never;
   if (miss > reach) return never;
   const double root = std::sqrt((reach - miss) * (reach + miss));
@@ -51,7 +56,8 @@ struct Approach {
   double start, x, y, u, v;
   Approach(const Flight& a, const Flight& b, double drag) : start(std::max(a.time, b.time)) {
     const Flight from = at_time(b, start, drag), to = at_time(a, start, drag);
-    x = to.x - from.x, y = to.y - from.y, u = to.velocity_x - from.velocity_x, v = to.velocity_y - from.velocity_y;
+    x = to.x - from.x, y = to.y - from.y, u = to.velocity_x - from.velocity_x,
+    v = to.velocity_y - from.velocity_y;
   }
   TimeSpan time_of(const WarpedSpan& stretch, double drag) const {
     const WarpedSpan ahead = both(stretch, {0.0, infinite});
@@ -59,7 +65,9 @@ struct Approach {
     if (ahead.is_empty() || ahead.first >= end) return {infinite, -infinite};
     return {unwarped(ahead.first, drag), ahead.last >= end ? infinite : unwarped(ahead.last, drag)};
   }
-  double unwarped(double warped, double drag) const { return start + (drag > 0.0 ? -std::log1p(-drag * warped) / drag : warped); }
+  double unwarped(double warped, double drag) const {
+    return start + (drag > 0.0 ? -std::log1p(-drag * warped) / drag : warped);
+  }
 };
 
 }  // namespace
@@ -67,21 +75,30 @@ struct Approach {
 Flight at_time(const Flight& flight, double time, double drag) {
   const double passed = time - flight.time;
   if (!(passed > 0.0)) return flight;
-  const double warped = drag > 0.0 ? -std::expm1(-drag * passed) / drag : passed, left = drag > 0.0 ? std::exp(-drag * passed) : 1.0;
-  return {flight.x + flight.velocity_x * warped, flight.y + flight.velocity_y * warped, flight.velocity_x * left, flight.velocity_y * left, time};
+  const double warped = drag > 0.0 ? -std::expm1(-drag * passed) / drag : passed,
+               left = drag > 0.0 ? std::exp(-drag * passed) : 1.0;
+  return {flight.x + flight.velocity_x * warped, flight.y + flight.velocity_y * warped,
+          flight.velocity_x * left, flight.velocity_y * left, time};
 }
 
-TimeSpan touching_boxes(const Flight& a, const HalfExtent& a_half, const Flight& b, const HalfExtent& b_half, double drag) {
+TimeSpan touching_boxes(const Flight& a, const HalfExtent& a_half, const Flight& b,
+                        const HalfExtent& b_half, double drag) {
   const Approach way(a, b, drag);
-  return way.time_of(both(within(way.x, way.u, a_half.x + b_half.x), within(way.y, way.v, a_half.y + b_half.y)), drag);
+  return way.time_of(
+      both(within(way.x, way.u, a_half.x + b_half.x), within(way.y, way.v, a_half.y + b_half.y)),
+      drag);
 }
 
 /// The disc grown by the box: two boxes that cross, and a disc at each corner.
-TimeSpan touching_disc(const Flight& a, const HalfExtent& a_half, const Flight& b, double radius, double drag) {
+TimeSpan touching_disc(const Flight& a, const HalfExtent& a_half, const Flight& b, double radius,
+                       double drag) {
   const Approach way(a, b, drag);
-  WarpedSpan stretch = either(both(within(way.x, way.u, a_half.x + radius), within(way.y, way.v, a_half.y)), both(within(way.x, way.u, a_half.x), within(way.y, way.v, a_half.y + radius)));
+  WarpedSpan stretch =
+      either(both(within(way.x, way.u, a_half.x + radius), within(way.y, way.v, a_half.y)),
+             both(within(way.x, way.u, a_half.x), within(way.y, way.v, a_half.y + radius)));
   for (const double x : {-a_half.x, a_half.x})
-    for (const double y : {-a_half.y, a_half.y}) stretch = either(stretch, within_disc(way.x - x, way.y - y, way.u, way.v, radius));
+    for (const double y : {-a_half.y, a_half.y})
+      stretch = either(stretch, within_disc(way.x - x, way.y - y, way.u, way.v, radius));
   return way.time_of(stretch, drag);
 }
 

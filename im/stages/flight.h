@@ -1,4 +1,5 @@
-// When two that fly in straight lines against the same drag are together: closed forms, no sampling.
+// When two that fly in straight lines against the same drag are together: closed forms, no
+// sampling.
 #pragma once
 
 #include "im/filter.h"
@@ -18,11 +19,14 @@ struct TimeSpan {
   double enters, leaves;
 };
 
-/// When the closed box around one flight touches that around the other, from the later of their times on. With the same drag g their relative path is a straight line
-/// in warped time s = (1 - exp(-g t)) / g, so that it is inside of a convex set once; t = -log(1 - g s) / g (docs/im.md).
-TimeSpan touching_boxes(const Flight& a, const HalfExtent& a_half, const Flight& b, const HalfExtent& b_half, double drag);
+/// When the closed box around one flight touches that around the other, from the later of their
+/// times on. With the same drag g their relative path is a straight line in warped time s = (1 -
+/// exp(-g t)) / g, so that it is inside of a convex set once; t = -log(1 - g s) / g (docs/im.md).
+TimeSpan touching_boxes(const Flight& a, const HalfExtent& a_half, const Flight& b,
+                        const HalfExtent& b_half, double drag);
 
 /// When the closed box around `a` touches the closed disc of `radius` [m] around `b`.
-TimeSpan touching_disc(const Flight& a, const HalfExtent& a_half, const Flight& b, double radius, double drag);
+TimeSpan touching_disc(const Flight& a, const HalfExtent& a_half, const Flight& b, double radius,
+                       double drag);
 
 }  // namespace rink::im

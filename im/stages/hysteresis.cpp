@@ -1,8 +1,9 @@
-// The stage `hysteresis`: who is in stays in until he is out of a larger region, so that nobody flaps at an edge.
+// The stage `hysteresis`: who is in stays in until he is out of a larger region, so that nobody
+// flaps at an edge.
 #include <algorithm>
 
-#include "im/schemes/cells.h"
 #include "im/composition/reviewed_parts.h"
+#include "im/schemes/cells.h"
 #include "im/stages/stages.h"
 
 namespace rink::im {
@@ -10,23 +11,28 @@ namespace {
 
 Region grown(const Region& region, double margin) {
   const auto bounded = [](double coordinate) { return std::clamp(coordinate, -largest, largest); };
-  return {bounded(region.low_x - margin), bounded(region.low_y - margin), bounded(region.high_x + margin), bounded(region.high_y + margin)};
+  return {bounded(region.low_x - margin), bounded(region.low_y - margin),
+          bounded(region.high_x + margin), bounded(region.high_y + margin)};
 }
 
 class Hysteresis final : public ReviewedParts {
  public:
-  Hysteresis(std::vector<std::unique_ptr<Filter>> enter_and_stay, double margin) : ReviewedParts(std::move(enter_and_stay)), margin_(margin) {}
+  Hysteresis(std::vector<std::unique_ptr<Filter>> enter_and_stay, double margin)
+      : ReviewedParts(std::move(enter_and_stay)), margin_(margin) {}
 
   void set_subscription_region(Subscriber subscriber, const Region& region) override {
     parts_[0]->set_subscription_region(subscriber, region);
     parts_[1]->set_subscription_region(subscriber, grown(region, margin_));
   }
-  void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) override {
+  void set_swept_subscription_region(Subscriber subscriber, const Region& from,
+                                     const Region& to) override {
     parts_[0]->set_swept_subscription_region(subscriber, from, to);
     parts_[1]->set_swept_subscription_region(subscriber, grown(from, margin_), grown(to, margin_));
   }
   std::span<const Change> match() override {
-    return matched([this](Subscriber, Entity, PairStates::Says says, PairStates::Level was) { return decide(says, was); });
+    return matched([this](Subscriber, Entity, PairStates::Says says, PairStates::Level was) {
+      return decide(says, was);
+    });
   }
   void list_counts(std::vector<StageCount>& counts) const override {
     Parts::list_counts(counts);
@@ -46,7 +52,8 @@ class Hysteresis final : public ReviewedParts {
 
 }  // namespace
 
-std::unique_ptr<Filter> make_hysteresis(std::unique_ptr<Filter> enter, std::unique_ptr<Filter> stay, double margin) {
+std::unique_ptr<Filter> make_hysteresis(std::unique_ptr<Filter> enter, std::unique_ptr<Filter> stay,
+                                        double margin) {
   std::vector<std::unique_ptr<Filter>> parts;
   parts.push_back(std::move(enter));
   parts.push_back(std::move(stay));

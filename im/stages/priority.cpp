@@ -11,7 +11,8 @@ namespace {
 
 class Priority final : public Parts {
  public:
-  Priority(std::vector<std::unique_ptr<Filter>> inner, std::size_t budget) : Parts(std::move(inner)), order_(budget) {}
+  Priority(std::vector<std::unique_ptr<Filter>> inner, std::size_t budget)
+      : Parts(std::move(inner)), order_(budget) {}
 
   void set_update_region(Entity entity, const Region& region) override {
     order_.place_entity(entity, region);
@@ -38,9 +39,12 @@ class Priority final : public Parts {
   void list_counts(std::vector<StageCount>& counts) const override {
     Parts::list_counts(counts);
     const PriorityCounts& own = order_.counts();
-    for (const StageCount& count : {StageCount{"priority", "states on entry sent", own.states}, StageCount{"priority", "bytes of states on entry", own.state_bytes},
-                                    StageCount{"priority", "updates sent", own.updates}, StageCount{"priority", "bytes of updates", own.update_bytes},
-                                    StageCount{"priority", "put off", own.put_off}})
+    for (const StageCount& count :
+         {StageCount{"priority", "states on entry sent", own.states},
+          StageCount{"priority", "bytes of states on entry", own.state_bytes},
+          StageCount{"priority", "updates sent", own.updates},
+          StageCount{"priority", "bytes of updates", own.update_bytes},
+          StageCount{"priority", "put off", own.put_off}})
       counts.push_back(count);
   }
 
@@ -59,7 +63,8 @@ PriorityOrder::Entry* PriorityOrder::find(Subscriber subscriber, Entity entity) 
   if (subscriber >= entries_.size()) return nullptr;
   Buffer<Entry>& entries = entries_[subscriber];
   Entry* const end = entries.data() + entries.size();
-  Entry* const place = std::lower_bound(entries.data(), end, entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
+  Entry* const place = std::lower_bound(
+      entries.data(), end, entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
   return place != end && place->entity == entity ? place : nullptr;
 }
 
@@ -88,19 +93,26 @@ void PriorityOrder::take(std::span<const Change> changes) {
       entries.resize(entries.size() - 1);
     } else {
       entries.push_back({change.entity, change.tier, true, now_});
-      for (std::size_t i = entries.size() - 1; i > 0 && entries[i].entity < entries[i - 1].entity; --i) std::swap(entries[i], entries[i - 1]);
+      for (std::size_t i = entries.size() - 1; i > 0 && entries[i].entity < entries[i - 1].entity;
+           --i)
+        std::swap(entries[i], entries[i - 1]);
     }
   }
 }
 
 // Halved, as everywhere: the differences of the largest numbers have no double.
 PriorityOrder::Watch::Watch(const Region& own)
-    : x(0.25 * own.low_x + 0.25 * own.high_x), y(0.25 * own.low_y + 0.25 * own.high_y), reach(std::min(0.5 * own.high_x - 0.5 * own.low_x, 0.5 * own.high_y - 0.5 * own.low_y)) {}
+    : x(0.25 * own.low_x + 0.25 * own.high_x),
+      y(0.25 * own.low_y + 0.25 * own.high_y),
+      reach(std::min(0.5 * own.high_x - 0.5 * own.low_x, 0.5 * own.high_y - 0.5 * own.low_y)) {}
 
 double PriorityOrder::urgency(const Watch& watch, const Entry& entry) const {
   const Region& at = entities_[entry.entity];
-  const double x = (0.25 * at.low_x + 0.25 * at.high_x) - watch.x, y = (0.25 * at.low_y + 0.25 * at.high_y) - watch.y;
-  const double distance = 2.0 * std::sqrt(x * x + y * y), weight = watch.reach > 0.0 ? 1.0 / (1.0 + std::min(distance / watch.reach, 1e9)) : 1.0;
+  const double x = (0.25 * at.low_x + 0.25 * at.high_x) - watch.x,
+               y = (0.25 * at.low_y + 0.25 * at.high_y) - watch.y;
+  const double distance = 2.0 * std::sqrt(x * x + y * y),
+               weight =
+                   watch.reach > 0.0 ? 1.0 / (1.0 + std::min(distance / watch.reach, 1e9)) : 1.0;
   const double waited = static_cast<double>(now_ - entry.sent) + (entry.is_state ? 1.0 : 0.0);
   constexpr unsigned tier_max = 31;  // there are at most 15
   return waited * weight / static_cast<double>(1u << std::min<unsigned>(entry.tier, tier_max));
@@ -108,7 +120,9 @@ double PriorityOrder::urgency(const Watch& watch, const Entry& entry) const {
 
 std::size_t PriorityOrder::gather_states() {
   Ranked* const end = ranked_.data() + ranked_.size();
-  return static_cast<std::size_t>(std::partition(ranked_.data(), end, [](const Ranked& each) { return each.item.is_state; }) - ranked_.data());
+  return static_cast<std::size_t>(
+      std::partition(ranked_.data(), end, [](const Ranked& each) { return each.item.is_state; }) -
+      ranked_.data());
 }
 
 std::span<const PriorityOrder::Item> PriorityOrder::order(Subscriber subscriber) {

@@ -11,16 +11,19 @@
 
 namespace rink::im {
 
-/// What was sent, and what not, in two classes: the whole state of who entered, and updates of who was there.
+/// What was sent, and what not, in two classes: the whole state of who entered, and updates of who
+/// was there.
 struct PriorityCounts {
   std::uint64_t states = 0, state_bytes = 0;
   std::uint64_t updates = 0, update_bytes = 0;
   std::uint64_t put_off = 0;  ///< that a fill had no room for
 };
 
-/// Who entered comes first, then whose state is due; of each the most urgent. Urgency is the number of matches since it was last sent, or for a state on entry one more than since
-/// it entered, divided by 1 + d / r with d the distance of the middles and r half the shorter side of the subscription, and by 2^tier. It grows with every match, and where states
-/// and updates are both due they go first in turns (by `fill`), so nobody starves. Equals come by entity.
+/// Who entered comes first, then whose state is due; of each the most urgent. Urgency is the number
+/// of matches since it was last sent, or for a state on entry one more than since it entered,
+/// divided by 1 + d / r with d the distance of the middles and r half the shorter side of the
+/// subscription, and by 2^tier. It grows with every match, and where states and updates are both
+/// due they go first in turns (by `fill`), so nobody starves. Equals come by entity.
 class PriorityOrder {
  public:
   static constexpr std::size_t not_now = ~std::size_t{0};
@@ -34,14 +37,16 @@ class PriorityOrder {
     bool is_state;  ///< its whole state is due
   };
 
-  /// All of them, the most urgent first. Valid until the next call of any member of this or its filter. Nothing is computed until it is asked for.
+  /// All of them, the most urgent first. Valid until the next call of any member of this or its
+  /// filter. Nothing is computed until it is asked for.
   std::span<const Item> order(Subscriber subscriber);
   /// Takes note that an item was sent in so many bytes.
   void sent(Subscriber subscriber, const Item& item, std::size_t bytes);
 
-  /// Takes from the front of the order as long as `bytes_of(item)` fit into `budget`, and stops at the first that does not, so that large ones get their turn; one that alone
-  /// exceeds the budget is taken alone. Notes them as sent. Of 0 bytes nothing is due: it is as if it had been sent, and in no list; nor is what is `not_now`, which goes on waiting.
-  /// Valid until the next call.
+  /// Takes from the front of the order as long as `bytes_of(item)` fit into `budget`, and stops at
+  /// the first that does not, so that large ones get their turn; one that alone exceeds the budget
+  /// is taken alone. Notes them as sent. Of 0 bytes nothing is due: it is as if it had been sent,
+  /// and in no list; nor is what is `not_now`, which goes on waiting. Valid until the next call.
   template <class BytesOf>
   std::span<const Item> fill(Subscriber subscriber, std::size_t budget, const BytesOf& bytes_of);
 
@@ -52,7 +57,9 @@ class PriorityOrder {
 
   // What its filter tells it.
   void place_entity(Entity entity, const Region& region) { place(entities_, entity, region); }
-  void place_subscriber(Subscriber subscriber, const Region& region) { place(subscribers_, subscriber, region); }
+  void place_subscriber(Subscriber subscriber, const Region& region) {
+    place(subscribers_, subscriber, region);
+  }
   void remove_entity(Entity entity);
   void remove_subscriber(Subscriber subscriber);
   void take(std::span<const Change> changes);
@@ -74,7 +81,9 @@ class PriorityOrder {
     double x, y, reach;
     explicit Watch(const Region& own);
   };
-  static bool is_less_urgent(const Ranked& a, const Ranked& b) { return a.urgency != b.urgency ? a.urgency < b.urgency : a.item.entity > b.item.entity; }
+  static bool is_less_urgent(const Ranked& a, const Ranked& b) {
+    return a.urgency != b.urgency ? a.urgency < b.urgency : a.item.entity > b.item.entity;
+  }
   /// Into `ranked_`, states first, else in no order; returns how many states.
   template <class BytesOf>
   std::size_t rank(Subscriber subscriber, const BytesOf& bytes_of);
@@ -109,14 +118,17 @@ std::size_t PriorityOrder::rank(Subscriber subscriber, const BytesOf& bytes_of) 
   return gather_states();
 }
 
-/// Few of many fit, so they are taken from heaps and the rest is never sorted: 24 ms where sorting took 42, for 1,000 subscribers who take 25 of 360 each.
+/// Few of many fit, so they are taken from heaps and the rest is never sorted: 24 ms where sorting
+/// took 42, for 1,000 subscribers who take 25 of 360 each.
 template <class BytesOf>
-std::span<const PriorityOrder::Item> PriorityOrder::fill(Subscriber subscriber, std::size_t budget, const BytesOf& bytes_of) {
+std::span<const PriorityOrder::Item> PriorityOrder::fill(Subscriber subscriber, std::size_t budget,
+                                                         const BytesOf& bytes_of) {
   filled_.clear();
   put_off_.clear();
   std::size_t used = 0;
   const std::size_t states = rank(subscriber, bytes_of);
-  Ranked *const first_state = ranked_.data(), *const first_update = first_state + states, *const last = first_state + ranked_.size();
+  Ranked *const first_state = ranked_.data(), *const first_update = first_state + states,
+                *const last = first_state + ranked_.size();
   const auto take = [&](Ranked* first, Ranked* end) {
     std::make_heap(first, end, is_less_urgent);
     for (; first != end && used < budget; --end) {

@@ -1,11 +1,12 @@
-// The stage `swept`: regions that reach ahead along known flights, and the exact times at which those who fly meet and part.
+// The stage `swept`: regions that reach ahead along known flights, and the exact times at which
+// those who fly meet and part.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
-#include "im/schemes/candidate_pairs.h"
 #include "im/composition/parts.h"
+#include "im/schemes/candidate_pairs.h"
 #include "im/stages/flight.h"
 #include "im/stages/stages.h"
 
@@ -18,25 +19,30 @@ class Flights {
   struct Own {
     Flight flight;
     HalfExtent half;
-    double holds_until = 0.0;    ///< of the swept region that was handed on
+    double holds_until = 0.0;  ///< of the swept region that was handed on
     bool is_known = false;
-    bool is_told = false;        ///< flies by a flight that was told, not where a region put it
-    bool is_news = false;        ///< since the last match
-    bool is_listed = false;      ///< among those in flight
+    bool is_told = false;    ///< flies by a flight that was told, not where a region put it
+    bool is_news = false;    ///< since the last match
+    bool is_listed = false;  ///< among those in flight
   };
 
   void put(std::uint32_t id, const Region& region, double now) {
     if (id >= all_.size()) all_.resize(id + std::size_t{1});
     Own& own = all_[id];
-    const HalfExtent half{0.5 * region.high_x - 0.5 * region.low_x, 0.5 * region.high_y - 0.5 * region.low_y};
-    const Flight flight{0.5 * region.low_x + 0.5 * region.high_x, 0.5 * region.low_y + 0.5 * region.high_y, 0.0, 0.0, now};
-    if (own.is_known && !own.is_told && own.flight.x == flight.x && own.flight.y == flight.y && own.half.x == half.x && own.half.y == half.y) return;
+    const HalfExtent half{0.5 * region.high_x - 0.5 * region.low_x,
+                          0.5 * region.high_y - 0.5 * region.low_y};
+    const Flight flight{0.5 * region.low_x + 0.5 * region.high_x,
+                        0.5 * region.low_y + 0.5 * region.high_y, 0.0, 0.0, now};
+    if (own.is_known && !own.is_told && own.flight.x == flight.x && own.flight.y == flight.y &&
+        own.half.x == half.x && own.half.y == half.y)
+      return;
     own.flight = flight, own.half = half, own.is_known = true, own.is_told = false;
     mark(id);
   }
   /// False if nobody is there, or it flies so already.
   bool fly(std::uint32_t id, const Flight& flight) {
-    if (id >= all_.size() || !all_[id].is_known || (all_[id].is_told && all_[id].flight == flight)) return false;
+    if (id >= all_.size() || !all_[id].is_known || (all_[id].is_told && all_[id].flight == flight))
+      return false;
     Own& own = all_[id];
     own.flight = flight, own.is_told = true, own.holds_until = -1e300;
     mark(id);
@@ -49,15 +55,19 @@ class Flights {
     all_[id] = Own{}, all_[id].is_listed = is_listed, all_[id].is_news = is_news;
   }
 
-  /// A decision stands until the next match, so a region is made anew when less than half of its horizon is left. Hands its places at both ends to `hand_on(id, from, to)`.
-  /// Who rests or has no flight any more goes off the list and costs nothing from then on.
+  /// A decision stands until the next match, so a region is made anew when less than half of its
+  /// horizon is left. Hands its places at both ends to `hand_on(id, from, to)`. Who rests or has no
+  /// flight any more goes off the list and costs nothing from then on.
   template <class HandOn>
   std::size_t sweep(double now, double horizon, double drag, const HandOn& hand_on) {
     std::size_t kept = 0, swept = 0;
     for (const std::uint32_t id : flying_.span()) {
       Own& own = all_[id];
-      const bool is_flying = own.is_told && (own.flight.velocity_x != 0.0 || own.flight.velocity_y != 0.0);
-      if (own.is_told && own.holds_until < now + 0.5 * horizon) hand_on(id, place(own, now, drag), place(own, now + horizon, drag)), own.holds_until = now + horizon, ++swept;
+      const bool is_flying =
+          own.is_told && (own.flight.velocity_x != 0.0 || own.flight.velocity_y != 0.0);
+      if (own.is_told && own.holds_until < now + 0.5 * horizon)
+        hand_on(id, place(own, now, drag), place(own, now + horizon, drag)),
+            own.holds_until = now + horizon, ++swept;
       if (is_flying) flying_[kept++] = id;
       else own.is_listed = false;
     }
@@ -75,12 +85,16 @@ class Flights {
   void mark(std::uint32_t id) {
     if (!all_[id].is_news) all_[id].is_news = true, news_.push_back(id);
   }
-  /// Against the same drag along both axes a flight is a straight line, so all places between two times lie between those at both ends.
+  /// Against the same drag along both axes a flight is a straight line, so all places between two
+  /// times lie between those at both ends.
   static Region place(const Own& own, double time, double drag) {
     constexpr double largest = std::numeric_limits<double>::max();
-    const auto bounded = [=](double coordinate) { return std::clamp(coordinate, -largest, largest); };
+    const auto bounded = [=](double coordinate) {
+      return std::clamp(coordinate, -largest, largest);
+    };
     const Flight at = at_time(own.flight, time, drag);
-    return {bounded(at.x - own.half.x), bounded(at.y - own.half.y), bounded(at.x + own.half.x), bounded(at.y + own.half.y)};
+    return {bounded(at.x - own.half.x), bounded(at.y - own.half.y), bounded(at.x + own.half.x),
+            bounded(at.y + own.half.y)};
   }
 
   std::vector<Own> all_;
@@ -89,7 +103,8 @@ class Flights {
 
 class Swept final : public Parts {
  public:
-  Swept(std::vector<std::unique_ptr<Filter>> inner, double horizon, double drag, bool is_disc) : Parts(std::move(inner)), horizon_(horizon), drag_(drag), is_disc_(is_disc) {}
+  Swept(std::vector<std::unique_ptr<Filter>> inner, double horizon, double drag, bool is_disc)
+      : Parts(std::move(inner)), horizon_(horizon), drag_(drag), is_disc_(is_disc) {}
 
   void set_update_region(Entity entity, const Region& region) override {
     entities_.put(entity, region, now_);
@@ -114,8 +129,12 @@ class Swept final : public Parts {
     own.uses_flights = true;
     return own;
   }
-  void set_flight(Entity entity, const Flight& flight) override { flights_told_ += entities_.fly(entity, flight) ? 1u : 0u; }
-  void set_subscriber_flight(Subscriber subscriber, const Flight& flight) override { flights_told_ += subscribers_.fly(subscriber, flight) ? 1u : 0u; }
+  void set_flight(Entity entity, const Flight& flight) override {
+    flights_told_ += entities_.fly(entity, flight) ? 1u : 0u;
+  }
+  void set_subscriber_flight(Subscriber subscriber, const Flight& flight) override {
+    flights_told_ += subscribers_.fly(subscriber, flight) ? 1u : 0u;
+  }
   void set_time(double now) override {
     assert(std::isfinite(now) && now >= now_);
     now_ = now;
@@ -123,14 +142,26 @@ class Swept final : public Parts {
 
   std::span<const Change> match() override {
     Filter& inner = *parts_.front();
-    regions_swept_ += entities_.sweep(now_, horizon_, drag_, [&inner](Entity entity, const Region& from, const Region& to) { inner.set_swept_update_region(entity, from, to); });
-    regions_swept_ += subscribers_.sweep(now_, horizon_, drag_, [&inner](Subscriber subscriber, const Region& from, const Region& to) { inner.set_swept_subscription_region(subscriber, from, to); });
+    regions_swept_ += entities_.sweep(
+        now_, horizon_, drag_, [&inner](Entity entity, const Region& from, const Region& to) {
+          inner.set_swept_update_region(entity, from, to);
+        });
+    regions_swept_ +=
+        subscribers_.sweep(now_, horizon_, drag_,
+                           [&inner](Subscriber subscriber, const Region& from, const Region& to) {
+                             inner.set_swept_subscription_region(subscriber, from, to);
+                           });
     const std::span<const Change> let_through = inner.match();
     for (const Entity entity : entities_.news()) pairs_.touch_near(entity);
     for (const Subscriber subscriber : subscribers_.news()) pairs_.touch(subscriber);
     changes_.clear();
     stays_.clear();
-    pairs_.review(let_through, [this](Subscriber subscriber, Entity entity, bool was) { return look(subscriber, entity, was); }, changes_);
+    pairs_.review(
+        let_through,
+        [this](Subscriber subscriber, Entity entity, bool was) {
+          return look(subscriber, entity, was);
+        },
+        changes_);
     entities_.settle();
     subscribers_.settle();
     return reported(changes_.span());
@@ -147,7 +178,9 @@ class Swept final : public Parts {
   bool look(Subscriber subscriber, Entity entity, bool was) {
     const Flights::Own &s = subscribers_[subscriber], &e = entities_[entity];
     if ((!was || s.is_news || e.is_news) && (s.is_told || e.is_told)) {
-      const TimeSpan span = is_disc_ ? touching_disc(e.flight, e.half, s.flight, std::min(s.half.x, s.half.y), drag_) : touching_boxes(e.flight, e.half, s.flight, s.half, drag_);
+      const TimeSpan span =
+          is_disc_ ? touching_disc(e.flight, e.half, s.flight, std::min(s.half.x, s.half.y), drag_)
+                   : touching_boxes(e.flight, e.half, s.flight, s.half, drag_);
       stays_.push_back({subscriber, entity, span.enters, span.leaves});
       ++stays_found_;
     }
@@ -164,7 +197,8 @@ class Swept final : public Parts {
 
 }  // namespace
 
-std::unique_ptr<Filter> make_swept(std::unique_ptr<Filter> inner, double horizon, double drag, bool is_disc) {
+std::unique_ptr<Filter> make_swept(std::unique_ptr<Filter> inner, double horizon, double drag,
+                                   bool is_disc) {
   std::vector<std::unique_ptr<Filter>> parts;
   parts.push_back(std::move(inner));
   return std::make_unique<Swept>(std::move(parts), horizon, drag, is_disc);

@@ -1,4 +1,5 @@
-// The stage `tiers`: how near an entity is, in rings, so that what is far may be updated less often.
+// The stage `tiers`: how near an entity is, in rings, so that what is far may be updated less
+// often.
 #include <algorithm>
 #include <bit>
 
@@ -8,30 +9,38 @@
 namespace rink::im {
 namespace {
 
-/// A square around the middle of `region`, of which `fraction` of the radius that its shorter side allows is inscribed.
+/// A square around the middle of `region`, of which `fraction` of the radius that its shorter side
+/// allows is inscribed.
 Region ring_of(const Region& region, double fraction) {
-  const double x = 0.5 * region.low_x + 0.5 * region.high_x, y = 0.5 * region.low_y + 0.5 * region.high_y;
-  const double half = fraction * std::min(0.5 * region.high_x - 0.5 * region.low_x, 0.5 * region.high_y - 0.5 * region.low_y);
+  const double x = 0.5 * region.low_x + 0.5 * region.high_x,
+               y = 0.5 * region.low_y + 0.5 * region.high_y;
+  const double half = fraction * std::min(0.5 * region.high_x - 0.5 * region.low_x,
+                                          0.5 * region.high_y - 0.5 * region.low_y);
   return {x - half, y - half, x + half, y + half};
 }
 
 /// Part 0 is what it stands behind, part 1 + k the ring of tier k.
 class Tiers final : public ReviewedParts {
  public:
-  Tiers(std::vector<std::unique_ptr<Filter>> parts, std::vector<double> fractions) : ReviewedParts(std::move(parts)), fractions_(std::move(fractions)) {}
+  Tiers(std::vector<std::unique_ptr<Filter>> parts, std::vector<double> fractions)
+      : ReviewedParts(std::move(parts)), fractions_(std::move(fractions)) {}
 
   void set_subscription_region(Subscriber subscriber, const Region& region) override {
     parts_[0]->set_subscription_region(subscriber, region);
-    for (std::size_t k = 0; k < fractions_.size(); ++k) parts_[1 + k]->set_subscription_region(subscriber, ring_of(region, fractions_[k]));
+    for (std::size_t k = 0; k < fractions_.size(); ++k)
+      parts_[1 + k]->set_subscription_region(subscriber, ring_of(region, fractions_[k]));
   }
   std::span<const Change> match() override {
     const auto level = [this](Subscriber, Entity, PairStates::Says says, PairStates::Level) {
       if ((says & 1u) == 0) return PairStates::Level{0};
-      const auto tier = std::min(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(says >> 1))), fractions_.size());
+      const auto tier =
+          std::min(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(says >> 1))),
+                   fractions_.size());
       return static_cast<PairStates::Level>(1 + tier);
     };
     const std::span<const Change> changes = matched(level);
-    for (const Change& change : changes) tier_changes_ += change.transition == Transition::tier_changed ? 1u : 0u;
+    for (const Change& change : changes)
+      tier_changes_ += change.transition == Transition::tier_changed ? 1u : 0u;
     return changes;
   }
   Traits traits() const override {
@@ -51,7 +60,9 @@ class Tiers final : public ReviewedParts {
 
 }  // namespace
 
-std::unique_ptr<Filter> make_tiers(std::unique_ptr<Filter> inner, std::vector<std::unique_ptr<Filter>> rings, std::vector<double> fractions) {
+std::unique_ptr<Filter> make_tiers(std::unique_ptr<Filter> inner,
+                                   std::vector<std::unique_ptr<Filter>> rings,
+                                   std::vector<double> fractions) {
   std::vector<std::unique_ptr<Filter>> parts;
   parts.push_back(std::move(inner));
   for (auto& ring : rings) parts.push_back(std::move(ring));

@@ -1,4 +1,5 @@
-// The scheme `cone`: an entity matters to a subscriber while its rectangle touches the subscriber's field of view, a closed sector.
+// The scheme `cone`: an entity matters to a subscriber while its rectangle touches the subscriber's
+// field of view, a closed sector.
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -27,7 +28,8 @@ class Views {
   bool is_told(Subscriber subscriber) const { return views_[subscriber].is_told; }
   Heading heading(Subscriber subscriber) const { return views_[subscriber].heading; }
   void set_swept(Subscriber subscriber, bool is_swept) { views_[subscriber].is_swept = is_swept; }
-  /// Whether it moved from one place to another since it moved last. To be asked once for each move.
+  /// Whether it moved from one place to another since it moved last. To be asked once for each
+  /// move.
   bool has_way(Subscriber subscriber) {
     View& view = views_[subscriber];
     return !std::exchange(view.was_swept, view.is_swept) && !view.is_swept;
@@ -44,8 +46,9 @@ class Views {
  private:
   struct View {
     Heading heading;
-    bool is_told = false;                       ///< not learnt from moves
-    bool is_swept = false, was_swept = false;  ///< its region now, and when it moved last, is no place where it is
+    bool is_told = false;  ///< not learnt from moves
+    bool is_swept = false,
+         was_swept = false;  ///< its region now, and when it moved last, is no place where it is
     Wedge wedge;
   };
   std::vector<View> views_;
@@ -54,30 +57,36 @@ class Views {
 
 struct InView {
   const Views* views;
-  /// A change of all coordinates of a region by 1 moves its middle by sqrt 2 and the rim of its disc by 1 more.
+  /// A change of all coordinates of a region by 1 moves its middle by sqrt 2 and the rim of its
+  /// disc by 1 more.
   Judgement operator()(const Party& subscriber, const Party& entity) const {
     const Wedge& wedge = views->wedge(subscriber.id);
     const Region mine = plain(subscriber.region), its = plain(entity.region);
     const double clearance = wedge.clearance(mine, its);
-    return std::abs(clearance) > 0.0 ? Judgement{clearance > 0.0, 0.4 * std::abs(clearance)} : Judgement{wedge.touches(mine, its), 0.0};
+    return std::abs(clearance) > 0.0 ? Judgement{clearance > 0.0, 0.4 * std::abs(clearance)}
+                                     : Judgement{wedge.touches(mine, its), 0.0};
   }
 };
 
 class ConeFilter final : private Views, public PredicateFilter<InView> {
  public:
-  explicit ConeFilter(const FilterSettings& settings) : Views(settings.half_angle_deg), PredicateFilter(settings.world, {this}) {}
+  explicit ConeFilter(const FilterSettings& settings)
+      : Views(settings.half_angle_deg), PredicateFilter(settings.world, {this}) {}
 
   void set_subscription_region(Subscriber subscriber, const Region& region) override {
     make_room(subscriber);
     set_swept(subscriber, false);
     PredicateFilter::set_subscription_region(subscriber, region);
   }
-  void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) override {
+  void set_swept_subscription_region(Subscriber subscriber, const Region& from,
+                                     const Region& to) override {
     if (from == to) return set_subscription_region(subscriber, from);
     PredicateFilter::set_swept_subscription_region(subscriber, from, to);
     set_swept(subscriber, true);
     const Eye start(plain(from)), end(plain(to));
-    if (!is_told(subscriber)) look(subscriber, {end.x - start.x, end.y - start.y}, false);  // which matters once it has landed
+    if (!is_told(subscriber))
+      look(subscriber, {end.x - start.x, end.y - start.y},
+           false);  // which matters once it has landed
   }
   void remove_subscriber(Subscriber subscriber) override {
     forget(subscriber);
@@ -87,8 +96,11 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
   void set_heading(Subscriber subscriber, const Heading& heading) override {
     assert(std::isfinite(heading.x) && std::isfinite(heading.y));
     if (!subscribers_.contains(subscriber)) return;
-    if (heading == Heading{}) return void(look(subscriber, Views::heading(subscriber), false));  // on with the last direction, until it moves
-    if (look(subscriber, heading, true)) turned(subscriber), subscribers_.touch(subscriber), ++counters_.regions_moved;
+    if (heading == Heading{})
+      return void(look(subscriber, Views::heading(subscriber),
+                       false));  // on with the last direction, until it moves
+    if (look(subscriber, heading, true))
+      turned(subscriber), subscribers_.touch(subscriber), ++counters_.regions_moved;
   }
   std::span<const Change> match() override {
     for (const Subscriber subscriber : subscribers_.moved()) learn(subscriber);
@@ -100,21 +112,27 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
  private:
   void learn(Subscriber subscriber) {
     const Motion& motion = subscribers_[subscriber];
-    if (!has_way(subscriber) || is_told(subscriber) || is_nowhere(motion.before) || is_nowhere(motion.now)) return;
+    if (!has_way(subscriber) || is_told(subscriber) || is_nowhere(motion.before) ||
+        is_nowhere(motion.now))
+      return;
     const Eye from(plain(motion.before)), to(plain(motion.now));
     const Heading way{to.x - from.x, to.y - from.y};
     if (way == Heading{}) return;
     // Straight on, but for rounding: the arc of the rim is what that can change.
     const double turn = angle_between(Views::heading(subscriber), way);
     if (!look(subscriber, way, false)) return;
-    if (turn < 1e-6) turned(subscriber, turn * (std::abs(motion.now.high_x - motion.now.low_x) + std::abs(motion.now.high_y - motion.now.low_y)));
+    if (turn < 1e-6)
+      turned(subscriber, turn * (std::abs(motion.now.high_x - motion.now.low_x) +
+                                 std::abs(motion.now.high_y - motion.now.low_y)));
     else turned(subscriber);
   }
-  /// At least the angle, for small ones; infinite where there is none. Of lengths near 1, for the products of the longest would be infinite and those of the shortest nothing.
+  /// At least the angle, for small ones; infinite where there is none. Of lengths near 1, for the
+  /// products of the longest would be infinite and those of the shortest nothing.
   static double angle_between(const Heading& one, const Heading& other) {
     const Heading a = scaled(one), b = scaled(other);
     const double cross = a.x * b.y - a.y * b.x, dot = a.x * b.x + a.y * b.y;
-    return dot > 0.0 ? 2.0 * std::abs(cross) / dot + 1e-12 : std::numeric_limits<double>::infinity();
+    return dot > 0.0 ? 2.0 * std::abs(cross) / dot + 1e-12
+                     : std::numeric_limits<double>::infinity();
   }
 };
 
@@ -122,6 +140,8 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
 
 std::unique_ptr<Filter> make_cone_filter(const FilterSettings& settings);
 
-std::unique_ptr<Filter> make_cone_filter(const FilterSettings& settings) { return std::make_unique<ConeFilter>(settings); }
+std::unique_ptr<Filter> make_cone_filter(const FilterSettings& settings) {
+  return std::make_unique<ConeFilter>(settings);
+}
 
 }  // namespace rink::im

@@ -40,7 +40,8 @@ Exact operator+(const Exact& a, const Exact& b) {
   return result;
 }
 
-/// The rounding error of a product comes from a fused multiply-add, which needs no splitting and is right on every machine.
+/// The rounding error of a product comes from a fused multiply-add, which needs no splitting and is
+/// right on every machine.
 Exact operator*(const Exact& a, const Exact& b) {
   Exact result;
   for (std::size_t i = 0; i < a.count_; ++i)

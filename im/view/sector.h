@@ -7,18 +7,23 @@
 namespace rink::im {
 
 /// Where regions are as far as views are concerned: in plain numbers.
-inline Region plain(const Region& region) { return {plain(region.low_x), plain(region.low_y), plain(region.high_x), plain(region.high_y)}; }
+inline Region plain(const Region& region) {
+  return {plain(region.low_x), plain(region.low_y), plain(region.high_x), plain(region.high_y)};
+}
 
 /// Where a subscriber stands: the middle of his region, rounded to doubles.
 struct Eye {
   double x = 0.0, y = 0.0;
-  explicit Eye(const Region& region) : x(plain(0.5 * region.low_x + 0.5 * region.high_x)), y(plain(0.5 * region.low_y + 0.5 * region.high_y)) {}
+  explicit Eye(const Region& region)
+      : x(plain(0.5 * region.low_x + 0.5 * region.high_x)),
+        y(plain(0.5 * region.low_y + 0.5 * region.high_y)) {}
 };
 
 /// The same direction at a length near 1; a component that is 2^-100 of the other is none.
 Heading scaled(Heading heading);
 
-/// All directions that differ from one by at most a half angle. Its two edges are what rotation gives in doubles; they belong to it, and from there on everything is exact.
+/// All directions that differ from one by at most a half angle. Its two edges are what rotation
+/// gives in doubles; they belong to it, and from there on everything is exact.
 class Wedge {
  public:
   /// All directions.
@@ -26,9 +31,12 @@ class Wedge {
   /// `half_angle_deg` is 0 to 180. Around a direction of no length there are all directions.
   Wedge(const Heading& ahead, double half_angle_deg);
 
-  /// True if the sector of this wedge touches `box`: it has its point at the middle of `subscription`, and is of the closed disc with half its shorter side as radius. Both are plain.
+  /// True if the sector of this wedge touches `box`: it has its point at the middle of
+  /// `subscription`, and is of the closed disc with half its shorter side as radius. Both are
+  /// plain.
   bool touches(const Region& subscription, const Region& box) const;
-  /// How far the sector and the box may come towards or from each other before that can change [m], by doubles: above 0 if they touch, below if not, 0 if that is in doubt.
+  /// How far the sector and the box may come towards or from each other before that can change [m],
+  /// by doubles: above 0 if they touch, below if not, 0 if that is in doubt.
   double clearance(const Region& subscription, const Region& box) const;
 
  private:

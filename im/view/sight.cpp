@@ -1,4 +1,5 @@
-// The scheme `sight`: an entity matters to a subscriber while their closed rectangles overlap and no post hides all of it from the middle of the subscription.
+// The scheme `sight`: an entity matters to a subscriber while their closed rectangles overlap and
+// no post hides all of it from the middle of the subscription.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -35,6 +36,8 @@ struct InSight {
 
 std::unique_ptr<Filter> make_sight_filter(const FilterSettings& settings);
 
-std::unique_ptr<Filter> make_sight_filter(const FilterSettings& settings) { return make_predicate_filter(settings, InSight(settings.posts)); }
+std::unique_ptr<Filter> make_sight_filter(const FilterSettings& settings) {
+  return make_predicate_filter(settings, InSight(settings.posts));
+}
 
 }  // namespace rink::im

@@ -1,4 +1,5 @@
-// rink bots: a crowd of headless clients in one process, pressing keys by a plan fixed before the run or by what they see of the game.
+// rink bots: a crowd of headless clients in one process, pressing keys by a plan fixed before the
+// run or by what they see of the game.
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -15,16 +16,16 @@
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/fom_file.h"
+#include "game/net/gate.h"
 #include "game/net/interrupt.h"
 #include "game/net/speak_as.h"
 #include "game/players/player.h"
+#include "game/players/random_plan.h"
 #include "game/replication/trajectory_codec.h"
 #include "game/version/version.h"
 #include "loadgen/run/bots/bot_crowd.h"
 #include "loadgen/run/bots/bots_report.h"
 #include "loadgen/run/process.h"
-#include "game/net/gate.h"
-#include "game/players/random_plan.h"
 #include "rti/federation_file.h"
 #include "rti/transport/socket_transport.h"
 
@@ -34,15 +35,21 @@ using namespace rink;
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, evidence, players = "random", scene = "crowd", transport = "tcp";
+  std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, evidence,
+              players = "random", scene = "crowd", transport = "tcp";
   std::string key_file, federation_file;
   bool declares_regions = true, extrapolates = true;
   std::uint32_t count = 1, first = 0;
   std::uint64_t seed = 1;
-  double view_fraction = 0.05, view_area = 0.0, view_margin = 0.3, start_s = 0.0, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
+  double view_fraction = 0.05, view_area = 0.0, view_margin = 0.3, start_s = 0.0, duration_s = 10.0,
+         warm_up_s = 0.0, patience_s = 30.0;
 };
 
-double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
+double now_s() {
+  return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                        std::chrono::steady_clock::now().time_since_epoch())
+                                        .count());
+}
 
 std::string player_names() {
   std::string names;
@@ -69,7 +76,8 @@ class ProcessorLoad {
   std::optional<double> share() const {
     const double wall_s = begin_ ? end_.wall_s - begin_->wall_s : 0.0;
     if (!(wall_s > 0.0)) return std::nullopt;
-    return (end_.cpu_s - begin_->cpu_s) / (wall_s * static_cast<double>(std::max<std::size_t>(1, loadgen::allowed_processors().size())));
+    return (end_.cpu_s - begin_->cpu_s) / (wall_s * static_cast<double>(std::max<std::size_t>(
+                                                        1, loadgen::allowed_processors().size())));
   }
 
  private:
@@ -82,66 +90,123 @@ class ProcessorLoad {
 };
 
 void add_options(CLI::App& app, Options& options) {
-  app.description("Any number of headless clients in one process, each with its own connection, pressing keys by a plan fixed before the run or as they see fit.");
-  app.footer(std::string("Example: rink bots --connect 127.0.0.1:4711 --count 100 --seed 7 --duration 30 --report bots.json\n\n") + game::exit_status_help);
+  app.description(
+      "Any number of headless clients in one process, each with its own connection, pressing keys "
+      "by a plan fixed before the run or as they see fit.");
+  app.footer(std::string("Example: rink bots --connect 127.0.0.1:4711 --count 100 --seed 7 "
+                         "--duration 30 --report bots.json\n\n") +
+             game::exit_status_help);
   app.add_option("--connect", options.connect, "server, as ADDRESS:PORT")->capture_default_str();
   app.add_option("--transport", options.transport, "tcp, udp or shm: the same as the server's")
-      ->check(CLI::IsMember(std::vector<std::string>(rti::socket_transport_names.begin(), rti::socket_transport_names.end())))
+      ->check(CLI::IsMember(std::vector<std::string>(rti::socket_transport_names.begin(),
+                                                     rti::socket_transport_names.end())))
       ->capture_default_str();
-  app.add_option("--key-file", options.key_file, "the server's key file, if it asks for one")->check(CLI::ExistingFile);
-  app.add_option("--federation", options.federation, "name of the federation execution to join")->capture_default_str();
-  app.add_option("--federation-file", options.federation_file, "the server's federation file instead of --connect and --federation; if it lists nodes, bots bear their names from the --first on");
-  app.add_option("--count", options.count, "bots")->check(game::number_from(1, game::bats_max))->capture_default_str();
-  app.add_option("--first", options.first, "the first bot's bat; the others take the following ones, and who asks for one that is taken or not there any that is free")->check(game::number_from(0, game::bats_max))->capture_default_str();
-  app.add_option("--plan", options.plan, "key log to play; without it the plan is made from the seed")->check(CLI::ExistingFile);
-  app.add_option("--players", options.players, "who plays: random, by the plan; or by what they see of the game, " + player_names())
-      ->check(CLI::IsMember([] { auto kinds = game::player_kinds(); kinds.push_back("random"); return kinds; }()))
+  app.add_option("--key-file", options.key_file, "the server's key file, if it asks for one")
+      ->check(CLI::ExistingFile);
+  app.add_option("--federation", options.federation, "name of the federation execution to join")
       ->capture_default_str();
-  app.add_option("--scene", options.scene, "the server's scene, of which players know the rules: goals, drag, thrust")->capture_default_str();
-  app.add_option("--seed", options.seed, "of the plan, of players, and of what evidence is taken of")->check(game::seed_number())->capture_default_str();
-  app.add_option("--view", options.view_fraction, "area of a bot's interest as a fraction of the field's; 1 or more: everything")->check(game::number_from(1e-9, 1e6))->capture_default_str();
-  app.add_option("--view-area", options.view_area, "area of a bot's view [m^2] instead; 0: as --view says")->check(game::number_from(0.0, game::view_area_max))->capture_default_str();
-  app.add_option("--view-margin", options.view_margin, "how far the declared region reaches beyond the view [m]; it is declared anew when the bat has moved by half of that")
+  app.add_option("--federation-file", options.federation_file,
+                 "the server's federation file instead of --connect and --federation; if it lists "
+                 "nodes, bots bear their names from the --first on");
+  app.add_option("--count", options.count, "bots")
+      ->check(game::number_from(1, game::bats_max))
+      ->capture_default_str();
+  app.add_option("--first", options.first,
+                 "the first bot's bat; the others take the following ones, and who asks for one "
+                 "that is taken or not there any that is free")
+      ->check(game::number_from(0, game::bats_max))
+      ->capture_default_str();
+  app.add_option("--plan", options.plan,
+                 "key log to play; without it the plan is made from the seed")
+      ->check(CLI::ExistingFile);
+  app.add_option(
+         "--players", options.players,
+         "who plays: random, by the plan; or by what they see of the game, " + player_names())
+      ->check(CLI::IsMember([] {
+        auto kinds = game::player_kinds();
+        kinds.push_back("random");
+        return kinds;
+      }()))
+      ->capture_default_str();
+  app.add_option("--scene", options.scene,
+                 "the server's scene, of which players know the rules: goals, drag, thrust")
+      ->capture_default_str();
+  app.add_option("--seed", options.seed,
+                 "of the plan, of players, and of what evidence is taken of")
+      ->check(game::seed_number())
+      ->capture_default_str();
+  app.add_option("--view", options.view_fraction,
+                 "area of a bot's interest as a fraction of the field's; 1 or more: everything")
+      ->check(game::number_from(1e-9, 1e6))
+      ->capture_default_str();
+  app.add_option("--view-area", options.view_area,
+                 "area of a bot's view [m^2] instead; 0: as --view says")
+      ->check(game::number_from(0.0, game::view_area_max))
+      ->capture_default_str();
+  app.add_option("--view-margin", options.view_margin,
+                 "how far the declared region reaches beyond the view [m]; it is declared anew "
+                 "when the bat has moved by half of that")
       ->check(game::number_from(0.0, game::view_margin_max))
       ->capture_default_str();
   app.add_flag("--regions,!--no-regions", options.declares_regions,
-               "whether bots declare their views as regions, or subscribe to everything: under none, which looks at no places, that is the same for less")
+               "whether bots declare their views as regions, or subscribe to everything: under "
+               "none, which looks at no places, that is the same for less")
       ->capture_default_str();
-  app.add_flag("--extrapolate,!--no-extrapolate", options.extrapolates, "whether what is told positions alone (periodic) is believed ahead of the last by the velocity between the last two, or there")->capture_default_str();
-  app.add_option("--start", options.start_s, "simulated seconds of the saved game from which the server begins: keys up to then have been pressed, and --duration and --warm-up count from there")
+  app.add_flag("--extrapolate,!--no-extrapolate", options.extrapolates,
+               "whether what is told positions alone (periodic) is believed ahead of the last by "
+               "the velocity between the last two, or there")
+      ->capture_default_str();
+  app.add_option("--start", options.start_s,
+                 "simulated seconds of the saved game from which the server begins: keys up to "
+                 "then have been pressed, and --duration and --warm-up count from there")
       ->check(game::number_from(0.0, game::seconds_max))
       ->capture_default_str();
-  app.add_option("--duration", options.duration_s, "simulated seconds to play")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
-  app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
-  app.add_option("--patience", options.patience_s, "seconds to wait for the start")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
-  app.add_option("--evidence", options.evidence, "file for what some of the bots heard and believed (docs/metrics.md), as JSON lines");
+  app.add_option("--duration", options.duration_s, "simulated seconds to play")
+      ->check(game::number_from(0.001, game::seconds_max))
+      ->capture_default_str();
+  app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")
+      ->check(game::number_from(0.0, game::seconds_max))
+      ->capture_default_str();
+  app.add_option("--patience", options.patience_s, "seconds to wait for the start")
+      ->check(game::number_from(0.001, game::seconds_max))
+      ->capture_default_str();
+  app.add_option(
+      "--evidence", options.evidence,
+      "file for what some of the bots heard and believed (docs/metrics.md), as JSON lines");
   app.add_option("--report", options.report, "file for the measurements, as JSON");
 }
 
 std::vector<game::InputEvent> plan_of(const Options& options) {
   if (options.players != "random") return {};
   if (!options.plan.empty()) return game::read_key_log(options.plan).events;
-  return game::random_plan(options.seed, options.first + options.count, options.start_s + options.duration_s);
+  return game::random_plan(options.seed, options.first + options.count,
+                           options.start_s + options.duration_s);
 }
 
 loadgen::LivePlayers players_of(const Options& options) {
   if (options.players == "random") return {};
-  return {.kind = options.players, .rules = game::rules_of(game::load_scene(options.scene), 0), .seed = options.seed};
+  return {.kind = options.players,
+          .rules = game::rules_of(game::load_scene(options.scene), 0),
+          .seed = options.seed};
 }
 
 std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) {
   const loadgen::Measurements& measured = crowd.measurements();
   if (game::is_interrupted) return "interrupted";
-  if (crowd.lost_count() > 0) return std::to_string(crowd.lost_count()) + " of " + std::to_string(options.count) + " bots were lost: " + crowd.first_trouble();
+  if (crowd.lost_count() > 0)
+    return std::to_string(crowd.lost_count()) + " of " + std::to_string(options.count) +
+           " bots were lost: " + crowd.first_trouble();
   if (!crowd.has_started()) return "the game did not start";
-  if (measured.keys_sent < measured.keys_due) return std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
+  if (measured.keys_sent < measured.keys_due)
+    return std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
   return "";
 }
 
 game::ExitStatus status(const loadgen::BotCrowd& crowd) {
   if (game::is_interrupted) return game::ExitStatus::interrupted;
   if (!crowd.has_started() || crowd.lost_count() > 0) {
-    spdlog::error("{} of {} bots were lost: {}", crowd.lost_count(), crowd.bot_count(), crowd.first_trouble().empty() ? "the game did not start" : crowd.first_trouble());
+    spdlog::error("{} of {} bots were lost: {}", crowd.lost_count(), crowd.bot_count(),
+                  crowd.first_trouble().empty() ? "the game did not start" : crowd.first_trouble());
     return crowd.first_status();
   }
   return game::ExitStatus::ok;
@@ -151,11 +216,15 @@ game::ExitStatus status(const loadgen::BotCrowd& crowd) {
 rti::FederationFile federation_of(const Options& options) {
   if (options.federation_file.empty()) {
     const auto [address, port] = game::address_and_port("--connect", options.connect);
-    return {.federation = options.federation, .fom = {game::fom_file()}, .nodes = {{.name = "rti", .address = address, .port = port}}};
+    return {.federation = options.federation,
+            .fom = {game::fom_file()},
+            .nodes = {{.name = "rti", .address = address, .port = port}}};
   }
   rti::FederationFile file = rti::load_federation_file(options.federation_file);
   if (file.is_listed && options.first + options.count > file.members().size())
-    throw std::runtime_error("--count: " + std::to_string(options.count) + " bots from the " + std::to_string(options.first) + "th node on, but '" + options.federation_file + "' lists " +
+    throw std::runtime_error("--count: " + std::to_string(options.count) + " bots from the " +
+                             std::to_string(options.first) + "th node on, but '" +
+                             options.federation_file + "' lists " +
                              std::to_string(file.members().size()));
   return file;
 }
@@ -181,18 +250,23 @@ game::ExitStatus play(const Options& options) {
                                            .warm_up_s = options.start_s + options.warm_up_s,
                                            .duration_s = options.start_s + options.duration_s,
                                            .players = players_of(options)};
-  game::Gate gate(transport.get(), {.key_file = options.key_file, .role = rti::Role::federate, .federation = file.federation}, now_s);
+  game::Gate gate(
+      transport.get(),
+      {.key_file = options.key_file, .role = rti::Role::federate, .federation = file.federation},
+      now_s);
   loadgen::BotCrowd crowd(fom, gate.transport(), settings, options.count, plan, now_s);
   if (!options.evidence.empty()) crowd.collect_evidence(options.seed);
   const double histogram_ns = histogram_ns_per_record();
   crowd.connect([&](std::uint32_t) { return transport.connect(address, port); });
   const double give_up_s = now_s() + options.patience_s;
   ProcessorLoad load;
-  while (!game::is_interrupted && !crowd.is_over() && (crowd.has_started() || now_s() < give_up_s)) {
+  while (!game::is_interrupted && !crowd.is_over() &&
+         (crowd.has_started() || now_s() < give_up_s)) {
     crowd.run_once();
     load.look(crowd.is_measuring());
   }
-  for (const double until_s = now_s() + 0.1; !game::is_interrupted && now_s() < until_s;) crowd.run_once();  // the kernel's count lags by an acknowledgement
+  for (const double until_s = now_s() + 0.1; !game::is_interrupted && now_s() < until_s;)
+    crowd.run_once();  // the kernel's count lags by an acknowledgement
   Json written = loadgen::bots_report(crowd, why_invalid(options, crowd));
   written["cpu_share"] = load.share() ? Json(*load.share()) : Json(nullptr);
   written["histogram_ns_per_record"] = histogram_ns;
@@ -228,7 +302,8 @@ int main(int count, char** values) {
   } catch (const rti::TransportError& error) {
     spdlog::error("{}", error.what());
     const bool lacks_files = error.kind() == rti::TransportError::Kind::too_many_files;
-    return static_cast<int>(lacks_files ? game::ExitStatus::too_few_files : game::ExitStatus::no_server);
+    return static_cast<int>(lacks_files ? game::ExitStatus::too_few_files
+                                        : game::ExitStatus::no_server);
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
     return static_cast<int>(game::ExitStatus::bad_input);

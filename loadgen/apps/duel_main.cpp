@@ -1,4 +1,5 @@
-// rink duel: two bots who play hosted matches over TCP as people would, each with a client of its own, and say what they saw and what it cost.
+// rink duel: two bots who play hosted matches over TCP as people would, each with a client of its
+// own, and say what they saw and what it cost.
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -13,11 +14,11 @@
 
 #include "game/control/seed_flag.h"
 #include "game/net/address.h"
+#include "game/net/client/network_match.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/fom_file.h"
 #include "game/net/interrupt.h"
-#include "game/net/client/network_match.h"
 #include "game/net/speak_as.h"
 #include "game/players/player.h"
 #include "game/replication/trajectory_codec.h"
@@ -36,12 +37,19 @@ struct Options {
   double duration_s = 0.0, frame_hz = 60.0;
 };
 
-double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
+double now_s() {
+  return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                        std::chrono::steady_clock::now().time_since_epoch())
+                                        .count());
+}
 
 /// One of the two, with what it received while matches were played.
 struct Rival {
-  Rival(const rti::Fom& fom, const game::ObjectModel& model, const Options& options, std::size_t number)
-      : match(fom, model, transport, connect(transport, options.connect), {.name = "rival-" + std::to_string(number)}), bot(options.players, options.seed + number) {}
+  Rival(const rti::Fom& fom, const game::ObjectModel& model, const Options& options,
+        std::size_t number)
+      : match(fom, model, transport, connect(transport, options.connect),
+              {.name = "rival-" + std::to_string(number)}),
+        bot(options.players, options.seed + number) {}
 
   static rti::ConnectionId connect(rti::TcpTransport& transport, const std::string& place) {
     const auto [address, port] = game::address_and_port("--connect", place);
@@ -53,7 +61,8 @@ struct Rival {
     bot.act(match, now);
     match.advance(now);
     const std::uint64_t bytes = match.client().ambassador().counters().bytes_received;
-    if (match.sight().phase == game::MatchPhase::playing) played_s += now - frame_s, played_bytes += bytes - frame_bytes;
+    if (match.sight().phase == game::MatchPhase::playing)
+      played_s += now - frame_s, played_bytes += bytes - frame_bytes;
     frame_s = now;
     frame_bytes = bytes;
   }
@@ -68,9 +77,13 @@ struct Rival {
 void print(const Rival& rival) {
   const game::MatchSight& sight = rival.match.sight();
   const double played_s = std::max(rival.played_s, 1e-9);
-  std::printf("%s: %u to %u, played %.1f s, %.0f payload bytes/s, %.1f keys/s", sight.own_team == game::Team::left ? "left" : "right", sight.score.left, sight.score.right, rival.played_s,
-              static_cast<double>(rival.played_bytes) / played_s, rival.match.client().keys_sent() / played_s);
-  if (sight.link) std::printf(", ping %.2f ms, jitter %.2f ms, %llu visible corrections", sight.link->ping_ms, sight.link->jitter_ms, static_cast<unsigned long long>(sight.link->corrections));
+  std::printf("%s: %u to %u, played %.1f s, %.0f payload bytes/s, %.1f keys/s",
+              sight.own_team == game::Team::left ? "left" : "right", sight.score.left,
+              sight.score.right, rival.played_s, static_cast<double>(rival.played_bytes) / played_s,
+              rival.match.client().keys_sent() / played_s);
+  if (sight.link)
+    std::printf(", ping %.2f ms, jitter %.2f ms, %llu visible corrections", sight.link->ping_ms,
+                sight.link->jitter_ms, static_cast<unsigned long long>(sight.link->corrections));
   std::printf("\n");
 }
 
@@ -78,11 +91,15 @@ game::ExitStatus play(const Options& options) {
   const rti::Fom fom = game::load_rink_fom(game::fom_file());
   const game::ObjectModel model(fom);
   std::array<std::unique_ptr<Rival>, 2> rivals;
-  for (std::size_t k = 0; k < rivals.size(); ++k) rivals[k] = std::make_unique<Rival>(fom, model, options, k);
+  for (std::size_t k = 0; k < rivals.size(); ++k)
+    rivals[k] = std::make_unique<Rival>(fom, model, options, k);
   const double begin_s = now_s(), period_s = 1.0 / options.frame_hz;
   std::uint32_t played = 0;
   bool was_over = false;
-  for (std::uint64_t frame = 1; !game::is_interrupted && played < options.matches && (options.duration_s == 0.0 || now_s() < begin_s + options.duration_s); ++frame) {
+  for (std::uint64_t frame = 1;
+       !game::is_interrupted && played < options.matches &&
+       (options.duration_s == 0.0 || now_s() < begin_s + options.duration_s);
+       ++frame) {
     for (const auto& rival : rivals) rival->frame();
     for (const auto& rival : rivals) {
       if (rival->match.sight().phase != game::MatchPhase::lost) continue;
@@ -90,11 +107,13 @@ game::ExitStatus play(const Options& options) {
       const auto refusal = rival->match.client().refusal();
       return refusal ? game::exit_status(*refusal) : game::ExitStatus::connection_lost;
     }
-    const bool is_over = rivals[0]->match.sight().phase == game::MatchPhase::over && rivals[1]->match.sight().phase == game::MatchPhase::over;
+    const bool is_over = rivals[0]->match.sight().phase == game::MatchPhase::over &&
+                         rivals[1]->match.sight().phase == game::MatchPhase::over;
     if (is_over && !was_over && ++played < options.matches)
       for (const auto& rival : rivals) rival->match.rematch();
     was_over = is_over;
-    std::this_thread::sleep_for(std::chrono::duration<double>(begin_s + static_cast<double>(frame) * period_s - now_s()));
+    std::this_thread::sleep_for(
+        std::chrono::duration<double>(begin_s + static_cast<double>(frame) * period_s - now_s()));
   }
   for (const auto& rival : rivals) print(*rival);
   for (const auto& rival : rivals) rival->match.leave(now_s());
@@ -105,16 +124,29 @@ game::ExitStatus play(const Options& options) {
 
 int main(int count, char** values) {
   game::speak_as("rink-duel");
-  CLI::App app("Two bots who play hosted matches over TCP as people would: on what their own clients show.");
+  CLI::App app(
+      "Two bots who play hosted matches over TCP as people would: on what their own clients show.");
   app.set_version_flag("--version", game::version_line("rink-duel"));
   Options options;
   app.add_option("--connect", options.connect, "host, as ADDRESS:PORT")->capture_default_str();
-  app.add_option("--players", options.players, "who they are")->check(CLI::IsMember(game::player_kinds()))->capture_default_str();
-  app.add_option("--matches", options.matches, "to play, with a rematch between")->check(game::number_from(1, 1000))->capture_default_str();
-  app.add_option("--duration", options.duration_s, "seconds after which to leave; 0: when all matches are over")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
-  app.add_option("--frame-rate", options.frame_hz, "frames per second of each client")->check(game::number_from(10.0, 1000.0))->capture_default_str();
-  app.add_option("--seed", options.seed, "of what they do")->check(game::seed_number())->capture_default_str();
-  app.footer(std::string("Example: rink serve match & rink duel --matches 2\n\n") + game::exit_status_help);
+  app.add_option("--players", options.players, "who they are")
+      ->check(CLI::IsMember(game::player_kinds()))
+      ->capture_default_str();
+  app.add_option("--matches", options.matches, "to play, with a rematch between")
+      ->check(game::number_from(1, 1000))
+      ->capture_default_str();
+  app.add_option("--duration", options.duration_s,
+                 "seconds after which to leave; 0: when all matches are over")
+      ->check(game::number_from(0.0, game::seconds_max))
+      ->capture_default_str();
+  app.add_option("--frame-rate", options.frame_hz, "frames per second of each client")
+      ->check(game::number_from(10.0, 1000.0))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "of what they do")
+      ->check(game::seed_number())
+      ->capture_default_str();
+  app.footer(std::string("Example: rink serve match & rink duel --matches 2\n\n") +
+             game::exit_status_help);
   try {
     app.parse(count, values);
   } catch (const CLI::ParseError& error) {

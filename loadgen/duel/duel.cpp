@@ -9,32 +9,49 @@
 namespace rink::loadgen {
 
 std::int64_t JitteredDelay::arrival_ns(std::uint32_t, std::int64_t now_ns, std::size_t) {
-  const double late_s = jitter_s_ == 0.0 ? 0.0 : jitter_s_ * std::min(5.0, -std::log1p(-random_.uniform()));
+  const double late_s =
+      jitter_s_ == 0.0 ? 0.0 : jitter_s_ * std::min(5.0, -std::log1p(-random_.uniform()));
   return now_ns + nanoseconds(delay_s_ + late_s);
 }
 
-Duel::Client::Client(rti::VirtualNetwork& network, const rti::Fom& fom, const game::ObjectModel& model, const game::NetworkMatchSettings& settings)
-    : end(network), match(std::make_unique<game::NetworkMatch>(fom, model, end, end.connect(server_name), settings)) {}
+Duel::Client::Client(rti::VirtualNetwork& network, const rti::Fom& fom,
+                     const game::ObjectModel& model, const game::NetworkMatchSettings& settings)
+    : end(network),
+      match(std::make_unique<game::NetworkMatch>(fom, model, end, end.connect(server_name),
+                                                 settings)) {}
 
-Duel::Duel(const rti::Fom& fom, const game::Scene& scene, const std::string& scene_text, const DuelSettings& settings)
+Duel::Duel(const rti::Fom& fom, const game::Scene& scene, const std::string& scene_text,
+           const DuelSettings& settings)
     : fom_(fom),
       model_(fom),
       settings_(settings),
       link_(settings.delay_s, settings.jitter_s, settings.seed),
       network_(link_, nanoseconds(1.0)),
-      serving_(fom, scene, {.policy = "on-event", .tick_s = 1.0 / settings.rate_hz, .replay = {}, .hosting = game::Hosting{settings.times, scene_text}},
-               game::federation_settings(scene, "none", 0.0), [this] { return network_.now_s(); }, [this] { return network_.now_s(); }) {
+      serving_(
+          fom, scene,
+          {.policy = "on-event",
+           .tick_s = 1.0 / settings.rate_hz,
+           .replay = {},
+           .hosting = game::Hosting{settings.times, scene_text}},
+          game::federation_settings(scene, "none", 0.0), [this] { return network_.now_s(); },
+          [this] { return network_.now_s(); }) {
   server_end_.listen(server_name);
   serving_.host().add(server_end_);
   ticks_ = {network_.now_ns(), nanoseconds(1.0 / settings.rate_hz)};
   const std::int64_t period_ns = nanoseconds(1.0 / settings.frame_hz);
-  for (std::size_t k = 0; k < frames_.size(); ++k) frames_[k] = {network_.now_ns() + period_ns * static_cast<std::int64_t>(3 + 3 * k) / 10, period_ns};
+  for (std::size_t k = 0; k < frames_.size(); ++k)
+    frames_[k] = {network_.now_ns() + period_ns * static_cast<std::int64_t>(3 + 3 * k) / 10,
+                  period_ns};
   run_until([this] { return serving_.server().is_joined(); }, 1.0);
 }
 
 void Duel::connect(std::size_t k) {
-  clients_[k] = std::make_unique<Client>(network_, fom_, model_, game::NetworkMatchSettings{.name = "client-" + std::to_string(k), .only_watches = k == watcher});
-  if (k != watcher && !settings_.players[k].empty()) clients_[k]->bot.emplace(settings_.players[k], settings_.seed);
+  clients_[k] =
+      std::make_unique<Client>(network_, fom_, model_,
+                               game::NetworkMatchSettings{.name = "client-" + std::to_string(k),
+                                                          .only_watches = k == watcher});
+  if (k != watcher && !settings_.players[k].empty())
+    clients_[k]->bot.emplace(settings_.players[k], settings_.seed);
 }
 
 void Duel::leave(std::size_t k) {
@@ -59,7 +76,8 @@ void Duel::step_to(std::int64_t until_ns) {
   while (true) {
     std::int64_t next_ns = ticks_.next_ns;
     for (const Frames& frames : frames_) next_ns = std::min(next_ns, frames.next_ns);
-    if (const auto arrival_ns = network_.next_arrival_ns()) next_ns = std::min(next_ns, *arrival_ns);
+    if (const auto arrival_ns = network_.next_arrival_ns())
+      next_ns = std::min(next_ns, *arrival_ns);
     if (next_ns > until_ns) break;
     network_.advance_to(next_ns);
     if (server_end_.has_arrivals()) serving_.exchange(0.0);

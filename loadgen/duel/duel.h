@@ -1,4 +1,5 @@
-// A hosted match between two clients in one process, over a modelled network under a virtual clock: the same server and clients as over sockets.
+// A hosted match between two clients in one process, over a modelled network under a virtual clock:
+// the same server and clients as over sockets.
 #pragma once
 
 #include <array>
@@ -16,10 +17,12 @@
 
 namespace rink::loadgen {
 
-/// Every packet takes a fixed time and, at random, up to five times the mean of an exponential distribution longer; the network keeps them in order.
+/// Every packet takes a fixed time and, at random, up to five times the mean of an exponential
+/// distribution longer; the network keeps them in order.
 class JitteredDelay final : public rti::LinkModel {
  public:
-  JitteredDelay(double delay_s, double jitter_s, std::uint64_t seed) : delay_s_(delay_s), jitter_s_(jitter_s), random_(seed) {}
+  JitteredDelay(double delay_s, double jitter_s, std::uint64_t seed)
+      : delay_s_(delay_s), jitter_s_(jitter_s), random_(seed) {}
   std::int64_t arrival_ns(std::uint32_t line, std::int64_t now_ns, std::size_t size) override;
 
  private:
@@ -33,7 +36,8 @@ struct DuelSettings {
   double rate_hz = 60.0;   ///< ticks
   double frame_hz = 60.0;  ///< frames of each client, at phases of their own
   std::uint64_t seed = 1;
-  /// Who plays: one of game::player_kinds() each, on what its own client shows; empty: nobody presses anything but who calls client().press().
+  /// Who plays: one of game::player_kinds() each, on what its own client shows; empty: nobody
+  /// presses anything but who calls client().press().
   std::array<std::string, 2> players{};
   game::FlowTimes times{};
 };
@@ -41,7 +45,8 @@ struct DuelSettings {
 class Duel {
  public:
   /// `scene_text` is the file of `scene`; there must be no match_objection().
-  Duel(const rti::Fom& fom, const game::Scene& scene, const std::string& scene_text, const DuelSettings& settings);
+  Duel(const rti::Fom& fom, const game::Scene& scene, const std::string& scene_text,
+       const DuelSettings& settings);
 
   static constexpr std::size_t watcher = 2;  ///< the client that plays no bat
 
@@ -64,7 +69,8 @@ class Duel {
 
  private:
   struct Client {
-    Client(rti::VirtualNetwork& network, const rti::Fom& fom, const game::ObjectModel& model, const game::NetworkMatchSettings& settings);
+    Client(rti::VirtualNetwork& network, const rti::Fom& fom, const game::ObjectModel& model,
+           const game::NetworkMatchSettings& settings);
     rti::VirtualEndpoint end;
     std::unique_ptr<game::NetworkMatch> match;
     std::optional<MatchBot> bot;

@@ -23,7 +23,9 @@ ShownError error_of(std::vector<double>& errors) {
   std::sort(errors.begin(), errors.end());
   ShownError error{.count = errors.size(), .greatest = errors.back()};
   for (const double each : errors) error.mean += each / static_cast<double>(errors.size());
-  const auto at = [&](double fraction) { return errors[static_cast<std::size_t>(fraction * static_cast<double>(errors.size() - 1))]; };
+  const auto at = [&](double fraction) {
+    return errors[static_cast<std::size_t>(fraction * static_cast<double>(errors.size() - 1))];
+  };
   error.p50 = at(0.5);
   error.p90 = at(0.9);
   error.p99 = at(0.99);
@@ -37,16 +39,21 @@ class TruthComparison {
   void note(std::size_t k) {
     game::NetworkMatch& match = duel_.client(k);
     const game::PredictedRink* rink = match.prediction();
-    if (rink == nullptr || match.sight().phase != game::MatchPhase::playing || match.client().mirror().match().number != 1) return;
-    for (std::size_t bat = 0; bat < rink->bats().size(); ++bat) add(rink->bats()[bat], bat, bat == match.player() ? Role::own : Role::other);
-    for (std::size_t puck = 0; puck < rink->pucks().size(); ++puck) add(rink->pucks()[puck], rink->bats().size() + puck, Role::puck);
+    if (rink == nullptr || match.sight().phase != game::MatchPhase::playing ||
+        match.client().mirror().match().number != 1)
+      return;
+    for (std::size_t bat = 0; bat < rink->bats().size(); ++bat)
+      add(rink->bats()[bat], bat, bat == match.player() ? Role::own : Role::other);
+    for (std::size_t puck = 0; puck < rink->pucks().size(); ++puck)
+      add(rink->pucks()[puck], rink->bats().size() + puck, Role::puck);
   }
 
   /// Plays `log` and fills in the errors of `feel`.
   void compare(const game::KeyLog& log, const game::Scene& scene, Feel& feel) {
     game::Game game(scene);
     for (const game::InputEvent& event : log.events) game.submit(event);
-    std::stable_sort(shown_.begin(), shown_.end(), [](const Shown& a, const Shown& b) { return a.time < b.time; });
+    std::stable_sort(shown_.begin(), shown_.end(),
+                     [](const Shown& a, const Shown& b) { return a.time < b.time; });
     std::vector<game::EntityId> bodies;
     for (const auto kind : {physics::BodyKind::bat, physics::BodyKind::puck})
       for (const game::Entity& entity : game.entities())
@@ -55,7 +62,8 @@ class TruthComparison {
     for (const Shown& shown : shown_) {
       if (shown.time < 0.0 || shown.time > *log.until) continue;
       game.advance(std::max(game.now(), shown.time));
-      errors[static_cast<std::size_t>(shown.role)].push_back((game.position(bodies[shown.body]) - shown.position).norm());
+      errors[static_cast<std::size_t>(shown.role)].push_back(
+          (game.position(bodies[shown.body]) - shown.position).norm());
     }
     feel.own = error_of(errors[0]);
     feel.other = error_of(errors[1]);
@@ -63,7 +71,9 @@ class TruthComparison {
   }
 
  private:
-  void add(const game::ShownBody& body, std::size_t number, Role role) { shown_.push_back({body.time, number, body.position, role}); }
+  void add(const game::ShownBody& body, std::size_t number, Role role) {
+    shown_.push_back({body.time, number, body.position, role});
+  }
 
   Duel& duel_;
   std::vector<Shown> shown_;
@@ -79,10 +89,13 @@ void add_corrections(Duel& duel, Feel& feel) {
   };
   for (std::size_t k = 0; k < 2; ++k) {
     const game::PredictedRink& rink = *duel.client(k).prediction();
-    sum(own, rink.own_corrections()), sum(other, rink.other_corrections()), sum(puck, rink.puck_corrections());
+    sum(own, rink.own_corrections()), sum(other, rink.other_corrections()),
+        sum(puck, rink.puck_corrections());
     feel.lead_s = std::max(feel.lead_s, 1e-3 * duel.client(k).sight().link->lead_ms);
   }
-  const auto mean = [](const game::Corrections& all) { return all.visible_count == 0 ? 0.0 : all.sum / static_cast<double>(all.visible_count); };
+  const auto mean = [](const game::Corrections& all) {
+    return all.visible_count == 0 ? 0.0 : all.sum / static_cast<double>(all.visible_count);
+  };
   feel.corrections_per_min = static_cast<double>(own.visible_count) / minutes;
   feel.correction_mean = mean(own);
   feel.correction_greatest = own.greatest;
@@ -94,7 +107,8 @@ void add_corrections(Duel& duel, Feel& feel) {
 
 }  // namespace
 
-Feel feel_of(const rti::Fom& fom, const game::Scene& scene, const std::string& scene_text, const DuelSettings& settings, double seconds) {
+Feel feel_of(const rti::Fom& fom, const game::Scene& scene, const std::string& scene_text,
+             const DuelSettings& settings, double seconds) {
   Duel duel(fom, scene, scene_text, settings);
   TruthComparison comparison(duel);
   duel.watch = [&](std::size_t k) { comparison.note(k); };
@@ -102,12 +116,17 @@ Feel feel_of(const rti::Fom& fom, const game::Scene& scene, const std::string& s
   duel.run_until([&] { return duel.server().match()->phase == game::MatchPhase::playing; }, 30.0);
   std::array<std::uint64_t, 2> bytes{};
   const double from_s = duel.now_s();
-  for (std::size_t k = 0; k < 2; ++k) bytes[k] = duel.client(k).client().ambassador().counters().bytes_received;
+  for (std::size_t k = 0; k < 2; ++k)
+    bytes[k] = duel.client(k).client().ambassador().counters().bytes_received;
   duel.run_until([&] { return duel.server().match()->phase == game::MatchPhase::over; }, seconds);
   Feel feel;
   const double passed_s = duel.now_s() - from_s;
   for (std::size_t k = 0; k < 2; ++k) {
-    feel.payload_bytes_per_s += 0.5 * static_cast<double>(duel.client(k).client().ambassador().counters().bytes_received - bytes[k]) / passed_s;
+    feel.payload_bytes_per_s +=
+        0.5 *
+        static_cast<double>(duel.client(k).client().ambassador().counters().bytes_received -
+                            bytes[k]) /
+        passed_s;
     feel.keys += duel.client(k).client().keys_sent();
   }
   feel.late_keys = duel.server().counters().keys_late;

@@ -6,12 +6,16 @@
 namespace rink::loadgen {
 
 void MatchBot::act(game::NetworkMatch& match, double now_s) {
-  if (now_s < next_s_ || match.sight().phase != game::MatchPhase::playing || match.scene() == nullptr || !match.player()) return;
+  if (now_s < next_s_ || match.sight().phase != game::MatchPhase::playing ||
+      match.scene() == nullptr || !match.player())
+    return;
   next_s_ = now_s + game::decision_period;
   if (!player_) {
     const std::uint32_t number = *match.player();
     const game::Bat& bat = match.scene()->bodies.bats[number];
-    player_ = game::make_player(kind_, game::rules_of(*match.scene(), number), {.number = number, .team = bat.team, .half_extent = bat.body.half_extent}, seed_);
+    player_ = game::make_player(
+        kind_, game::rules_of(*match.scene(), number),
+        {.number = number, .team = bat.team, .half_extent = bat.body.half_extent}, seed_);
   }
   decide(match);
 }
@@ -22,10 +26,16 @@ void MatchBot::decide(game::NetworkMatch& match) {
   const game::Thing* own = nullptr;
   for (const game::Thing& thing : sight.things) {
     if (thing.kind == physics::BodyKind::bat && thing.team == sight.own_team) own = &thing;
-    if (thing.kind == physics::BodyKind::puck) pucks.push_back({.id = thing.id, .kind = thing.kind, .position = thing.position, .velocity = thing.velocity, .half_extent = thing.half_extent});
+    if (thing.kind == physics::BodyKind::puck)
+      pucks.push_back({.id = thing.id,
+                       .kind = thing.kind,
+                       .position = thing.position,
+                       .velocity = thing.velocity,
+                       .half_extent = thing.half_extent});
   }
   if (own == nullptr) return;
-  const game::KeysHeld wanted = player_->decide({.position = own->position, .velocity = own->velocity, .pucks = pucks}, sight.time);
+  const game::KeysHeld wanted = player_->decide(
+      {.position = own->position, .velocity = own->velocity, .pucks = pucks}, sight.time);
   for (const game::Key key : game::all_keys)
     if (wanted.is_down(key) != held_.is_down(key)) match.press(0, key, wanted.is_down(key));
   held_ = wanted;

@@ -25,15 +25,20 @@ const std::vector<CellKey>& cell_keys() {
         {"mode", [](Cell& cell, const std::string& value) { return cell.mode = value, true; }},
         {"scheme", [](Cell& cell, const std::string& value) { return cell.scheme = value, true; }},
         {"policy", [](Cell& cell, const std::string& value) { return cell.policy = value, true; }},
-        {"clients", [](Cell& cell, const std::string& value) { return set_number(cell.clients, value); }},
-        {"pucks", [](Cell& cell, const std::string& value) { return set_number(cell.pucks, value); }},
+        {"clients",
+         [](Cell& cell, const std::string& value) { return set_number(cell.clients, value); }},
+        {"pucks",
+         [](Cell& cell, const std::string& value) { return set_number(cell.pucks, value); }},
         {"bats", [](Cell& cell, const std::string& value) { return set_number(cell.bats, value); }},
-        {"server_cores", [](Cell& cell, const std::string& value) { return set_number(cell.server_cores, value); }},
+        {"server_cores",
+         [](Cell& cell, const std::string& value) { return set_number(cell.server_cores, value); }},
         {"part", [](Cell& cell, const std::string& value) { return cell.part = value, true; }}};
     for (const ParameterKind& kind : parameter_kinds())
       all.push_back({kind.key, [kind](Cell& cell, const std::string& value) {
                        double number = 0.0;
-                       if (!set_number(number, value) || !kind.is_allowed(number) || (kind.is_whole && number != std::floor(number))) return false;
+                       if (!set_number(number, value) || !kind.is_allowed(number) ||
+                           (kind.is_whole && number != std::floor(number)))
+                         return false;
                        kind.set(cell.parameters, number);
                        return true;
                      }});
@@ -43,7 +48,8 @@ const std::vector<CellKey>& cell_keys() {
 }
 
 const CellKey* key_called(const std::string& name) {
-  const auto key = std::find_if(cell_keys().begin(), cell_keys().end(), [&name](const CellKey& k) { return name == k.name; });
+  const auto key = std::find_if(cell_keys().begin(), cell_keys().end(),
+                                [&name](const CellKey& k) { return name == k.name; });
   return key == cell_keys().end() ? nullptr : &*key;
 }
 

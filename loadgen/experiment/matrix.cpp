@@ -13,9 +13,12 @@
 namespace rink::loadgen {
 namespace {
 
-/// Judged before what its scheme lacks is taken out of the cell, or one that differs in nothing would come with every value of what it lacks.
+/// Judged before what its scheme lacks is taken out of the cell, or one that differs in nothing
+/// would come with every value of what it lacks.
 bool is_in_design(const Experiment& experiment, const Cell& cell) {
-  const int moved = moved_parameters(experiment, cell.parameters) + (cell.clients != experiment.clients.front()) + (cell.pucks != experiment.pucks.front()) + (cell.bats != experiment.bats.front());
+  const int moved =
+      moved_parameters(experiment, cell.parameters) + (cell.clients != experiment.clients.front()) +
+      (cell.pucks != experiment.pucks.front()) + (cell.bats != experiment.bats.front());
   return experiment.design == Design::matrix || moved <= 1;
 }
 
@@ -27,7 +30,9 @@ struct Variation {
 };
 
 /// Positions shown where they were told, as in the paper: the policy's name says so.
-bool is_paper(const Cell& cell) { return cell.policy == "periodic" && !cell.parameters.extrapolates; }
+bool is_paper(const Cell& cell) {
+  return cell.policy == "periodic" && !cell.parameters.extrapolates;
+}
 
 std::vector<Variation> variations_of(const Cell& cell) {
   const Parameters& own = cell.parameters;
@@ -36,8 +41,11 @@ std::vector<Variation> variations_of(const Cell& cell) {
   if (cell.pucks > 0) all.push_back({"pucks", std::to_string(cell.pucks), "", " pucks"});
   if (cell.bats > 0) all.push_back({"bats", std::to_string(cell.bats), "", " bats"});
   for (const ParameterKind& kind : parameter_kinds())
-    if (kind.of(own) != kind.of(standard) && !(is_paper(cell) && std::string_view(kind.key) == "extrapolate")) all.push_back({kind.short_name, shortest(kind.of(own)), kind.before, kind.after});
-  if (cell.server_cores != 1) all.push_back({"cores", std::to_string(cell.server_cores), "", " cores"});
+    if (kind.of(own) != kind.of(standard) &&
+        !(is_paper(cell) && std::string_view(kind.key) == "extrapolate"))
+      all.push_back({kind.short_name, shortest(kind.of(own)), kind.before, kind.after});
+  if (cell.server_cores != 1)
+    all.push_back({"cores", std::to_string(cell.server_cores), "", " cores"});
   return all;
 }
 
@@ -63,34 +71,41 @@ Cell baseline_of(Cell cell, const Baseline& baseline) {
   return without_idle_parameters(std::move(cell));
 }
 
-std::optional<Cell> baseline_among(std::span<const Cell> cells, const Cell& cell, const Baseline& baseline) {
+std::optional<Cell> baseline_among(std::span<const Cell> cells, const Cell& cell,
+                                   const Baseline& baseline) {
   Cell wanted = baseline_of(cell, baseline);
   if (std::ranges::find(cells, wanted) != cells.end()) return wanted;
   for (const Cell& other : cells) {
     for (const ParameterKind& kind : parameter_kinds())
-      if (!kind.has(cell) && kind.has(wanted)) kind.set(wanted.parameters, kind.of(other.parameters));
+      if (!kind.has(cell) && kind.has(wanted))
+        kind.set(wanted.parameters, kind.of(other.parameters));
     if (wanted == other) return other;
   }
   return std::nullopt;
 }
 
 std::string Baseline::words() const {
-  std::string text = scheme.empty() || policy.empty() ? scheme + policy : scheme + " with " + policy;
+  std::string text =
+      scheme.empty() || policy.empty() ? scheme + policy : scheme + " with " + policy;
   for (const auto& [name, value] : others) text += (text.empty() ? "" : ", ") + name + " " + value;
   return text;
 }
 
-std::string policy_name(const Cell& cell) { return is_paper(cell) ? "periodic (paper)" : cell.policy; }
+std::string policy_name(const Cell& cell) {
+  return is_paper(cell) ? "periodic (paper)" : cell.policy;
+}
 
 const Experiment& part_of(const Experiment& experiment, const std::string& part) {
-  const auto found = std::find_if(experiment.parts.begin(), experiment.parts.end(), [&part](const Experiment& each) { return each.part == part; });
+  const auto found = std::find_if(experiment.parts.begin(), experiment.parts.end(),
+                                  [&part](const Experiment& each) { return each.part == part; });
   return found == experiment.parts.end() ? experiment : *found;
 }
 
 std::vector<Cell> cells_of(const Experiment& experiment) {
   if (!experiment.parts.empty()) {
     std::vector<Cell> all;
-    for (const Experiment& part : experiment.parts) std::ranges::copy(cells_of(part), std::back_inserter(all));
+    for (const Experiment& part : experiment.parts)
+      std::ranges::copy(cells_of(part), std::back_inserter(all));
     return all;
   }
   std::vector<Cell> games;  // all that is outside of what is compared
@@ -100,7 +115,8 @@ std::vector<Cell> cells_of(const Experiment& experiment) {
         for (const std::uint32_t bats : experiment.bats)
           for (const std::string& mode : experiment.modes)
             for (const std::uint32_t cores : experiment.server_cores)
-              games.push_back({mode, {}, {}, clients, seed, {}, pucks, bats, cores, experiment.part});
+              games.push_back(
+                  {mode, {}, {}, clients, seed, {}, pucks, bats, cores, experiment.part});
   std::vector<Cell> cells;
   for (Cell cell : games) {
     const auto first_of_game = static_cast<std::ptrdiff_t>(cells.size());
@@ -110,7 +126,8 @@ std::vector<Cell> cells_of(const Experiment& experiment) {
           cell.policy = policy, cell.parameters = parameters, cell.scheme = scheme;
           if (!is_in_design(experiment, cell)) continue;
           const Cell candidate = without_idle_parameters(cell);
-          if (std::find(cells.begin() + first_of_game, cells.end(), candidate) == cells.end()) cells.push_back(candidate);
+          if (std::find(cells.begin() + first_of_game, cells.end(), candidate) == cells.end())
+            cells.push_back(candidate);
         }
   }
   return cells;
@@ -120,9 +137,14 @@ std::vector<Cell> running_order(const Experiment& experiment) {
   std::vector<Cell> cells = cells_of(experiment);
   const auto replication = [](const Cell& cell) { return std::pair(cell.part, cell.seed); };
   for (auto first = cells.begin(); first != cells.end();) {
-    const auto last = std::find_if(first, cells.end(), [&](const Cell& cell) { return replication(cell) != replication(*first); });
+    const auto last = std::find_if(first, cells.end(), [&](const Cell& cell) {
+      return replication(cell) != replication(*first);
+    });
     std::mt19937_64 random(first->seed);
-    for (auto place = last - first; place > 1; --place) std::iter_swap(first + (place - 1), first + static_cast<std::ptrdiff_t>(random() % static_cast<std::uint64_t>(place)));
+    for (auto place = last - first; place > 1; --place)
+      std::iter_swap(
+          first + (place - 1),
+          first + static_cast<std::ptrdiff_t>(random() % static_cast<std::uint64_t>(place)));
     first = last;
   }
   return cells;
@@ -130,14 +152,17 @@ std::vector<Cell> running_order(const Experiment& experiment) {
 
 std::string name_of(const Cell& cell) {
   std::string name = cell.part.empty() ? "" : cell.part + "-";
-  name += cell.mode + "-" + im::file_name_of(cell.scheme) + "-" + cell.policy + (is_paper(cell) ? "-paper-" : "-") + std::to_string(cell.clients);
-  for (const Variation& variation : variations_of(cell)) name += std::string("-") + variation.name + variation.value;
+  name += cell.mode + "-" + im::file_name_of(cell.scheme) + "-" + cell.policy +
+          (is_paper(cell) ? "-paper-" : "-") + std::to_string(cell.clients);
+  for (const Variation& variation : variations_of(cell))
+    name += std::string("-") + variation.name + variation.value;
   return name + "-seed" + std::to_string(cell.seed);
 }
 
 std::string variant_of(const Cell& cell) {
   std::string words;
-  for (const Variation& variation : variations_of(cell)) words += (words.empty() ? "" : ", ") + (variation.before + variation.value + variation.after);
+  for (const Variation& variation : variations_of(cell))
+    words += (words.empty() ? "" : ", ") + (variation.before + variation.value + variation.after);
   return words;
 }
 

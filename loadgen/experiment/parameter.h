@@ -1,4 +1,5 @@
-// The numbers that a cell may be told beside its scheme, each described once: for whoever reads, sweeps, names, writes or draws them.
+// The numbers that a cell may be told beside its scheme, each described once: for whoever reads,
+// sweeps, names, writes or draws them.
 #pragma once
 
 #include <span>
@@ -9,7 +10,8 @@
 
 namespace rink::loadgen {
 
-/// One of `Parameters`. A new one is a member there, a list in Experiment, and a line in parameter.cpp; experiments, cell names, tables, CSV columns, assertions and plots follow.
+/// One of `Parameters`. A new one is a member there, a list in Experiment, and a line in
+/// parameter.cpp; experiments, cell names, tables, CSV columns, assertions and plots follow.
 struct ParameterKind {
   const char* key;      ///< in experiments, CSV columns and assertions
   const char* allowed;  ///< in words, for complaints
@@ -18,14 +20,16 @@ struct ParameterKind {
   double (*of)(const Parameters&);
   void (*set)(Parameters&, double);
   std::vector<double> Experiment::*values;
-  bool (*has)(const Cell& cell);  ///< whether a run of `cell` depends on it
+  bool (*has)(const Cell& cell);            ///< whether a run of `cell` depends on it
   const char *short_name, *before, *after;  ///< in a cell's name, and in words around its value
-  const char *axis, *column;                ///< what a plot calls it, with its unit, and a table in at most nine letters
-  double scale;                             ///< from its own unit to that of `axis` and `column`
-  bool is_switch = false;                   ///< 1 or 0, which experiments write true and false
+  const char *axis,
+      *column;   ///< what a plot calls it, with its unit, and a table in at most nine letters
+  double scale;  ///< from its own unit to that of `axis` and `column`
+  bool is_switch = false;  ///< 1 or 0, which experiments write true and false
 };
 
-/// False of the scheme that lets everything through: its clients declare no regions, and nothing that is about regions changes anything.
+/// False of the scheme that lets everything through: its clients declare no regions, and nothing
+/// that is about regions changes anything.
 bool has_regions(const Cell& cell);
 
 /// All, in the order of their columns.
@@ -40,8 +44,10 @@ std::vector<const ParameterKind*> swept_parameters(const Experiment& experiment)
 /// Every combination of the listed values, the last parameter's innermost.
 std::vector<Parameters> parameters_of(const Experiment& experiment);
 
-/// Whether each parameter that the scheme of `cell` has is the first of its list, `except` left aside.
-bool is_at_first_values(const Experiment& experiment, const Cell& cell, const ParameterKind* except = nullptr);
+/// Whether each parameter that the scheme of `cell` has is the first of its list, `except` left
+/// aside.
+bool is_at_first_values(const Experiment& experiment, const Cell& cell,
+                        const ParameterKind* except = nullptr);
 
 /// The parameter's value in the unit of `axis`; a cell size of 0 reads "chosen".
 std::string value_text(const ParameterKind& kind, const Cell& cell);

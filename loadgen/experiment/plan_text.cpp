@@ -20,7 +20,8 @@ std::string clock_text(double duration_s) {
 /// Virtual time passes as fast as the machine computes, several cells beside each other.
 double expected_cell_s(const Experiment& experiment, const Cell& cell) {
   const Experiment& part = part_of(experiment, cell.part);
-  return part.transport == TransportKind::virtual_time ? 0.2 : part.warm_up_s + part.duration_s + 1.0;
+  return part.transport == TransportKind::virtual_time ? 0.2
+                                                       : part.warm_up_s + part.duration_s + 1.0;
 }
 
 double expected_cell_s(const Experiment& experiment) {
@@ -30,12 +31,18 @@ double expected_cell_s(const Experiment& experiment) {
   return sum_s / static_cast<double>(cells.size());
 }
 
-std::string plan_text(const Experiment& experiment, std::size_t open_files_needed, std::size_t open_files_max) {
+std::string plan_text(const Experiment& experiment, std::size_t open_files_needed,
+                      std::size_t open_files_max) {
   const std::vector<Cell> cells = running_order(experiment);
   const double cell_s = expected_cell_s(experiment);
-  const bool is_virtual = std::ranges::all_of(cells, [&](const Cell& cell) { return part_of(experiment, cell.part).transport == TransportKind::virtual_time; });
-  std::string text = "experiment " + experiment.name + ", scene " + experiment.scene + ": " + std::to_string(cells.size()) + " cells";
-  const std::string times = (experiment.parts.empty() ? ", each about " + clock_text(cell_s) : "") + ", about " + clock_text(cell_s * static_cast<double>(cells.size())) + " in all\n";
+  const bool is_virtual = std::ranges::all_of(cells, [&](const Cell& cell) {
+    return part_of(experiment, cell.part).transport == TransportKind::virtual_time;
+  });
+  std::string text = "experiment " + experiment.name + ", scene " + experiment.scene + ": " +
+                     std::to_string(cells.size()) + " cells";
+  const std::string times = (experiment.parts.empty() ? ", each about " + clock_text(cell_s) : "") +
+                            ", about " + clock_text(cell_s * static_cast<double>(cells.size())) +
+                            " in all\n";
   text += is_virtual ? " in virtual time, each as fast as this machine computes\n" : times;
   std::set<std::string> games;
   double start_s = 0.0;
@@ -46,9 +53,13 @@ std::string plan_text(const Experiment& experiment, std::size_t open_files_neede
     games.insert(game_of(cells[i], part_of(experiment, cells[i].part).population));
   }
   text += "ratios refer to " + experiment.baseline().words() + "\n";
-  if (experiment.seeds.size() < 2) text += "one seed: without replications no difference can be told from chance\n";
-  text += "files: " + std::to_string(games.size()) + " key logs, up to 4 per cell in cells/, runs.jsonl, summary.csv, comparisons.csv, report.html, provenance.json\n";
-  text += "open files: " + std::to_string(open_files_needed) + " needed, " + std::to_string(open_files_max) + " allowed\n";
+  if (experiment.seeds.size() < 2)
+    text += "one seed: without replications no difference can be told from chance\n";
+  text += "files: " + std::to_string(games.size()) +
+          " key logs, up to 4 per cell in cells/, runs.jsonl, summary.csv, comparisons.csv, "
+          "report.html, provenance.json\n";
+  text += "open files: " + std::to_string(open_files_needed) + " needed, " +
+          std::to_string(open_files_max) + " allowed\n";
   return text;
 }
 

@@ -1,4 +1,5 @@
-// Binds an assertion's figures to cells, one binding for each choice that it leaves open, and evaluates it.
+// Binds an assertion's figures to cells, one binding for each choice that it leaves open, and
+// evaluates it.
 #include "loadgen/measure/assertion.h"
 
 #include <algorithm>
@@ -13,9 +14,9 @@
 
 #include "loadgen/experiment/parameter.h"
 
-#include "loadgen/measure/assertion_syntax.h"
 #include "loadgen/experiment/cell_key.h"
 #include "loadgen/experiment/csv_number.h"
+#include "loadgen/measure/assertion_syntax.h"
 
 namespace rink::loadgen {
 namespace {
@@ -25,13 +26,18 @@ using Kind = Node::Kind;
 
 /// Which value of a statistic a name ends in.
 using Part = std::optional<double> (*)(const Statistic&);
-constexpr std::array<std::pair<const char*, Part>, 6> parts{{
-    {"", [](const Statistic& s) { return s.mean; }},
-    {"_sd", [](const Statistic& s) { return s.deviation; }},
-    {"_min", [](const Statistic& s) { return s.min; }},
-    {"_max", [](const Statistic& s) { return s.max; }},
-    {"_low", [](const Statistic& s) { return s.interval ? std::optional(s.interval->low) : std::nullopt; }},
-    {"_high", [](const Statistic& s) { return s.interval ? std::optional(s.interval->high) : std::nullopt; }}}};
+constexpr std::array<std::pair<const char*, Part>, 6> parts{
+    {{"", [](const Statistic& s) { return s.mean; }},
+     {"_sd", [](const Statistic& s) { return s.deviation; }},
+     {"_min", [](const Statistic& s) { return s.min; }},
+     {"_max", [](const Statistic& s) { return s.max; }},
+     {"_low",
+      [](const Statistic& s) {
+        return s.interval ? std::optional(s.interval->low) : std::nullopt;
+      }},
+     {"_high", [](const Statistic& s) {
+        return s.interval ? std::optional(s.interval->high) : std::nullopt;
+      }}}};
 
 struct Reading {
   const char* figure;
@@ -59,10 +65,13 @@ Cell selected(const Node& figure, Cell context) {
   return without_idle_parameters(std::move(context));
 }
 
-bool is_in(const std::vector<Cell>& cells, const Cell& cell) { return std::find(cells.begin(), cells.end(), cell) != cells.end(); }
+bool is_in(const std::vector<Cell>& cells, const Cell& cell) {
+  return std::find(cells.begin(), cells.end(), cell) != cells.end();
+}
 
 /// For each figure its cell; one entry for each choice of what is left open.
-std::vector<std::vector<Cell>> choices_of(const std::vector<const Node*>& figures, const std::vector<Cell>& cells) {
+std::vector<std::vector<Cell>> choices_of(const std::vector<const Node*>& figures,
+                                          const std::vector<Cell>& cells) {
   std::vector<std::vector<Cell>> choices;
   for (const Cell& context : cells) {
     std::vector<Cell> choice;
@@ -70,7 +79,9 @@ std::vector<std::vector<Cell>> choices_of(const std::vector<const Node*>& figure
       const Cell cell = selected(*figure, context);
       if (is_in(cells, cell)) choice.push_back(cell);
     }
-    if (choice.size() == figures.size() && std::find(choices.begin(), choices.end(), choice) == choices.end()) choices.push_back(choice);
+    if (choice.size() == figures.size() &&
+        std::find(choices.begin(), choices.end(), choice) == choices.end())
+      choices.push_back(choice);
     if (figures.empty()) break;
   }
   return choices;
@@ -91,24 +102,31 @@ void check(const std::string& text, const Node& figure, const std::vector<Cell>&
   if (!reading_called(figure.name)) {
     std::string known;
     for (const Figure& f : figures()) known += (known.empty() ? "" : ", ") + std::string(f.name);
-    throw ExperimentError(where + "no figure is called " + figure.name + "; there are " + known + ", each also with _low, _high, _sd, _min, _max");
+    throw ExperimentError(where + "no figure is called " + figure.name + "; there are " + known +
+                          ", each also with _low, _high, _sd, _min, _max");
   }
   for (const auto& [key, value] : figure.selection) {
     const CellKey* known = key_called(key);
     std::string keys;
     for (const CellKey& k : cell_keys()) keys += (keys.empty() ? "" : ", ") + k.name;
-    if (!known) throw ExperimentError(where + "no key of a cell is called " + key + "; there are " + keys);
+    if (!known)
+      throw ExperimentError(where + "no key of a cell is called " + key + "; there are " + keys);
     Cell probe;
-    if (!known->set(probe, value)) throw ExperimentError(where + key + " = " + value + " is not a value that " + key + " can have");
+    if (!known->set(probe, value))
+      throw ExperimentError(where + key + " = " + value + " is not a value that " + key +
+                            " can have");
   }
-  const bool exists = std::any_of(cells.begin(), cells.end(), [&](const Cell& context) { return is_in(cells, selected(figure, context)); });
+  const bool exists = std::any_of(cells.begin(), cells.end(), [&](const Cell& context) {
+    return is_in(cells, selected(figure, context));
+  });
   if (exists) return;
   std::string names;
   for (const Cell& cell : cells) {
     const std::string name = name_of(cell);
     names += (names.empty() ? "" : ", ") + name.substr(0, name.rfind("-seed"));
   }
-  throw ExperimentError(where + "the experiment has no cell for " + figure.text + "; it has " + names);
+  throw ExperimentError(where + "the experiment has no cell for " + figure.text + "; it has " +
+                        names);
 }
 
 using Values = std::map<const Node*, std::optional<double>>;
@@ -122,35 +140,54 @@ std::optional<double> number_of(const Node& node, const Values& values) {
   if (!left || !right) return std::nullopt;
   double result = 0.0;
   switch (node.kind) {
-    case Kind::sum: result = *left + *right; break;
-    case Kind::difference: result = *left - *right; break;
-    case Kind::product: result = *left * *right; break;
-    default: result = *left / *right; break;
+    case Kind::sum:
+      result = *left + *right;
+      break;
+    case Kind::difference:
+      result = *left - *right;
+      break;
+    case Kind::product:
+      result = *left * *right;
+      break;
+    default:
+      result = *left / *right;
+      break;
   }
   return std::isfinite(result) ? std::optional(result) : std::nullopt;
 }
 
 enum class Truth { no, undefined, yes };
 
-Truth opposite(Truth truth) { return truth == Truth::undefined ? truth : truth == Truth::yes ? Truth::no : Truth::yes; }
+Truth opposite(Truth truth) {
+  return truth == Truth::undefined ? truth : truth == Truth::yes ? Truth::no : Truth::yes;
+}
 
 Truth truth_of(Kind comparison, double left, double right) {
   const auto truth = [](bool is_so) { return is_so ? Truth::yes : Truth::no; };
   switch (comparison) {
-    case Kind::less: return truth(left < right);
-    case Kind::less_or_equal: return truth(left <= right);
-    case Kind::greater: return truth(left > right);
-    case Kind::greater_or_equal: return truth(left >= right);
-    case Kind::equal: return truth(left == right);
-    default: return truth(left != right);
+    case Kind::less:
+      return truth(left < right);
+    case Kind::less_or_equal:
+      return truth(left <= right);
+    case Kind::greater:
+      return truth(left > right);
+    case Kind::greater_or_equal:
+      return truth(left >= right);
+    case Kind::equal:
+      return truth(left == right);
+    default:
+      return truth(left != right);
   }
 }
 
-/// What is undefined counts only if the rest does not decide (Kleene's strong logic: `and` is the lesser of two, `or` the greater).
+/// What is undefined counts only if the rest does not decide (Kleene's strong logic: `and` is the
+/// lesser of two, `or` the greater).
 Truth truth_of(const Node& node, const Values& values) {
   if (node.kind == Kind::negation) return opposite(truth_of(*node.left, values));
-  if (node.kind == Kind::both) return std::min(truth_of(*node.left, values), truth_of(*node.right, values));
-  if (node.kind == Kind::either) return std::max(truth_of(*node.left, values), truth_of(*node.right, values));
+  if (node.kind == Kind::both)
+    return std::min(truth_of(*node.left, values), truth_of(*node.right, values));
+  if (node.kind == Kind::either)
+    return std::max(truth_of(*node.left, values), truth_of(*node.right, values));
   const auto left = number_of(*node.left, values), right = number_of(*node.right, values);
   return left && right ? truth_of(node.kind, *left, *right) : Truth::undefined;
 }
@@ -161,11 +198,14 @@ std::string value_text(const std::optional<double>& value) {
 }
 
 /// "name = value" of each figure, or the numbers on both sides of a comparison without one.
-std::string values_text(const std::vector<const Node*>& figures, const std::vector<Cell>& choice, const Values& values) {
+std::string values_text(const std::vector<const Node*>& figures, const std::vector<Cell>& choice,
+                        const Values& values) {
   std::string text;
   std::set<std::string> said;
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    const std::string name = name_of(choice[i]), one = figures[i]->name + " of " + name.substr(0, name.rfind("-seed")) + " = " + value_text(values.at(figures[i]));
+    const std::string name = name_of(choice[i]), one = figures[i]->name + " of " +
+                                                       name.substr(0, name.rfind("-seed")) + " = " +
+                                                       value_text(values.at(figures[i]));
     if (said.insert(one).second) text += (text.empty() ? "" : ", ") + one;
   }
   return text;
@@ -173,12 +213,16 @@ std::string values_text(const std::vector<const Node*>& figures, const std::vect
 
 }  // namespace
 
-Assertion::Assertion(const std::string& text, const Experiment& experiment) : text_(text), root_(parse_assertion(text)) {
+Assertion::Assertion(const std::string& text, const Experiment& experiment)
+    : text_(text), root_(parse_assertion(text)) {
   std::vector<const Node*> named;
   gather_figures(*root_, named);
   const std::vector<Cell> cells = distinct_cells(experiment);
   for (const Node* figure : named) check(text_, *figure, cells);
-  if (choices_of(named, cells).empty()) throw ExperimentError("--assert '" + text_ + "': the experiment has no cells that differ in nothing but what is selected");
+  if (choices_of(named, cells).empty())
+    throw ExperimentError(
+        "--assert '" + text_ +
+        "': the experiment has no cells that differ in nothing but what is selected");
 }
 
 Assertion::Assertion(Assertion&&) noexcept = default;
@@ -189,16 +233,21 @@ Assertion::Finding Assertion::judge(std::span<const SummaryRow> rows) const {
   gather_figures(*root_, named);
   const std::vector<Cell> cells(rows.begin(), rows.end());
   const auto choices = choices_of(named, cells);
-  Finding finding{!choices.empty(), choices.empty() ? "  fails: no such cells were measured\n" : ""};
+  Finding finding{!choices.empty(),
+                  choices.empty() ? "  fails: no such cells were measured\n" : ""};
   for (const auto& choice : choices) {
     Values values;
     for (std::size_t i = 0; i < named.size(); ++i) {
       const Reading reading = *reading_called(named[i]->name);
-      values[named[i]] = reading.part(std::find(rows.begin(), rows.end(), choice[i])->of(reading.figure));
+      values[named[i]] =
+          reading.part(std::find(rows.begin(), rows.end(), choice[i])->of(reading.figure));
     }
     const Truth truth = truth_of(*root_, values);
     finding.holds = finding.holds && truth == Truth::yes;
-    finding.words += std::string(truth == Truth::yes ? "  holds: " : truth == Truth::no ? "  fails: " : "  fails, undefined: ") + values_text(named, choice, values) + "\n";
+    finding.words += std::string(truth == Truth::yes  ? "  holds: "
+                                 : truth == Truth::no ? "  fails: "
+                                                      : "  fails, undefined: ") +
+                     values_text(named, choice, values) + "\n";
   }
   return finding;
 }

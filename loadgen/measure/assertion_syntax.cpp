@@ -21,7 +21,9 @@ class Parser {
   explicit Parser(const std::string& text) : text_(text) {}
 
   Tree whole() {
-    if (text_.size() > length_max) throw ExperimentError("--assert '" + text_.substr(0, 60) + "...': longer than " + std::to_string(length_max) + " characters");
+    if (text_.size() > length_max)
+      throw ExperimentError("--assert '" + text_.substr(0, 60) + "...': longer than " +
+                            std::to_string(length_max) + " characters");
     Tree tree = either();
     skip_spaces();
     if (at_ < text_.size()) complain("an operator or the end");
@@ -31,12 +33,15 @@ class Parser {
 
  private:
   [[noreturn]] void complain(const std::string& expected) const {
-    throw ExperimentError("--assert '" + text_ + "': column " + std::to_string(at_ + 1) + ": expected " + expected);
+    throw ExperimentError("--assert '" + text_ + "': column " + std::to_string(at_ + 1) +
+                          ": expected " + expected);
   }
   void skip_spaces() {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
   }
-  static bool is_word(char letter) { return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_'; }
+  static bool is_word(char letter) {
+    return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_';
+  }
 
   bool accept(std::string_view sign) {
     skip_spaces();
@@ -53,7 +58,9 @@ class Parser {
   Tree joined(Node::Kind kind, Tree left, Tree right) const {
     const bool wants_truth = kind >= Node::Kind::both;
     for (const Tree* part : {&left, &right}) {
-      if (*part && (*part)->is_true_or_false() != wants_truth) complain(wants_truth ? "comparisons on both sides of and, or, and behind not" : "numbers on both sides of the operator");
+      if (*part && (*part)->is_true_or_false() != wants_truth)
+        complain(wants_truth ? "comparisons on both sides of and, or, and behind not"
+                             : "numbers on both sides of the operator");
     }
     auto node = std::make_unique<Node>();
     node->kind = kind;
@@ -78,8 +85,13 @@ class Parser {
     return joined(Node::Kind::negation, negation(), nullptr);
   }
   Tree comparison() {
-    static constexpr std::array<std::pair<const char*, Node::Kind>, 6> signs{{{"<=", Node::Kind::less_or_equal}, {">=", Node::Kind::greater_or_equal}, {"==", Node::Kind::equal},
-                                                                            {"!=", Node::Kind::unequal}, {"<", Node::Kind::less}, {">", Node::Kind::greater}}};
+    static constexpr std::array<std::pair<const char*, Node::Kind>, 6> signs{
+        {{"<=", Node::Kind::less_or_equal},
+         {">=", Node::Kind::greater_or_equal},
+         {"==", Node::Kind::equal},
+         {"!=", Node::Kind::unequal},
+         {"<", Node::Kind::less},
+         {">", Node::Kind::greater}}};
     Tree left = sum();
     for (const auto& [sign, kind] : signs) {
       if (accept(sign)) return joined(kind, std::move(left), sum());
@@ -111,12 +123,15 @@ class Parser {
       return inner;
     }
     skip_spaces();
-    if (at_ < text_.size() && (std::isdigit(static_cast<unsigned char>(text_[at_])) || text_[at_] == '.')) return number();
+    if (at_ < text_.size() &&
+        (std::isdigit(static_cast<unsigned char>(text_[at_])) || text_[at_] == '.'))
+      return number();
     return figure();
   }
   Tree number() {
     auto node = std::make_unique<Node>();
-    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), node->number);
+    const auto [end, error] =
+        std::from_chars(text_.data() + at_, text_.data() + text_.size(), node->number);
     if (error != std::errc() || !std::isfinite(node->number)) complain("a number");
     at_ = static_cast<std::size_t>(end - text_.data());
     return node;
@@ -128,7 +143,8 @@ class Parser {
     if (at_ == begin) complain(expected);
     return text_.substr(begin, at_ - begin);
   }
-  /// Up to the comma or bracket that ends it, for schemes are composed of several words and parentheses.
+  /// Up to the comma or bracket that ends it, for schemes are composed of several words and
+  /// parentheses.
   std::string value() {
     skip_spaces();
     const std::size_t begin = at_;
@@ -159,7 +175,8 @@ class Parser {
   /// Counts how deep the parentheses nest while it lives.
   struct Deeper {
     explicit Deeper(Parser& parser) : depth(parser.depth_) {
-      if (++depth > depth_max) parser.complain("at most " + std::to_string(depth_max) + " levels of parentheses");
+      if (++depth > depth_max)
+        parser.complain("at most " + std::to_string(depth_max) + " levels of parentheses");
     }
     ~Deeper() { --depth; }
     Deeper(const Deeper&) = delete;
@@ -174,6 +191,8 @@ class Parser {
 
 }  // namespace
 
-std::unique_ptr<const Assertion::Node> parse_assertion(const std::string& text) { return Parser(text).whole(); }
+std::unique_ptr<const Assertion::Node> parse_assertion(const std::string& text) {
+  return Parser(text).whole();
+}
 
 }  // namespace rink::loadgen

@@ -19,8 +19,12 @@ namespace {
 std::optional<Discoveries> read(const std::filesystem::path& file) {
   std::ifstream stream(file);
   const nlohmann::json written = nlohmann::json::parse(stream, nullptr, false);
-  if (!written.is_object() || written.value("schema", nlohmann::json()) != game::report_schema || !written.contains("late_discovery") || !written.contains("missed_contact") || !written.contains("displayed_error")) return std::nullopt;
-  const auto late = SampleDistribution::from_json(written["late_discovery"]), missed = SampleDistribution::from_json(written["missed_contact"]);
+  if (!written.is_object() || written.value("schema", nlohmann::json()) != game::report_schema ||
+      !written.contains("late_discovery") || !written.contains("missed_contact") ||
+      !written.contains("displayed_error"))
+    return std::nullopt;
+  const auto late = SampleDistribution::from_json(written["late_discovery"]),
+             missed = SampleDistribution::from_json(written["missed_contact"]);
   const auto errors = SampleDistribution::from_json(written["displayed_error"]);
   if (!late || !missed || !errors) return std::nullopt;
   return Discoveries{*late, *missed, *errors};
@@ -28,30 +32,40 @@ std::optional<Discoveries> read(const std::filesystem::path& file) {
 
 std::string names_of(const Cell& cell) {
   std::string names;
-  for (const std::string& text : {cell.part, cell.mode, cell.scheme, cell.policy}) names += csv_text(text) + ",";
-  for (const std::uint32_t count : {cell.clients, cell.pucks, cell.bats, cell.server_cores}) names += std::to_string(count) + ",";
-  for (const ParameterKind& kind : parameter_kinds()) names += csv_number(kind.of(cell.parameters)) + ",";
+  for (const std::string& text : {cell.part, cell.mode, cell.scheme, cell.policy})
+    names += csv_text(text) + ",";
+  for (const std::uint32_t count : {cell.clients, cell.pucks, cell.bats, cell.server_cores})
+    names += std::to_string(count) + ",";
+  for (const ParameterKind& kind : parameter_kinds())
+    names += csv_number(kind.of(cell.parameters)) + ",";
   return names;
 }
 
-void append(std::string& csv, const std::string& names, const char* kind, const SampleDistribution& delays) {
+void append(std::string& csv, const std::string& names, const char* kind,
+            const SampleDistribution& delays) {
   for (const SampleDistribution::Point& point : delays.distribution(discovery_points_max))
-    csv += names + kind + "," + csv_number(point.thousandths) + "," + csv_number(point.fraction) + "," + std::to_string(delays.samples()) + "," + std::to_string(delays.never()) + "\n";
+    csv += names + kind + "," + csv_number(point.thousandths) + "," + csv_number(point.fraction) +
+           "," + std::to_string(delays.samples()) + "," + std::to_string(delays.never()) + "\n";
 }
 
 }  // namespace
 
-std::filesystem::path discovery_file(const std::filesystem::path& cells, const Cell& cell) { return cells / (name_of(cell) + ".discovery.json"); }
+std::filesystem::path discovery_file(const std::filesystem::path& cells, const Cell& cell) {
+  return cells / (name_of(cell) + ".discovery.json");
+}
 
 void write_discoveries(const std::filesystem::path& file, const Discoveries& discoveries) {
-  const nlohmann::ordered_json content{{"schema", game::report_schema}, {"late_discovery", discoveries.late_discovery.to_json()}, {"missed_contact", discoveries.missed_contact.to_json()},
-                                         {"displayed_error", discoveries.displayed_error.to_json()}};
+  const nlohmann::ordered_json content{{"schema", game::report_schema},
+                                       {"late_discovery", discoveries.late_discovery.to_json()},
+                                       {"missed_contact", discoveries.missed_contact.to_json()},
+                                       {"displayed_error", discoveries.displayed_error.to_json()}};
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << content.dump() << '\n' << std::flush;
   if (!stream) throw OutputError(file.string() + ": cannot be written");
 }
 
-std::vector<CellDiscoveries> discoveries_in(const std::filesystem::path& cells, std::span<const RunRecord> runs) {
+std::vector<CellDiscoveries> discoveries_in(const std::filesystem::path& cells,
+                                            std::span<const RunRecord> runs) {
   std::vector<CellDiscoveries> all;
   for (const RunRecord& run : runs) {
     const auto own = run.valid ? read(discovery_file(cells, run.cell)) : std::nullopt;

@@ -1,4 +1,5 @@
-// Late discoveries and missed contacts of each cell, all its replications together, as distribution functions.
+// Late discoveries and missed contacts of each cell, all its replications together, as distribution
+// functions.
 #pragma once
 
 #include <filesystem>
@@ -19,16 +20,20 @@ struct CellDiscoveries {
 /// The points of a curve in the table and in plots.
 inline constexpr std::size_t discovery_points_max = 200;
 
-/// Where the delays of the run of `cell` are kept for when an interrupted campaign goes on: NAME.discovery.json in `cells`.
+/// Where the delays of the run of `cell` are kept for when an interrupted campaign goes on:
+/// NAME.discovery.json in `cells`.
 std::filesystem::path discovery_file(const std::filesystem::path& cells, const Cell& cell);
 /// Throws OutputError.
 void write_discoveries(const std::filesystem::path& file, const Discoveries& discoveries);
 
-/// Those of the valid `runs` of which `cells` has a file, pooled over replications, in the order of the runs; whatever is missing or unreadable is left out.
-std::vector<CellDiscoveries> discoveries_in(const std::filesystem::path& cells, std::span<const RunRecord> runs);
+/// Those of the valid `runs` of which `cells` has a file, pooled over replications, in the order of
+/// the runs; whatever is missing or unreadable is left out.
+std::vector<CellDiscoveries> discoveries_in(const std::filesystem::path& cells,
+                                            std::span<const RunRecord> runs);
 
-/// A line for each point: the cell's keys, `kind` (late_discovery or missed_contact), `delay_ms`, `fraction` of the sample that took at most so long, `samples`, and how many of them `never` ended.
-/// A kind without samples has no line.
+/// A line for each point: the cell's keys, `kind` (late_discovery or missed_contact), `delay_ms`,
+/// `fraction` of the sample that took at most so long, `samples`, and how many of them `never`
+/// ended. A kind without samples has no line.
 std::string discovery_csv(std::span<const CellDiscoveries> cells);
 
 }  // namespace rink::loadgen

@@ -21,26 +21,33 @@ struct LogPoint {
   double error = 0.0, payload = 0.0, wire = 0.0;
 };
 
-LogPoint log_of(const RivalPoint& point) { return {std::log(point.error_mm), std::log(point.payload), std::log(point.wire)}; }
-
-LogPoint between(const LogPoint& a, const LogPoint& b, double part) {
-  return {std::lerp(a.error, b.error, part), std::lerp(a.payload, b.payload, part), std::lerp(a.wire, b.wire, part)};
+LogPoint log_of(const RivalPoint& point) {
+  return {std::log(point.error_mm), std::log(point.payload), std::log(point.wire)};
 }
 
-/// One setting's error and bytes with a recall of at least `recall`: its smallest margin if that is enough already.
+LogPoint between(const LogPoint& a, const LogPoint& b, double part) {
+  return {std::lerp(a.error, b.error, part), std::lerp(a.payload, b.payload, part),
+          std::lerp(a.wire, b.wire, part)};
+}
+
+/// One setting's error and bytes with a recall of at least `recall`: its smallest margin if that is
+/// enough already.
 std::optional<LogPoint> at_recall(std::vector<RivalPoint> margins, double recall) {
   std::ranges::sort(margins, {}, &RivalPoint::margin);
   if (margins.front().recall >= recall) return log_of(margins.front());
   for (std::size_t i = 1; i < margins.size(); ++i) {
     const RivalPoint &below = margins[i - 1], &above = margins[i];
-    if (below.recall < recall && above.recall >= recall) return between(log_of(below), log_of(above), (recall - below.recall) / (above.recall - below.recall));
+    if (below.recall < recall && above.recall >= recall)
+      return between(log_of(below), log_of(above),
+                     (recall - below.recall) / (above.recall - below.recall));
   }
   return std::nullopt;
 }
 
 std::vector<LogPoint> settings_at_recall(std::span<const RivalPoint> points, double recall) {
   std::map<std::pair<double, double>, std::vector<RivalPoint>> settings;
-  for (const RivalPoint& point : points) settings[{point.setting_rate_hz, point.setting_threshold}].push_back(point);
+  for (const RivalPoint& point : points)
+    settings[{point.setting_rate_hz, point.setting_threshold}].push_back(point);
   std::vector<LogPoint> found;
   for (const auto& [setting, margins] : settings)
     if (const auto point = at_recall(margins, recall)) found.push_back(*point);
@@ -49,22 +56,29 @@ std::vector<LogPoint> settings_at_recall(std::span<const RivalPoint> points, dou
 
 /// Those that no other beats in both, by ascending error and descending bytes.
 std::vector<LogPoint> frontier(std::vector<LogPoint> points, double LogPoint::*bytes) {
-  std::ranges::sort(points, [bytes](const LogPoint& a, const LogPoint& b) { return std::pair(a.error, a.*bytes) < std::pair(b.error, b.*bytes); });
+  std::ranges::sort(points, [bytes](const LogPoint& a, const LogPoint& b) {
+    return std::pair(a.error, a.*bytes) < std::pair(b.error, b.*bytes);
+  });
   std::vector<LogPoint> best;
   for (const LogPoint& point : points)
     if (best.empty() || point.*bytes < best.back().*bytes) best.push_back(point);
   return best;
 }
 
-std::pair<double, End> bytes_at(const std::vector<LogPoint>& points, double error_mm, double LogPoint::*bytes) {
+std::pair<double, End> bytes_at(const std::vector<LogPoint>& points, double error_mm,
+                                double LogPoint::*bytes) {
   const std::vector<LogPoint> best = frontier(points, bytes);
   const double error = std::log(error_mm);
   if (best.empty() || best.front().error > error) return {0.0, End::not_reached};
   if (best.back().error < error) return {std::exp(best.back().*bytes), End::not_left};
   std::size_t i = 0;
   while (i + 1 < best.size() && best[i + 1].error <= error) ++i;
-  if (best[i].error == error || i + 1 == best.size()) return {std::exp(best[i].*bytes), End::bracketed};
-  return {std::exp(between(best[i], best[i + 1], (error - best[i].error) / (best[i + 1].error - best[i].error)).*bytes), End::bracketed};
+  if (best[i].error == error || i + 1 == best.size())
+    return {std::exp(best[i].*bytes), End::bracketed};
+  return {std::exp(between(best[i], best[i + 1],
+                           (error - best[i].error) / (best[i + 1].error - best[i].error)).*
+                   bytes),
+          End::bracketed};
 }
 
 /// Of two seeds' ends the one that says less.
@@ -75,17 +89,29 @@ End worse(End a, End b) {
 
 std::optional<RivalPoint> point_of(const RunRecord& run) {
   const auto& recall = run.truth.delivered_recall;
-  const auto &error = run.truth.displayed_error_mm.rms, &payload = run.down_bytes_per_client_per_s, &wire = run.wire_bytes_per_client_per_s;
-  if (!run.valid || !recall || !error || !payload || !wire || !(*error > 0.0 && *payload > 0.0 && *wire > 0.0)) return std::nullopt;
+  const auto &error = run.truth.displayed_error_mm.rms, &payload = run.down_bytes_per_client_per_s,
+             &wire = run.wire_bytes_per_client_per_s;
+  if (!run.valid || !recall || !error || !payload || !wire ||
+      !(*error > 0.0 && *payload > 0.0 && *wire > 0.0))
+    return std::nullopt;
   const Parameters& own = run.cell.parameters;
-  return RivalPoint{own.tick_rate_hz, own.threshold, own.view_margin, *recall, *error, *payload, *wire};
+  return RivalPoint{own.tick_rate_hz, own.threshold, own.view_margin, *recall, *error,
+                    *payload,         *wire};
 }
 
 /// What all policies that are compared have in common.
-using Conditions = std::tuple<std::string, double, std::string, std::uint32_t, std::uint32_t, std::uint32_t, double, double>;
+using Conditions = std::tuple<std::string, double, std::string, std::uint32_t, std::uint32_t,
+                              std::uint32_t, double, double>;
 
 Conditions conditions_of(const RunRecord& run) {
-  return {run.cell.mode, run.delay_ms, run.cell.scheme, run.cell.clients, run.cell.pucks, run.cell.bats, run.cell.parameters.view_fraction, run.view_area};
+  return {run.cell.mode,
+          run.delay_ms,
+          run.cell.scheme,
+          run.cell.clients,
+          run.cell.pucks,
+          run.cell.bats,
+          run.cell.parameters.view_fraction,
+          run.view_area};
 }
 
 using PointsOfSeed = std::map<std::uint64_t, std::vector<RivalPoint>>;
@@ -98,22 +124,39 @@ class Comparison {
   }
 
   /// At the subject's own recall without a margin, or at `recall`.
-  std::optional<EqualError> at(const std::string& subject, double rate_hz, std::optional<double> recall) const {
+  std::optional<EqualError> at(const std::string& subject, double rate_hz,
+                               std::optional<double> recall) const {
     const auto own = points_.find(subject);
     if (own == points_.end()) return std::nullopt;
-    EqualError result{.mode = {}, .scheme = {}, .subject = subject, .rate_hz = rate_hz, .is_own_recall = !recall, .rivals = {}};
+    EqualError result{.mode = {},
+                      .scheme = {},
+                      .subject = subject,
+                      .rate_hz = rate_hz,
+                      .is_own_recall = !recall,
+                      .rivals = {}};
     std::map<std::uint64_t, RivalPoint> subjects;
     for (const auto& [seed, points] : own->second) {
       std::vector<RivalPoint> at_rate;
-      std::ranges::copy_if(points, std::back_inserter(at_rate), [rate_hz](const RivalPoint& point) { return point.setting_rate_hz == rate_hz; });
+      std::ranges::copy_if(points, std::back_inserter(at_rate), [rate_hz](const RivalPoint& point) {
+        return point.setting_rate_hz == rate_hz;
+      });
       if (at_rate.empty()) continue;
-      const double wanted = recall ? *recall : std::ranges::min(at_rate, {}, &RivalPoint::margin).recall;
-      if (const auto found = at_recall(at_rate, wanted)) subjects[seed] = {rate_hz, 0.0, 0.0, wanted, std::exp(found->error), std::exp(found->payload), std::exp(found->wire)};
+      const double wanted =
+          recall ? *recall : std::ranges::min(at_rate, {}, &RivalPoint::margin).recall;
+      if (const auto found = at_recall(at_rate, wanted))
+        subjects[seed] = {rate_hz,
+                          0.0,
+                          0.0,
+                          wanted,
+                          std::exp(found->error),
+                          std::exp(found->payload),
+                          std::exp(found->wire)};
     }
     if (subjects.empty()) return std::nullopt;
     for (const auto& [seed, point] : subjects) {
       const auto n = static_cast<double>(subjects.size());
-      result.recall += point.recall / n, result.error_mm += point.error_mm / n, result.payload += point.payload / n, result.wire += point.wire / n;
+      result.recall += point.recall / n, result.error_mm += point.error_mm / n,
+          result.payload += point.payload / n, result.wire += point.wire / n;
     }
     for (const auto& [policy, seeds] : points_)
       if (policy != subject) result.rivals.push_back(rival(policy, seeds, subjects));
@@ -127,7 +170,10 @@ class Comparison {
  private:
   static RivalRatio rival(const std::string& policy, const PointsOfSeed& seeds,
                           const std::map<std::uint64_t, RivalPoint>& subjects) {
-    RivalRatio result{.policy = policy, .payload = {}, .wire = {}, .payload_end = End::bracketed,
+    RivalRatio result{.policy = policy,
+                      .payload = {},
+                      .wire = {},
+                      .payload_end = End::bracketed,
                       .wire_end = End::bracketed};
     std::vector<std::pair<double, double>> payloads, wires;
     std::set<std::pair<double, double>> settings;
@@ -210,8 +256,10 @@ std::string explanation(std::span<const EqualError> comparisons) {
       }))
     text += "<: at most, for no setting that was run has a larger error and sends less\n";
   if (any([](const RivalRatio& rival) { return rival.has_few_points(); }))
-    text += "points below, above: settings with at most that error and with more, where either are "
-            "fewer than " + std::to_string(points_wanted) + "\n";
+    text +=
+        "points below, above: settings with at most that error and with more, where either are "
+        "fewer than " +
+        std::to_string(points_wanted) + "\n";
   return text;
 }
 
@@ -226,7 +274,9 @@ AtEqualError at_equal_error(std::span<const RivalPoint> points, double recall, d
   return {payload, wire, payload_end, wire_end, points_below, settings.size() - points_below};
 }
 
-std::vector<EqualError> equal_errors_of(const Experiment& experiment, std::span<const RunRecord> runs, const std::string& subject) {
+std::vector<EqualError> equal_errors_of(const Experiment& experiment,
+                                        std::span<const RunRecord> runs,
+                                        const std::string& subject) {
   std::map<Conditions, Comparison> comparisons;
   std::map<Conditions, double> rates;
   for (const RunRecord& run : runs) {
@@ -234,22 +284,27 @@ std::vector<EqualError> equal_errors_of(const Experiment& experiment, std::span<
     const auto point = part.is_of_curves ? point_of(run) : std::nullopt;
     if (!point) continue;
     comparisons[conditions_of(run)].add(run, *point);
-    if (run.cell.policy == subject) rates.try_emplace(conditions_of(run), part.tick_rates_hz.front());
+    if (run.cell.policy == subject)
+      rates.try_emplace(conditions_of(run), part.tick_rates_hz.front());
   }
   std::vector<EqualError> found;
   for (const auto& [conditions, comparison] : comparisons) {
     const auto rate = rates.find(conditions);
-    for (const std::optional<double> recall : {std::optional<double>(), std::optional(equal_recall)}) {
-      auto result = rate == rates.end() ? std::nullopt : comparison.at(subject, rate->second, recall);
+    for (const std::optional<double> recall :
+         {std::optional<double>(), std::optional(equal_recall)}) {
+      auto result =
+          rate == rates.end() ? std::nullopt : comparison.at(subject, rate->second, recall);
       if (!result) continue;
-      result->mode = std::get<0>(conditions), result->delay_ms = std::get<1>(conditions), result->scheme = std::get<2>(conditions), result->clients = std::get<3>(conditions);
+      result->mode = std::get<0>(conditions), result->delay_ms = std::get<1>(conditions),
+      result->scheme = std::get<2>(conditions), result->clients = std::get<3>(conditions);
       found.push_back(std::move(*result));
     }
   }
   return found;
 }
 
-std::vector<RunRecord> without_curves(const Experiment& experiment, std::span<const RunRecord> runs) {
+std::vector<RunRecord> without_curves(const Experiment& experiment,
+                                      std::span<const RunRecord> runs) {
   std::vector<RunRecord> rows;
   for (const RunRecord& run : runs)
     if (!part_of(experiment, run.cell.part).is_of_curves) rows.push_back(run);
@@ -258,17 +313,24 @@ std::vector<RunRecord> without_curves(const Experiment& experiment, std::span<co
 
 std::string equal_error_table(std::span<const EqualError> comparisons) {
   if (comparisons.empty()) return {};
-  std::string text = "\nhow much more rivals send at equal displayed error and equal recall, each along its own rates,\n"
-                     "thresholds and margins, in virtual time; 95 % intervals over seeds\n";
+  std::string text =
+      "\nhow much more rivals send at equal displayed error and equal recall, each along its own "
+      "rates,\n"
+      "thresholds and margins, in virtual time; 95 % intervals over seeds\n";
   for (const EqualError& each : comparisons) {
-    text += formatted("%.40s, %u clients, %g ms of delay, recall %.4f (%s)\n", each.scheme.c_str(), each.clients, each.delay_ms, each.recall, each.is_own_recall ? "without a margin" : "by its margin");
-    text += formatted("    %-20s payload %-20s wire %-20s displayed error %s mm, at %g Hz\n", each.subject.c_str(), (table_number(1e-3 * each.payload) + " kB/s").c_str(),
-                      (table_number(1e-3 * each.wire) + " kB/s").c_str(), table_number(each.error_mm).c_str(), each.rate_hz);
+    text += formatted("%.40s, %u clients, %g ms of delay, recall %.4f (%s)\n", each.scheme.c_str(),
+                      each.clients, each.delay_ms, each.recall,
+                      each.is_own_recall ? "without a margin" : "by its margin");
+    text += formatted("    %-20s payload %-20s wire %-20s displayed error %s mm, at %g Hz\n",
+                      each.subject.c_str(), (table_number(1e-3 * each.payload) + " kB/s").c_str(),
+                      (table_number(1e-3 * each.wire) + " kB/s").c_str(),
+                      table_number(each.error_mm).c_str(), each.rate_hz);
     for (const RivalRatio& rival : each.rivals)
       text += trimmed(formatted("    %-20s payload %-20s wire %-20s", rival.policy.c_str(),
                                 ratio_text(rival.payload, rival.payload_end).c_str(),
                                 ratio_text(rival.wire, rival.wire_end).c_str()) +
-                      note(rival)) + "\n";
+                      note(rival)) +
+              "\n";
   }
   return text + explanation(comparisons);
 }

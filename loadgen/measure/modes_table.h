@@ -1,4 +1,5 @@
-// Modes side by side: what is carried for each client and for what, and what the busiest node bears.
+// Modes side by side: what is carried for each client and for what, and what the busiest node
+// bears.
 #pragma once
 
 #include <span>
@@ -10,7 +11,8 @@ namespace rink::loadgen {
 
 bool has_several_modes(std::span<const RunRecord> runs);
 
-/// A line per mode, scheme, policy and client count, means over valid runs; empty if all runs are of one mode.
+/// A line per mode, scheme, policy and client count, means over valid runs; empty if all runs are
+/// of one mode.
 std::string modes_table(std::span<const RunRecord> runs);
 
 }  // namespace rink::loadgen

@@ -15,21 +15,26 @@
 namespace rink::loadgen {
 namespace {
 
-constexpr std::array result_names{"runs.jsonl", "summary.csv", "comparisons.csv", "tidy.csv", "discovery.csv", "report.html"};
+constexpr std::array result_names{"runs.jsonl", "summary.csv",   "comparisons.csv",
+                                  "tidy.csv",   "discovery.csv", "report.html"};
 
 [[noreturn]] void refuse(const std::filesystem::path& file, int error) {
-  throw OutputError(file.string() + ": cannot be written: " + (error != 0 ? std::strerror(error) : "unknown reason"));
+  throw OutputError(file.string() + ": cannot be written: " +
+                    (error != 0 ? std::strerror(error) : "unknown reason"));
 }
 
 void make_directory(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error || !std::filesystem::is_directory(path)) {
-    throw OutputError(path.string() + ": cannot be made a folder: " + (error ? error.message() : "a file of that name is in the way"));
+    throw OutputError(path.string() + ": cannot be made a folder: " +
+                      (error ? error.message() : "a file of that name is in the way"));
   }
 }
 
-std::string line_of(const nlohmann::ordered_json& object) { return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace); }
+std::string line_of(const nlohmann::ordered_json& object) {
+  return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 
 }  // namespace
 
@@ -40,23 +45,34 @@ std::filesystem::path free_directory(const std::filesystem::path& parent) {
     return std::filesystem::exists(path) && (is_missing || size > 0);
   };
   std::filesystem::path path = parent / "report";
-  for (int number = 2; is_taken(path); ++number) path = parent / ("report-" + std::to_string(number));
+  for (int number = 2; is_taken(path); ++number)
+    path = parent / ("report-" + std::to_string(number));
   return path;
 }
 
-LineFile::LineFile(std::filesystem::path path, std::size_t kept_bytes) : path_(std::move(path)), descriptor_(-1), length_(kept_bytes) {
+LineFile::LineFile(std::filesystem::path path, std::size_t kept_bytes)
+    : path_(std::move(path)), descriptor_(-1), length_(kept_bytes) {
   descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) refuse(path_, errno);
-  const bool is_taken = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;  // two that write at once would overwrite each other's lines
-  const bool is_cut = !is_taken && (ftruncate(descriptor_, static_cast<off_t>(kept_bytes)) == 0 || errno == EINVAL);  // EINVAL: a device, which has no length
+  const bool is_taken =
+      flock(descriptor_, LOCK_EX | LOCK_NB) != 0 &&
+      errno == EWOULDBLOCK;  // two that write at once would overwrite each other's lines
+  const bool is_cut = !is_taken && (ftruncate(descriptor_, static_cast<off_t>(kept_bytes)) == 0 ||
+                                    errno == EINVAL);  // EINVAL: a device, which has no length
   if (is_cut && (kept_bytes == 0 || lseek(descriptor_, 0, SEEK_END) >= 0)) return;
   const int error = errno;
   close(descriptor_);
-  if (is_taken) throw OutputError(path_.string() + ": another rink compare is writing it; wait for that to end, or choose another --out");
+  if (is_taken)
+    throw OutputError(
+        path_.string() +
+        ": another rink compare is writing it; wait for that to end, or choose another --out");
   refuse(path_, error);
 }
 
-LineFile::LineFile(LineFile&& other) noexcept : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), length_(other.length_) {}
+LineFile::LineFile(LineFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      length_(other.length_) {}
 
 LineFile::~LineFile() {
   if (descriptor_ >= 0) close(descriptor_);
@@ -73,7 +89,8 @@ void LineFile::append(std::string line) {
     refuse(path_, error);
   }
   length_ += line.size();
-  if (fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) refuse(path_, errno);  // EINVAL: a pipe or device, which keeps nothing anyway
+  if (fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
+    refuse(path_, errno);  // EINVAL: a pipe or device, which keeps nothing anyway
 }
 
 namespace {
@@ -85,7 +102,10 @@ std::filesystem::path cleared(const std::filesystem::path& path, bool may_replac
     std::error_code is_missing;
     const auto size = std::filesystem::file_size(path / name, is_missing);
     if (is_missing || size == 0) continue;
-    if (!may_replace) throw OutputError((path / name).string() + ": already there; choose another --out, go on with --resume, or replace the results with --force");
+    if (!may_replace)
+      throw OutputError((path / name).string() +
+                        ": already there; choose another --out, go on with --resume, or replace "
+                        "the results with --force");
     std::error_code ignored;  // what cannot be removed cannot be written either and is noticed then
     std::filesystem::remove(path / name, ignored);
   }
@@ -94,9 +114,13 @@ std::filesystem::path cleared(const std::filesystem::path& path, bool may_replac
 
 }  // namespace
 
-ResultsDirectory::ResultsDirectory(const std::filesystem::path& path, bool may_replace) : path_(path), runs_(cleared(path, may_replace), 0) {}
+ResultsDirectory::ResultsDirectory(const std::filesystem::path& path, bool may_replace)
+    : path_(path), runs_(cleared(path, may_replace), 0) {}
 
-ResultsDirectory ResultsDirectory::resumed(const std::filesystem::path& path, std::size_t whole_bytes) { return {path, LineFile(path / "runs.jsonl", whole_bytes)}; }
+ResultsDirectory ResultsDirectory::resumed(const std::filesystem::path& path,
+                                           std::size_t whole_bytes) {
+  return {path, LineFile(path / "runs.jsonl", whole_bytes)};
+}
 
 std::filesystem::path ResultsDirectory::subdirectory(const std::string& name) const {
   make_directory(path_ / name);

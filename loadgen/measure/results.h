@@ -17,18 +17,22 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// `report`, or the first of `report-2`, `report-3`, ... in `parent` that does not exist yet or was left behind without a single run.
+/// `report`, or the first of `report-2`, `report-3`, ... in `parent` that does not exist yet or was
+/// left behind without a single run.
 std::filesystem::path free_directory(const std::filesystem::path& parent);
 
-/// A file that grows by whole lines, each of them on the disk before the next thing happens: neither kill -9 nor a loss of power takes more than the last.
+/// A file that grows by whole lines, each of them on the disk before the next thing happens:
+/// neither kill -9 nor a loss of power takes more than the last.
 class LineFile {
  public:
-  /// Keeps the first `kept_bytes` of what is there. Throws OutputError, also if another process has the file open here.
+  /// Keeps the first `kept_bytes` of what is there. Throws OutputError, also if another process has
+  /// the file open here.
   LineFile(std::filesystem::path path, std::size_t kept_bytes);
   ~LineFile();
   LineFile(LineFile&& other) noexcept;
   LineFile& operator=(LineFile&&) = delete;
-  /// `line` without its end. Throws OutputError; whatever was written of the line is taken back if the system lets it be.
+  /// `line` without its end. Throws OutputError; whatever was written of the line is taken back if
+  /// the system lets it be.
   void append(std::string line);
 
  private:
@@ -40,17 +44,20 @@ class LineFile {
 /// A folder with runs.jsonl, which grows run by run, and files that are written whole.
 class ResultsDirectory {
  public:
-  /// Makes `path` if it is not there. Throws OutputError if it cannot be made or written, or if it already holds results and `may_replace` is false;
-  /// otherwise starts an empty runs.jsonl and removes older results.
+  /// Makes `path` if it is not there. Throws OutputError if it cannot be made or written, or if it
+  /// already holds results and `may_replace` is false; otherwise starts an empty runs.jsonl and
+  /// removes older results.
   ResultsDirectory(const std::filesystem::path& path, bool may_replace);
 
-  /// Goes on with the first `whole_bytes` of the runs.jsonl in `path` and drops the rest. Throws OutputError.
+  /// Goes on with the first `whole_bytes` of the runs.jsonl in `path` and drops the rest. Throws
+  /// OutputError.
   static ResultsDirectory resumed(const std::filesystem::path& path, std::size_t whole_bytes);
 
   const std::filesystem::path& path() const { return path_; }
   /// `path()/name`, made if it is not there. Throws OutputError.
   std::filesystem::path subdirectory(const std::string& name) const;
-  /// The line that is to stand before the first run; it is not written before that, so that a folder without a run stays free.
+  /// The line that is to stand before the first run; it is not written before that, so that a
+  /// folder without a run stays free.
   void set_head(const nlohmann::ordered_json& head);
   /// Adds a line to runs.jsonl, on the disk when this returns. Throws OutputError.
   void append(const RunRecord& record);
@@ -58,7 +65,8 @@ class ResultsDirectory {
   void write(const std::string& name, const std::string& content) const;
 
  private:
-  ResultsDirectory(const std::filesystem::path& path, LineFile runs) : path_(path), runs_(std::move(runs)) {}
+  ResultsDirectory(const std::filesystem::path& path, LineFile runs)
+      : path_(path), runs_(std::move(runs)) {}
 
   std::filesystem::path path_;
   LineFile runs_;

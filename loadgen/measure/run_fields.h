@@ -1,11 +1,13 @@
-// The keys of a line of runs.jsonl, once, in the order of the line: for whoever writes one, reads one or lists them.
+// The keys of a line of runs.jsonl, once, in the order of the line: for whoever writes one, reads
+// one or lists them.
 #pragma once
 
 #include "loadgen/measure/run_record.h"
 
 namespace rink::loadgen {
 
-/// Calls `line.field(key, value)` for each figure of `truth`, and `line.text_or_null(key, text)` for texts that are null when empty.
+/// Calls `line.field(key, value)` for each figure of `truth`, and `line.text_or_null(key, text)`
+/// for texts that are null when empty.
 template <class Line, class Truth>
 void visit_truth(Line& line, Truth& truth) {
   line.field("filter_precision", truth.filter_precision);

@@ -14,18 +14,27 @@ namespace rink::loadgen {
 namespace {
 
 constexpr double count_mismatch_max = 0.01;
-constexpr double in_flight_bytes_max = 128.0;  // per client: last words that the kernel has not seen acknowledged; where nearly nothing is sent they exceed 1 %
+constexpr double in_flight_bytes_max =
+    128.0;  // per client: last words that the kernel has not seen acknowledged; where nearly
+            // nothing is sent they exceed 1 %
 
-/// A report, which another process wrote: whatever is missing or of another type is noted once and reads as absent.
+/// A report, which another process wrote: whatever is missing or of another type is noted once and
+/// reads as absent.
 class ReportReader {
  public:
   /// `accepts_null`: what is null could not be measured, and that is no complaint.
-  ReportReader(const nlohmann::json& report, std::string who, bool accepts_null, std::vector<std::string>& complaints)
-      : report_(report), who_(std::move(who)), accepts_null_(accepts_null), complaints_(complaints) {}
+  ReportReader(const nlohmann::json& report, std::string who, bool accepts_null,
+               std::vector<std::string>& complaints)
+      : report_(report),
+        who_(std::move(who)),
+        accepts_null_(accepts_null),
+        complaints_(complaints) {}
 
   std::optional<double> number(const char* key) {
     const nlohmann::json* value = find(key);
-    if (value && value->is_number() && std::isfinite(value->get<double>()) && value->get<double>() >= 0.0) return value->get<double>();
+    if (value && value->is_number() && std::isfinite(value->get<double>()) &&
+        value->get<double>() >= 0.0)
+      return value->get<double>();
     return complain(key, "a number that is not negative");
   }
   /// For figures that a run may do without: absent or of another type is no complaint.
@@ -37,12 +46,15 @@ class ReportReader {
     const nlohmann::json* value = find(key);
     std::vector<double> numbers;
     if (!value || !value->is_array()) return numbers;
-    for (const nlohmann::json& element : *value) numbers.push_back(element.is_number() ? element.get<double>() : 0.0);
+    for (const nlohmann::json& element : *value)
+      numbers.push_back(element.is_number() ? element.get<double>() : 0.0);
     return numbers;
   }
   std::optional<std::uint64_t> count(const char* key) {
     const nlohmann::json* value = find(key);
-    if (value && value->is_number_integer() && (value->is_number_unsigned() || value->get<std::int64_t>() >= 0)) return value->get<std::uint64_t>();
+    if (value && value->is_number_integer() &&
+        (value->is_number_unsigned() || value->get<std::int64_t>() >= 0))
+      return value->get<std::uint64_t>();
     complain(key, "a count");
     return std::nullopt;
   }
@@ -99,17 +111,26 @@ std::string plain_text(double number) {
   return text;
 }
 
-void compare_counts(const std::string& what, std::optional<double> payload, std::optional<double> kernel, double clients, std::vector<std::string>& complaints) {
-  if (!payload || !kernel || std::abs(*payload - *kernel) <= count_mismatch_max * *kernel + in_flight_bytes_max * clients) return;
-  complaints.push_back(what + ": " + plain_text(*payload) + " B counted, " + plain_text(*kernel) + " B by the kernel, more than 1 % and what may be on its way apart");
+void compare_counts(const std::string& what, std::optional<double> payload,
+                    std::optional<double> kernel, double clients,
+                    std::vector<std::string>& complaints) {
+  if (!payload || !kernel ||
+      std::abs(*payload - *kernel) <= count_mismatch_max * *kernel + in_flight_bytes_max * clients)
+    return;
+  complaints.push_back(what + ": " + plain_text(*payload) + " B counted, " + plain_text(*kernel) +
+                       " B by the kernel, more than 1 % and what may be on its way apart");
 }
 
-void expect_none(const std::string& what, std::optional<std::uint64_t> count, std::vector<std::string>& complaints) {
+void expect_none(const std::string& what, std::optional<std::uint64_t> count,
+                 std::vector<std::string>& complaints) {
   if (count.value_or(0) > 0) complaints.push_back(std::to_string(*count) + " " + what);
 }
 
-void expect_equal(const std::string& what, std::optional<double> value, double expected, std::vector<std::string>& complaints) {
-  if (value && *value != expected) complaints.push_back(what + " is " + plain_text(*value) + " instead of " + plain_text(expected));
+void expect_equal(const std::string& what, std::optional<double> value, double expected,
+                  std::vector<std::string>& complaints) {
+  if (value && *value != expected)
+    complaints.push_back(what + " is " + plain_text(*value) + " instead of " +
+                         plain_text(expected));
 }
 
 std::optional<double> per(std::optional<double> amount, std::optional<double> divisor) {
@@ -122,10 +143,14 @@ struct Sent {
   std::optional<double> bytes, segments, acknowledgements;
 
   explicit Sent(ReportReader& report)
-      : bytes(report.number("bytes_sent")), segments(report.number("segments_sent")), acknowledgements(report.number("acknowledgements_sent")) {
+      : bytes(report.number("bytes_sent")),
+        segments(report.number("segments_sent")),
+        acknowledgements(report.number("acknowledgements_sent")) {
     const auto kernel_segments = report.number("kernel_segments_sent");
-    // Where the kernel's segments are larger than Ethernet's their receiver acknowledges fewer: one of each further two is missing.
-    if (acknowledgements && segments && kernel_segments) *acknowledgements += 0.5 * std::max(0.0, *segments - *kernel_segments);
+    // Where the kernel's segments are larger than Ethernet's their receiver acknowledges fewer: one
+    // of each further two is missing.
+    if (acknowledgements && segments && kernel_segments)
+      *acknowledgements += 0.5 * std::max(0.0, *segments - *kernel_segments);
   }
   std::optional<double> with_headers() const {
     if (!bytes || !segments || !acknowledgements) return std::nullopt;
@@ -152,35 +177,54 @@ void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
   const Sent by_server(server), by_bots(bots);
   const auto down = by_server.bytes, up = server.number("bytes_received");
   const auto bots_measured_s = bots.number("measured_s");
-  const auto wire_down_per_s = per(by_server.with_headers(), record.measured_s), wire_up_per_s = per(by_bots.with_headers(), bots_measured_s);
+  const auto wire_down_per_s = per(by_server.with_headers(), record.measured_s),
+             wire_up_per_s = per(by_bots.with_headers(), bots_measured_s);
   record.down_bytes_per_client_per_s = per(per(down, record.measured_s), clients);
   record.up_bytes_per_client_per_s = per(per(up, record.measured_s), clients);
-  if (wire_down_per_s && wire_up_per_s) record.wire_bytes_per_client_per_s = (*wire_down_per_s + *wire_up_per_s) / clients;
-  const auto states = server.number_if_there("state_bytes_sent"), keys = server.number_if_there("key_bytes_received");
-  if (down && up && *down + *up > 0.0 && states && keys) record.truth.control_bytes_fraction = std::max(0.0, 1.0 - (*states + *keys) / (*down + *up));
+  if (wire_down_per_s && wire_up_per_s)
+    record.wire_bytes_per_client_per_s = (*wire_down_per_s + *wire_up_per_s) / clients;
+  const auto states = server.number_if_there("state_bytes_sent"),
+             keys = server.number_if_there("key_bytes_received");
+  if (down && up && *down + *up > 0.0 && states && keys)
+    record.truth.control_bytes_fraction = std::max(0.0, 1.0 - (*states + *keys) / (*down + *up));
   const auto both = [](std::optional<double> down_per_s, std::optional<double> up_per_s) {
     return down_per_s && up_per_s ? std::optional(*down_per_s + *up_per_s) : std::nullopt;
   };
-  record.segments_per_s = both(per(by_server.segments, record.measured_s), per(by_bots.segments, bots_measured_s));
-  record.acknowledgements_per_s = both(per(by_server.acknowledgements, record.measured_s), per(by_bots.acknowledgements, bots_measured_s));
+  record.segments_per_s =
+      both(per(by_server.segments, record.measured_s), per(by_bots.segments, bots_measured_s));
+  record.acknowledgements_per_s = both(per(by_server.acknowledgements, record.measured_s),
+                                       per(by_bots.acknowledgements, bots_measured_s));
 }
 
-/// A server's node is the server, through which everything goes; peers say what the busiest of them bore.
+/// A server's node is the server, through which everything goes; peers say what the busiest of them
+/// bore.
 void fill_nodes(RunRecord& record, ReportReader& server) {
   const bool are_peers = record.cell.mode == peer_mode;
-  const auto down = server.number_if_there("bytes_sent"), up = server.number_if_there("bytes_received");
-  const auto rate = [&](std::optional<double> bytes) { return per(per(bytes, record.measured_s), record.cell.clients); };
+  const auto down = server.number_if_there("bytes_sent"),
+             up = server.number_if_there("bytes_received");
+  const auto rate = [&](std::optional<double> bytes) {
+    return per(per(bytes, record.measured_s), record.cell.clients);
+  };
   if (are_peers) {
-    record.traffic = {rate(server.number_if_there("halo_bytes")),     rate(server.number_if_there("claims_bytes")),  rate(server.number_if_there("agreement_bytes")),
-                      rate(server.number_if_there("interest_bytes")), rate(server.number_if_there("updates_bytes")), rate(server.number_if_there("keys_bytes"))};
-    record.nodes.busiest_bytes_per_s = per(server.number_if_there("busiest_node_bytes"), record.measured_s);
+    record.traffic = {rate(server.number_if_there("halo_bytes")),
+                      rate(server.number_if_there("claims_bytes")),
+                      rate(server.number_if_there("agreement_bytes")),
+                      rate(server.number_if_there("interest_bytes")),
+                      rate(server.number_if_there("updates_bytes")),
+                      rate(server.number_if_there("keys_bytes"))};
+    record.nodes.busiest_bytes_per_s =
+        per(server.number_if_there("busiest_node_bytes"), record.measured_s);
   } else {
-    const auto states = server.number_if_there("state_bytes_sent"), keys = server.number_if_there("key_bytes_received");
+    const auto states = server.number_if_there("state_bytes_sent"),
+               keys = server.number_if_there("key_bytes_received");
     record.traffic.updates = rate(states), record.traffic.keys = rate(keys);
-    if (down && up && states && keys) record.traffic.interest = rate(std::max(0.0, *down + *up - *states - *keys));
+    if (down && up && states && keys)
+      record.traffic.interest = rate(std::max(0.0, *down + *up - *states - *keys));
     if (down && up) record.nodes.busiest_bytes_per_s = per(*down + *up, record.measured_s);
   }
-  record.nodes.busiest_events_per_s = per(server.number_if_there(are_peers ? "busiest_node_events" : "physics_events"), record.measured_s);
+  record.nodes.busiest_events_per_s =
+      per(server.number_if_there(are_peers ? "busiest_node_events" : "physics_events"),
+          record.measured_s);
 }
 
 void fill_from_bots(RunRecord& record, ReportReader& bots) {
@@ -197,28 +241,39 @@ void fill_from_bots(RunRecord& record, ReportReader& bots) {
   record.truth.fairness_jain = jain_index(bots.numbers_if_there("bytes_received_by_bot"));
 }
 
-/// Whether the server has the planned keys itself and applies each at its instant, so that the game and its traffic are the same however late bots send theirs.
-bool is_plan_applied(const RunRecord& record) { return record.keys == "replay" && record.cell.mode != peer_mode; }
+/// Whether the server has the planned keys itself and applies each at its instant, so that the game
+/// and its traffic are the same however late bots send theirs.
+bool is_plan_applied(const RunRecord& record) {
+  return record.keys == "replay" && record.cell.mode != peer_mode;
+}
 
-void check(const RunRecord& record, ReportReader& server, ReportReader& bots, std::vector<std::string>& complaints) {
+void check(const RunRecord& record, ReportReader& server, ReportReader& bots,
+           std::vector<std::string>& complaints) {
   server.verdict();
   bots.verdict();
   expect_equal("the server's clients", server.number("clients"), record.cell.clients, complaints);
   expect_equal("the bots' clients", bots.number("clients"), record.cell.clients, complaints);
-  expect_equal("the server's tick_rate_hz", server.number("tick_rate_hz"), record.cell.parameters.tick_rate_hz, complaints);
+  expect_equal("the server's tick_rate_hz", server.number("tick_rate_hz"),
+               record.cell.parameters.tick_rate_hz, complaints);
   expect_none("clients lost by the server", server.count("lost_federates"), complaints);
   expect_none("connections dropped by the server", server.count("dropped_connections"), complaints);
   expect_none("clients lost by the bots", bots.count("federates_lost"), complaints);
-  if (!record.keys_trouble.empty() && !is_plan_applied(record)) complaints.push_back("the bots could not keep their schedule: " + record.keys_trouble);
+  if (!record.keys_trouble.empty() && !is_plan_applied(record))
+    complaints.push_back("the bots could not keep their schedule: " + record.keys_trouble);
   // Through shared memory no byte goes by the kernel, which has nothing to say then.
   if (record.transport != "shm") {
-    compare_counts("sent by the server", server.number("total_bytes_sent"), server.number("kernel_bytes_sent"), record.cell.clients, complaints);
-    compare_counts("received by the server", server.number("total_bytes_received"), server.number("kernel_bytes_received"), record.cell.clients, complaints);
-    compare_counts("sent by the bots", bots.number("total_bytes_sent"), bots.number("kernel_bytes_sent"), record.cell.clients, complaints);
-    compare_counts("received by the bots", bots.number("total_bytes_received"), bots.number("kernel_bytes_received"), record.cell.clients, complaints);
+    compare_counts("sent by the server", server.number("total_bytes_sent"),
+                   server.number("kernel_bytes_sent"), record.cell.clients, complaints);
+    compare_counts("received by the server", server.number("total_bytes_received"),
+                   server.number("kernel_bytes_received"), record.cell.clients, complaints);
+    compare_counts("sent by the bots", bots.number("total_bytes_sent"),
+                   bots.number("kernel_bytes_sent"), record.cell.clients, complaints);
+    compare_counts("received by the bots", bots.number("total_bytes_received"),
+                   bots.number("kernel_bytes_received"), record.cell.clients, complaints);
   }
   if (record.keys_due && record.keys_sent && *record.keys_sent < *record.keys_due) {
-    complaints.push_back("only " + std::to_string(*record.keys_sent) + " of " + std::to_string(*record.keys_due) + " due keys were sent");
+    complaints.push_back("only " + std::to_string(*record.keys_sent) + " of " +
+                         std::to_string(*record.keys_due) + " due keys were sent");
   }
   if (record.measured_s == 0.0) complaints.push_back("nothing was measured");
 }
@@ -234,12 +289,21 @@ class LineWriter {
   void field(const char* key, const std::optional<Value>& value) {
     line[key] = or_null(value);
   }
-  void field(const char* key, const Percentiles& percentiles) { line[key] = percentiles_json(percentiles); }
-  void field(const char* key, const ErrorFigures& error) {
-    line[key] = {{"rms", or_null(error.rms)},   {"p50", or_null(error.p50)}, {"p90", or_null(error.p90)}, {"p99", or_null(error.p99)},
-                 {"max", or_null(error.max)}, {"replaced_samples", or_null(error.replaced_samples)}, {"replaced_rms", or_null(error.replaced_rms)}};
+  void field(const char* key, const Percentiles& percentiles) {
+    line[key] = percentiles_json(percentiles);
   }
-  void text_or_null(const char* key, const std::string& text) { line[key] = text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text); }
+  void field(const char* key, const ErrorFigures& error) {
+    line[key] = {{"rms", or_null(error.rms)},
+                 {"p50", or_null(error.p50)},
+                 {"p90", or_null(error.p90)},
+                 {"p99", or_null(error.p99)},
+                 {"max", or_null(error.max)},
+                 {"replaced_samples", or_null(error.replaced_samples)},
+                 {"replaced_rms", or_null(error.replaced_rms)}};
+  }
+  void text_or_null(const char* key, const std::string& text) {
+    line[key] = text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
+  }
 
   nlohmann::ordered_json line;
 
@@ -273,11 +337,15 @@ RunRecord record_for(const Experiment& experiment, const Cell& cell) {
   return record;
 }
 
-void judge(RunRecord& record, const nlohmann::json& server_report, const nlohmann::json& bots_report) {
+void judge(RunRecord& record, const nlohmann::json& server_report,
+           const nlohmann::json& bots_report) {
   std::vector<std::string> complaints;
   const bool has_kernel_counts = record.transport == "tcp" || record.transport == "udp";
-  const bool may_lack_figures = !has_kernel_counts || record.cell.mode == peer_mode;  // no peer plays, filters and sends for all
-  ReportReader server(server_report, "server", may_lack_figures, complaints), bots(bots_report, "bots", may_lack_figures, complaints);
+  const bool may_lack_figures =
+      !has_kernel_counts ||
+      record.cell.mode == peer_mode;  // no peer plays, filters and sends for all
+  ReportReader server(server_report, "server", may_lack_figures, complaints),
+      bots(bots_report, "bots", may_lack_figures, complaints);
   fill_from_server(record, server);
   fill_bytes(record, server, bots);
   fill_nodes(record, server);
@@ -289,7 +357,8 @@ void judge(RunRecord& record, const nlohmann::json& server_report, const nlohman
   }
   record.valid = once.empty();
   record.why_invalid.clear();
-  for (const std::string& complaint : once) record.why_invalid += (record.why_invalid.empty() ? "" : "; ") + complaint;
+  for (const std::string& complaint : once)
+    record.why_invalid += (record.why_invalid.empty() ? "" : "; ") + complaint;
 }
 
 nlohmann::ordered_json to_json(const RunRecord& record) {

@@ -11,10 +11,12 @@
 
 namespace rink::loadgen {
 
-/// Bytes on the wire around each TCP segment: Ethernet 14, IPv4 20, TCP with timestamps 32 (RFC 894, 791, 9293, 7323).
+/// Bytes on the wire around each TCP segment: Ethernet 14, IPv4 20, TCP with timestamps 32 (RFC
+/// 894, 791, 9293, 7323).
 inline constexpr double segment_header_bytes = 66.0;
 
-/// Root mean square, percentiles and maximum of distances [mm]; apart from them, what had been put back since it was last heard of.
+/// Root mean square, percentiles and maximum of distances [mm]; apart from them, what had been put
+/// back since it was last heard of.
 struct ErrorFigures {
   std::optional<double> rms, p99, max;
   std::optional<double> p50{}, p90{};
@@ -22,18 +24,23 @@ struct ErrorFigures {
   std::optional<double> replaced_rms{};             ///< of those
 };
 
-/// What a re-simulation of the run says about its quality (docs/metrics.md); all absent if there was no evidence.
+/// What a re-simulation of the run says about its quality (docs/metrics.md); all absent if there
+/// was no evidence.
 struct TruthFigures {
   std::optional<double> filter_precision, filter_recall, delivered_precision, delivered_recall;
   std::optional<std::uint64_t> interactions, missed_interactions;  ///< of the watched players' bats
   Percentiles late_entry_ms;
   ErrorFigures position_error_mm, displayed_error_mm;
-  std::optional<double> churn_per_client_per_s, flapping_fraction, wasted_bytes_fraction, control_bytes_fraction, fairness_jain;
-  std::string relevance;  ///< what truth calls relevant, for a reader, e.g. "square of 3.16 m around the bat, touched by the entity's box"
-  std::string trouble;    ///< why the figures are absent; empty if they are not, or if no evidence was taken
+  std::optional<double> churn_per_client_per_s, flapping_fraction, wasted_bytes_fraction,
+      control_bytes_fraction, fairness_jain;
+  std::string relevance;  ///< what truth calls relevant, for a reader, e.g. "square of 3.16 m
+                          ///< around the bat, touched by the entity's box"
+  std::string
+      trouble;  ///< why the figures are absent; empty if they are not, or if no evidence was taken
 };
 
-/// What was carried, by what it was about, in bytes for each client (or peer) and second (docs/metrics.md, "Nodes").
+/// What was carried, by what it was about, in bytes for each client (or peer) and second
+/// (docs/metrics.md, "Nodes").
 struct TrafficFigures {
   std::optional<double> halo, claims, agreement, interest, updates, keys;
 };
@@ -42,22 +49,27 @@ struct TrafficFigures {
 struct NodeFigures {
   std::optional<double> busiest_bytes_per_s;   ///< sent and received
   std::optional<double> busiest_events_per_s;  ///< of physics, those of ghosts alone included
-  std::optional<double> busiest_cpu_s, mean_cpu_s;  ///< processor time from start to end; the mean is over all nodes: server and clients, or peers
+  std::optional<double> busiest_cpu_s,
+      mean_cpu_s;  ///< processor time from start to end; the mean is over all nodes: server and
+                   ///< clients, or peers
 };
 
 /// How the load generator itself fared.
 struct GeneratorHealth {
-  std::optional<double> bots_cpu_share;           ///< processor time of the bots / (wall time x processors they may use)
+  std::optional<double>
+      bots_cpu_share;  ///< processor time of the bots / (wall time x processors they may use)
   std::optional<double> histogram_ns_per_record;  ///< what recording one latency costs
 };
 
-/// The figures of one cell. docs/metrics.md defines each; values that were not measured are absent and null in JSON.
+/// The figures of one cell. docs/metrics.md defines each; values that were not measured are absent
+/// and null in JSON.
 struct RunRecord {
   Cell cell;
   std::optional<std::uint64_t> entities;
   std::optional<std::uint64_t> ticks;
   std::optional<double> ticks_on_time_fraction;
-  std::optional<double> down_bytes_per_client_per_s, up_bytes_per_client_per_s, wire_bytes_per_client_per_s;
+  std::optional<double> down_bytes_per_client_per_s, up_bytes_per_client_per_s,
+      wire_bytes_per_client_per_s;
   std::optional<double> messages_per_s;
   Percentiles update_age_ms, key_to_effect_ms;
   std::optional<std::uint64_t> update_age_samples;  ///< clients x ticks, less what brought no news
@@ -74,9 +86,11 @@ struct RunRecord {
   std::optional<double> acknowledgements_per_s;  ///< segments without payload
   std::optional<std::uint64_t> keys_due, keys_sent;
   std::optional<double> late_sends_fraction;
-  std::string keys_trouble;  ///< why there is no `key_to_effect_ms`: the keys were sent too late; empty if not
-  std::optional<double> server_cpu_s, bots_cpu_s;  ///< processor time of each process from start to end
-  Percentiles tick_us;     ///< wall time of whole ticks
+  std::string keys_trouble;  ///< why there is no `key_to_effect_ms`: the keys were sent too late;
+                             ///< empty if not
+  std::optional<double> server_cpu_s,
+      bots_cpu_s;       ///< processor time of each process from start to end
+  Percentiles tick_us;  ///< wall time of whole ticks
   TruthFigures truth;
   TrafficFigures traffic;
   NodeFigures nodes;
@@ -91,11 +105,16 @@ struct RunRecord {
 /// A record of `cell` without figures yet; not valid.
 RunRecord record_for(const Experiment& experiment, const Cell& cell);
 
-/// Fills `record` from the reports of the server and the bots and judges it. It is valid if both reports are complete and say so themselves, both counted
-/// the same clients and rate as the cell, no client was lost, every due key was sent, and payload and kernel counts agree within 1 %. Keys sent too late
-/// (`Measurements::schedule_trouble`) cost it only the figures of keys where a server applies the planned keys at their instants whenever they come, and all
-/// elsewhere. In virtual time there is neither a kernel nor a clock to measure costs by: such figures may be null in the reports and stay absent.
-void judge(RunRecord& record, const nlohmann::json& server_report, const nlohmann::json& bots_report);
+/// Fills `record` from the reports of the server and the bots and judges it. It is valid if both
+/// reports are complete and say so themselves, both counted the same clients and rate as the cell,
+/// no client was lost, every due key was sent, and payload and kernel counts agree within 1 %. Keys
+/// sent too late
+/// (`Measurements::schedule_trouble`) cost it only the figures of keys where a server applies the
+/// planned keys at their instants whenever they come, and all elsewhere. In virtual time there is
+/// neither a kernel nor a clock to measure costs by: such figures may be null in the reports and
+/// stay absent.
+void judge(RunRecord& record, const nlohmann::json& server_report,
+           const nlohmann::json& bots_report);
 
 /// One line of runs.jsonl, keys in the documented order.
 nlohmann::ordered_json to_json(const RunRecord& record);

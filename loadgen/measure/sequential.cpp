@@ -15,7 +15,8 @@ double confidence_of_look(std::uint32_t look) {
   return 1.0 - (1.0 - interval_confidence) * 6.0 / (pi_look * pi_look);
 }
 
-std::vector<WideRow> wider_rows(std::span<const SummaryRow> rows, double width, std::uint32_t look) {
+std::vector<WideRow> wider_rows(std::span<const SummaryRow> rows, double width,
+                                std::uint32_t look) {
   std::vector<WideRow> wide;
   for (const SummaryRow& row : rows) {
     const Statistic& payload = row.of("down_bytes_per_client_per_s");
@@ -25,10 +26,12 @@ std::vector<WideRow> wider_rows(std::span<const SummaryRow> rows, double width, 
       continue;
     }
     const auto runs = static_cast<double>(row.valid_runs);
-    const double half = student_t_quantile(0.5 + 0.5 * confidence_of_look(look), runs - 1.0) * *payload.deviation / std::sqrt(runs) / *payload.mean;
+    const double half = student_t_quantile(0.5 + 0.5 * confidence_of_look(look), runs - 1.0) *
+                        *payload.deviation / std::sqrt(runs) / *payload.mean;
     if (half <= width) continue;
     char text[64];
-    std::snprintf(text, sizeof text, " is known to within %.3g %% only, not %.3g %%", 100.0 * half, 100.0 * width);
+    std::snprintf(text, sizeof text, " is known to within %.3g %% only, not %.3g %%", 100.0 * half,
+                  100.0 * width);
     wide.push_back({row.valid_runs, "the payload of " + name + text});
   }
   return wide;
@@ -40,7 +43,8 @@ double width_in(const std::string& text) {
   const std::string rest(end, text.data() + text.size());
   if (rest == "%") number /= 100.0;
   if (error != std::errc() || (!rest.empty() && rest != "%") || !(number > 0.0 && number < 1.0))
-    throw ExperimentError("--until-width " + text + ": allowed is a fraction above 0 and below 1, such as 0.05 or 5%");
+    throw ExperimentError("--until-width " + text +
+                          ": allowed is a fraction above 0 and below 1, such as 0.05 or 5%");
   return number;
 }
 

@@ -1,4 +1,5 @@
-// Replications until intervals are narrow enough, with the correction that looking again and again asks for.
+// Replications until intervals are narrow enough, with the correction that looking again and again
+// asks for.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,10 @@ inline constexpr std::uint32_t least_replications = 3;
 /// Unless another limit is given.
 inline constexpr std::uint32_t replications_max = 100;
 
-/// The confidence of the interval that is looked at for the `look`-th time, from 1 on, so that all looks together err with a probability of at most 5 %: 0.05 x 6 / (pi look)^2, of which
-/// the sum over all looks is 0.05 (Boole's inequality with the weights of Robbins, Annals of Mathematical Statistics 41, 1970).
+/// The confidence of the interval that is looked at for the `look`-th time, from 1 on, so that all
+/// looks together err with a probability of at most 5 %: 0.05 x 6 / (pi look)^2, of which the sum
+/// over all looks is 0.05 (Boole's inequality with the weights of Robbins, Annals of Mathematical
+/// Statistics 41, 1970).
 double confidence_of_look(std::uint32_t look);
 
 /// A row whose interval is too wide.
@@ -26,7 +29,8 @@ struct WideRow {
   std::string words;  ///< which, and how wide
 };
 
-/// Rows of which the interval of the payload's mean, at the confidence of the `look`-th look, is wider on either side than `width` of the mean, or of which there is none.
+/// Rows of which the interval of the payload's mean, at the confidence of the `look`-th look, is
+/// wider on either side than `width` of the mean, or of which there is none.
 std::vector<WideRow> wider_rows(std::span<const SummaryRow> rows, double width, std::uint32_t look);
 
 /// 0.05 of "5%" or "0.05". Throws ExperimentError for what is not above 0 and below 1.

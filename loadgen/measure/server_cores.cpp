@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::array compared_figures{
     Figure{"total_us_per_tick", [](const RunRecord& run) { return run.total_us_per_tick(); }},
-    Figure{"ticks_on_time_fraction", [](const RunRecord& run) { return run.ticks_on_time_fraction; }},
+    Figure{"ticks_on_time_fraction",
+           [](const RunRecord& run) { return run.ticks_on_time_fraction; }},
     Figure{"update_age_ms_p50", [](const RunRecord& run) { return run.update_age_ms.p50; }},
     Figure{"update_age_ms_p99", [](const RunRecord& run) { return run.update_age_ms.p99; }},
     Figure{"server_cpu_s", [](const RunRecord& run) { return run.server_cpu_s; }},
@@ -30,9 +31,13 @@ std::vector<std::vector<Pair>> pairs_of(std::span<const RunRecord> runs) {
     if (!run.valid || run.cell.server_cores != 1) continue;
     Cell wanted = run.cell;
     wanted.server_cores = 2;
-    const auto partner = std::find_if(runs.begin(), runs.end(), [&wanted](const RunRecord& other) { return other.valid && other.cell == wanted; });
+    const auto partner = std::find_if(runs.begin(), runs.end(), [&wanted](const RunRecord& other) {
+      return other.valid && other.cell == wanted;
+    });
     if (partner == runs.end()) continue;
-    const auto group = std::find_if(groups.begin(), groups.end(), [&run](const auto& g) { return without_seed(g.front().apart->cell) == without_seed(run.cell); });
+    const auto group = std::find_if(groups.begin(), groups.end(), [&run](const auto& g) {
+      return without_seed(g.front().apart->cell) == without_seed(run.cell);
+    });
     if (group == groups.end()) {
       groups.push_back({{&run, &*partner}});
     } else {
@@ -66,30 +71,37 @@ std::vector<CoresRatio> cores_ratios_of(std::span<const RunRecord> runs) {
 }
 
 std::string to_csv(std::span<const CoresRatio> ratios) {
-  std::string csv = "mode,scheme,policy,clients,pucks,bats,figure,pairs,ratio,ratio_low,ratio_high\n";
+  std::string csv =
+      "mode,scheme,policy,clients,pucks,bats,figure,pairs,ratio,ratio_low,ratio_high\n";
   for (const CoresRatio& ratio : ratios) {
     const Cell& cell = ratio.cell;
     const auto& interval = ratio.ratio.interval;
-    csv += cell.mode + "," + cell.scheme + "," + cell.policy + "," + std::to_string(cell.clients) + "," + std::to_string(cell.pucks) + "," + std::to_string(cell.bats) + "," +
-           ratio.figure + "," + std::to_string(ratio.ratio.pairs) + "," + six_digits(ratio.ratio.value) + "," + (interval ? six_digits(interval->low) + "," + six_digits(interval->high) : ",") + "\n";
+    csv += cell.mode + "," + cell.scheme + "," + cell.policy + "," + std::to_string(cell.clients) +
+           "," + std::to_string(cell.pucks) + "," + std::to_string(cell.bats) + "," + ratio.figure +
+           "," + std::to_string(ratio.ratio.pairs) + "," + six_digits(ratio.ratio.value) + "," +
+           (interval ? six_digits(interval->low) + "," + six_digits(interval->high) : ",") + "\n";
   }
   return csv;
 }
 
 std::string cores_table(std::span<const CoresRatio> ratios) {
   if (ratios.empty()) return {};
-  std::string text = "server and bots on any processor / each on its own, with 95 % interval\nscheme  policy        clients  figure                      ratio\n";
+  std::string text =
+      "server and bots on any processor / each on its own, with 95 % interval\nscheme  policy      "
+      "  clients  figure                      ratio\n";
   std::array<char, 160> line;
   for (const CoresRatio& ratio : ratios) {
-    std::snprintf(line.data(), line.size(), "%-7.7s %-13.13s %7u  %-24.24s %7.3f", ratio.cell.scheme.c_str(), ratio.cell.policy.c_str(), ratio.cell.clients, ratio.figure.c_str(),
-                  ratio.ratio.value);
+    std::snprintf(line.data(), line.size(), "%-7.7s %-13.13s %7u  %-24.24s %7.3f",
+                  ratio.cell.scheme.c_str(), ratio.cell.policy.c_str(), ratio.cell.clients,
+                  ratio.figure.c_str(), ratio.ratio.value);
     text += line.data();
     const Difference difference = ratio.ratio.difference();
     if (const auto& interval = ratio.ratio.interval) {
       std::snprintf(line.data(), line.size(), "  %.3f to %.3f", interval->low, interval->high);
       text += line.data();
     }
-    if (difference == Difference::insignificant || difference == Difference::unknown) text += std::string("  ") + words_for(difference);
+    if (difference == Difference::insignificant || difference == Difference::unknown)
+      text += std::string("  ") + words_for(difference);
     text += "\n";
   }
   return text;

@@ -1,4 +1,5 @@
-// The server on a processor of its own against both programs on any: what the second processor changes.
+// The server on a processor of its own against both programs on any: what the second processor
+// changes.
 #pragma once
 
 #include <span>
@@ -10,9 +11,10 @@
 
 namespace rink::loadgen {
 
-/// One figure of runs in which both programs ran wherever the kernel put them, as a multiple of the same figure with the two apart. Runs are paired by seed.
+/// One figure of runs in which both programs ran wherever the kernel put them, as a multiple of the
+/// same figure with the two apart. Runs are paired by seed.
 struct CoresRatio {
-  Cell cell;           ///< what the pairs have in common; seed and server_cores are those of the first run
+  Cell cell;  ///< what the pairs have in common; seed and server_cores are those of the first run
   std::string figure;  ///< a column of runs.jsonl, or total_us_per_tick
   Ratio ratio;         ///< anywhere / apart
 };

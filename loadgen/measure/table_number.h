@@ -7,7 +7,8 @@
 
 namespace rink::loadgen {
 
-/// Three significant digits or all digits before the point, `-` if absent; `scale` turns the figure's unit into the column's.
+/// Three significant digits or all digits before the point, `-` if absent; `scale` turns the
+/// figure's unit into the column's.
 inline std::string table_number(const std::optional<double>& value, double scale = 1.0) {
   if (!value) return "-";
   const double scaled = *value * scale;

@@ -13,23 +13,39 @@ namespace rink::loadgen {
 namespace {
 
 constexpr std::array of_cells{
-    Definition{"part", "", "experiment part", "Part of the experiment that the run belongs to, empty if it has none"},
-    Definition{"mode", "", "architecture", "How the federation is distributed: client-server, or peer-to-peer"},
-    Definition{"scheme", "", "interest-management filter", "Interest-management filter, or an expression of several"},
+    Definition{"part", "", "experiment part",
+               "Part of the experiment that the run belongs to, empty if it has none"},
+    Definition{"mode", "", "architecture",
+               "How the federation is distributed: client-server, or peer-to-peer"},
+    Definition{"scheme", "", "interest-management filter",
+               "Interest-management filter, or an expression of several"},
     Definition{"policy", "", "update policy", "When an entity's state is sent"},
     Definition{"clients", "1", "players, federates", "Number of clients that connect, or of peers"},
-    Definition{"pucks", "1", "", "Number of pucks on the field, 0 where the scene's own number is taken"},
-    Definition{"bats", "1", "", "Number of bats on the field, 0 where the scene's own number is taken"},
-    Definition{"server_cores", "1", "", "1: the server has a processor of its own; 2: server and bots run on any"},
-    Definition{"view_fraction", "1", "area fraction", "Area of a client's view divided by the area of the field"},
-    Definition{"view_margin", "m", "", "Distance by which the declared region exceeds the view on each side"},
-    Definition{"sweep_ticks", "1", "", "Ticks ahead over which update regions are swept, 0 where they are not"},
-    Definition{"cell_size", "m", "", "Side of a cell of schemes that have cells, 0 where the scheme chooses"},
-    Definition{"tick_rate_hz", "Hz", "update rate, frame rate", "Ticks of the server per second; interest is decided in each"},
-    Definition{"threshold", "m", "dead-reckoning threshold", "Error of its receivers at which a dead-reckoning policy tells them anew"},
-    Definition{"extrapolate", "1", "dead reckoning, first order", "1 where clients that are told positions alone show entities ahead of the last one, 0 where not"},
-    Definition{"seed", "1", "replication", "Seed of the population and of the keys: replications differ in it alone"},
-    Definition{"valid", "", "", "Whether the run counts; one that does not enters no mean, ratio or plot"},
+    Definition{"pucks", "1", "",
+               "Number of pucks on the field, 0 where the scene's own number is taken"},
+    Definition{"bats", "1", "",
+               "Number of bats on the field, 0 where the scene's own number is taken"},
+    Definition{"server_cores", "1", "",
+               "1: the server has a processor of its own; 2: server and bots run on any"},
+    Definition{"view_fraction", "1", "area fraction",
+               "Area of a client's view divided by the area of the field"},
+    Definition{"view_margin", "m", "",
+               "Distance by which the declared region exceeds the view on each side"},
+    Definition{"sweep_ticks", "1", "",
+               "Ticks ahead over which update regions are swept, 0 where they are not"},
+    Definition{"cell_size", "m", "",
+               "Side of a cell of schemes that have cells, 0 where the scheme chooses"},
+    Definition{"tick_rate_hz", "Hz", "update rate, frame rate",
+               "Ticks of the server per second; interest is decided in each"},
+    Definition{"threshold", "m", "dead-reckoning threshold",
+               "Error of its receivers at which a dead-reckoning policy tells them anew"},
+    Definition{"extrapolate", "1", "dead reckoning, first order",
+               "1 where clients that are told positions alone show entities ahead of the last one, "
+               "0 where not"},
+    Definition{"seed", "1", "replication",
+               "Seed of the population and of the keys: replications differ in it alone"},
+    Definition{"valid", "", "",
+               "Whether the run counts; one that does not enters no mean, ratio or plot"},
 };
 
 constexpr std::array of_figures{
@@ -322,7 +338,8 @@ constexpr std::array endings{
 const Ending* ending_of(const std::string& name, const Definition& definition) {
   const std::string_view field = definition.field;
   if (!name.starts_with(field)) return nullptr;
-  const auto ending = std::ranges::find(endings, std::string_view(name).substr(field.size()), &Ending::suffix);
+  const auto ending =
+      std::ranges::find(endings, std::string_view(name).substr(field.size()), &Ending::suffix);
   return ending == endings.end() ? nullptr : &*ending;
 }
 
@@ -351,7 +368,9 @@ std::span<const Definition> cell_definitions() { return of_cells; }
 std::span<const Definition> figure_definitions() { return of_figures; }
 
 const Definition* definition_of(const std::string& name) {
-  const auto found = std::ranges::find_if(of_figures, [&name](const Definition& definition) { return ending_of(name, definition) != nullptr; });
+  const auto found = std::ranges::find_if(of_figures, [&name](const Definition& definition) {
+    return ending_of(name, definition) != nullptr;
+  });
   return found == of_figures.end() ? nullptr : &*found;
 }
 

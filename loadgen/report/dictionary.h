@@ -1,4 +1,5 @@
-// What the names in tables of results mean, once, for whoever reads the files without the program's documents.
+// What the names in tables of results mean, once, for whoever reads the files without the program's
+// documents.
 #pragma once
 
 #include <span>
@@ -6,7 +7,8 @@
 
 namespace rink::loadgen {
 
-/// What one key of a line of runs.jsonl holds. Figures of a sample, such as update_age_ms, have a member each for its percentiles.
+/// What one key of a line of runs.jsonl holds. Figures of a sample, such as update_age_ms, have a
+/// member each for its percentiles.
 struct Definition {
   const char* field;    ///< the key
   const char* unit;     ///< empty: a name or a truth value; "1": a count or a fraction
@@ -19,7 +21,8 @@ std::span<const Definition> cell_definitions();
 /// Of the keys that `figures()` are read from.
 std::span<const Definition> figure_definitions();
 
-/// The one that the figure called `name` is a member of, e.g. update_age_ms of update_age_ms_p99; null if there is none.
+/// The one that the figure called `name` is a member of, e.g. update_age_ms of update_age_ms_p99;
+/// null if there is none.
 const Definition* definition_of(const std::string& name);
 
 /// That of the figure called `name`, of which there must be a definition (asserted).

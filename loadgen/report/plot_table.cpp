@@ -13,7 +13,8 @@ constexpr std::size_t rows_on_page_max = 120;
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n#") == std::string::npos) return text;
   std::string result = "\"";
-  for (const char letter : text) result += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  for (const char letter : text)
+    result += letter == '"' ? std::string("\"\"") : std::string(1, letter);
   return result + '"';
 }
 
@@ -25,7 +26,8 @@ std::string csv_line(const std::vector<std::string>& values) {
 
 /// A comment must not break out of its line.
 std::string comment(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
   return "# " + text + "\n";
 }
 
@@ -41,8 +43,11 @@ std::string to_csv(const PlotTable& table, const Provenance& provenance) {
 
 std::string to_details(const PlotTable& table) {
   const std::string file = "plots/" + escaped(table.name) + ".csv";
-  if (table.rows.size() > rows_on_page_max) return "<p class=\"data\">Data: " + file + ", " + std::to_string(table.rows.size()) + " rows</p>\n";
-  std::string html = "<details class=\"data\"><summary>Data: " + file + "</summary><div class=\"scroll\"><table><thead><tr>";
+  if (table.rows.size() > rows_on_page_max)
+    return "<p class=\"data\">Data: " + file + ", " + std::to_string(table.rows.size()) +
+           " rows</p>\n";
+  std::string html = "<details class=\"data\"><summary>Data: " + file +
+                     "</summary><div class=\"scroll\"><table><thead><tr>";
   for (const std::string& column : table.columns) html += "<th>" + escaped(column) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const auto& row : table.rows) {

@@ -18,10 +18,12 @@ struct PlotTable {
   bool is_empty() const { return rows.empty(); }
 };
 
-/// Comma-separated (RFC 4180) below comment lines that start with `# ` and hold `about` and the provenance; readers that know no comments skip them by that sign.
+/// Comma-separated (RFC 4180) below comment lines that start with `# ` and hold `about` and the
+/// provenance; readers that know no comments skip them by that sign.
 std::string to_csv(const PlotTable& table, const Provenance& provenance);
 
-/// A closed `<details>` that holds the rows, or says where they are if there are more than a reader would want to scroll through.
+/// A closed `<details>` that holds the rows, or says where they are if there are more than a reader
+/// would want to scroll through.
 std::string to_details(const PlotTable& table);
 
 }  // namespace rink::loadgen

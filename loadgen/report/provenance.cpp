@@ -28,7 +28,8 @@ std::string value_in(const char* file, const std::string& key) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
     const std::size_t colon = line.find(':');
-    if (line.compare(0, key.size(), key) == 0 && colon != std::string::npos && colon + 1 < line.size()) {
+    if (line.compare(0, key.size(), key) == 0 && colon != std::string::npos &&
+        colon + 1 < line.size()) {
       return line.substr(std::min(line.find_first_not_of(" \t", colon + 1), line.size()));
     }
   }
@@ -65,7 +66,8 @@ std::string compiler() {
 
 std::string libraries() {
   std::ostringstream text;
-  text << "nlohmann-json " << NLOHMANN_JSON_VERSION_MAJOR << "." << NLOHMANN_JSON_VERSION_MINOR << "." << NLOHMANN_JSON_VERSION_PATCH << ", Eigen " << EIGEN_WORLD_VERSION << "."
+  text << "nlohmann-json " << NLOHMANN_JSON_VERSION_MAJOR << "." << NLOHMANN_JSON_VERSION_MINOR
+       << "." << NLOHMANN_JSON_VERSION_PATCH << ", Eigen " << EIGEN_WORLD_VERSION << "."
        << EIGEN_MAJOR_VERSION << "." << EIGEN_MINOR_VERSION << ", glibc " << gnu_get_libc_version();
   return text.str();
 }
@@ -73,7 +75,8 @@ std::string libraries() {
 std::string command_text(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) {
-    const bool is_plain = !word.empty() && word.find_first_of(" \t\n'\"\\$*?;&|<>()") == std::string::npos;
+    const bool is_plain =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$*?;&|<>()") == std::string::npos;
     text += (text.empty() ? "" : " ") + (is_plain ? word : "'" + word + "'");
   }
   return text;
@@ -82,12 +85,20 @@ std::string command_text(const std::vector<std::string>& words) {
 std::string calibration_text(const Histogram& wake_ups) {
   const Percentiles lateness = wake_ups.percentiles_ms();
   char text[128];
-  std::snprintf(text, sizeof text, "late by p50 %.3f ms, p99 %.3f ms, max %.3f ms", lateness.p50.value_or(0.0), lateness.p99.value_or(0.0),
-                lateness.max.value_or(0.0));
+  std::snprintf(text, sizeof text, "late by p50 %.3f ms, p99 %.3f ms, max %.3f ms",
+                lateness.p50.value_or(0.0), lateness.p99.value_or(0.0), lateness.max.value_or(0.0));
   return text;
 }
 
-constexpr std::array packages_that_matter{"g++",  "libc6", "libasio-dev", "libeigen3-dev", "libspdlog-dev", "libtomlplusplus-dev", "libpugixml-dev", "libsodium-dev", "libcli11-dev",
+constexpr std::array packages_that_matter{"g++",
+                                          "libc6",
+                                          "libasio-dev",
+                                          "libeigen3-dev",
+                                          "libspdlog-dev",
+                                          "libtomlplusplus-dev",
+                                          "libpugixml-dev",
+                                          "libsodium-dev",
+                                          "libcli11-dev",
                                           "nlohmann-json3-dev"};
 
 void add_program_and_machine(Provenance& provenance) {
@@ -98,7 +109,8 @@ void add_program_and_machine(Provenance& provenance) {
       {"flags", game::built_flags()},
       {"libraries", libraries()},
       {"processor", value_in("/proc/cpuinfo", "model name")},
-      {"cores", std::to_string(allowed_processors().size()) + " allowed of " + std::to_string(std::thread::hardware_concurrency())},
+      {"cores", std::to_string(allowed_processors().size()) + " allowed of " +
+                    std::to_string(std::thread::hardware_concurrency())},
       {"memory", value_in("/proc/meminfo", "MemTotal")},
       {"governor", governor("/")},
       {"virtualisation", virtualisation("/")},
@@ -121,7 +133,9 @@ Histogram wake_up_lateness() {
 }
 
 Provenance provenance_of(const std::vector<std::string>& command_line, const Histogram& wake_ups) {
-  Provenance provenance{{{"schema", std::to_string(game::report_schema)}, {"taken", now_utc()}, {"command", command_text(command_line)}}};
+  Provenance provenance{{{"schema", std::to_string(game::report_schema)},
+                         {"taken", now_utc()},
+                         {"command", command_text(command_line)}}};
   add_program_and_machine(provenance);
   provenance.facts.push_back({"load", load("/")});
   provenance.facts.push_back({"timer wake-up", calibration_text(wake_ups)});
@@ -133,9 +147,11 @@ Provenance reproducible_provenance_of(const std::vector<std::string>& command_li
   for (std::size_t i = 0; i < command_line.size(); ++i) {
     const std::string& word = command_line[i];
     if (word == "--out") ++i;
-    else if (!word.starts_with("--out=") && word != "--force" && word != "--resume") kept.push_back(i == 0 ? std::filesystem::path(word).filename().string() : word);
+    else if (!word.starts_with("--out=") && word != "--force" && word != "--resume")
+      kept.push_back(i == 0 ? std::filesystem::path(word).filename().string() : word);
   }
-  Provenance provenance{{{"schema", std::to_string(game::report_schema)}, {"command", command_text(kept)}}};
+  Provenance provenance{
+      {{"schema", std::to_string(game::report_schema)}, {"command", command_text(kept)}}};
   add_program_and_machine(provenance);
   return provenance;
 }
@@ -144,7 +160,9 @@ std::string comment_lines(const Provenance& provenance) {
   std::string lines;
   for (const auto& [name, fact] : provenance.facts) {
     std::string line = name + ": " + fact;
-    std::replace_if(line.begin(), line.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
+    std::replace_if(
+        line.begin(), line.end(), [](char letter) { return letter == '\n' || letter == '\r'; },
+        ' ');
     lines += "# " + line + "\n";
   }
   return lines;

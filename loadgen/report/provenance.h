@@ -15,14 +15,16 @@ struct Provenance {
   std::vector<std::pair<std::string, std::string>> facts;
 };
 
-/// How late this machine wakes a sleeper: a thousand sleeps of 0.2 ms, taking about 0.3 s. Latencies near its p99 are noise.
+/// How late this machine wakes a sleeper: a thousand sleeps of 0.2 ms, taking about 0.3 s.
+/// Latencies near its p99 are noise.
 Histogram wake_up_lateness();
 
-/// The program (commit, compiler, flags, libraries, command line), the machine (processor, cores, governor, virtualisation, kernel, packages), the time, the load, and the timer's
-/// calibration.
+/// The program (commit, compiler, flags, libraries, command line), the machine (processor, cores,
+/// governor, virtualisation, kernel, packages), the time, the load, and the timer's calibration.
 Provenance provenance_of(const std::vector<std::string>& command_line, const Histogram& wake_ups);
 
-/// The same of a run in virtual time: without time, load, calibration and what names the place of the results, so that a second run writes the same bytes.
+/// The same of a run in virtual time: without time, load, calibration and what names the place of
+/// the results, so that a second run writes the same bytes.
 Provenance reproducible_provenance_of(const std::vector<std::string>& command_line);
 
 /// The facts as an object, in their order.

@@ -5,10 +5,10 @@
 #include <set>
 
 #include "loadgen/measure/modes_table.h"
+#include "loadgen/measure/summary.h"
 #include "loadgen/report/exhibits/gains.h"
 #include "loadgen/report/page.h"
 #include "loadgen/report/plots/text.h"
-#include "loadgen/measure/summary.h"
 
 namespace rink::loadgen {
 namespace {
@@ -25,34 +25,47 @@ std::string relevance_of(std::span<const RunRecord> runs) {
 
 std::string agreement_text(std::span<const RunRecord> runs) {
   const Agreement agreement = agreement_of(runs);
-  if (agreement.games == 0) return "<p class=\"faint\">No two runs were given the same keys, so no state hashes can be compared.</p>\n";
-  if (agreement.differing.empty()) return "<p>All cells of one seed ended in the same state hash: <b>yes</b>. The filters changed the traffic, not the game.</p>\n";
-  std::string html = "<p class=\"warn\">All cells of one seed ended in the same state hash: NO.</p>\n<ul>\n";
-  for (const std::string& difference : agreement.differing) html += "<li>" + escaped(difference) + "</li>\n";
+  if (agreement.games == 0)
+    return "<p class=\"faint\">No two runs were given the same keys, so no state hashes can be "
+           "compared.</p>\n";
+  if (agreement.differing.empty())
+    return "<p>All cells of one seed ended in the same state hash: <b>yes</b>. The filters changed "
+           "the traffic, not the game.</p>\n";
+  std::string html =
+      "<p class=\"warn\">All cells of one seed ended in the same state hash: NO.</p>\n<ul>\n";
+  for (const std::string& difference : agreement.differing)
+    html += "<li>" + escaped(difference) + "</li>\n";
   return html + "</ul>\n";
 }
 
 std::string view_text(const Experiment& experiment) {
-  if (experiment.view_area > 0.0) return "each client sees " + short_number(experiment.view_area) + " m\xC2\xB2";
+  if (experiment.view_area > 0.0)
+    return "each client sees " + short_number(experiment.view_area) + " m\xC2\xB2";
   std::string text;
-  for (const double fraction : experiment.view_fractions) text += (text.empty() ? "" : ", ") + short_number(100.0 * fraction) + " %";
+  for (const double fraction : experiment.view_fractions)
+    text += (text.empty() ? "" : ", ") + short_number(100.0 * fraction) + " %";
   return "each client sees " + text + " of the field";
 }
 
 std::string rates_text(const Experiment& experiment) {
   std::string text;
-  for (const double rate : experiment.tick_rates_hz) text += (text.empty() ? "" : ", ") + short_number(rate);
+  for (const double rate : experiment.tick_rates_hz)
+    text += (text.empty() ? "" : ", ") + short_number(rate);
   return text;
 }
 
 std::string transport_text(const Experiment& experiment) {
-  if (experiment.transport != TransportKind::virtual_time) return std::string("processes over ") + to_string(experiment.transport);
+  if (experiment.transport != TransportKind::virtual_time)
+    return std::string("processes over ") + to_string(experiment.transport);
   return "virtual time with " + short_number(experiment.delay_ms) + " ms from one end to the other";
 }
 
 std::string span_text(const Experiment& experiment) {
-  const std::string from = experiment.start_s > 0.0 ? " from the game at " + short_number(experiment.start_s) + " s" : "";
-  return short_number(experiment.duration_s) + " s measured after " + short_number(experiment.warm_up_s) + " s of warm-up" + from + ", ";
+  const std::string from = experiment.start_s > 0.0
+                               ? " from the game at " + short_number(experiment.start_s) + " s"
+                               : "";
+  return short_number(experiment.duration_s) + " s measured after " +
+         short_number(experiment.warm_up_s) + " s of warm-up" + from + ", ";
 }
 
 /// What each part of which there are rows differs in.
@@ -63,24 +76,33 @@ std::string parts_text(const Experiment& experiment, std::span<const RunRecord> 
     for (const RunRecord& run : runs)
       if (run.cell.part == part.part) ++count, valid += run.valid;
     if (count == 0) continue;
-    text += "Part " + part.part + ": " + transport_text(part) + ", " + rates_text(part) + " Hz, " + span_text(part) +
-            view_text(part) + "; " + std::to_string(count) + " of " + std::to_string(cells_of(part).size()) + " cells run, " + std::to_string(valid) + " valid. ";
+    text += "Part " + part.part + ": " + transport_text(part) + ", " + rates_text(part) + " Hz, " +
+            span_text(part) + view_text(part) + "; " + std::to_string(count) + " of " +
+            std::to_string(cells_of(part).size()) + " cells run, " + std::to_string(valid) +
+            " valid. ";
   }
   return text + "Plots over clients are of the first part that has valid runs.";
 }
 
 std::string setting_text(const Experiment& experiment, std::span<const RunRecord> runs) {
   if (!experiment.parts.empty()) return parts_text(experiment, runs);
-  const auto valid = std::count_if(runs.begin(), runs.end(), [](const RunRecord& run) { return run.valid; });
-  std::string text = "Scene " + experiment.scene + ", " + (experiment.population == Population::fixed ? "fixed" : "per-client") + " population, players " + experiment.players + ", " +
-                     rates_text(experiment) + " Hz, " + span_text(experiment) +
-                     view_text(experiment) + "; ";
+  const auto valid =
+      std::count_if(runs.begin(), runs.end(), [](const RunRecord& run) { return run.valid; });
+  std::string text = "Scene " + experiment.scene + ", " +
+                     (experiment.population == Population::fixed ? "fixed" : "per-client") +
+                     " population, players " + experiment.players + ", " + rates_text(experiment) +
+                     " Hz, " + span_text(experiment) + view_text(experiment) + "; ";
   text += transport_text(experiment) + "; ";
   // A search runs cells of its own choice beside those of the experiment.
   const std::vector<Cell> cells = cells_of(experiment);
-  const bool is_plan = std::all_of(runs.begin(), runs.end(), [&cells](const RunRecord& run) { return std::find(cells.begin(), cells.end(), run.cell) != cells.end(); });
+  const bool is_plan = std::all_of(runs.begin(), runs.end(), [&cells](const RunRecord& run) {
+    return std::find(cells.begin(), cells.end(), run.cell) != cells.end();
+  });
   const std::string count = std::to_string(runs.size());
-  return text + (is_plan ? count + " of " + std::to_string(cells.size()) + " cells run, " : count + " runs, ") + std::to_string(valid) + " valid.";
+  return text +
+         (is_plan ? count + " of " + std::to_string(cells.size()) + " cells run, "
+                  : count + " runs, ") +
+         std::to_string(valid) + " valid.";
 }
 
 const std::string* fact(const Provenance& provenance, const std::string& name) {
@@ -91,10 +113,15 @@ const std::string* fact(const Provenance& provenance, const std::string& name) {
 }
 
 Exhibit reproduction(const Experiment& experiment, const Provenance& provenance) {
-  Exhibit exhibit{"<p>Save the experiment below as EXPERIMENT.toml and run it; seeds fix the scene and every key, so that games, bytes and errors repeat, while times depend on the machine:</p>\n"
-                  "<pre>./rink compare EXPERIMENT.toml</pre>\n"};
-  if (const std::string* command = fact(provenance, "command")) exhibit.html += "<p class=\"faint\">This report was made by</p>\n<pre>" + escaped(*command) + "</pre>\n";
-  exhibit.html += "<p class=\"faint\">The experiment:</p>\n<pre>" + escaped(experiment.text) + "</pre>\n";
+  Exhibit exhibit{
+      "<p>Save the experiment below as EXPERIMENT.toml and run it; seeds fix the scene and every "
+      "key, so that games, bytes and errors repeat, while times depend on the machine:</p>\n"
+      "<pre>./rink compare EXPERIMENT.toml</pre>\n"};
+  if (const std::string* command = fact(provenance, "command"))
+    exhibit.html +=
+        "<p class=\"faint\">This report was made by</p>\n<pre>" + escaped(*command) + "</pre>\n";
+  exhibit.html +=
+      "<p class=\"faint\">The experiment:</p>\n<pre>" + escaped(experiment.text) + "</pre>\n";
   return exhibit;
 }
 
@@ -116,26 +143,34 @@ constexpr const char* definitions =
     "wall time; CPU time is that of whole processes.</p>\n";
 
 std::string introduction_of(const Findings& findings, const std::vector<EqualError>& comparisons) {
-  const std::string headline = comparisons.empty() ? headline_of(findings) : equal_error_headline(comparisons);
-  std::string html = headline.empty() ? "" : "<p class=\"headline\">" + escaped(headline) + "</p>\n";
-  html += "<p class=\"faint\">" + escaped(setting_text(findings.experiment, findings.runs)) + "</p>\n";
-  if (!findings.relevance.empty()) html += "<p class=\"faint\">Relevant to a player: " + escaped(findings.relevance) + ".</p>\n";
+  const std::string headline =
+      comparisons.empty() ? headline_of(findings) : equal_error_headline(comparisons);
+  std::string html =
+      headline.empty() ? "" : "<p class=\"headline\">" + escaped(headline) + "</p>\n";
+  html +=
+      "<p class=\"faint\">" + escaped(setting_text(findings.experiment, findings.runs)) + "</p>\n";
+  if (!findings.relevance.empty())
+    html += "<p class=\"faint\">Relevant to a player: " + escaped(findings.relevance) + ".</p>\n";
   return html + agreement_text(findings.runs);
 }
 
 }  // namespace
 
-Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, const Provenance& provenance, std::span<const CellLatencies> latencies,
-                 std::span<const ReportSection> more_sections, std::span<const CellDiscoveries> discoveries) {
+Report report_of(const Experiment& experiment, std::span<const RunRecord> runs,
+                 const Provenance& provenance, std::span<const CellLatencies> latencies,
+                 std::span<const ReportSection> more_sections,
+                 std::span<const CellDiscoveries> discoveries) {
   const std::vector<RunRecord> rows = without_curves(experiment, runs);
   const std::vector<EqualError> comparisons = equal_errors_of(experiment, runs);
-  const Findings findings{experiment, rows, latencies, lines_of(rows), relevance_of(rows), discoveries};
+  const Findings findings{experiment,         rows,       latencies, lines_of(rows),
+                          relevance_of(rows), discoveries};
   Page page;
   if (!comparisons.empty())
     page.add("equal-error", "Reduction factor: rivals at equal error",
              equal_error_exhibit(experiment, runs, comparisons));
   page.add("traffic", "Traffic", traffic_exhibit(findings));
-  if (has_several_modes(runs)) page.add("modes", "With and without a server", modes_exhibit(findings));
+  if (has_several_modes(runs))
+    page.add("modes", "With and without a server", modes_exhibit(findings));
   page.add("gains", "Bytes against dead-reckoning error", gains_exhibit(findings));
   page.add("relevance", "Precision and recall", relevance_exhibit(findings));
   if (!discoveries.empty())
@@ -146,13 +181,15 @@ Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, 
   page.add("cost", "Cost of a tick (wall time)", cost_exhibit(findings));
   page.add("replications", "Replications", replication_exhibit(findings));
   page.add("growth", "Growth", growth_exhibit(findings));
-  for (const ReportSection& section : more_sections) page.add(section.id, section.title, section.exhibit);
+  for (const ReportSection& section : more_sections)
+    page.add(section.id, section.title, section.exhibit);
   page.add("generator", "The load generator", generator_exhibit(findings));
   page.add("runs", "All runs", runs_exhibit(findings));
   page.add("definitions", "Definitions", {definitions});
   page.add("reproduce", "How to reproduce", reproduction(experiment, provenance));
   page.add("provenance", "Provenance", provenance_list(provenance));
-  return std::move(page).finished(experiment.name + ": interest management compared", introduction_of(findings, comparisons));
+  return std::move(page).finished(experiment.name + ": interest management compared",
+                                  introduction_of(findings, comparisons));
 }
 
 }  // namespace rink::loadgen

@@ -1,4 +1,5 @@
-// The comparison as one HTML page that needs neither network nor script, its plots, and the tables behind them.
+// The comparison as one HTML page that needs neither network nor script, its plots, and the tables
+// behind them.
 #pragma once
 
 #include <filesystem>
@@ -22,12 +23,18 @@ struct Report {
   std::vector<Picture> pictures;  ///< for plots/NAME.svg: each has a name of its own
 };
 
-/// The page: plots, tables, the runs that did not count with their reasons, definitions, how to reproduce, and provenance. Light and dark follow the
-/// reader's setting; print is light. All text from outside is escaped. The same input gives the same bytes. What was not measured is left out with a sentence.
-Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, const Provenance& provenance, std::span<const CellLatencies> latencies = {},
-                 std::span<const ReportSection> more_sections = {}, std::span<const CellDiscoveries> discoveries = {});
+/// The page: plots, tables, the runs that did not count with their reasons, definitions, how to
+/// reproduce, and provenance. Light and dark follow the reader's setting; print is light. All text
+/// from outside is escaped. The same input gives the same bytes. What was not measured is left out
+/// with a sentence.
+Report report_of(const Experiment& experiment, std::span<const RunRecord> runs,
+                 const Provenance& provenance, std::span<const CellLatencies> latencies = {},
+                 std::span<const ReportSection> more_sections = {},
+                 std::span<const CellDiscoveries> discoveries = {});
 
-/// The whole histograms of the valid `runs` from their reports in `cells`; whatever is missing or unreadable there is left out.
-std::vector<CellLatencies> latencies_in(const std::filesystem::path& cells, std::span<const RunRecord> runs);
+/// The whole histograms of the valid `runs` from their reports in `cells`; whatever is missing or
+/// unreadable there is left out.
+std::vector<CellLatencies> latencies_in(const std::filesystem::path& cells,
+                                        std::span<const RunRecord> runs);
 
 }  // namespace rink::loadgen

@@ -8,8 +8,11 @@
 
 namespace rink::loadgen {
 
-/// The rows in at most 120 columns, a block per mode, a group of lines per game, and below them what all runs say together: what filter and policy save apart and
-/// together, whether the games agreed and which runs did not count. `is_coloured` adds ANSI emphasis to the least bytes of each group.
-std::string table_of(std::span<const RunRecord> runs, bool is_coloured, const Baseline& baseline = {});
+/// The rows in at most 120 columns, a block per mode, a group of lines per game, and below them
+/// what all runs say together: what filter and policy save apart and together, whether the games
+/// agreed and which runs did not count. `is_coloured` adds ANSI emphasis to the least bytes of each
+/// group.
+std::string table_of(std::span<const RunRecord> runs, bool is_coloured,
+                     const Baseline& baseline = {});
 
 }  // namespace rink::loadgen

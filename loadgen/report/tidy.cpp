@@ -3,9 +3,9 @@
 
 #include "loadgen/experiment/csv_number.h"
 #include "loadgen/experiment/csv_text.h"
-#include "loadgen/report/dictionary.h"
 #include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/summary.h"
+#include "loadgen/report/dictionary.h"
 
 namespace rink::loadgen {
 namespace {
@@ -13,9 +13,12 @@ namespace {
 std::string names_of_run(const RunRecord& run) {
   const Cell& cell = run.cell;
   std::string names;
-  for (const std::string& text : {cell.part, cell.mode, cell.scheme, cell.policy}) names += csv_text(text) + ",";
-  for (const std::uint32_t count : {cell.clients, cell.pucks, cell.bats, cell.server_cores}) names += std::to_string(count) + ",";
-  for (const ParameterKind& kind : parameter_kinds()) names += csv_number(kind.of(cell.parameters)) + ",";
+  for (const std::string& text : {cell.part, cell.mode, cell.scheme, cell.policy})
+    names += csv_text(text) + ",";
+  for (const std::uint32_t count : {cell.clients, cell.pucks, cell.bats, cell.server_cores})
+    names += std::to_string(count) + ",";
+  for (const ParameterKind& kind : parameter_kinds())
+    names += csv_number(kind.of(cell.parameters)) + ",";
   return names + std::to_string(cell.seed) + (run.valid ? ",true," : ",false,");
 }
 

@@ -1,4 +1,5 @@
-// All figures of all runs in one long table, an observation per line, for programs that compute statistics of their own.
+// All figures of all runs in one long table, an observation per line, for programs that compute
+// statistics of their own.
 #pragma once
 
 #include <span>
@@ -8,8 +9,10 @@
 
 namespace rink::loadgen {
 
-/// CSV (RFC 4180), a line for each figure that a run has, in the order of `runs` and of `figures()`: part, mode, scheme, policy, clients, pucks, bats, server_cores, every parameter, seed,
-/// valid (true or false), figure, unit, value. Runs that do not count are in it; a figure that is absent has no line.
+/// CSV (RFC 4180), a line for each figure that a run has, in the order of `runs` and of
+/// `figures()`: part, mode, scheme, policy, clients, pucks, bats, server_cores, every parameter,
+/// seed, valid (true or false), figure, unit, value. Runs that do not count are in it; a figure
+/// that is absent has no line.
 std::string tidy_csv(std::span<const RunRecord> runs);
 
 }  // namespace rink::loadgen

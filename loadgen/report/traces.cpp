@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "loadgen/measure/truth/truth.h"
 #include "loadgen/report/artefact.h"
 #include "loadgen/run/run_journal.h"
-#include "loadgen/measure/truth/truth.h"
 
 namespace rink::loadgen {
 
@@ -15,9 +15,12 @@ std::size_t write_traces(const std::filesystem::path& folder) {
   std::size_t written = 0;
   for (const RunRecord& run : read_journal(folder / "runs.jsonl").runs) {
     const std::string name = folder / "cells" / name_of(run.cell);
-    if (!run.valid || !std::filesystem::exists(name + ".server.jsonl") || !std::filesystem::exists(name + ".bots.jsonl")) continue;
+    if (!run.valid || !std::filesystem::exists(name + ".server.jsonl") ||
+        !std::filesystem::exists(name + ".bots.jsonl"))
+      continue;
     const game::ServerEvidence server = game::read_server_evidence(name + ".server.jsonl");
-    const RelevanceArea area = relevance_of(part_of(experiment, run.cell.part), run.cell, game::chosen_scene(server.choice));
+    const RelevanceArea area = relevance_of(part_of(experiment, run.cell.part), run.cell,
+                                            game::chosen_scene(server.choice));
     write_trace(name + ".truth.jsonl", server, read_bots_evidence(name + ".bots.jsonl"), area);
     ++written;
   }

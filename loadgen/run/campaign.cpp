@@ -30,8 +30,11 @@ std::string played_game(const Experiment& experiment, const Cell& cell) {
   return name;
 }
 
-/// Game name to key log, all written before the first cell starts, so that an impossible one is found before anything was waited for.
-std::map<std::string, std::filesystem::path> write_key_logs(const Experiment& experiment, const ResultsDirectory& results, const KeyLogWriter& write) {
+/// Game name to key log, all written before the first cell starts, so that an impossible one is
+/// found before anything was waited for.
+std::map<std::string, std::filesystem::path> write_key_logs(const Experiment& experiment,
+                                                            const ResultsDirectory& results,
+                                                            const KeyLogWriter& write) {
   std::map<std::string, std::filesystem::path> logs;
   const std::filesystem::path folder = results.subdirectory("keys");
   for (const Cell& cell : cells_of(experiment)) {
@@ -43,16 +46,20 @@ std::map<std::string, std::filesystem::path> write_key_logs(const Experiment& ex
 }
 
 bool has_run_of(const Cell& cell, const std::vector<RunRecord>& runs) {
-  return std::any_of(runs.begin(), runs.end(), [&cell](const RunRecord& run) { return run.cell == cell; });
+  return std::any_of(runs.begin(), runs.end(),
+                     [&cell](const RunRecord& run) { return run.cell == cell; });
 }
 
 }  // namespace
 
-std::vector<RunRecord> runs_to_keep(const Experiment& experiment, const std::vector<RunRecord>& runs) {
+std::vector<RunRecord> runs_to_keep(const Experiment& experiment,
+                                    const std::vector<RunRecord>& runs) {
   const std::vector<Cell> cells = cells_of(experiment);
   std::vector<RunRecord> kept;
   for (const RunRecord& run : runs) {
-    if (std::find(cells.begin(), cells.end(), run.cell) != cells.end() && !has_run_of(run.cell, kept)) kept.push_back(run);
+    if (std::find(cells.begin(), cells.end(), run.cell) != cells.end() &&
+        !has_run_of(run.cell, kept))
+      kept.push_back(run);
   }
   return kept;
 }
@@ -69,22 +76,30 @@ using Clock = std::chrono::steady_clock;
 /// others alone. What these say is judged as soon as as many wait for it as there are processors.
 class CellQueue {
  public:
-  CellQueue(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results, Progress& progress, Outcome& outcome)
-      : experiment_(experiment), settings_(settings), results_(results), progress_(progress), outcome_(outcome) {}
+  CellQueue(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results,
+            Progress& progress, Outcome& outcome)
+      : experiment_(experiment),
+        settings_(settings),
+        results_(results),
+        progress_(progress),
+        outcome_(outcome) {}
 
   /// False once it was interrupted.
   bool run(const Cell& cell, const std::filesystem::path& key_log) {
     const Experiment& part = part_of(experiment_, cell.part);
-    const bool is_virtual = part.transport == TransportKind::virtual_time, has_peers = cell.mode == peer_mode;
+    const bool is_virtual = part.transport == TransportKind::virtual_time,
+               has_peers = cell.mode == peer_mode;
     if (!is_virtual && !has_peers) return run_alone(part, cell, key_log);
-    const auto run = has_peers ? (is_virtual ? run_virtual_peers : run_peer_processes) : run_virtual_cell;
+    const auto run =
+        has_peers ? (is_virtual ? run_virtual_peers : run_peer_processes) : run_virtual_cell;
     if (!is_virtual || cell.clients > clients_beside_others_max) {
       if (!finish()) return false;
       progress_.starts(cell);
       return take(run(settings_, part, cell, key_log));
     }
     if (!judge_what_ran()) return false;
-    idle_workers_.acquire();  // whichever ends first, be it not the first in line: cells take from 0.05 to 1 s
+    idle_workers_.acquire();  // whichever ends first, be it not the first in line: cells take from
+                              // 0.05 to 1 s
     while (is_first_done())
       if (!take_first()) return false;
     progress_.starts(cell);
@@ -134,7 +149,10 @@ class CellQueue {
     return take_all();
   }
 
-  bool is_first_done() const { return !under_way_.empty() && under_way_.front().wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+  bool is_first_done() const {
+    return !under_way_.empty() &&
+           under_way_.front().wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
 
   bool take_first() {
     std::future<Record> first = std::move(under_way_.front());
@@ -169,7 +187,8 @@ class CellQueue {
 
 }  // namespace
 
-Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results, const KeyLogWriter& write_key_log,
+Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings,
+                     ResultsDirectory& results, const KeyLogWriter& write_key_log,
                      Progress& progress, std::vector<RunRecord> kept) {
   Outcome outcome;
   const std::vector<RunRecord> before = std::move(kept);
@@ -178,14 +197,17 @@ Outcome run_campaign(const Experiment& experiment, const RunnerSettings& setting
     const auto key_logs = write_key_logs(experiment, results, write_key_log);
     CellQueue queue(experiment, settings, results, progress, outcome);
     for (const Cell& cell : running_order(experiment))
-      if (!has_run_of(cell, before) && !queue.run(cell, key_logs.at(played_game(experiment, cell)))) break;
+      if (!has_run_of(cell, before) && !queue.run(cell, key_logs.at(played_game(experiment, cell))))
+        break;
     queue.finish();
   } catch (const OutputError& error) {
     outcome.output_failure = error.what();
   }
   progress.clear();
   const std::vector<Cell> cells = cells_of(experiment);
-  std::ranges::stable_sort(outcome.runs, {}, [&cells](const RunRecord& run) { return std::ranges::find(cells, run.cell) - cells.begin(); });
+  std::ranges::stable_sort(outcome.runs, {}, [&cells](const RunRecord& run) {
+    return std::ranges::find(cells, run.cell) - cells.begin();
+  });
   return outcome;
 }
 

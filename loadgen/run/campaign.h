@@ -5,29 +5,34 @@
 #include <string>
 #include <vector>
 
+#include "loadgen/measure/results.h"
 #include "loadgen/run/cell_runner.h"
 #include "loadgen/run/progress.h"
-#include "loadgen/measure/results.h"
 
 namespace rink::loadgen {
 
-/// Writes the key log of `cell`'s game to `file`. Throws ExperimentError if the scene cannot serve the cell, OutputError if the file cannot be written.
+/// Writes the key log of `cell`'s game to `file`. Throws ExperimentError if the scene cannot serve
+/// the cell, OutputError if the file cannot be written.
 using KeyLogWriter = std::function<void(const Cell& cell, const std::filesystem::path& file)>;
 
 /// How a campaign went.
 struct Outcome {
-  std::vector<RunRecord> runs;  ///< in the order of cells_of(), those that were kept from before among them
+  std::vector<RunRecord>
+      runs;  ///< in the order of cells_of(), those that were kept from before among them
   bool was_interrupted = false;
-  std::string output_failure;  ///< why results could not be written, empty if they could; nothing runs after that
+  std::string output_failure;  ///< why results could not be written, empty if they could; nothing
+                               ///< runs after that
 };
 
-/// Runs, in their running_order(), every cell that is not among the `kept` runs of an earlier start, appending each record to `results`. The key log of a game is written
-/// once, to `results`/keys, and shared by all its cells.
-/// Throws ExperimentError, before the first cell runs.
-Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results, const KeyLogWriter& write_key_log,
+/// Runs, in their running_order(), every cell that is not among the `kept` runs of an earlier
+/// start, appending each record to `results`. The key log of a game is written once, to
+/// `results`/keys, and shared by all its cells. Throws ExperimentError, before the first cell runs.
+Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings,
+                     ResultsDirectory& results, const KeyLogWriter& write_key_log,
                      Progress& progress, std::vector<RunRecord> kept = {});
 
 /// Those of an earlier start's `runs` that are cells of `experiment`, each once.
-std::vector<RunRecord> runs_to_keep(const Experiment& experiment, const std::vector<RunRecord>& runs);
+std::vector<RunRecord> runs_to_keep(const Experiment& experiment,
+                                    const std::vector<RunRecord>& runs);
 
 }  // namespace rink::loadgen

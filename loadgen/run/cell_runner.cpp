@@ -8,12 +8,12 @@
 
 #include "game/players/player.h"
 #include "game/replication/update_policy.h"
-#include "loadgen/measure/discovery_table.h"
-#include "loadgen/run/game_plan.h"
 #include "loadgen/experiment/parameter.h"
+#include "loadgen/measure/discovery_table.h"
+#include "loadgen/measure/truth/truth.h"
+#include "loadgen/run/game_plan.h"
 #include "loadgen/run/process.h"
 #include "loadgen/run/process_run.h"
-#include "loadgen/measure/truth/truth.h"
 #include "rti/federation_execution.h"
 
 namespace rink::loadgen {
@@ -37,23 +37,32 @@ nlohmann::json report_at(const std::filesystem::path& path, const std::string& w
 /// One cell while it runs.
 class CellRun {
  public:
-  CellRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log)
-      : settings_(settings), experiment_(experiment), cell_(cell), key_log_(key_log),
-        server_report_(settings.directory / (name_of(cell) + ".server.json")), bots_report_(settings.directory / (name_of(cell) + ".bots.json")) {}
+  CellRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,
+          const std::filesystem::path& key_log)
+      : settings_(settings),
+        experiment_(experiment),
+        cell_(cell),
+        key_log_(key_log),
+        server_report_(settings.directory / (name_of(cell) + ".server.json")),
+        bots_report_(settings.directory / (name_of(cell) + ".bots.json")) {}
 
   void run(RunRecord& record) {
     std::error_code ignored;
     std::filesystem::remove(server_report_, ignored);
     std::filesystem::remove(bots_report_, ignored);
-    const std::string server_evidence = server_report_.string() + "l", bots_evidence = bots_report_.string() + "l";  // NAME.server.jsonl, NAME.bots.jsonl
+    const std::string server_evidence = server_report_.string() + "l",
+                      bots_evidence =
+                          bots_report_.string() + "l";  // NAME.server.jsonl, NAME.bots.jsonl
     std::filesystem::remove(server_evidence, ignored);
     std::filesystem::remove(bots_evidence, ignored);
     std::vector<std::string> serve = serve_arguments(experiment_, cell_, key_log_, server_report_);
     if (settings_.wants_truth) serve.insert(serve.end(), {"--evidence", server_evidence});
     const bool is_apart = cell_.server_cores == 1;
-    Process server(settings_.serve, serve, is_apart ? settings_.server_processors : std::vector<int>{});
+    Process server(settings_.serve, serve,
+                   is_apart ? settings_.server_processors : std::vector<int>{});
     const std::string address = address_of(server);
-    std::vector<std::string> play = bots_arguments(experiment_, cell_, key_log_, address, bots_report_);
+    std::vector<std::string> play =
+        bots_arguments(experiment_, cell_, key_log_, address, bots_report_);
     if (settings_.wants_truth) play.insert(play.end(), {"--evidence", bots_evidence});
     Process bots(settings_.bots, play, is_apart ? settings_.bots_processors : std::vector<int>{});
     await(server, bots);
@@ -75,10 +84,14 @@ class CellRun {
       heed_interrupt();
       server.attend(look_interval);
       if (const auto address = server.line_after("listening on ")) return *address;
-      if (server.ending()) throw Failure{with_last_words("the server " + server.ending()->text() + " before it listened", server)};
+      if (server.ending())
+        throw Failure{with_last_words(
+            "the server " + server.ending()->text() + " before it listened", server)};
       if (Clock::now() > deadline) {
         server.stop(settings_.stop_grace);
-        throw Failure{with_last_words("the server did not listen within " + decimal(settings_.listen_limit_s) + " s", server)};
+        throw Failure{with_last_words(
+            "the server did not listen within " + decimal(settings_.listen_limit_s) + " s",
+            server)};
       }
     }
   }
@@ -92,23 +105,29 @@ class CellRun {
       heed_interrupt();
       (server.ending() ? bots : server).attend(look_interval);
       if (!server.ending()) bots.attend(milliseconds(0));
-      const bool fails_now = (server.ending() && !server.ending()->is_success()) || (bots.ending() && !bots.ending()->is_success());
+      const bool fails_now = (server.ending() && !server.ending()->is_success()) ||
+                             (bots.ending() && !bots.ending()->is_success());
       if (fails_now && !has_failed) deadline = std::min(deadline, after(survivor_limit_s));
       has_failed = has_failed || fails_now;
       if (Clock::now() > deadline) break;
     }
     // Who failed by itself is named before who was merely still waiting for it.
     std::string why;
-    const auto add = [&why](const std::string& reason) { why += (why.empty() ? "" : "; ") + reason; };
+    const auto add = [&why](const std::string& reason) {
+      why += (why.empty() ? "" : "; ") + reason;
+    };
     const auto name_failure = [&](const char* who, const Process& process) {
-      if (process.ending() && !process.ending()->is_success()) add(with_last_words(std::string(who) + " " + process.ending()->text(), process));
+      if (process.ending() && !process.ending()->is_success())
+        add(with_last_words(std::string(who) + " " + process.ending()->text(), process));
     };
     name_failure("the server", server);
     name_failure("the bots", bots);
     const auto end_late = [&](const char* who, Process& process) {
       if (process.ending()) return;
       process.stop(settings_.stop_grace);
-      if (!has_failed) add(with_last_words(std::string(who) + " had not ended after " + decimal(limit_s) + " s", process));
+      if (!has_failed)
+        add(with_last_words(std::string(who) + " had not ended after " + decimal(limit_s) + " s",
+                            process));
     };
     end_late("the server", server);
     end_late("the bots", bots);
@@ -132,10 +151,13 @@ void pin_apart(RunnerSettings& settings, const std::vector<int>& processors) {
   settings.bots_processors.assign(processors.begin() + 1, processors.end());
 }
 
-std::vector<std::string> serve_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log,
+std::vector<std::string> serve_arguments(const Experiment& experiment, const Cell& cell,
+                                         const std::filesystem::path& key_log,
                                          const std::filesystem::path& report) {
   std::vector<std::string> arguments{"--scene", experiment.scene};
-  const auto add = [&arguments](const char* flag, const std::string& value) { arguments.insert(arguments.end(), {flag, value}); };
+  const auto add = [&arguments](const char* flag, const std::string& value) {
+    arguments.insert(arguments.end(), {flag, value});
+  };
   if (experiment.population == Population::per_client) add("--bats", std::to_string(cell.clients));
   add("--seed", std::to_string(cell.seed));
   add("--address", "127.0.0.1");
@@ -147,7 +169,8 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   if (cell.parameters.cell_size > 0.0) add("--cell-size", decimal(cell.parameters.cell_size));
   if (im::names_scheme(cell.scheme, "always"))
     for (const std::string& kind : experiment.always) add("--always", kind);
-  if (cell.parameters.sweep_ticks > 0) add("--sweep-ticks", std::to_string(cell.parameters.sweep_ticks));
+  if (cell.parameters.sweep_ticks > 0)
+    add("--sweep-ticks", std::to_string(cell.parameters.sweep_ticks));
   add("--policy", cell.policy);
   if (game::takes_threshold(cell.policy)) add("--threshold", decimal(cell.parameters.threshold));
   add("--rate", decimal(cell.parameters.tick_rate_hz));
@@ -160,14 +183,19 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   return arguments;
 }
 
-std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, const std::string& address,
+std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell& cell,
+                                        const std::filesystem::path& key_log,
+                                        const std::string& address,
                                         const std::filesystem::path& report) {
   std::vector<std::string> arguments{"--connect", address};
-  const auto add = [&arguments](const char* flag, const std::string& value) { arguments.insert(arguments.end(), {flag, value}); };
+  const auto add = [&arguments](const char* flag, const std::string& value) {
+    arguments.insert(arguments.end(), {flag, value});
+  };
   add("--transport", to_string(experiment.transport));
   add("--count", std::to_string(cell.clients));
   add("--seed", std::to_string(cell.seed));
-  if (experiment.keys == KeySource::live && experiment.players != "random" && game::is_player_kind(experiment.players)) {
+  if (experiment.keys == KeySource::live && experiment.players != "random" &&
+      game::is_player_kind(experiment.players)) {
     add("--players", experiment.players);
     add("--scene", experiment.scene);
   } else {

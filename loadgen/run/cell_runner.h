@@ -15,31 +15,42 @@ namespace rink::loadgen {
 
 /// Where the two programs are, where they may write, and how long anybody waits for them.
 struct RunnerSettings {
-  std::filesystem::path serve, bots, peer;   ///< the executables rink-serve, rink-bots and rink-peer
-  std::filesystem::path directory;           ///< an existing folder for the processes' own reports
-  std::vector<int> server_processors, bots_processors;  ///< what each is pinned to; empty: not pinned
-  bool wants_truth = true;                   ///< evidence is taken, and the run judged by a re-simulation
-  bool keeps_evidence_of_curves = false;     ///< of the hundreds of runs that are points of curves too
-  bool keeps_evidence = true;                ///< in files; in virtual time the same seed gives it again
-  double listen_limit_s = 30.0;              ///< from the server's start to its line `listening on ADDRESS:PORT`
-  double join_limit_s = 20.0;                ///< beyond warm-up and duration, for joining, ending and writing reports
+  std::filesystem::path serve, bots, peer;  ///< the executables rink-serve, rink-bots and rink-peer
+  std::filesystem::path directory;          ///< an existing folder for the processes' own reports
+  std::vector<int> server_processors,
+      bots_processors;      ///< what each is pinned to; empty: not pinned
+  bool wants_truth = true;  ///< evidence is taken, and the run judged by a re-simulation
+  bool keeps_evidence_of_curves = false;  ///< of the hundreds of runs that are points of curves too
+  bool keeps_evidence = true;  ///< in files; in virtual time the same seed gives it again
+  double listen_limit_s =
+      30.0;  ///< from the server's start to its line `listening on ADDRESS:PORT`
+  double join_limit_s =
+      20.0;  ///< beyond warm-up and duration, for joining, ending and writing reports
   std::chrono::milliseconds stop_grace{1000};  ///< from SIGTERM to SIGKILL
-  const std::atomic<bool>* is_interrupted = nullptr;  ///< looked at every 20 ms; ends the cell when true
+  const std::atomic<bool>* is_interrupted =
+      nullptr;  ///< looked at every 20 ms; ends the cell when true
 };
 
-/// Pins the server to the first of `processors` and the bots to all others; with fewer than two neither is pinned.
+/// Pins the server to the first of `processors` and the bots to all others; with fewer than two
+/// neither is pinned.
 void pin_apart(RunnerSettings& settings, const std::vector<int>& processors);
 
-/// The arguments that start the server of `cell`. To the programs `--duration` is the whole run, warm-up included. `key_log` may be empty.
-std::vector<std::string> serve_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log,
+/// The arguments that start the server of `cell`. To the programs `--duration` is the whole run,
+/// warm-up included. `key_log` may be empty.
+std::vector<std::string> serve_arguments(const Experiment& experiment, const Cell& cell,
+                                         const std::filesystem::path& key_log,
                                          const std::filesystem::path& report);
 /// The arguments that start the bots of `cell` against the server at `address` (ADDRESS:PORT).
-std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, const std::string& address,
+std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell& cell,
+                                        const std::filesystem::path& key_log,
+                                        const std::string& address,
                                         const std::filesystem::path& report);
 
-/// Runs `cell` and returns its record; whatever goes wrong, a program that cannot be started included, makes it invalid and says why. Nothing if it was
-/// interrupted. Both processes are gone when this returns.
-std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log);
+/// Runs `cell` and returns its record; whatever goes wrong, a program that cannot be started
+/// included, makes it invalid and says why. Nothing if it was interrupted. Both processes are gone
+/// when this returns.
+std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experiment& experiment,
+                                  const Cell& cell, const std::filesystem::path& key_log);
 
 /// What the processes of a cell said, before the figures of truth.
 struct ProcessRun {

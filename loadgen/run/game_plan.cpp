@@ -20,15 +20,21 @@ void expect_bats_for_all(const Experiment& experiment, const Cell& first, std::s
   for (const Cell& cell : cells_of(experiment))
     if (cell.bats == first.bats) most = std::max(most, cell.clients);
   if (experiment.population == Population::per_client || most <= bat_count) return;
-  throw ExperimentError("experiment " + experiment.name + ": clients = " + std::to_string(most) + ": scene " + experiment.scene + " has " +
-                        std::to_string(bat_count) + " bats; allowed is at most as many clients, or population = \"per_client\"");
+  throw ExperimentError(
+      "experiment " + experiment.name + ": clients = " + std::to_string(most) + ": scene " +
+      experiment.scene + " has " + std::to_string(bat_count) +
+      " bats; allowed is at most as many clients, or population = \"per_client\"");
 }
 
-/// Random players never look, so their keys need no game; those who look play it here, on its true state. Live players who look will play on what they are told, so
-/// there is nothing to record. What names no kind of player is the path of a recorded log.
-std::vector<game::InputEvent> keys_of(const Experiment& experiment, const Cell& cell, const game::Scene& scene) {
+/// Random players never look, so their keys need no game; those who look play it here, on its true
+/// state. Live players who look will play on what they are told, so there is nothing to record.
+/// What names no kind of player is the path of a recorded log.
+std::vector<game::InputEvent> keys_of(const Experiment& experiment, const Cell& cell,
+                                      const game::Scene& scene) {
   const double until_s = experiment.end_s();
-  if (experiment.players == "random") return game::random_plan(cell.seed, static_cast<std::uint32_t>(scene.bodies.bats.size()), until_s);
+  if (experiment.players == "random")
+    return game::random_plan(cell.seed, static_cast<std::uint32_t>(scene.bodies.bats.size()),
+                             until_s);
   if (!game::is_player_kind(experiment.players)) {
     const game::KeyLog recorded = game::read_key_log(std::filesystem::path(experiment.players));
     game::require_fit(recorded, scene, experiment.players);
@@ -41,7 +47,8 @@ std::vector<game::InputEvent> keys_of(const Experiment& experiment, const Cell& 
 }
 
 /// The game of `keys` by `instant_s`, played as fast as it goes.
-std::vector<std::uint8_t> state_at(double instant_s, const game::Scene& scene, const std::vector<game::InputEvent>& keys) {
+std::vector<std::uint8_t> state_at(double instant_s, const game::Scene& scene,
+                                   const std::vector<game::InputEvent>& keys) {
   game::Game game(scene);
   for (const game::InputEvent& event : keys)
     if (event.time <= instant_s) game.submit(event);
@@ -51,7 +58,9 @@ std::vector<std::uint8_t> state_at(double instant_s, const game::Scene& scene, c
 
 }  // namespace
 
-std::filesystem::path state_file_of(const std::filesystem::path& key_log) { return std::filesystem::path(key_log).replace_extension(".state"); }
+std::filesystem::path state_file_of(const std::filesystem::path& key_log) {
+  return std::filesystem::path(key_log).replace_extension(".state");
+}
 
 game::SceneChoice choice_of(const Experiment& experiment, const Cell& cell) {
   return {.scene = experiment.scene,
@@ -61,16 +70,24 @@ game::SceneChoice choice_of(const Experiment& experiment, const Cell& cell) {
           .seed = cell.seed};
 }
 
-game::Scene scene_of(const Experiment& experiment, const Cell& cell) { return game::chosen_scene(choice_of(experiment, cell)); }
+game::Scene scene_of(const Experiment& experiment, const Cell& cell) {
+  return game::chosen_scene(choice_of(experiment, cell));
+}
 
-void write_game_plan(const Experiment& experiment, const Cell& cell, const std::filesystem::path& file) {
+void write_game_plan(const Experiment& experiment, const Cell& cell,
+                     const std::filesystem::path& file) {
   game::KeyLog log;
   game::Scene scene;
   try {
     scene = scene_of(experiment, cell);
     expect_bats_for_all(experiment, cell, scene.bodies.bats.size());
-    if (scene.world.field.goal_width > 0.0 && std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) != experiment.modes.end())
-      throw ExperimentError("experiment " + experiment.name + ": modes = " + peer_mode + ": scene " + experiment.scene + " has goals, which peers cannot share; allowed is one without, such as arena");
+    if (scene.world.field.goal_width > 0.0 &&
+        std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) !=
+            experiment.modes.end())
+      throw ExperimentError(
+          "experiment " + experiment.name + ": modes = " + peer_mode + ": scene " +
+          experiment.scene +
+          " has goals, which peers cannot share; allowed is one without, such as arena");
     log = game::key_log_for(scene);
     log.events = keys_of(experiment, cell, scene);
   } catch (const game::SceneError& error) {
@@ -78,7 +95,8 @@ void write_game_plan(const Experiment& experiment, const Cell& cell, const std::
   }
   try {
     game::write_key_log(file, log);
-    if (experiment.start_s > 0.0) game::write_game_state(state_file_of(file), state_at(experiment.start_s, scene, log.events));
+    if (experiment.start_s > 0.0)
+      game::write_game_state(state_file_of(file), state_at(experiment.start_s, scene, log.events));
   } catch (const game::SceneError& error) {
     throw OutputError(error.what());
   }

@@ -18,10 +18,14 @@ game::Scene scene_of(const Experiment& experiment, const Cell& cell);
 std::filesystem::path state_file_of(const std::filesystem::path& key_log);
 
 /// Writes the keys of `cell`'s game, all from the scene's beginning, to `file`,
-/// and for one that starts warm the game that they make of the scene by start_s to state_file_of(file): those of every bat of the scene if the population is fixed, one bat per client otherwise.
-/// Random keys are drawn; players who decide play the game here, on its true state; a recorded log is taken over; live players who decide leave an empty log. The same
-/// experiment and cell give the same bytes. Throws ExperimentError if the scene or a recorded log cannot be read or do not fit each other, or if the scene has fewer bats
-/// than the experiment's largest cell has clients; OutputError if `file` cannot be written.
-void write_game_plan(const Experiment& experiment, const Cell& cell, const std::filesystem::path& file);
+/// and for one that starts warm the game that they make of the scene by start_s to
+/// state_file_of(file): those of every bat of the scene if the population is fixed, one bat per
+/// client otherwise. Random keys are drawn; players who decide play the game here, on its true
+/// state; a recorded log is taken over; live players who decide leave an empty log. The same
+/// experiment and cell give the same bytes. Throws ExperimentError if the scene or a recorded log
+/// cannot be read or do not fit each other, or if the scene has fewer bats than the experiment's
+/// largest cell has clients; OutputError if `file` cannot be written.
+void write_game_plan(const Experiment& experiment, const Cell& cell,
+                     const std::filesystem::path& file);
 
 }  // namespace rink::loadgen

@@ -39,11 +39,15 @@ std::string virtualisation(const std::filesystem::path& root) {
   if (has_word(root / "proc/cpuinfo", "flags", "hypervisor")) {
     seen = "virtual machine";
     std::string names;
-    for (const char* file : {"sys/class/dmi/id/sys_vendor", "sys/class/dmi/id/product_name", "sys/hypervisor/type"})
-      if (const std::string name = first_line(root / file); !name.empty()) names += (names.empty() ? "" : " ") + name;
+    for (const char* file :
+         {"sys/class/dmi/id/sys_vendor", "sys/class/dmi/id/product_name", "sys/hypervisor/type"})
+      if (const std::string name = first_line(root / file); !name.empty())
+        names += (names.empty() ? "" : " ") + name;
     if (!names.empty()) seen += " (" + names + ")";
   }
-  if (std::filesystem::exists(root / ".dockerenv") || std::filesystem::exists(root / "run/.containerenv")) seen += seen.empty() ? "container" : ", container";
+  if (std::filesystem::exists(root / ".dockerenv") ||
+      std::filesystem::exists(root / "run/.containerenv"))
+    seen += seen.empty() ? "container" : ", container";
   return seen.empty() ? "none seen" : seen;
 }
 
@@ -59,7 +63,9 @@ std::string packages(const std::filesystem::path& root, std::span<const char* co
   std::map<std::string, std::string> versions;
   std::string name;
   bool is_installed = false;
-  const auto value = [](const std::string& line) { return line.substr(std::min(line.find(": ") + 2, line.size())); };
+  const auto value = [](const std::string& line) {
+    return line.substr(std::min(line.find(": ") + 2, line.size()));
+  };
   for (std::string line; std::getline(stream, line);) {
     if (line.starts_with("Package: ")) name = value(line), is_installed = false;
     else if (line.starts_with("Status: ")) is_installed = line.ends_with(" installed");
@@ -67,7 +73,8 @@ std::string packages(const std::filesystem::path& root, std::span<const char* co
   }
   std::string text;
   for (const char* each : names)
-    if (const auto found = versions.find(each); found != versions.end()) text += (text.empty() ? "" : ", ") + found->first + " " + found->second;
+    if (const auto found = versions.find(each); found != versions.end())
+      text += (text.empty() ? "" : ", ") + found->first + " " + found->second;
   return text.empty() ? "unknown" : text;
 }
 

@@ -11,7 +11,8 @@ namespace rink::loadgen {
 
 /// How the first processor chooses its frequency, such as "performance"; "none" where nothing does.
 std::string governor(const std::filesystem::path& root);
-/// "none seen", or what hosts the machine: "virtual machine", "container", both, with the vendor's name for it.
+/// "none seen", or what hosts the machine: "virtual machine", "container", both, with the vendor's
+/// name for it.
 std::string virtualisation(const std::filesystem::path& root);
 /// The mean number of runnable processes over the last 1, 5 and 15 minutes.
 std::string load(const std::filesystem::path& root);

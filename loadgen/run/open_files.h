@@ -5,7 +5,8 @@
 
 namespace rink::loadgen {
 
-/// Raises this process's limit on open files, which children inherit, to the most that is allowed. Returns the limit then in force.
+/// Raises this process's limit on open files, which children inherit, to the most that is allowed.
+/// Returns the limit then in force.
 std::size_t raise_open_file_limit();
 
 }  // namespace rink::loadgen

@@ -1,4 +1,5 @@
-// fork, exec, poll and wait4 behind one object; between fork and exec only async-signal-safe calls are made.
+// fork, exec, poll and wait4 behind one object; between fork and exec only async-signal-safe calls
+// are made.
 #include "loadgen/run/process.h"
 
 #include <fcntl.h>
@@ -29,12 +30,15 @@ struct Pipe {
 
 Pipe make_pipe() {
   std::array<int, 2> ends;
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
   return {ends[0], ends[1]};
 }
 
-/// The child's side of the fork. Reports why exec failed through `failure`, which closes by itself when it succeeds.
-[[noreturn]] void become(const char* path, char* const* arguments, const cpu_set_t* processors, pid_t parent, int output, int errors, int failure) {
+/// The child's side of the fork. Reports why exec failed through `failure`, which closes by itself
+/// when it succeeds.
+[[noreturn]] void become(const char* path, char* const* arguments, const cpu_set_t* processors,
+                         pid_t parent, int output, int errors, int failure) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);  // the parent died before the line above
@@ -53,7 +57,9 @@ Pipe make_pipe() {
   _exit(127);
 }
 
-double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); }
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
 
 }  // namespace
 
@@ -62,7 +68,8 @@ std::string Ending::text() const {
   return "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
 }
 
-Process::Process(const std::filesystem::path& executable, const std::vector<std::string>& arguments, const std::vector<int>& processors) {
+Process::Process(const std::filesystem::path& executable, const std::vector<std::string>& arguments,
+                 const std::vector<int>& processors) {
   const std::string path = executable.string();
   std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -77,7 +84,8 @@ Process::Process(const std::filesystem::path& executable, const std::vector<std:
   const pid_t parent = getpid();
   id_ = fork();
   if (id_ == 0) {
-    become(path.c_str(), pointers.data(), processors.empty() ? nullptr : &set, parent, output.write_end, errors.write_end, failure.write_end);
+    become(path.c_str(), pointers.data(), processors.empty() ? nullptr : &set, parent,
+           output.write_end, errors.write_end, failure.write_end);
   }
   const int fork_error = errno;
   close(output.write_end);
@@ -107,7 +115,8 @@ Process::~Process() {
 }
 
 void Process::attend(std::chrono::milliseconds limit) {
-  std::array<pollfd, 2> watched{pollfd{output_, POLLIN, 0}, pollfd{errors_, POLLIN, 0}};  // poll skips a negative descriptor
+  std::array<pollfd, 2> watched{pollfd{output_, POLLIN, 0},
+                                pollfd{errors_, POLLIN, 0}};  // poll skips a negative descriptor
   poll(watched.data(), watched.size(), static_cast<int>(limit.count()));
   read_into(output_, output_text_, output_kept_max);
   read_into(errors_, errors_text_, errors_kept_max);
@@ -153,7 +162,8 @@ std::optional<std::string> Process::line_after(const std::string& beginning) con
   while (start < output_text_.size()) {
     const std::size_t end = output_text_.find('\n', start);
     if (end == std::string::npos) return std::nullopt;
-    if (output_text_.compare(start, beginning.size(), beginning) == 0) return output_text_.substr(start + beginning.size(), end - start - beginning.size());
+    if (output_text_.compare(start, beginning.size(), beginning) == 0)
+      return output_text_.substr(start + beginning.size(), end - start - beginning.size());
     start = end + 1;
   }
   return std::nullopt;

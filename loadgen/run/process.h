@@ -21,27 +21,34 @@ struct Ending {
   std::string text() const;
 };
 
-/// A running program in a process group of its own, so that a Ctrl-C at the terminal reaches only the parent, which then decides. It is killed when this
-/// object goes, and by the kernel (PR_SET_PDEATHSIG) when the thread that started it dies, even by kill -9.
+/// A running program in a process group of its own, so that a Ctrl-C at the terminal reaches only
+/// the parent, which then decides. It is killed when this object goes, and by the kernel
+/// (PR_SET_PDEATHSIG) when the thread that started it dies, even by kill -9.
 class Process {
  public:
-  /// Starts `executable` on the given processors (all that are allowed if empty). Throws std::system_error if it cannot be started.
-  Process(const std::filesystem::path& executable, const std::vector<std::string>& arguments, const std::vector<int>& processors);
+  /// Starts `executable` on the given processors (all that are allowed if empty). Throws
+  /// std::system_error if it cannot be started.
+  Process(const std::filesystem::path& executable, const std::vector<std::string>& arguments,
+          const std::vector<int>& processors);
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
   ~Process();
 
-  /// Reads what the process wrote and sees whether it ended, waiting up to `limit` for one of the two.
+  /// Reads what the process wrote and sees whether it ended, waiting up to `limit` for one of the
+  /// two.
   void attend(std::chrono::milliseconds limit);
   pid_t id() const { return id_; }
   /// Absent while it runs.
   const std::optional<Ending>& ending() const { return ending_; }
-  /// The rest of the first line of its standard output that starts with `beginning`, once that line is complete.
+  /// The rest of the first line of its standard output that starts with `beginning`, once that line
+  /// is complete.
   std::optional<std::string> line_after(const std::string& beginning) const;
-  /// The last lines of its standard error, at most 2 kB, on one line: newlines become ` / `, other control characters `?`.
+  /// The last lines of its standard error, at most 2 kB, on one line: newlines become ` / `, other
+  /// control characters `?`.
   std::string last_words() const;
 
-  /// Asks the whole group to end (SIGTERM), waits up to `grace`, then kills it. Returns when the process is gone.
+  /// Asks the whole group to end (SIGTERM), waits up to `grace`, then kills it. Returns when the
+  /// process is gone.
   void stop(std::chrono::milliseconds grace);
 
  private:

@@ -14,7 +14,10 @@ using Clock = std::chrono::steady_clock;
 inline constexpr std::chrono::milliseconds look_interval{20};
 inline constexpr double survivor_limit_s = 3.0;  ///< how long others may go on after one has failed
 
-inline Clock::time_point after(double seconds) { return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)); }
+inline Clock::time_point after(double seconds) {
+  return Clock::now() +
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
 
 /// Reads back as the same number.
 inline std::string decimal(double number) {

@@ -15,8 +15,11 @@ class Progress {
   /// `expected_cell_s` [s] is the guess until cells have finished; after that their mean is.
   Progress(std::ostream& out, bool is_terminal, std::size_t cell_count, double expected_cell_s);
 
-  /// From now on the time left follows from what each cell was expected to take, of which `all_s` [s] are still to come, and how much longer those that have finished took.
-  void expect(std::function<double(const Cell&)> cell_s, double all_s) { expected_of_ = std::move(cell_s), expected_s_ = all_s; }
+  /// From now on the time left follows from what each cell was expected to take, of which `all_s`
+  /// [s] are still to come, and how much longer those that have finished took.
+  void expect(std::function<double(const Cell&)> cell_s, double all_s) {
+    expected_of_ = std::move(cell_s), expected_s_ = all_s;
+  }
 
   /// Cell number `finished_count() + 1` starts.
   void starts(const Cell& cell);
@@ -34,7 +37,8 @@ class Progress {
   std::size_t cell_count_;
   double expected_cell_s_;
   std::function<double(const Cell&)> expected_of_;
-  double expected_s_ = 0.0, expected_done_s_ = 0.0;  ///< of all cells, and of those that have finished
+  double expected_s_ = 0.0,
+         expected_done_s_ = 0.0;  ///< of all cells, and of those that have finished
   std::size_t finished_count_ = 0;
   double spent_s_ = 0.0;
 };

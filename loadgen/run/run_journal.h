@@ -12,11 +12,13 @@
 
 namespace rink::loadgen {
 
-/// What `to_json(record)` wrote, so that writing it again gives the same line. Nothing, and a `complaint` that names the key, if it is something else; keys that
-/// a record does not have are passed over.
+/// What `to_json(record)` wrote, so that writing it again gives the same line. Nothing, and a
+/// `complaint` that names the key, if it is something else; keys that a record does not have are
+/// passed over.
 std::optional<RunRecord> run_record_from_json(const nlohmann::json& line, std::string& complaint);
 
-/// Sixteen hexadecimal digits that change with the experiment's text, its scene's file and its recorded keys (FNV-1a).
+/// Sixteen hexadecimal digits that change with the experiment's text, its scene's file and its
+/// recorded keys (FNV-1a).
 std::string identity_of(const Experiment& experiment);
 
 /// The first line of a journal: under which conditions all its runs were made.
@@ -36,7 +38,8 @@ struct Journal {
   bool is_truncated = false;    ///< something follows that: the line at which the writer was killed
 };
 
-/// Reads the journal at `file`. Throws OutputError, which names the line, if it cannot be read or a whole line is not what a journal holds.
+/// Reads the journal at `file`. Throws OutputError, which names the line, if it cannot be read or a
+/// whole line is not what a journal holds.
 Journal read_journal(const std::filesystem::path& file);
 
 }  // namespace rink::loadgen

@@ -11,7 +11,8 @@
 
 namespace rink::loadgen {
 
-std::optional<RunRecord> recorded(const Experiment& experiment, const Cell& cell, const std::function<void(RunRecord&)>& run) {
+std::optional<RunRecord> recorded(const Experiment& experiment, const Cell& cell,
+                                  const std::function<void(RunRecord&)>& run) {
   RunRecord record = record_for(experiment, cell);
   try {
     run(record);
@@ -33,7 +34,9 @@ std::int64_t not_before(double instant_s) {
 
 rti::NetworkConditions network_conditions(const Experiment& experiment, const Cell& cell) {
   rti::NetworkConditions conditions = experiment.network;
-  if (!experiment.network_is_modelled) conditions.to_listener.latency_ns = conditions.from_listener.latency_ns = nanoseconds(1e-3 * experiment.delay_ms);
+  if (!experiment.network_is_modelled)
+    conditions.to_listener.latency_ns = conditions.from_listener.latency_ns =
+        nanoseconds(1e-3 * experiment.delay_ms);
   conditions.seed = rti::LinkStream::key_of(conditions.seed, cell.seed);
   conditions.partitions.clear();
   return conditions;
@@ -43,8 +46,10 @@ std::int64_t settling_ns(const Experiment& experiment) {
   const rti::NetworkConditions& network = experiment.network;
   const std::int64_t delay_ns = nanoseconds(1e-3 * experiment.delay_ms);
   if (!experiment.network_is_modelled) return delay_ns;
-  const std::int64_t longest_ns = std::max({delay_ns, network.to_listener.longest_ns(), network.from_listener.longest_ns()});
-  return std::max(delay_ns, std::min(longest_ns + 2 * rti::NetworkModel::timeout_min_ns, second_ns));
+  const std::int64_t longest_ns =
+      std::max({delay_ns, network.to_listener.longest_ns(), network.from_listener.longest_ns()});
+  return std::max(delay_ns,
+                  std::min(longest_ns + 2 * rti::NetworkModel::timeout_min_ns, second_ns));
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& content) {
@@ -53,7 +58,8 @@ void write_json(const std::filesystem::path& file, const nlohmann::ordered_json&
   if (!stream) throw OutputError(file.string() + ": cannot be written");
 }
 
-std::vector<game::InputEvent> keys_in(const std::filesystem::path& key_log, const game::Scene& scene) {
+std::vector<game::InputEvent> keys_in(const std::filesystem::path& key_log,
+                                      const game::Scene& scene) {
   if (key_log.empty()) return {};
   game::KeyLog log = game::read_key_log(key_log);
   game::require_fit(log, scene, key_log);

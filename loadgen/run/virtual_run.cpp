@@ -1,4 +1,5 @@
-// A discrete-event loop: whatever is due next, an arrival, a key or a tick, is when the clock moves to.
+// A discrete-event loop: whatever is due next, an arrival, a key or a tick, is when the clock moves
+// to.
 #include "loadgen/run/virtual_run.h"
 
 #include <algorithm>
@@ -11,17 +12,17 @@
 #include "game/control/game_state.h"
 #include "game/model/scene_file.h"
 #include "game/net/fom_file.h"
-#include "game/replication/trajectory_codec.h"
 #include "game/net/server/serve_report.h"
 #include "game/net/server/serving.h"
 #include "game/players/player.h"
-#include "loadgen/run/bots/bot_crowd.h"
-#include "loadgen/run/bots/bots_report.h"
-#include "loadgen/measure/discovery_table.h"
-#include "loadgen/run/game_plan.h"
+#include "game/replication/trajectory_codec.h"
 #include "loadgen/experiment/parameter.h"
+#include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/results.h"
 #include "loadgen/measure/truth/truth.h"
+#include "loadgen/run/bots/bot_crowd.h"
+#include "loadgen/run/bots/bots_report.h"
+#include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_parts.h"
 #include "rti/transport/modelled/virtual_network.h"
 
@@ -32,8 +33,9 @@ using Json = nlohmann::ordered_json;
 
 class VirtualRun {
  public:
-  VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const rti::Fom& fom, const game::Scene& scene, const std::vector<game::InputEvent>& keys,
-             const std::filesystem::path& state_file);
+  VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,
+             const rti::Fom& fom, const game::Scene& scene,
+             const std::vector<game::InputEvent>& keys, const std::filesystem::path& state_file);
 
   void run();
   Json server_report() const;
@@ -45,11 +47,15 @@ class VirtualRun {
   void end(Json& server_report);
 
  private:
-  game::ServerSettings server_settings(const game::Scene& scene, const std::vector<game::InputEvent>& keys) const;
+  game::ServerSettings server_settings(const game::Scene& scene,
+                                       const std::vector<game::InputEvent>& keys) const;
   static BotCrowdSettings crowd_settings(const Experiment& experiment, const Cell& cell);
 
   double now_s() const { return network_.now_s(); }
-  double simulated_now() const { return experiment_.start_s + (start_ns_ == 0 ? 0.0 : 1e-9 * static_cast<double>(network_.now_ns() - start_ns_)); }
+  double simulated_now() const {
+    return experiment_.start_s +
+           (start_ns_ == 0 ? 0.0 : 1e-9 * static_cast<double>(network_.now_ns() - start_ns_));
+  }
   void heed_interrupt() const {
     if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
   }
@@ -77,9 +83,13 @@ class VirtualRun {
   game::ServingCounts begin_, end_;
 };
 
-game::ServerSettings VirtualRun::server_settings(const game::Scene& scene, const std::vector<game::InputEvent>& keys) const {
-  game::ServerSettings settings{.policy = cell_.policy, .threshold = cell_.parameters.threshold, .sweep_ticks = cell_.parameters.sweep_ticks,
-                                .tick_s = 1.0 / cell_.parameters.tick_rate_hz, .replay = {}};
+game::ServerSettings VirtualRun::server_settings(const game::Scene& scene,
+                                                 const std::vector<game::InputEvent>& keys) const {
+  game::ServerSettings settings{.policy = cell_.policy,
+                                .threshold = cell_.parameters.threshold,
+                                .sweep_ticks = cell_.parameters.sweep_ticks,
+                                .tick_s = 1.0 / cell_.parameters.tick_rate_hz,
+                                .replay = {}};
   if (experiment_.keys == KeySource::replay) settings.replay = keys;
   settings.always_relevant = game::relevant_kinds_of(scene, experiment_.always);
   if (begun_) settings.begun = &*begun_;
@@ -96,27 +106,41 @@ BotCrowdSettings VirtualRun::crowd_settings(const Experiment& experiment, const 
   settings.start_s = experiment.start_s;
   settings.warm_up_s = experiment.measured_from_s();
   settings.duration_s = experiment.end_s();
-  if (experiment.keys == KeySource::live && experiment.players != "random" && game::is_player_kind(experiment.players))
-    settings.players = {.kind = experiment.players, .rules = game::rules_of(game::load_scene(experiment.scene), 0), .seed = cell.seed};
+  if (experiment.keys == KeySource::live && experiment.players != "random" &&
+      game::is_player_kind(experiment.players))
+    settings.players = {.kind = experiment.players,
+                        .rules = game::rules_of(game::load_scene(experiment.scene), 0),
+                        .seed = cell.seed};
   return settings;
 }
 
-VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const rti::Fom& fom, const game::Scene& scene,
-                       const std::vector<game::InputEvent>& keys, const std::filesystem::path& state_file)
+VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experiment,
+                       const Cell& cell, const rti::Fom& fom, const game::Scene& scene,
+                       const std::vector<game::InputEvent>& keys,
+                       const std::filesystem::path& state_file)
     : settings_(settings),
       experiment_(experiment),
       cell_(cell),
       state_file_(experiment.start_s > 0.0 ? state_file.string() : ""),
-      state_(state_file_.empty() ? std::vector<std::uint8_t>() : game::read_game_state(state_file_)),
-      begun_(state_file_.empty() ? std::nullopt : std::optional(game::game_in_state(state_, scene, state_file_))),
+      state_(state_file_.empty() ? std::vector<std::uint8_t>()
+                                 : game::read_game_state(state_file_)),
+      begun_(state_file_.empty() ? std::nullopt
+                                 : std::optional(game::game_in_state(state_, scene, state_file_))),
       model_(network_conditions(experiment, cell)),
       network_(model_),
-      serving_(fom, scene, server_settings(scene, keys), game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
-               [this] { return now_s(); }, [this] { return simulated_now(); }),
+      serving_(
+          fom, scene, server_settings(scene, keys),
+          game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
+          [this] { return now_s(); }, [this] { return simulated_now(); }),
       server_(serving_.server()),
-      crowd_(fom, bots_end_, crowd_settings(experiment, cell), cell.clients, keys, [this] { return now_s(); }) {
+      crowd_(fom, bots_end_, crowd_settings(experiment, cell), cell.clients, keys,
+             [this] { return now_s(); }) {
   if (settings.wants_truth) {
-    serving_.collect_evidence({.seed = cell.seed, .clients = cell.clients, .from_s = experiment.measured_from_s(), .until_s = experiment.end_s()}, cell.parameters.tick_rate_hz);
+    serving_.collect_evidence({.seed = cell.seed,
+                               .clients = cell.clients,
+                               .from_s = experiment.measured_from_s(),
+                               .until_s = experiment.end_s()},
+                              cell.parameters.tick_rate_hz);
     crowd_.collect_evidence(cell.seed);
   }
   if (experiment.network_carries_datagrams) network_.carry_datagrams();
@@ -142,12 +166,15 @@ void VirtualRun::advance_until(std::int64_t until_ns) {
   network_.advance_to(until_ns);
 }
 
-/// Publishes every tick's time, as the server does before the start, until `is_met`. Every step of the way takes a delay or a tick, and there are few.
+/// Publishes every tick's time, as the server does before the start, until `is_met`. Every step of
+/// the way takes a delay or a tick, and there are few.
 template <class Condition>
 void VirtualRun::await(const std::string& what, Condition is_met) {
   constexpr std::int64_t steps_max = 64;
   const std::int64_t step_ns = nanoseconds(1.0 / cell_.parameters.tick_rate_hz);
-  const std::int64_t limit_ns = network_.now_ns() + steps_max * (step_ns + settling_ns(experiment_) + (experiment_.network_is_modelled ? second_ns : 0));
+  const std::int64_t limit_ns =
+      network_.now_ns() + steps_max * (step_ns + settling_ns(experiment_) +
+                                       (experiment_.network_is_modelled ? second_ns : 0));
   game::TickCosts uncounted;
   while (!is_met()) {
     heed_interrupt();
@@ -164,10 +191,12 @@ void VirtualRun::await(const std::string& what, Condition is_met) {
 
 void VirtualRun::start() {
   crowd_.connect([this](std::uint32_t) { return bots_end_.connect(server_name); });
-  await("the players", [this] { return server_.is_joined() && server_.player_count() == cell_.clients; });
+  await("the players",
+        [this] { return server_.is_joined() && server_.player_count() == cell_.clients; });
   server_.call_to_start();
   await("the start barrier", [this] { return server_.is_started(); });
-  start_ns_ = (network_.now_ns() / second_ns + 1) * second_ns;  // a whole second: sums with it are rounded least
+  start_ns_ = (network_.now_ns() / second_ns + 1) *
+              second_ns;  // a whole second: sums with it are rounded least
   for (rti::Partition cut : experiment_.network.partitions) {
     cut.from_ns += start_ns_;
     cut.until_ns += start_ns_;
@@ -176,7 +205,8 @@ void VirtualRun::start() {
 }
 
 void VirtualRun::play() {
-  const double rate_hz = cell_.parameters.tick_rate_hz, played_s = experiment_.warm_up_s + experiment_.duration_s;
+  const double rate_hz = cell_.parameters.tick_rate_hz,
+               played_s = experiment_.warm_up_s + experiment_.duration_s;
   const auto last = static_cast<std::uint64_t>(std::floor(played_s * rate_hz + 1e-9));
   for (std::uint64_t number = 0; number <= last; ++number) {
     heed_interrupt();
@@ -186,7 +216,8 @@ void VirtualRun::play() {
       begin_ = counts_of(serving_, server_end_.totals());
       measured_from_ns_ = network_.now_ns();
     }
-    if (number == last) {  // it closes the span and is not in it: n ticks, and the n periods that they begin
+    if (number ==
+        last) {  // it closes the span and is not in it: n ticks, and the n periods that they begin
       end_ = counts_of(serving_, server_end_.totals());
       measured_until_ns_ = network_.now_ns();
     }
@@ -194,7 +225,8 @@ void VirtualRun::play() {
     crowd_.run_once();
     if (simulated_s >= experiment_.warm_up_s && number < last) ++ticks_;
   }
-  advance_until(start_ns_ + nanoseconds(played_s) + 4 * settling_ns(experiment_) + 1);  // the last answers
+  advance_until(start_ns_ + nanoseconds(played_s) + 4 * settling_ns(experiment_) +
+                1);  // the last answers
 }
 
 void VirtualRun::run() {
@@ -203,7 +235,9 @@ void VirtualRun::run() {
 }
 
 Json VirtualRun::server_report() const {
-  const std::string why = !server_.trouble().empty() ? server_.trouble() : ticks_ == 0 ? "no tick was measured" : "";
+  const std::string why = !server_.trouble().empty() ? server_.trouble()
+                          : ticks_ == 0              ? "no tick was measured"
+                                                     : "";
   Json report{{"mode", cell_.mode},
               {"scheme", cell_.scheme},
               {"policy", cell_.policy},
@@ -223,8 +257,10 @@ Json VirtualRun::server_report() const {
   report.update(counted_report(serving_, begin_, end_));
   if (experiment_.network_is_modelled) {
     const rti::NetworkCounters& counted = model_.counters();
-    report["network"] = {{"segments", counted.segments}, {"datagrams", counted.datagrams}, {"lost", counted.lost}, {"cut", counted.cut}, {"dropped", counted.dropped},
-                         {"retransmitted", counted.retransmitted}, {"held", counted.held}, {"duplicated", counted.duplicated}};
+    report["network"] = {{"segments", counted.segments}, {"datagrams", counted.datagrams},
+                         {"lost", counted.lost},         {"cut", counted.cut},
+                         {"dropped", counted.dropped},   {"retransmitted", counted.retransmitted},
+                         {"held", counted.held},         {"duplicated", counted.duplicated}};
   }
   return report;
 }
@@ -232,9 +268,12 @@ Json VirtualRun::server_report() const {
 Json VirtualRun::bots_report() const {
   const Measurements& measured = crowd_.measurements();
   std::string why;
-  if (crowd_.lost_count() > 0) why = std::to_string(crowd_.lost_count()) + " of " + std::to_string(cell_.clients) + " bots were lost: " + crowd_.first_trouble();
+  if (crowd_.lost_count() > 0)
+    why = std::to_string(crowd_.lost_count()) + " of " + std::to_string(cell_.clients) +
+          " bots were lost: " + crowd_.first_trouble();
   else if (!crowd_.is_over()) why = "the game did not end";
-  else if (measured.keys_sent < measured.keys_due) why = std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
+  else if (measured.keys_sent < measured.keys_due)
+    why = std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
   Json report = loadgen::bots_report(crowd_, why);
   report["kernel_bytes_received"] = report["kernel_bytes_sent"] = nullptr;
   return report;
@@ -256,32 +295,41 @@ void VirtualRun::end(Json& server_report) {
   game::add_totals(server_report, server_end_.totals());
 }
 
-void run(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, RunRecord& record) {
+void run(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,
+         const std::filesystem::path& key_log, RunRecord& record) {
   const rti::Fom fom = game::load_rink_fom(game::fom_file());
   const game::Scene scene = scene_of(experiment, cell);
-  VirtualRun run(settings, experiment, cell, fom, scene, keys_in(key_log, scene), state_file_of(key_log));
+  VirtualRun run(settings, experiment, cell, fom, scene, keys_in(key_log, scene),
+                 state_file_of(key_log));
   run.run();
   Json server = run.server_report();
   const Json bots = run.bots_report();
-  const game::ServerEvidence server_evidence = settings.wants_truth ? run.server_evidence() : game::ServerEvidence();
+  const game::ServerEvidence server_evidence =
+      settings.wants_truth ? run.server_evidence() : game::ServerEvidence();
   const BotsEvidence bots_evidence = settings.wants_truth ? run.bots_evidence() : BotsEvidence();
   run.end(server);
   write_json(settings.directory / (name_of(cell) + ".server.json"), server);
   write_json(settings.directory / (name_of(cell) + ".bots.json"), bots);
   judge(record, server, bots);
   if (!settings.wants_truth) return;
-  if (experiment.is_of_curves) add_truth(record, experiment, server_evidence, rounded(bots_evidence));
+  if (experiment.is_of_curves)
+    add_truth(record, experiment, server_evidence, rounded(bots_evidence));
   if (!settings.keeps_evidence) return;
-  const std::string server_file = settings.directory / (name_of(cell) + ".server.jsonl"), bots_file = settings.directory / (name_of(cell) + ".bots.jsonl");
+  const std::string server_file = settings.directory / (name_of(cell) + ".server.jsonl"),
+                    bots_file = settings.directory / (name_of(cell) + ".bots.jsonl");
   game::write_evidence(server_file, server_evidence);
   write_evidence(bots_file, bots_evidence);
-  if (!experiment.is_of_curves) add_truth(record, experiment, server_file, bots_file, discovery_file(settings.directory, cell));
+  if (!experiment.is_of_curves)
+    add_truth(record, experiment, server_file, bots_file, discovery_file(settings.directory, cell));
 }
 
 }  // namespace
 
-std::optional<RunRecord> run_virtual_cell(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log) {
-  return recorded(experiment, cell, [&](RunRecord& record) { run(settings, experiment, cell, key_log, record); });
+std::optional<RunRecord> run_virtual_cell(const RunnerSettings& settings,
+                                          const Experiment& experiment, const Cell& cell,
+                                          const std::filesystem::path& key_log) {
+  return recorded(experiment, cell,
+                  [&](RunRecord& record) { run(settings, experiment, cell, key_log, record); });
 }
 
 }  // namespace rink::loadgen

@@ -9,12 +9,15 @@
 
 namespace rink::rti {
 
-Handshake::Handshake(const SharedKey& key, Role role, std::string_view federation, const Nonce& nonce) : key_(key), role_(role), federation_(federation), ours_(nonce) {
+Handshake::Handshake(const SharedKey& key, Role role, std::string_view federation,
+                     const Nonce& nonce)
+    : key_(key), role_(role), federation_(federation), ours_(nonce) {
   if (role == Role::federate) say(HelloMessage{protocol_version, nonce, federation});
 }
 
 ProofBasis Handshake::basis() const {
-  return role_ == Role::federate ? ProofBasis{ours_, *theirs_, federation_} : ProofBasis{*theirs_, ours_, federation_};
+  return role_ == Role::federate ? ProofBasis{ours_, *theirs_, federation_}
+                                 : ProofBasis{*theirs_, ours_, federation_};
 }
 
 template <class Message>
@@ -41,7 +44,8 @@ void Handshake::refuse(std::string_view why) {
 Handshake::State Handshake::receive(Bytes& bytes) {
   while (state_ == State::going_on && !bytes.empty()) {
     std::uint32_t length = 0;
-    if (incoming_.size() >= frame_header_size) std::memcpy(&length, incoming_.data(), sizeof length);
+    if (incoming_.size() >= frame_header_size)
+      std::memcpy(&length, incoming_.data(), sizeof length);
     const std::size_t wanted = frame_header_size + length;
     const Bytes taken = bytes.first(std::min(bytes.size(), wanted - incoming_.size()));
     incoming_.insert(incoming_.end(), taken.begin(), taken.end());
@@ -62,7 +66,8 @@ Handshake::State Handshake::receive(Bytes& bytes) {
 void Handshake::take_frame(Bytes frame) {
   const auto kind = static_cast<MessageKind>(frame.front());
   const Bytes body = frame.subspan(1);
-  if (role_ == Role::rti && !theirs_) return kind == MessageKind::hello ? take_hello(body) : refuse("wants a key");
+  if (role_ == Role::rti && !theirs_)
+    return kind == MessageKind::hello ? take_hello(body) : refuse("wants a key");
   if (role_ == Role::rti) return kind == MessageKind::proof ? take_proof(body) : refuse("no proof");
   if (kind == MessageKind::refused) return take_refusal(body);
   if (kind == MessageKind::challenge && !theirs_) return take_challenge(body);
@@ -73,9 +78,11 @@ void Handshake::take_frame(Bytes frame) {
 void Handshake::take_hello(Bytes body) {
   Reader reader(body);
   HelloMessage hello;
-  if (!exchange(reader, hello) || (hello.version == protocol_version && !reader.is_at_end())) return fail("no hello");
+  if (!exchange(reader, hello) || (hello.version == protocol_version && !reader.is_at_end()))
+    return fail("no hello");
   if (hello.version != protocol_version)
-    return refuse("other version: " + std::to_string(hello.version) + ", the RTI speaks " + std::to_string(protocol_version));
+    return refuse("other version: " + std::to_string(hello.version) + ", the RTI speaks " +
+                  std::to_string(protocol_version));
   if (hello.federation != federation_) return refuse("other federation");
   theirs_ = hello.nonce;
   say(ChallengeMessage{ours_});
@@ -101,7 +108,9 @@ void Handshake::take_proof(Bytes body) {
 void Handshake::take_admission(Bytes body) {
   Reader reader(body);
   AdmittedMessage admitted;
-  if (!exchange(reader, admitted) || !reader.is_at_end() || !key_.is_proven(Role::rti, basis(), admitted.block)) return fail("the RTI doesn't have our key");
+  if (!exchange(reader, admitted) || !reader.is_at_end() ||
+      !key_.is_proven(Role::rti, basis(), admitted.block))
+    return fail("the RTI doesn't have our key");
   state_ = State::proven;
 }
 

@@ -10,7 +10,8 @@
 
 namespace rink::rti {
 
-/// Hello, challenge, proof, proof. No I/O and no clock: bytes in, bytes out. The RTI's end never says more than it heard: `outgoing` stays empty rather.
+/// Hello, challenge, proof, proof. No I/O and no clock: bytes in, bytes out. The RTI's end never
+/// says more than it heard: `outgoing` stays empty rather.
 class Handshake {
  public:
   enum class State : std::uint8_t {
@@ -18,13 +19,15 @@ class Handshake {
     proven,  ///< the other end has the key
     failed,  ///< it has not, or said something else: send what is left and close
   };
-  /// `key` must outlive it. `nonce` must never have been used before. A federate's end has something to send at once.
+  /// `key` must outlive it. `nonce` must never have been used before. A federate's end has
+  /// something to send at once.
   Handshake(const SharedKey& key, Role role, std::string_view federation, const Nonce& nonce);
 
   State state() const { return state_; }
   /// After `failed`: a sentence for a user.
   const std::string& why() const { return why_; }
-  /// Takes from the front of `bytes`, which may be cut anywhere, no more than belongs to the handshake; what is left once it is proven is the conversation's.
+  /// Takes from the front of `bytes`, which may be cut anywhere, no more than belongs to the
+  /// handshake; what is left once it is proven is the conversation's.
   State receive(Bytes& bytes);
   Bytes outgoing() const { return outgoing_; }
   void clear_outgoing() { outgoing_.clear(); }

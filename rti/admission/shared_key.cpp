@@ -15,13 +15,18 @@ namespace rink::rti {
 
 namespace {
 
-const unsigned char* raw(const std::byte* bytes) { return reinterpret_cast<const unsigned char*>(bytes); }
+const unsigned char* raw(const std::byte* bytes) {
+  return reinterpret_cast<const unsigned char*>(bytes);
+}
 unsigned char* raw(std::byte* bytes) { return reinterpret_cast<unsigned char*>(bytes); }
 
-/// Begins what is hashed: a proof for anything else, or of another version, can't be taken for one of these.
+/// Begins what is hashed: a proof for anything else, or of another version, can't be taken for one
+/// of these.
 constexpr std::string_view purpose = "rink admission 1";
 
-void hash(crypto_generichash_state& state, Bytes bytes) { crypto_generichash_update(&state, raw(bytes.data()), bytes.size()); }
+void hash(crypto_generichash_state& state, Bytes bytes) {
+  crypto_generichash_update(&state, raw(bytes.data()), bytes.size());
+}
 
 }  // namespace
 
@@ -34,7 +39,9 @@ Nonce draw_nonce() {
 
 SharedKey::SharedKey(Bytes secret) {
   if (sodium_init() < 0) throw std::runtime_error("no source of random numbers");
-  if (secret.size() < secret_size_min) throw std::invalid_argument("a key needs at least " + std::to_string(secret_size_min) + " bytes, not " + std::to_string(secret.size()));
+  if (secret.size() < secret_size_min)
+    throw std::invalid_argument("a key needs at least " + std::to_string(secret_size_min) +
+                                " bytes, not " + std::to_string(secret.size()));
   crypto_generichash(raw(key_.data()), key_.size(), raw(secret.data()), secret.size(), nullptr, 0);
 }
 
@@ -46,7 +53,9 @@ SharedKey SharedKey::load(const std::filesystem::path& file) {
   try {
     return SharedKey(std::as_bytes(std::span(secret)));
   } catch (const std::invalid_argument& trouble) {
-    throw std::runtime_error(file.string() + ": " + trouble.what() + "; make one with: head -c 32 /dev/urandom | base64 > " + file.string());
+    throw std::runtime_error(file.string() + ": " + trouble.what() +
+                             "; make one with: head -c 32 /dev/urandom | base64 > " +
+                             file.string());
   }
 }
 
@@ -56,7 +65,9 @@ Proof SharedKey::prove(Role role, const ProofBasis& basis) const {
   crypto_generichash_state state;
   crypto_generichash_init(&state, raw(key_.data()), key_.size(), proof.size());
   hash(state, std::as_bytes(std::span(purpose)));
-  const std::array<std::byte, 4> head{static_cast<std::byte>(role), static_cast<std::byte>(protocol_version), static_cast<std::byte>(protocol_version >> 8),
+  const std::array<std::byte, 4> head{static_cast<std::byte>(role),
+                                      static_cast<std::byte>(protocol_version),
+                                      static_cast<std::byte>(protocol_version >> 8),
                                       static_cast<std::byte>(basis.federation.size())};
   hash(state, head);
   hash(state, basis.federate);

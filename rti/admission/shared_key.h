@@ -16,22 +16,26 @@ using Proof = std::array<std::byte, 32>;
 /// From the operating system's generator, as keys are.
 Nonce draw_nonce();
 
-/// Which end says it: a proof of one is none of the other's, so nobody can be answered with their own.
+/// Which end says it: a proof of one is none of the other's, so nobody can be answered with their
+/// own.
 enum class Role : std::uint8_t { federate = 1, rti = 2 };
 
-/// What a proof is bound to: both ends' nonces, so that an old one is worth nothing, and the federation, so that one of another is not either.
+/// What a proof is bound to: both ends' nonces, so that an old one is worth nothing, and the
+/// federation, so that one of another is not either.
 struct ProofBasis {
   Nonce federate{}, rti{};
   std::string_view federation;  ///< at most 255 bytes
 };
 
-/// Proofs are BLAKE2b keyed with the secret's own BLAKE2b, 32 bytes (libsodium's generichash); compared in constant time. The key is never sent.
+/// Proofs are BLAKE2b keyed with the secret's own BLAKE2b, 32 bytes (libsodium's generichash);
+/// compared in constant time. The key is never sent.
 class SharedKey {
  public:
   static constexpr std::size_t secret_size_min = 16;  ///< bytes
   /// Throws std::invalid_argument if the secret is shorter than `secret_size_min`.
   explicit SharedKey(Bytes secret);
-  /// The file's bytes without white space at its end. Throws std::runtime_error, which names the file and what is wrong.
+  /// The file's bytes without white space at its end. Throws std::runtime_error, which names the
+  /// file and what is wrong.
   static SharedKey load(const std::filesystem::path& file);
 
   Proof prove(Role role, const ProofBasis& basis) const;

@@ -5,11 +5,13 @@
 
 namespace rink::rti {
 
-/// Fills at `rate` per second up to a second's worth and starts full (Turner 1986). A rate of 0 limits nothing.
+/// Fills at `rate` per second up to a second's worth and starts full (Turner 1986). A rate of 0
+/// limits nothing.
 class TokenBucket {
  public:
   TokenBucket(double rate, double now_s) : rate_(rate), level_(rate), filled_s_(now_s) {}
-  /// False if there is not enough for `count` at `now_s`, which never decreases; then nothing is taken.
+  /// False if there is not enough for `count` at `now_s`, which never decreases; then nothing is
+  /// taken.
   bool take(double count, double now_s) {
     if (rate_ <= 0.0) return true;
     level_ = std::min(rate_, level_ + rate_ * (now_s - filled_s_));

@@ -11,7 +11,8 @@ namespace rink::rti {
 
 namespace {
 
-/// How many differences of each length there are: enough to choose by, and cheaper than to try every order on every record.
+/// How many differences of each length there are: enough to choose by, and cheaper than to try
+/// every order on every record.
 using Lengths = std::array<std::uint32_t, 65>;
 
 std::uint8_t best_order(const Lengths& lengths) {
@@ -19,7 +20,9 @@ std::uint8_t best_order(const Lengths& lengths) {
   std::uint8_t best = 0;
   for (unsigned order = 0; order <= golomb_order_max; ++order) {
     std::uint64_t bits = 0;
-    for (unsigned length = 0; length < lengths.size(); ++length) bits += std::uint64_t{lengths[length]} * (order + 1 + (length > order ? 2 * (length - order) - 1 : 0));
+    for (unsigned length = 0; length < lengths.size(); ++length)
+      bits += std::uint64_t{lengths[length]} *
+              (order + 1 + (length > order ? 2 * (length - order) - 1 : 0));
     if (bits >= least) continue;
     least = bits;
     best = static_cast<std::uint8_t>(order);
@@ -28,11 +31,14 @@ std::uint8_t best_order(const Lengths& lengths) {
 }
 
 /// True if `number` is one of the last `keyframe_window` up to `newest`.
-bool is_recent(std::uint16_t number, std::uint16_t newest) { return static_cast<std::uint16_t>(newest - number) < keyframe_window; }
+bool is_recent(std::uint16_t number, std::uint16_t newest) {
+  return static_cast<std::uint16_t>(newest - number) < keyframe_window;
+}
 
 }  // namespace
 
-Baselines::Baselines(const Fom& fom, std::uint32_t keyframe_period) : fom_(fom), period_(std::max(keyframe_period, 1u)) {
+Baselines::Baselines(const Fom& fom, std::uint32_t keyframe_period)
+    : fom_(fom), period_(std::max(keyframe_period, 1u)) {
   for (const ObjectClass& object_class : fom.object_classes())
     for (const Attribute& attribute : object_class.attributes)
       if (attribute.baselines) stride_ = std::max(stride_, attribute.baselines->fields().size());
@@ -40,7 +46,9 @@ Baselines::Baselines(const Fom& fom, std::uint32_t keyframe_period) : fom_(fom),
 
 const QuantisedCodec* Baselines::codec_of(const UpdateRun& run) const {
   if (std::popcount(run.attributes.bits) != 1) return nullptr;
-  return fom_.object_classes()[run.object_class].attributes[static_cast<std::size_t>(std::countr_zero(run.attributes.bits))].baselines.get();
+  return fom_.object_classes()[run.object_class]
+      .attributes[static_cast<std::size_t>(std::countr_zero(run.attributes.bits))]
+      .baselines.get();
 }
 
 void Baselines::begin(std::span<const UpdateRun> runs, std::size_t federate_slots) {
@@ -80,7 +88,8 @@ void Baselines::read(const UpdateRun& run, Periodic& periodic) {
   QuantisedCodec::Counts counts{};
   for (std::size_t i = 0; i < count; ++i) {
     periodic.is_full[i] = !periodic.codec->read_counts(run.values(i), counts);
-    std::copy_n(counts.begin(), stride_, periodic.counts.begin() + static_cast<std::ptrdiff_t>(i * stride_));
+    std::copy_n(counts.begin(), stride_,
+                periodic.counts.begin() + static_cast<std::ptrdiff_t>(i * stride_));
   }
 }
 
@@ -88,9 +97,12 @@ void Baselines::keep(const UpdateRun& run, const Periodic& periodic) {
   Keyframe& keyframe = keyframes_[number_ % keyframe_window];
   for (std::size_t i = 0; i < run.slots.size(); ++i) {
     const ObjectSlot slot = run.slots[i];
-    if (slot >= keyframe.records.size()) keyframe.records.resize(slot + 1), keyframe.counts.resize((slot + 1) * stride_);
-    keyframe.records[slot] = {periodic.is_full[i] ? ObjectHandle::none : run.records[i].handle, run.stamp.time};
-    std::copy_n(periodic.counts.begin() + static_cast<std::ptrdiff_t>(i * stride_), stride_, keyframe.counts.begin() + static_cast<std::ptrdiff_t>(slot * stride_));
+    if (slot >= keyframe.records.size())
+      keyframe.records.resize(slot + 1), keyframe.counts.resize((slot + 1) * stride_);
+    keyframe.records[slot] = {periodic.is_full[i] ? ObjectHandle::none : run.records[i].handle,
+                              run.stamp.time};
+    std::copy_n(periodic.counts.begin() + static_cast<std::ptrdiff_t>(i * stride_), stride_,
+                keyframe.counts.begin() + static_cast<std::ptrdiff_t>(slot * stride_));
   }
 }
 
@@ -99,7 +111,8 @@ std::optional<std::uint16_t> Baselines::usable(std::uint32_t federate) const {
   return acknowledged && is_recent(*acknowledged, number_) ? acknowledged : std::nullopt;
 }
 
-const DeltaBlock& Baselines::block(const UpdateRun& run, std::size_t index, std::uint32_t federate) {
+const DeltaBlock& Baselines::block(const UpdateRun& run, std::size_t index,
+                                   std::uint32_t federate) {
   const std::optional<std::uint16_t> keyframe = usable(federate);
   for (std::size_t i = 0; i < block_count_; ++i)
     if (blocks_[i].run == index && blocks_[i].keyframe == keyframe) return blocks_[i];
@@ -112,12 +125,16 @@ const DeltaBlock& Baselines::block(const UpdateRun& run, std::size_t index, std:
   return block;
 }
 
-const Baselines::Keyframe::Record* Baselines::baseline(const DeltaBlock& block, const UpdateRun& run, std::size_t record, std::span<const std::int64_t>& counts) const {
+const Baselines::Keyframe::Record* Baselines::baseline(
+    const DeltaBlock& block, const UpdateRun& run, std::size_t record,
+    std::span<const std::int64_t>& counts) const {
   if (!block.keyframe || periodic_[block.run].is_full[record]) return nullptr;
   const Keyframe& keyframe = keyframes_[*block.keyframe % keyframe_window];
   const ObjectSlot slot = run.slots[record];
   // A keyframe of this very flush is nobody's baseline yet, and a slot may have had another object.
-  if (keyframe.number != block.keyframe || slot >= keyframe.records.size() || keyframe.records[slot].object != run.records[record].handle) return nullptr;
+  if (keyframe.number != block.keyframe || slot >= keyframe.records.size() ||
+      keyframe.records[slot].object != run.records[record].handle)
+    return nullptr;
   counts = std::span(keyframe.counts).subspan(slot * stride_, stride_);
   return &keyframe.records[slot];
 }
@@ -133,11 +150,13 @@ void Baselines::choose_orders(DeltaBlock& block, const UpdateRun& run) const {
     if (record == nullptr) continue;
     block.header.has_baseline = true;
     predict(*periodic.codec, counts, run.stamp.time - record->time, predicted);
-    for (std::size_t field = 0; field < field_count; ++field) ++lengths[field][std::bit_width(zigzag(counts_of(periodic, i)[field] - predicted[field]))];
+    for (std::size_t field = 0; field < field_count; ++field)
+      ++lengths[field][std::bit_width(zigzag(counts_of(periodic, i)[field] - predicted[field]))];
   }
   if (!block.header.has_baseline) return;
   block.header.baseline = *block.keyframe;
-  for (std::size_t field = 0; field < field_count; ++field) block.header.orders[field] = best_order(lengths[field]);
+  for (std::size_t field = 0; field < field_count; ++field)
+    block.header.orders[field] = best_order(lengths[field]);
 }
 
 void Baselines::encode(DeltaBlock& block, const UpdateRun& run) const {
@@ -160,13 +179,15 @@ void Baselines::encode(DeltaBlock& block, const UpdateRun& run) const {
     const bool is_difference = append_difference(bits, block, run, i);
     if (is_difference) block.differences.insert(run.slots[i]), ++block.difference_count;
     else append_absolute(bits, run, block.run, i);
-    block.records.push_back({static_cast<std::uint32_t>(8 * body + at), static_cast<std::uint32_t>(bits.at() - at), is_difference});
+    block.records.push_back({static_cast<std::uint32_t>(8 * body + at),
+                             static_cast<std::uint32_t>(bits.at() - at), is_difference});
   }
   write_end(bits);
 }
 
 /// False, and nothing is written, if there is no baseline or the absolute state is no longer.
-bool Baselines::append_difference(BitWriter& bits, const DeltaBlock& block, const UpdateRun& run, std::size_t index) const {
+bool Baselines::append_difference(BitWriter& bits, const DeltaBlock& block, const UpdateRun& run,
+                                  std::size_t index) const {
   std::span<const std::int64_t> counts;
   const Keyframe::Record* record = baseline(block, run, index, counts);
   if (record == nullptr) return false;
@@ -181,9 +202,11 @@ bool Baselines::append_difference(BitWriter& bits, const DeltaBlock& block, cons
   return exchange_differences(bits, *periodic.codec, block.header.orders, predicted, said);
 }
 
-void Baselines::append_absolute(BitWriter& bits, const UpdateRun& run, std::size_t index, std::size_t record) const {
+void Baselines::append_absolute(BitWriter& bits, const UpdateRun& run, std::size_t index,
+                                std::size_t record) const {
   bits.flag(true);
-  append_bits(bits, run.values(record), 0, periodic_[index].codec->coded_bits(periodic_[index].is_full[record]));
+  append_bits(bits, run.values(record), 0,
+              periodic_[index].codec->coded_bits(periodic_[index].is_full[record]));
 }
 
 std::uint64_t Baselines::known(std::uint32_t federate, std::size_t word) const {
@@ -204,8 +227,12 @@ void Baselines::tell(std::uint32_t federate, std::size_t word, std::uint64_t obj
 
 void Baselines::acknowledge(std::uint32_t federate, std::uint16_t number) {
   Receiver* receiver = federate < receivers_.size() ? &receivers_[federate] : nullptr;
-  const bool was_sent = receiver != nullptr && !receiver->sent.empty() && receiver->sent[number % keyframe_window].number == number && is_recent(number, number_);
-  const bool is_newer = was_sent && (!receiver->acknowledged || static_cast<std::int16_t>(number - *receiver->acknowledged) > 0);
+  const bool was_sent = receiver != nullptr && !receiver->sent.empty() &&
+                        receiver->sent[number % keyframe_window].number == number &&
+                        is_recent(number, number_);
+  const bool is_newer =
+      was_sent &&
+      (!receiver->acknowledged || static_cast<std::int16_t>(number - *receiver->acknowledged) > 0);
   if (is_newer) receiver->acknowledged = number;
   ++(is_newer ? counters_.acknowledged : counters_.acknowledgements_ignored);
 }

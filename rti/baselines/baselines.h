@@ -1,4 +1,5 @@
-// Periodic state at the RTI: keyframes that all receivers share, who has acknowledged which, and blocks of differences that are encoded once for all who have the same.
+// Periodic state at the RTI: keyframes that all receivers share, who has acknowledged which, and
+// blocks of differences that are encoded once for all who have the same.
 #pragma once
 
 #include <cstdint>
@@ -30,10 +31,12 @@ struct DeltaBlock {
   std::size_t difference_count = 0;
 };
 
-/// One for a federation execution. A flush is `begin`, any number of looks at blocks for each federate, `end`. Costs nothing where no attribute has baselines.
+/// One for a federation execution. A flush is `begin`, any number of looks at blocks for each
+/// federate, `end`. Costs nothing where no attribute has baselines.
 class Baselines {
  public:
-  /// Every `keyframe_period`-th flush with periodic state is a keyframe: the more often, the nearer the baselines and the more acknowledgements.
+  /// Every `keyframe_period`-th flush with periodic state is a keyframe: the more often, the nearer
+  /// the baselines and the more acknowledgements.
   Baselines(const Fom& fom, std::uint32_t keyframe_period);
 
   void begin(std::span<const UpdateRun> runs, std::size_t federate_slots);
@@ -41,7 +44,9 @@ class Baselines {
   /// True if the run is told by baselines.
   bool covers(std::size_t run) const { return run < run_count_ && periodic_[run].codec != nullptr; }
   /// The keyframe that this flush is, if it is one.
-  std::optional<std::uint16_t> keyframe() const { return is_keyframe_ ? std::optional(number_) : std::nullopt; }
+  std::optional<std::uint16_t> keyframe() const {
+    return is_keyframe_ ? std::optional(number_) : std::nullopt;
+  }
 
   /// What `federate` is to be told of a run that is covered, before it is cut to its interest.
   const DeltaBlock& block(const UpdateRun& run, std::size_t index, std::uint32_t federate);
@@ -50,11 +55,13 @@ class Baselines {
   /// These objects' records of this keyframe go to `federate`.
   void tell(std::uint32_t federate, std::size_t word, std::uint64_t objects);
   /// What stands for a record whose baseline is not known.
-  void append_absolute(BitWriter& bits, const UpdateRun& run, std::size_t index, std::size_t record) const;
+  void append_absolute(BitWriter& bits, const UpdateRun& run, std::size_t index,
+                       std::size_t record) const;
   const QuantisedCodec& codec(std::size_t run) const { return *periodic_[run].codec; }
 
   void acknowledge(std::uint32_t federate, std::uint16_t number);
-  /// The federate lacks a baseline: it gets absolute states until it acknowledges a keyframe that is yet to come.
+  /// The federate lacks a baseline: it gets absolute states until it acknowledges a keyframe that
+  /// is yet to come.
   void refuse(std::uint32_t federate);
   /// Somebody else takes the slot.
   void forget(std::uint32_t federate);
@@ -93,11 +100,15 @@ class Baselines {
   void read(const UpdateRun& run, Periodic& periodic);
   void keep(const UpdateRun& run, const Periodic& periodic);
   std::optional<std::uint16_t> usable(std::uint32_t federate) const;
-  const Keyframe::Record* baseline(const DeltaBlock& block, const UpdateRun& run, std::size_t record, std::span<const std::int64_t>& counts) const;
+  const Keyframe::Record* baseline(const DeltaBlock& block, const UpdateRun& run,
+                                   std::size_t record, std::span<const std::int64_t>& counts) const;
   void choose_orders(DeltaBlock& block, const UpdateRun& run) const;
   void encode(DeltaBlock& block, const UpdateRun& run) const;
-  bool append_difference(BitWriter& bits, const DeltaBlock& block, const UpdateRun& run, std::size_t record) const;
-  std::span<const std::int64_t> counts_of(const Periodic& periodic, std::size_t record) const { return std::span(periodic.counts).subspan(record * stride_, periodic.codec->fields().size()); }
+  bool append_difference(BitWriter& bits, const DeltaBlock& block, const UpdateRun& run,
+                         std::size_t record) const;
+  std::span<const std::int64_t> counts_of(const Periodic& periodic, std::size_t record) const {
+    return std::span(periodic.counts).subspan(record * stride_, periodic.codec->fields().size());
+  }
 
   const Fom& fom_;
   std::uint32_t period_;
@@ -109,7 +120,7 @@ class Baselines {
   std::vector<Receiver> receivers_;  ///< by federate slot
   std::vector<Periodic> periodic_;   ///< by run
   std::size_t run_count_ = 0;
-  std::vector<DeltaBlock> blocks_;   ///< of this flush
+  std::vector<DeltaBlock> blocks_;  ///< of this flush
   std::size_t block_count_ = 0;
   BaselineCounters counters_;
 };

@@ -1,4 +1,5 @@
-// The bits of a block of periodic state: a header, then for each object a step to its handle and its state, as a difference to what its baseline foretells or absolute.
+// The bits of a block of periodic state: a header, then for each object a step to its handle and
+// its state, as a difference to what its baseline foretells or absolute.
 #pragma once
 
 #include <algorithm>
@@ -27,11 +28,13 @@ bool exchange(Stream& stream, DeltaHeader& header, std::size_t field_count) {
   if (!stream.flag(header.has_baseline)) return false;
   if (!header.has_baseline) return true;
   bool is_whole = stream.bits(header.baseline, 16);
-  for (std::size_t i = 0; is_whole && i < field_count; ++i) is_whole = stream.bits(header.orders[i], 5);
+  for (std::size_t i = 0; is_whole && i < field_count; ++i)
+    is_whole = stream.bits(header.orders[i], 5);
   return is_whole;
 }
 
-/// The next handle, or the end: 1 for the neighbour above, else 0 and the step (rti/wire/update_block.h), whose 0 is the end.
+/// The next handle, or the end: 1 for the neighbour above, else 0 and the step
+/// (rti/wire/update_block.h), whose 0 is the end.
 inline constexpr unsigned handle_order = 4;
 inline void write_handle(BitWriter& bits, std::uint32_t previous, std::uint32_t handle) {
   const bool is_next = handle == previous + 1;
@@ -45,7 +48,8 @@ inline void write_end(BitWriter& bits) {
 inline HandleReader::Next read_handle(BitReader& bits, std::uint32_t& handle) {
   bool is_next = false;
   std::uint64_t step = 0;
-  if (!bits.flag(is_next) || (!is_next && !bits.golomb(step, handle_order))) return HandleReader::Next::malformed;
+  if (!bits.flag(is_next) || (!is_next && !bits.golomb(step, handle_order)))
+    return HandleReader::Next::malformed;
   if (!is_next && step == 0) return HandleReader::Next::end;
   const std::int64_t value = std::int64_t{handle} + (is_next ? 1 : from_zigzag(step - 1));
   if (value < 0 || value > 0xffffffffll) return HandleReader::Next::malformed;
@@ -53,23 +57,29 @@ inline HandleReader::Next read_handle(BitReader& bits, std::uint32_t& handle) {
   return HandleReader::Next::handle;
 }
 
-/// What a baseline's counts become after `elapsed` s if every rate stays as it is. The same bits at both ends: no sum is rounded twice.
-inline void predict(const QuantisedCodec& codec, std::span<const std::int64_t> baseline, double elapsed, QuantisedCodec::Counts& predicted) {
+/// What a baseline's counts become after `elapsed` s if every rate stays as it is. The same bits at
+/// both ends: no sum is rounded twice.
+inline void predict(const QuantisedCodec& codec, std::span<const std::int64_t> baseline,
+                    double elapsed, QuantisedCodec::Counts& predicted) {
   const std::span<const QuantisedField> fields = codec.fields();
   for (std::size_t i = 0; i < fields.size(); ++i) predicted[i] = baseline[i];
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (!fields[i].rate_of) continue;
     const std::uint32_t moved = *fields[i].rate_of;
     const Quantisation& grid = *fields[moved].grid;
-    const double steps = std::nearbyint(fields[i].grid->value(static_cast<std::uint64_t>(baseline[i])) * elapsed / grid.step);
-    if (!(std::abs(steps) < 0x1p50)) continue;  // no instants that anybody means; not a number, perhaps
-    predicted[moved] = std::clamp<std::int64_t>(predicted[moved] + static_cast<std::int64_t>(steps), 0, static_cast<std::int64_t>(grid.last));
+    const double steps = std::nearbyint(
+        fields[i].grid->value(static_cast<std::uint64_t>(baseline[i])) * elapsed / grid.step);
+    if (!(std::abs(steps) < 0x1p50))
+      continue;  // no instants that anybody means; not a number, perhaps
+    predicted[moved] = std::clamp<std::int64_t>(predicted[moved] + static_cast<std::int64_t>(steps),
+                                                0, static_cast<std::int64_t>(grid.last));
   }
 }
 
 /// The counts as differences to the predicted ones; a reader returns false if one leaves its range.
 template <class Stream>
-bool exchange_differences(Stream& stream, const QuantisedCodec& codec, const Orders& orders, const QuantisedCodec::Counts& predicted, QuantisedCodec::Counts& counts) {
+bool exchange_differences(Stream& stream, const QuantisedCodec& codec, const Orders& orders,
+                          const QuantisedCodec::Counts& predicted, QuantisedCodec::Counts& counts) {
   const std::span<const QuantisedField> fields = codec.fields();
   for (std::size_t i = 0; i < fields.size(); ++i) {
     std::uint64_t difference = Stream::is_reading ? 0 : zigzag(counts[i] - predicted[i]);

@@ -29,7 +29,8 @@ void KeyframeMemory::begin(std::uint16_t number) {
 
 void KeyframeMemory::add(std::uint32_t object, double time, std::span<const std::int64_t> counts) {
   Keyframe& keyframe = place_of(*open_);
-  keyframe.records.push_back({object, static_cast<std::uint32_t>(keyframe.counts.size()), static_cast<std::uint32_t>(counts.size()), time});
+  keyframe.records.push_back({object, static_cast<std::uint32_t>(keyframe.counts.size()),
+                              static_cast<std::uint32_t>(counts.size()), time});
   keyframe.counts.insert(keyframe.counts.end(), counts.begin(), counts.end());
 }
 
@@ -37,21 +38,30 @@ std::optional<std::uint16_t> KeyframeMemory::seal() {
   if (!open_) return std::nullopt;
   Keyframe& keyframe = place_of(*open_);
   const auto by_object = [](const Record& a, const Record& b) { return a.object < b.object; };
-  if (!std::ranges::is_sorted(keyframe.records, by_object)) std::ranges::stable_sort(keyframe.records, by_object);
+  if (!std::ranges::is_sorted(keyframe.records, by_object))
+    std::ranges::stable_sort(keyframe.records, by_object);
   keyframe.number = open_;
   open_.reset();
   return keyframe.number;
 }
 
-std::optional<KeyframeMemory::Baseline> KeyframeMemory::find(std::uint16_t number, std::uint32_t object) {
+std::optional<KeyframeMemory::Baseline> KeyframeMemory::find(std::uint16_t number,
+                                                             std::uint32_t object) {
   if (keyframes_.empty()) return std::nullopt;
   Keyframe& keyframe = place_of(number);
   if (keyframe.number != number) return std::nullopt;
   const std::vector<Record>& records = keyframe.records;
-  const auto is_last_of = [&](std::size_t at) { return at < records.size() && records[at].object == object && (at + 1 == records.size() || records[at + 1].object != object); };
+  const auto is_last_of = [&](std::size_t at) {
+    return at < records.size() && records[at].object == object &&
+           (at + 1 == records.size() || records[at + 1].object != object);
+  };
   if (!is_last_of(keyframe.next)) {
-    const auto beyond = std::ranges::upper_bound(records, object, {}, &Record::object);  // an object that was told twice is as it was told last
-    keyframe.next = beyond == records.begin() ? records.size() : static_cast<std::size_t>(beyond - records.begin()) - 1;
+    const auto beyond = std::ranges::upper_bound(
+        records, object, {},
+        &Record::object);  // an object that was told twice is as it was told last
+    keyframe.next = beyond == records.begin()
+                        ? records.size()
+                        : static_cast<std::size_t>(beyond - records.begin()) - 1;
     if (!is_last_of(keyframe.next)) return std::nullopt;
   }
   const Record& record = records[keyframe.next++];
@@ -66,7 +76,9 @@ void KeyframeMemory::drop_before(std::uint16_t number) {
 std::size_t KeyframeMemory::memory_bytes() const {
   std::size_t sum = keyframes_.capacity() * sizeof(Keyframe);
   for (const std::vector<Keyframe>* all : {&keyframes_, &spare_})
-    for (const Keyframe& each : *all) sum += each.records.capacity() * sizeof(Record) + each.counts.capacity() * sizeof(std::int64_t);
+    for (const Keyframe& each : *all)
+      sum +=
+          each.records.capacity() * sizeof(Record) + each.counts.capacity() * sizeof(std::int64_t);
   return sum + spare_.capacity() * sizeof(Keyframe);
 }
 

@@ -1,4 +1,5 @@
-// What a federate keeps of the keyframes that it was sent, so that differences to them have something to be differences to.
+// What a federate keeps of the keyframes that it was sent, so that differences to them have
+// something to be differences to.
 #pragma once
 
 #include <array>
@@ -12,7 +13,8 @@ namespace rink::rti {
 /// Keyframes that an RTI may refer to: those of the last so many numbers.
 inline constexpr std::uint16_t keyframe_window = 32;
 
-/// The last few keyframes, each with the counts of its objects. Its memory follows what was sent since the oldest keyframe that the RTI still refers to.
+/// The last few keyframes, each with the counts of its objects. Its memory follows what was sent
+/// since the oldest keyframe that the RTI still refers to.
 class KeyframeMemory {
  public:
   /// An object's state at a keyframe.
@@ -27,7 +29,8 @@ class KeyframeMemory {
   void add(std::uint32_t object, double time, std::span<const std::int64_t> counts);
   /// Completes the keyframe that was begun, if any, and gives its number.
   std::optional<std::uint16_t> seal();
-  /// Nothing if the object or the keyframe is not known. Valid until the next call of another member. Fastest in ascending order of objects.
+  /// Nothing if the object or the keyframe is not known. Valid until the next call of another
+  /// member. Fastest in ascending order of objects.
   std::optional<Baseline> find(std::uint16_t number, std::uint32_t object);
   /// Nobody will refer to a keyframe before this one any more.
   void drop_before(std::uint16_t number);
@@ -48,7 +51,8 @@ class KeyframeMemory {
   void clear(Keyframe& keyframe);
 
   std::vector<Keyframe> keyframes_;  ///< none before the first is begun
-  /// Memory of cleared keyframes. The next one to begin takes it, so a federate touches as much as is referred to and not a window of 32 in turn.
+  /// Memory of cleared keyframes. The next one to begin takes it, so a federate touches as much as
+  /// is referred to and not a window of 32 in turn.
   std::vector<Keyframe> spare_;
   std::optional<std::uint16_t> open_;
 };

@@ -4,12 +4,15 @@
 namespace rink::rti {
 
 BestEffortOutbox::BestEffortOutbox(const Fom& fom) : fom_(fom) {
-  for (const ObjectClass& each : fom.object_classes()) best_effort_.push_back(best_effort_attributes(each));
+  for (const ObjectClass& each : fom.object_classes())
+    best_effort_.push_back(best_effort_attributes(each));
 }
 
-bool BestEffortOutbox::say(ObjectHandle object, ObjectClassHandle object_class, AttributeSet set, const Stamp& stamp, Bytes coded) {
+bool BestEffortOutbox::say(ObjectHandle object, ObjectClassHandle object_class, AttributeSet set,
+                           const Stamp& stamp, Bytes coded) {
   if (batch_.is_empty()) begin();
-  if (!batch_.add(static_cast<std::uint16_t>(object_class.value), set, stamp, object.value, coded)) return false;
+  if (!batch_.add(static_cast<std::uint16_t>(object_class.value), set, stamp, object.value, coded))
+    return false;
   Kept& kept = kept_[object];
   kept.object_class = static_cast<std::uint16_t>(object_class.value);
   kept.values.resize(fom_.at(object_class).attributes.size());
@@ -55,14 +58,16 @@ bool BestEffortOutbox::acknowledge(const AcknowledgeDatagramsMessage& message, d
 void BestEffortOutbox::advance_clock(double now, std::uint32_t frames) {
   way_.ledger.expire(now, way_.due);
   const std::optional<double> since = way_.ledger.unanswered_since();
-  const bool is_open = size_max_ >= size_min, is_silent = since && now - *since > DatagramWay::fallback_after_s;
+  const bool is_open = size_max_ >= size_min,
+             is_silent = since && now - *since > DatagramWay::fallback_after_s;
   if (!way_.has_fallen_back && (is_silent || (!is_open && way_.ledger.unsettled() > 0))) {
     way_.has_fallen_back = true;
     way_.probed_s = now;
     way_.ledger.abandon(way_.due);
     ++fallbacks;
   }
-  if (!way_.has_fallen_back || !is_open || now - way_.probed_s < DatagramWay::probe_period_s) return;
+  if (!way_.has_fallen_back || !is_open || now - way_.probed_s < DatagramWay::probe_period_s)
+    return;
   way_.probed_s = now;
   DatagramHead head{way_.ledger.note(now), frames};
   Writer writer(bytes_);

@@ -1,4 +1,5 @@
-// A federate's own best-effort updates on their way to the RTI by datagram: what goes out, what is unsettled, and the newest value of each, should it be lost.
+// A federate's own best-effort updates on their way to the RTI by datagram: what goes out, what is
+// unsettled, and the newest value of each, should it be lost.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,8 @@
 
 namespace rink::rti {
 
-/// Made when there is a way. It keeps the newest value of each best-effort attribute that it sent, as long as the object is ours: a repair sends that, not what was lost.
+/// Made when there is a way. It keeps the newest value of each best-effort attribute that it sent,
+/// as long as the object is ours: a repair sends that, not what was lost.
 class BestEffortOutbox {
  public:
   static constexpr std::size_t size_min = 256;  ///< less is no use for a way [bytes]
@@ -21,10 +23,14 @@ class BestEffortOutbox {
   /// The most bytes that a datagram may have now; 0 while there is no way.
   void set_size(std::size_t size_max) { size_max_ = size_max; }
   bool is_usable() const { return size_max_ >= size_min && !way_.has_fallen_back; }
-  AttributeSet best_effort(ObjectClassHandle object_class) const { return best_effort_[object_class.value]; }
+  AttributeSet best_effort(ObjectClassHandle object_class) const {
+    return best_effort_[object_class.value];
+  }
 
-  /// `coded` are the values of `set`, all of them best-effort. False if it does not fit a datagram: then it goes by the stream.
-  bool say(ObjectHandle object, ObjectClassHandle object_class, AttributeSet set, const Stamp& stamp, Bytes coded);
+  /// `coded` are the values of `set`, all of them best-effort. False if it does not fit a datagram:
+  /// then it goes by the stream.
+  bool say(ObjectHandle object, ObjectClassHandle object_class, AttributeSet set,
+           const Stamp& stamp, Bytes coded);
   /// True if some have not been sealed: a frame that is written now counts as said before them.
   bool is_pending() const { return !batch_.is_empty(); }
   /// What is pending was said after `frames` frames.
@@ -48,7 +54,8 @@ class BestEffortOutbox {
 
   /// False if it acknowledges what was never sent. A way that had fallen back is open again.
   bool acknowledge(const AcknowledgeDatagramsMessage& message, double now);
-  /// Whether datagrams went unanswered for too long; then all that is unsettled is `due`, and a probe asks now and then.
+  /// Whether datagrams went unanswered for too long; then all that is unsettled is `due`, and a
+  /// probe asks now and then.
   void advance_clock(double now, std::uint32_t frames);
   /// What was lost, to be said again as it is now. Taken by the caller.
   std::vector<DatagramLedger::Lost>& due() { return way_.due; }
@@ -69,8 +76,8 @@ class BestEffortOutbox {
   DatagramWay way_{batch_.lists()};
   std::size_t size_max_ = 0;
   ObjectMap<Kept> kept_;
-  std::vector<std::byte> bytes_;     ///< of sealed datagrams
-  std::vector<std::size_t> ends_;    ///< where each of them ends
+  std::vector<std::byte> bytes_;   ///< of sealed datagrams
+  std::vector<std::size_t> ends_;  ///< where each of them ends
   std::vector<Datagram> sealed_;
 };
 

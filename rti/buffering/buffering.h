@@ -1,5 +1,5 @@
-// The seam of buffering: how the updates of a flush are collected, and whether a destination gets them now or its newest state later. `NewestState` is the one
-// that comes with the RTI.
+// The seam of buffering: how the updates of a flush are collected, and whether a destination gets
+// them now or its newest state later. `NewestState` is the one that comes with the RTI.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,18 @@ class Buffering {
   virtual ~Buffering() = default;
 
   /// One update, `values` as they travel. Updates of one object keep their order.
-  virtual void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp, Bytes values) = 0;
-  /// What was appended since `clear`, for all who hear of it; valid until `clear`. No `append` may follow before that.
+  virtual void append(std::uint32_t owner, ObjectSlot slot, const Object& object,
+                      AttributeSet attributes, const Stamp& stamp, Bytes values) = 0;
+  /// What was appended since `clear`, for all who hear of it; valid until `clear`. No `append` may
+  /// follow before that.
   virtual std::span<const UpdateRun> seal() = 0;
   virtual void clear() = 0;
 
-  /// True if `federate`, which has not taken `waiting_bytes` of what was sent to it, is told no values by this flush. The RTI remembers which objects it
-  /// would have heard of, and by the first flush that does not hold back tells it their newest state, once. Discoveries, scope changes, interactions, removals and all
-  /// about the federation go out in their order anyway. Asked once per flush of each federate for which there may be values.
+  /// True if `federate`, which has not taken `waiting_bytes` of what was sent to it, is told no
+  /// values by this flush. The RTI remembers which objects it would have heard of, and by the first
+  /// flush that does not hold back tells it their newest state, once. Discoveries, scope changes,
+  /// interactions, removals and all about the federation go out in their order anyway. Asked once
+  /// per flush of each federate for which there may be values.
   virtual bool holds_back(std::uint32_t federate, std::size_t waiting_bytes) = 0;
   /// Its slot may be another's from now on.
   virtual void remove_federate(std::uint32_t federate) = 0;

@@ -13,14 +13,16 @@ namespace {
 constexpr std::size_t block_overhead_max = StampMessage::size_max + 1 + 5 + 5 + 1;
 constexpr std::size_t step_max = 5;
 
-void begin_block(std::vector<std::byte>& bytes, std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp) {
+void begin_block(std::vector<std::byte>& bytes, std::uint16_t object_class, AttributeSet attributes,
+                 const Stamp& stamp) {
   StampMessage stamped{stamp};
   write(bytes, stamped);
   UpdatesMessage header{object_class, attributes.bits};
   write(bytes, header);
 }
 
-void put_record(std::vector<std::byte>& bytes, std::uint32_t& last, std::uint32_t handle, Bytes values) {
+void put_record(std::vector<std::byte>& bytes, std::uint32_t& last, std::uint32_t handle,
+                Bytes values) {
   std::uint64_t step = handle_step(last, handle);
   Writer(bytes).varint(step);
   last = handle;
@@ -53,9 +55,11 @@ void CutRun::cut(const UpdateRun& run, std::size_t part_max, SaidLists& lists) {
       fits = false;
       return;
     }
-    const bool is_full = !parts.empty() && bytes.size() - parts.back().from + step_max + values.size() + 1 > size_max;
+    const bool is_full = !parts.empty() &&
+                         bytes.size() - parts.back().from + step_max + values.size() + 1 > size_max;
     if (is_full) {
-      bytes.resize(parts.back().from + size_max);  // zeros: the end of the block, of the messages, and padding
+      bytes.resize(parts.back().from +
+                   size_max);  // zeros: the end of the block, of the messages, and padding
       end_part(lists);
     }
     if (is_full || parts.empty()) {
@@ -140,21 +144,31 @@ void DatagramBatch::close(bool is_full) {
 void DatagramBatch::add(const CutRun& cut) {
   for (const CutRun::Part& part : cut.parts) {
     const Bytes body = Bytes(cut.bytes).subspan(part.from, part.to - part.from);
-    // A short one shares its datagram with others if any follow or came before; a long one is its own. Either way nothing is copied if it stays alone.
-    const bool is_short = 2 * body.size() < size_max_, follows_short = is_open_ || (!planned_.empty() && planned_.back().is_short);
+    // A short one shares its datagram with others if any follow or came before; a long one is its
+    // own. Either way nothing is copied if it stays alone.
+    const bool is_short = 2 * body.size() < size_max_,
+               follows_short = is_open_ || (!planned_.empty() && planned_.back().is_short);
     if (is_short && follows_short) {
       make_room(body.size() + 1);
       copy(body, part.said);
       continue;
     }
     close(false);
-    planned_.push_back({.shared = body, .from = 0, .to = 0, .said = part.said, .is_short = is_short, .said_from = 0, .said_to = 0});
+    planned_.push_back({.shared = body,
+                        .from = 0,
+                        .to = 0,
+                        .said = part.said,
+                        .is_short = is_short,
+                        .said_from = 0,
+                        .said_to = 0});
   }
 }
 
-bool DatagramBatch::add(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp, std::uint32_t handle, Bytes values) {
+bool DatagramBatch::add(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp,
+                        std::uint32_t handle, Bytes values) {
   if (block_overhead_max + step_max + values.size() > size_max_) return false;
-  const bool continues = has_block_ && block_class_ == object_class && block_attributes_ == attributes && block_stamp_ == stamp;
+  const bool continues = has_block_ && block_class_ == object_class &&
+                         block_attributes_ == attributes && block_stamp_ == stamp;
   const std::size_t needed = step_max + values.size() + 1 + (continues ? 0 : block_overhead_max);
   make_room(needed);
   if (!has_block_ || !continues) {
@@ -172,14 +186,17 @@ bool DatagramBatch::add(std::uint16_t object_class, AttributeSet attributes, con
   return true;
 }
 
-std::span<const Datagram> DatagramBatch::finish(std::uint32_t frames, DatagramLedger& ledger, double now) {
+std::span<const Datagram> DatagramBatch::finish(std::uint32_t frames, DatagramLedger& ledger,
+                                                double now) {
   close(false);
   heads_.clear();
   finished_.clear();
   for (const Planned& each : planned_) {
     const bool is_own = each.said == SaidLists::none;
     if (!is_own) lists_.hold(each.said);
-    const SaidLists::Number said = is_own ? lists_.add(said_.groups().subspan(each.said_from, each.said_to - each.said_from)) : each.said;
+    const SaidLists::Number said =
+        is_own ? lists_.add(said_.groups().subspan(each.said_from, each.said_to - each.said_from))
+               : each.said;
     DatagramHead head{ledger.note(now, said), frames};
     Writer writer(heads_);
     exchange(writer, head);
@@ -188,7 +205,9 @@ std::span<const Datagram> DatagramBatch::finish(std::uint32_t frames, DatagramLe
     const Planned& each = planned_[i];
     const Bytes head = Bytes(heads_).subspan(i * DatagramHead::size, DatagramHead::size);
     const bool is_own = each.shared.empty();
-    finished_.push_back({head, is_own ? Bytes(bytes_).subspan(each.from, each.to - each.from) : each.shared, !is_own});
+    finished_.push_back(
+        {head, is_own ? Bytes(bytes_).subspan(each.from, each.to - each.from) : each.shared,
+         !is_own});
   }
   return finished_;
 }

@@ -1,4 +1,5 @@
-// The datagrams of one flush: cut once from runs of updates for all who hear of a whole run, gathered record by record for others.
+// The datagrams of one flush: cut once from runs of updates for all who hear of a whole run,
+// gathered record by record for others.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,8 @@
 
 namespace rink::rti {
 
-/// A run in datagrams, each complete in itself: stamp, header, records, end. All but the last are padded to one size.
+/// A run in datagrams, each complete in itself: stamp, header, records, end. All but the last are
+/// padded to one size.
 class CutRun {
  public:
   struct Part {
@@ -40,24 +42,27 @@ class DatagramBatch {
 
   /// A new destination, whose datagrams have bodies of at most `size_max` bytes.
   void begin(std::size_t size_max);
-  /// The whole run. Its parts are not copied unless they are short; they must stay until the next `begin_tick`.
+  /// The whole run. Its parts are not copied unless they are short; they must stay until the next
+  /// `begin_tick`.
   void add(const CutRun& cut);
   /// One record; false if it does not fit a datagram.
-  bool add(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp, std::uint32_t handle, Bytes values);
+  bool add(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp,
+           std::uint32_t handle, Bytes values);
   bool is_empty() const { return planned_.empty() && !is_open_; }
 
-  /// Numbers them after `frames` and notes in `ledger` what they carry. Valid until the next `begin`.
+  /// Numbers them after `frames` and notes in `ledger` what they carry. Valid until the next
+  /// `begin`.
   std::span<const Datagram> finish(std::uint32_t frames, DatagramLedger& ledger, double now);
   /// What ledgers refer to.
   SaidLists& lists() { return lists_; }
 
  private:
   struct Planned {
-    Bytes shared{};                      ///< somebody's bytes, or
-    std::size_t from = 0, to = 0;        ///< own ones
+    Bytes shared{};                            ///< somebody's bytes, or
+    std::size_t from = 0, to = 0;              ///< own ones
     SaidLists::Number said = SaidLists::none;  ///< of the shared
-    bool is_short = false;                     ///< the shared is, and others may still share its datagram
-    std::size_t said_from = 0, said_to = 0;    ///< of the own
+    bool is_short = false;  ///< the shared is, and others may still share its datagram
+    std::size_t said_from = 0, said_to = 0;  ///< of the own
   };
   void make_room(std::size_t needed);
   void copy(Bytes body, SaidLists::Number said);

@@ -13,7 +13,8 @@ DatagramLedger::~DatagramLedger() {
 std::uint32_t DatagramLedger::note(double now, SaidLists::Number said) {
   if (size_ == ring_.size()) {
     std::vector<Entry> larger(std::max<std::size_t>(8, 2 * ring_.size()));
-    for (std::uint32_t number = oldest(); number != next_; ++number) larger[number & (larger.size() - 1)] = at(number);
+    for (std::uint32_t number = oldest(); number != next_; ++number)
+      larger[number & (larger.size() - 1)] = at(number);
     ring_.swap(larger);
   }
   at(next_) = {.sent_s = now, .said = said, .is_settled = false};
@@ -28,7 +29,8 @@ void DatagramLedger::drop_oldest() {
   if (--size_ > 0) oldest_sent_s_ = at(oldest()).sent_s;
 }
 
-/// From the newest back to the oldest, so that what later ones say of the same objects is gathered once, however many are lost. Rare, so it may gather.
+/// From the newest back to the oldest, so that what later ones say of the same objects is gathered
+/// once, however many are lost. Rare, so it may gather.
 template <class IsLost>
 void DatagramLedger::lose(IsLost is_lost, std::vector<Lost>& lost) {
   std::unordered_map<std::uint32_t, std::uint32_t> said_later;
@@ -45,7 +47,8 @@ void DatagramLedger::lose(IsLost is_lost, std::vector<Lost>& lost) {
   }
 }
 
-bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, double now, std::vector<Lost>& lost) {
+bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, double now,
+                                 std::vector<Lost>& lost) {
   if (message.newest == 0 || message.newest >= next_) return false;
   unanswered_since_.reset();
   if (message.newest - oldest() < size_) {
@@ -58,7 +61,12 @@ bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, dou
     if (message.has(number)) at(number).is_settled = true;
     else is_overtaken |= message.newest - number >= overtaken_by;
   }
-  if (is_overtaken) lose([&](std::uint32_t number) { return number <= message.newest && message.newest - number >= overtaken_by; }, lost);
+  if (is_overtaken)
+    lose(
+        [&](std::uint32_t number) {
+          return number <= message.newest && message.newest - number >= overtaken_by;
+        },
+        lost);
   forget_settled();
   if (size_ > 0) unanswered_since_ = now;
   return true;
@@ -67,7 +75,12 @@ bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, dou
 void DatagramLedger::expire(double now, std::vector<Lost>& lost) {
   const double patience_s = 0.1 + DatagramReceipts::longest_delay_s + 2.0 * smoothed_s_;
   if (size_ == 0 || now - oldest_sent_s_ <= patience_s) return;
-  smoothed_s_ = std::min(1.0, 2.0 * std::max(smoothed_s_, 0.05));  // no answer ever tells how long one takes that comes after we have given up
+  smoothed_s_ = std::min(
+      1.0,
+      2.0 *
+          std::max(
+              smoothed_s_,
+              0.05));  // no answer ever tells how long one takes that comes after we have given up
   lose([&](std::uint32_t number) { return now - at(number).sent_s > patience_s; }, lost);
   forget_settled();
 }

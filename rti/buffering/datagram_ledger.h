@@ -1,4 +1,5 @@
-// What is in the datagrams that were sent and not yet acknowledged, so that the newest state of what got lost can be sent again.
+// What is in the datagrams that were sent and not yet acknowledged, so that the newest state of
+// what got lost can be sent again.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,10 @@
 
 namespace rink::rti {
 
-/// Of one destination. What a datagram says is kept as handles only: what is sent again is the newest state then, not what was lost. Of what many are sent
-/// alike, there is one list for all, in `lists`, which must outlive it. An entry takes 16 bytes: with 1,000 destinations it is memory that costs, not work.
+/// Of one destination. What a datagram says is kept as handles only: what is sent again is the
+/// newest state then, not what was lost. Of what many are sent alike, there is one list for all, in
+/// `lists`, which must outlive it. An entry takes 16 bytes: with 1,000 destinations it is memory
+/// that costs, not work.
 class DatagramLedger {
  public:
   explicit DatagramLedger(SaidLists& lists) : lists_(&lists) {}
@@ -27,18 +30,21 @@ class DatagramLedger {
     AttributeSet attributes;
   };
 
-  /// Notes the next datagram and returns its number. `now` [s]; `said` names what it says and is held for us.
+  /// Notes the next datagram and returns its number. `now` [s]; `said` names what it says and is
+  /// held for us.
   std::uint32_t note(double now, SaidLists::Number said = SaidLists::none);
 
-  /// Settles what has arrived. What is overtaken by three that have arrived, or too old to be told, is lost: appended to `lost`, unless a later datagram
-  /// says the same attributes of the same object. False if it acknowledges what was never sent.
+  /// Settles what has arrived. What is overtaken by three that have arrived, or too old to be told,
+  /// is lost: appended to `lost`, unless a later datagram says the same attributes of the same
+  /// object. False if it acknowledges what was never sent.
   bool acknowledge(const AcknowledgeDatagramsMessage& message, double now, std::vector<Lost>& lost);
   /// The same for what was sent longer ago than a round trip ever took.
   void expire(double now, std::vector<Lost>& lost);
   /// All that is unsettled is lost: there is no way any more.
   void abandon(std::vector<Lost>& lost);
 
-  /// Since when everything has gone unanswered [s]; nothing if all is settled or an answer came since.
+  /// Since when everything has gone unanswered [s]; nothing if all is settled or an answer came
+  /// since.
   std::optional<double> unanswered_since() const { return unanswered_since_; }
   std::size_t unsettled() const { return size_; }
 
@@ -51,9 +57,12 @@ class DatagramLedger {
   static constexpr std::uint32_t overtaken_by = 3;
   Entry& at(std::uint32_t number) { return ring_[number & (ring_.size() - 1)]; }
   std::uint32_t oldest() const { return next_ - static_cast<std::uint32_t>(size_); }
-  Bytes groups(const Entry& entry) const { return entry.said == SaidLists::none ? Bytes() : lists_->groups(entry.said); }
+  Bytes groups(const Entry& entry) const {
+    return entry.said == SaidLists::none ? Bytes() : lists_->groups(entry.said);
+  }
   void drop_oldest();
-  /// Of those that were given up: `is_lost(number)`, asked of all unsettled ones from the newest back to the oldest.
+  /// Of those that were given up: `is_lost(number)`, asked of all unsettled ones from the newest
+  /// back to the oldest.
   template <class IsLost>
   void lose(IsLost is_lost, std::vector<Lost>& lost);
   void forget_settled();

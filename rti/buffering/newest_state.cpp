@@ -5,7 +5,9 @@
 
 namespace rink::rti {
 
-NewestState::NewestState(const NewestStateSettings& settings) : settings_(settings) { assert(settings.resume_below <= settings.hold_above); }
+NewestState::NewestState(const NewestStateSettings& settings) : settings_(settings) {
+  assert(settings.resume_below <= settings.hold_above);
+}
 
 std::span<const UpdateRun> NewestState::seal() {
   runs_.seal();
@@ -14,7 +16,8 @@ std::span<const UpdateRun> NewestState::seal() {
 
 bool NewestState::holds_back(std::uint32_t federate, std::size_t waiting_bytes) {
   if (federate >= is_held_.size()) is_held_.resize(federate + 1);
-  const bool is_held = waiting_bytes > (is_held_[federate] ? settings_.resume_below : settings_.hold_above);
+  const bool is_held =
+      waiting_bytes > (is_held_[federate] ? settings_.resume_below : settings_.hold_above);
   is_held_[federate] = is_held;
   return is_held;
 }

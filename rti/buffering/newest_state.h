@@ -1,4 +1,5 @@
-// The buffering that comes with the RTI: everything as it is said to who reads, the newest state to who has stopped for a while.
+// The buffering that comes with the RTI: everything as it is said to who reads, the newest state to
+// who has stopped for a while.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +9,23 @@
 
 namespace rink::rti {
 
-/// Two marks, so that a federate near one of them doesn't get whole states in turns with single updates.
+/// Two marks, so that a federate near one of them doesn't get whole states in turns with single
+/// updates.
 struct NewestStateSettings {
-  std::size_t hold_above = 256 * 1024;  ///< who has not taken more than this is held back [bytes]; below the transport's own limit, which closes
-  std::size_t resume_below = 32 * 1024; ///< and until no more than this waits [bytes]; at most `hold_above`
+  std::size_t hold_above = 256 * 1024;  ///< who has not taken more than this is held back [bytes];
+                                        ///< below the transport's own limit, which closes
+  std::size_t resume_below =
+      32 * 1024;  ///< and until no more than this waits [bytes]; at most `hold_above`
 };
 
-/// A queue to a destination thus ends at `hold_above`, one flush and what is never held back, however long it doesn't read.
+/// A queue to a destination thus ends at `hold_above`, one flush and what is never held back,
+/// however long it doesn't read.
 class NewestState final : public Buffering {
  public:
   explicit NewestState(const NewestStateSettings& settings = {});
 
-  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp, Bytes values) override {
+  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes,
+              const Stamp& stamp, Bytes values) override {
     runs_.append(owner, slot, object, attributes, stamp, values);
   }
   std::span<const UpdateRun> seal() override;

@@ -15,7 +15,8 @@ inline bool is_all_in_scope(const UpdateRun& run, const Bitmap& in_scope) {
   return true;
 }
 
-/// Calls `visit(index of the record)` for each member that is in scope, whose turn it is and whose state doesn't go out whole anyway.
+/// Calls `visit(index of the record)` for each member that is in scope, whose turn it is and whose
+/// state doesn't go out whole anyway.
 template <class Visit>
 void for_each_record(const UpdateRun& run, const FederateInterest& interest, Visit visit) {
   const Bitmap& heard = interest.heard();
@@ -26,7 +27,8 @@ void for_each_record(const UpdateRun& run, const FederateInterest& interest, Vis
   }
   for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
     std::uint64_t bits = run.members.word(i) & heard.word(i) & ~interest.fresh.word(i);
-    for (; bits != 0; bits &= bits - 1) visit(run.record_of[i * 64 + static_cast<std::size_t>(std::countr_zero(bits))]);
+    for (; bits != 0; bits &= bits - 1)
+      visit(run.record_of[i * 64 + static_cast<std::size_t>(std::countr_zero(bits))]);
   }
 }
 

@@ -11,8 +11,10 @@
 
 namespace rink::rti {
 
-/// What one datagram names: groups of attributes (varint) and the steps from handle to handle that a block of updates has on the wire, ended by 0. Two bytes a handle
-/// at most where four would do without thought: with 275 positions to each of 1,000 federates every tick, what is unacknowledged must fit the cache.
+/// What one datagram names: groups of attributes (varint) and the steps from handle to handle that
+/// a block of updates has on the wire, ended by 0. Two bytes a handle at most where four would do
+/// without thought: with 275 positions to each of 1,000 federates every tick, what is
+/// unacknowledged must fit the cache.
 class SaidList {
  public:
   void clear() { bytes_.clear(), has_group_ = false; }
@@ -52,11 +54,13 @@ void for_each_said(Bytes groups, Visit visit) {
   while (!reader.is_at_end()) {
     std::uint32_t attributes = 0, handle = 0;
     if (!reader.varint(attributes)) return;
-    for (HandleReader handles; handles.next(reader, handle) == HandleReader::Next::handle;) visit(handle, AttributeSet(attributes));
+    for (HandleReader handles; handles.next(reader, handle) == HandleReader::Next::handle;)
+      visit(handle, AttributeSet(attributes));
   }
 }
 
-/// Lists that many destinations' ledgers refer to: unchanged while anybody does, then used again, with their memory.
+/// Lists that many destinations' ledgers refer to: unchanged while anybody does, then used again,
+/// with their memory.
 class SaidLists {
  public:
   using Number = std::uint32_t;

@@ -8,7 +8,8 @@
 
 namespace rink::rti {
 
-UpdateRun& UpdateRuns::begin(std::uint32_t owner, const Object& object, AttributeSet attributes, const Stamp& stamp) {
+UpdateRun& UpdateRuns::begin(std::uint32_t owner, const Object& object, AttributeSet attributes,
+                             const Stamp& stamp) {
   if (size_ == runs_.size()) runs_.emplace_back();
   UpdateRun& run = runs_[size_++];
   run.owner = owner;
@@ -22,25 +23,32 @@ UpdateRun& UpdateRuns::begin(std::uint32_t owner, const Object& object, Attribut
   return run;
 }
 
-UpdateRun& UpdateRuns::run_for(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp) {
-  // Only a run behind the object's last one may take its next record, or updates of one object would overtake each other. Looking at the last
-  // eight runs suffices: a tick has few kinds of updates.
+UpdateRun& UpdateRuns::run_for(std::uint32_t owner, ObjectSlot slot, const Object& object,
+                               AttributeSet attributes, const Stamp& stamp) {
+  // Only a run behind the object's last one may take its next record, or updates of one object
+  // would overtake each other. Looking at the last eight runs suffices: a tick has few kinds of
+  // updates.
   const std::size_t earliest = std::max<std::size_t>(last_run_[slot], size_ > 8 ? size_ - 8 : 0);
   for (std::size_t i = size_; i > earliest; --i) {
     UpdateRun& run = runs_[i - 1];
-    if (run.owner == owner && run.object_class == object.object_class && run.attributes == attributes && run.stamp == stamp) return run;
+    if (run.owner == owner && run.object_class == object.object_class &&
+        run.attributes == attributes && run.stamp == stamp)
+      return run;
   }
   return begin(owner, object, attributes, stamp);
 }
 
-void UpdateRuns::append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp, Bytes values) {
+void UpdateRuns::append(std::uint32_t owner, ObjectSlot slot, const Object& object,
+                        AttributeSet attributes, const Stamp& stamp, Bytes values) {
   if (slot >= last_run_.size()) last_run_.resize(slot + 1);
   UpdateRun& run = run_for(owner, slot, object, attributes, stamp);
   last_run_[slot] = static_cast<std::uint32_t>(&run - runs_.data()) + 1;
   run.slots.push_back(slot);
-  std::uint64_t step = handle_step(run.records.empty() ? 0 : run.records.back().handle, object.handle.value);
+  std::uint64_t step =
+      handle_step(run.records.empty() ? 0 : run.records.back().handle, object.handle.value);
   Writer(run.message).varint(step);
-  run.records.push_back({object.handle.value, static_cast<std::uint32_t>(run.message.size()), static_cast<std::uint32_t>(values.size())});
+  run.records.push_back({object.handle.value, static_cast<std::uint32_t>(run.message.size()),
+                         static_cast<std::uint32_t>(values.size())});
   run.message.insert(run.message.end(), values.begin(), values.end());
   run.members.insert(slot);
   run.first_word = std::min<std::size_t>(run.first_word, slot / 64);

@@ -20,30 +20,38 @@ struct UpdateRun {
   std::uint16_t object_class = 0;
   AttributeSet attributes;
   Stamp stamp;
-  std::vector<std::byte> message;      ///< the whole message as it goes on the wire, but for the zero that `seal` puts at its end
-  std::vector<ObjectSlot> slots;       ///< of the records, in their order
+  std::vector<std::byte> message;  ///< the whole message as it goes on the wire, but for the zero
+                                   ///< that `seal` puts at its end
+  std::vector<ObjectSlot> slots;   ///< of the records, in their order
   std::vector<Record> records;
-  Bitmap members;                      ///< the same slots
+  Bitmap members;                             ///< the same slots
   std::size_t first_word = 0, last_word = 0;  ///< of `members` that may hold any
-  std::vector<std::uint32_t> record_of;       ///< by slot: index into `slots`; for members only, after `seal` of runs longer than `short_run`
+  std::vector<std::uint32_t> record_of;  ///< by slot: index into `slots`; for members only, after
+                                         ///< `seal` of runs longer than `short_run`
   static constexpr std::size_t short_run = 8;
 
-  Bytes values(std::size_t index) const { return Bytes(message).subspan(records[index].at, records[index].size); }
+  Bytes values(std::size_t index) const {
+    return Bytes(message).subspan(records[index].at, records[index].size);
+  }
 };
 
-/// Collects records in the order in which they came, in as few runs as that order allows. Keeps its memory from tick to tick.
+/// Collects records in the order in which they came, in as few runs as that order allows. Keeps its
+/// memory from tick to tick.
 class UpdateRuns {
  public:
   /// `values` as they travel.
-  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp, Bytes values);
+  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes,
+              const Stamp& stamp, Bytes values);
   /// Completes the messages; no `append` may follow before `clear`.
   void seal();
   void clear();
   std::span<const UpdateRun> runs() const { return {runs_.data(), size_}; }
 
  private:
-  UpdateRun& run_for(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp);
-  UpdateRun& begin(std::uint32_t owner, const Object& object, AttributeSet attributes, const Stamp& stamp);
+  UpdateRun& run_for(std::uint32_t owner, ObjectSlot slot, const Object& object,
+                     AttributeSet attributes, const Stamp& stamp);
+  UpdateRun& begin(std::uint32_t owner, const Object& object, AttributeSet attributes,
+                   const Stamp& stamp);
 
   std::vector<UpdateRun> runs_;
   std::size_t size_ = 0;

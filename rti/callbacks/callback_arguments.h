@@ -16,17 +16,16 @@
 
 namespace rink::rti {
 
-/// Appends arguments, each at a multiple of `alignment`, so that a view of them can be handed out where they lie.
+/// Appends arguments, each at a multiple of `alignment`, so that a view of them can be handed out
+/// where they lie.
 class ArgumentWriter {
  public:
   static constexpr std::size_t alignment = alignof(std::max_align_t);
   explicit ArgumentWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {}
 
   template <class Value>
-    requires std::is_trivially_copyable_v<Value>
-  void put(const Value& value) {
-    append(&value, sizeof value);
-  }
+  requires std::is_trivially_copyable_v<Value>
+  void put(const Value& value) { append(&value, sizeof value); }
   template <class Value>
   void put(std::span<const Value> values) {
     put(values.size());
@@ -35,7 +34,8 @@ class ArgumentWriter {
   void put(std::string_view text) { put(std::span(text.data(), text.size())); }
   void put(const std::vector<FederationExecutionInformation>& executions) {
     put(executions.size());
-    for (const FederationExecutionInformation& each : executions) put_all(each.federation, each.model, each.federates);
+    for (const FederationExecutionInformation& each : executions)
+      put_all(each.federation, each.model, each.federates);
   }
   void put(const std::vector<std::string>& texts) {
     put(texts.size());
@@ -44,8 +44,10 @@ class ArgumentWriter {
   void put(const std::vector<FederationReport>& reports) {
     put(reports.size());
     for (const FederationReport& report : reports) {
-      put_all(report.federation, report.model, report.filter, report.objects, report.drops, report.federates.size());
-      for (const FederateReport& each : report.federates) put_all(each.federate, each.name, each.type, each.counts);
+      put_all(report.federation, report.model, report.filter, report.objects, report.drops,
+              report.federates.size());
+      for (const FederateReport& each : report.federates)
+        put_all(each.federate, each.name, each.type, each.counts);
     }
   }
 
@@ -90,9 +92,11 @@ class ArgumentReader {
     const auto text = take<std::span<const char>>();
     return {text.data(), text.size()};
   }
-  std::vector<FederationExecutionInformation> take(std::type_identity<std::vector<FederationExecutionInformation>>*) {
+  std::vector<FederationExecutionInformation> take(
+      std::type_identity<std::vector<FederationExecutionInformation>>*) {
     std::vector<FederationExecutionInformation> executions(take<std::size_t>());
-    for (FederationExecutionInformation& each : executions) take_all(each.federation, each.model, each.federates);
+    for (FederationExecutionInformation& each : executions)
+      take_all(each.federation, each.model, each.federates);
     return executions;
   }
   std::vector<std::string> take(std::type_identity<std::vector<std::string>>*) {
@@ -104,20 +108,25 @@ class ArgumentReader {
     std::vector<FederationReport> reports(take<std::size_t>());
     for (FederationReport& report : reports) {
       std::size_t federates = 0;
-      take_all(report.federation, report.model, report.filter, report.objects, report.drops, federates);
+      take_all(report.federation, report.model, report.filter, report.objects, report.drops,
+               federates);
       report.federates.resize(federates);
-      for (FederateReport& each : report.federates) take_all(each.federate, each.name, each.type, each.counts);
+      for (FederateReport& each : report.federates)
+        take_all(each.federate, each.name, each.type, each.counts);
     }
     return reports;
   }
-  std::string take(std::type_identity<std::string>*) { return std::string(take<std::string_view>()); }
+  std::string take(std::type_identity<std::string>*) {
+    return std::string(take<std::string_view>());
+  }
   template <class... Values>
   void take_all(Values&... values) {
     ((values = take<Values>()), ...);
   }
   const std::byte* advance(std::size_t size) {
     const std::byte* here = at_;
-    at_ += (size + ArgumentWriter::alignment - 1) / ArgumentWriter::alignment * ArgumentWriter::alignment;
+    at_ += (size + ArgumentWriter::alignment - 1) / ArgumentWriter::alignment *
+           ArgumentWriter::alignment;
     return here;
   }
   const std::byte* at_;

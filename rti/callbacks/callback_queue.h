@@ -1,4 +1,5 @@
-// Callbacks that wait until their federate asks for them: the evoked model of IEEE 1516.1-2010, 10.41.
+// Callbacks that wait until their federate asks for them: the evoked model of IEEE
+// 1516.1-2010, 10.41.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +19,11 @@ enum class CallbackModel : std::uint8_t {
   evoked,     ///< when it calls `evoke_callback` or `evoke_multiple_callbacks`
 };
 
-/// Stands before a federate and writes down what it would have been told: the callback and a copy of its arguments, one after the other in one buffer, so nothing
-/// is allocated per callback once that has grown. Rejected: keeping the messages themselves and reading them late, for one message may be many callbacks (a block of
-/// updates, a grant with what was queued by time), and the ambassador would answer its peers late. Every callback is here; a test compares the two lists.
+/// Stands before a federate and writes down what it would have been told: the callback and a copy
+/// of its arguments, one after the other in one buffer, so nothing is allocated per callback once
+/// that has grown. Rejected: keeping the messages themselves and reading them late, for one message
+/// may be many callbacks (a block of updates, a grant with what was queued by time), and the
+/// ambassador would answer its peers late. Every callback is here; a test compares the two lists.
 class CallbackQueue final : public FederateAmbassador {
  public:
   /// `federate` must outlive it.
@@ -29,117 +32,200 @@ class CallbackQueue final : public FederateAmbassador {
   bool is_empty() const { return taken_ == records_.size(); }
   std::size_t waiting_bytes() const { return records_.size() - taken_; }
   std::size_t memory_bytes() const { return records_.capacity() + delivering_.capacity(); }
-  /// Tells the federate the oldest; there must be one. What the callback causes to be queued comes after all that waits.
+  /// Tells the federate the oldest; there must be one. What the callback causes to be queued comes
+  /// after all that waits.
   void deliver_one();
   bool is_delivering() const { return is_delivering_; }
 
   void joined(FederateHandle federate) override { put<&FederateAmbassador::joined>(federate); }
-  void join_refused(Refusal refusal, std::string_view why) override { put<&FederateAmbassador::join_refused>(refusal, why); }
-  void connection_lost(std::string_view why) override { put<&FederateAmbassador::connection_lost>(why); }
+  void join_refused(Refusal refusal, std::string_view why) override {
+    put<&FederateAmbassador::join_refused>(refusal, why);
+  }
+  void connection_lost(std::string_view why) override {
+    put<&FederateAmbassador::connection_lost>(why);
+  }
 
   // Federation management.
-  void federation_execution_created(std::string_view federation, HlaError error) override { put<&FederateAmbassador::federation_execution_created>(federation, error); }
-  void federation_execution_destroyed(std::string_view federation, HlaError error) override { put<&FederateAmbassador::federation_execution_destroyed>(federation, error); }
-  void report_management(const std::vector<FederationReport>& reports) override { put<&FederateAmbassador::report_management>(reports); }
-  void report_federation_executions(const std::vector<FederationExecutionInformation>& executions) override {
+  void federation_execution_created(std::string_view federation, HlaError error) override {
+    put<&FederateAmbassador::federation_execution_created>(federation, error);
+  }
+  void federation_execution_destroyed(std::string_view federation, HlaError error) override {
+    put<&FederateAmbassador::federation_execution_destroyed>(federation, error);
+  }
+  void report_management(const std::vector<FederationReport>& reports) override {
+    put<&FederateAmbassador::report_management>(reports);
+  }
+  void report_federation_executions(
+      const std::vector<FederationExecutionInformation>& executions) override {
     put<&FederateAmbassador::report_federation_executions>(executions);
   }
-  void synchronization_point_registration_succeeded(std::string_view label) override { put<&FederateAmbassador::synchronization_point_registration_succeeded>(label); }
-  void synchronization_point_registration_failed(std::string_view label, SynchronizationFailure failure) override {
+  void synchronization_point_registration_succeeded(std::string_view label) override {
+    put<&FederateAmbassador::synchronization_point_registration_succeeded>(label);
+  }
+  void synchronization_point_registration_failed(std::string_view label,
+                                                 SynchronizationFailure failure) override {
     put<&FederateAmbassador::synchronization_point_registration_failed>(label, failure);
   }
-  void announce_synchronization_point(std::string_view label, Bytes tag) override { put<&FederateAmbassador::announce_synchronization_point>(label, tag); }
-  void federation_synchronized(std::string_view label, std::span<const FederateHandle> failed) override { put<&FederateAmbassador::federation_synchronized>(label, failed); }
-  void federate_joined(FederateHandle federate, std::string_view name, std::string_view type) override { put<&FederateAmbassador::federate_joined>(federate, name, type); }
-  void federate_resigned(FederateHandle federate, std::string_view name, std::string_view type, ResignReason reason) override {
+  void announce_synchronization_point(std::string_view label, Bytes tag) override {
+    put<&FederateAmbassador::announce_synchronization_point>(label, tag);
+  }
+  void federation_synchronized(std::string_view label,
+                               std::span<const FederateHandle> failed) override {
+    put<&FederateAmbassador::federation_synchronized>(label, failed);
+  }
+  void federate_joined(FederateHandle federate, std::string_view name,
+                       std::string_view type) override {
+    put<&FederateAmbassador::federate_joined>(federate, name, type);
+  }
+  void federate_resigned(FederateHandle federate, std::string_view name, std::string_view type,
+                         ResignReason reason) override {
     put<&FederateAmbassador::federate_resigned>(federate, name, type, reason);
   }
 
   // Declarations, objects and interactions.
-  void start_registration_for_object_class(ObjectClassHandle object_class) override { put<&FederateAmbassador::start_registration_for_object_class>(object_class); }
-  void stop_registration_for_object_class(ObjectClassHandle object_class) override { put<&FederateAmbassador::stop_registration_for_object_class>(object_class); }
-  void turn_interactions_on(InteractionClassHandle interaction_class) override { put<&FederateAmbassador::turn_interactions_on>(interaction_class); }
-  void turn_interactions_off(InteractionClassHandle interaction_class) override { put<&FederateAmbassador::turn_interactions_off>(interaction_class); }
+  void start_registration_for_object_class(ObjectClassHandle object_class) override {
+    put<&FederateAmbassador::start_registration_for_object_class>(object_class);
+  }
+  void stop_registration_for_object_class(ObjectClassHandle object_class) override {
+    put<&FederateAmbassador::stop_registration_for_object_class>(object_class);
+  }
+  void turn_interactions_on(InteractionClassHandle interaction_class) override {
+    put<&FederateAmbassador::turn_interactions_on>(interaction_class);
+  }
+  void turn_interactions_off(InteractionClassHandle interaction_class) override {
+    put<&FederateAmbassador::turn_interactions_off>(interaction_class);
+  }
   void turn_updates_on_for_object_instance(ObjectHandle object, AttributeSet attributes) override {
     put<&FederateAmbassador::turn_updates_on_for_object_instance>(object, attributes);
   }
   void turn_updates_off_for_object_instance(ObjectHandle object, AttributeSet attributes) override {
     put<&FederateAmbassador::turn_updates_off_for_object_instance>(object, attributes);
   }
-  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class, std::string_view name) override {
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class,
+                                std::string_view name) override {
     put<&FederateAmbassador::discover_object_instance>(object, object_class, name);
   }
-  void reflect_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp) override {
+  void reflect_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values,
+                                const Stamp& stamp) override {
     put<&FederateAmbassador::reflect_attribute_values>(object, attributes, values, stamp);
   }
-  void attributes_in_scope(ObjectHandle object) override { put<&FederateAmbassador::attributes_in_scope>(object); }
-  void attributes_out_of_scope(ObjectHandle object) override { put<&FederateAmbassador::attributes_out_of_scope>(object); }
-  void provide_attribute_value_update(ObjectHandle object, AttributeSet attributes, Bytes tag) override {
+  void attributes_in_scope(ObjectHandle object) override {
+    put<&FederateAmbassador::attributes_in_scope>(object);
+  }
+  void attributes_out_of_scope(ObjectHandle object) override {
+    put<&FederateAmbassador::attributes_out_of_scope>(object);
+  }
+  void provide_attribute_value_update(ObjectHandle object, AttributeSet attributes,
+                                      Bytes tag) override {
     put<&FederateAmbassador::provide_attribute_value_update>(object, attributes, tag);
   }
-  void object_instance_name_reservation_succeeded(std::string_view name) override { put<&FederateAmbassador::object_instance_name_reservation_succeeded>(name); }
-  void object_instance_name_reservation_failed(std::string_view name) override { put<&FederateAmbassador::object_instance_name_reservation_failed>(name); }
-  void multiple_object_instance_name_reservation_succeeded(const std::vector<std::string>& names) override {
+  void object_instance_name_reservation_succeeded(std::string_view name) override {
+    put<&FederateAmbassador::object_instance_name_reservation_succeeded>(name);
+  }
+  void object_instance_name_reservation_failed(std::string_view name) override {
+    put<&FederateAmbassador::object_instance_name_reservation_failed>(name);
+  }
+  void multiple_object_instance_name_reservation_succeeded(
+      const std::vector<std::string>& names) override {
     put<&FederateAmbassador::multiple_object_instance_name_reservation_succeeded>(names);
   }
-  void multiple_object_instance_name_reservation_failed(const std::vector<std::string>& names) override {
+  void multiple_object_instance_name_reservation_failed(
+      const std::vector<std::string>& names) override {
     put<&FederateAmbassador::multiple_object_instance_name_reservation_failed>(names);
   }
-  void confirm_attribute_transportation_type_change(ObjectHandle object, AttributeSet attributes, Transportation type) override {
-    put<&FederateAmbassador::confirm_attribute_transportation_type_change>(object, attributes, type);
+  void confirm_attribute_transportation_type_change(ObjectHandle object, AttributeSet attributes,
+                                                    Transportation type) override {
+    put<&FederateAmbassador::confirm_attribute_transportation_type_change>(object, attributes,
+                                                                           type);
   }
-  void report_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute, Transportation type) override {
+  void report_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute,
+                                            Transportation type) override {
     put<&FederateAmbassador::report_attribute_transportation_type>(object, attribute, type);
   }
-  void confirm_interaction_transportation_type_change(InteractionClassHandle interaction_class, Transportation type) override {
-    put<&FederateAmbassador::confirm_interaction_transportation_type_change>(interaction_class, type);
+  void confirm_interaction_transportation_type_change(InteractionClassHandle interaction_class,
+                                                      Transportation type) override {
+    put<&FederateAmbassador::confirm_interaction_transportation_type_change>(interaction_class,
+                                                                             type);
   }
-  void report_interaction_transportation_type(FederateHandle federate, InteractionClassHandle interaction_class, Transportation type) override {
-    put<&FederateAmbassador::report_interaction_transportation_type>(federate, interaction_class, type);
+  void report_interaction_transportation_type(FederateHandle federate,
+                                              InteractionClassHandle interaction_class,
+                                              Transportation type) override {
+    put<&FederateAmbassador::report_interaction_transportation_type>(federate, interaction_class,
+                                                                     type);
   }
-  void remove_object_instance(ObjectHandle object) override { put<&FederateAmbassador::remove_object_instance>(object); }
-  void receive_interaction(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle sender, const Stamp& stamp) override {
+  void remove_object_instance(ObjectHandle object) override {
+    put<&FederateAmbassador::remove_object_instance>(object);
+  }
+  void receive_interaction(InteractionClassHandle interaction_class, Bytes parameters,
+                           FederateHandle sender, const Stamp& stamp) override {
     put<&FederateAmbassador::receive_interaction>(interaction_class, parameters, sender, stamp);
   }
 
   // Time management.
-  void time_regulation_enabled(LogicalTime time) override { put<&FederateAmbassador::time_regulation_enabled>(time); }
-  void time_constrained_enabled(LogicalTime time) override { put<&FederateAmbassador::time_constrained_enabled>(time); }
-  void time_advance_grant(LogicalTime time) override { put<&FederateAmbassador::time_advance_grant>(time); }
-  void request_retraction(const RetractionHandle& handle) override { put<&FederateAmbassador::request_retraction>(handle); }
-  void time_bounds(double galt, double lits) override { put<&FederateAmbassador::time_bounds>(galt, lits); }
-  void reflect_attribute_values_with_time(ObjectHandle object, AttributeSet attributes, Bytes values, const TimedStamp& timed) override {
+  void time_regulation_enabled(LogicalTime time) override {
+    put<&FederateAmbassador::time_regulation_enabled>(time);
+  }
+  void time_constrained_enabled(LogicalTime time) override {
+    put<&FederateAmbassador::time_constrained_enabled>(time);
+  }
+  void time_advance_grant(LogicalTime time) override {
+    put<&FederateAmbassador::time_advance_grant>(time);
+  }
+  void request_retraction(const RetractionHandle& handle) override {
+    put<&FederateAmbassador::request_retraction>(handle);
+  }
+  void time_bounds(double galt, double lits) override {
+    put<&FederateAmbassador::time_bounds>(galt, lits);
+  }
+  void reflect_attribute_values_with_time(ObjectHandle object, AttributeSet attributes,
+                                          Bytes values, const TimedStamp& timed) override {
     put<&FederateAmbassador::reflect_attribute_values_with_time>(object, attributes, values, timed);
   }
-  void receive_interaction_with_time(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle sender, const TimedStamp& timed) override {
-    put<&FederateAmbassador::receive_interaction_with_time>(interaction_class, parameters, sender, timed);
+  void receive_interaction_with_time(InteractionClassHandle interaction_class, Bytes parameters,
+                                     FederateHandle sender, const TimedStamp& timed) override {
+    put<&FederateAmbassador::receive_interaction_with_time>(interaction_class, parameters, sender,
+                                                            timed);
   }
-  void remove_object_instance_with_time(ObjectHandle object, const TimedStamp& timed) override { put<&FederateAmbassador::remove_object_instance_with_time>(object, timed); }
+  void remove_object_instance_with_time(ObjectHandle object, const TimedStamp& timed) override {
+    put<&FederateAmbassador::remove_object_instance_with_time>(object, timed);
+  }
   // Ownership.
-  void request_attribute_ownership_assumption(ObjectHandle object, AttributeSet attributes, Bytes tag) override {
+  void request_attribute_ownership_assumption(ObjectHandle object, AttributeSet attributes,
+                                              Bytes tag) override {
     put<&FederateAmbassador::request_attribute_ownership_assumption>(object, attributes, tag);
   }
   void request_divestiture_confirmation(ObjectHandle object, AttributeSet attributes) override {
     put<&FederateAmbassador::request_divestiture_confirmation>(object, attributes);
   }
-  void attribute_ownership_acquisition_notification(ObjectHandle object, AttributeSet attributes, Bytes tag) override {
+  void attribute_ownership_acquisition_notification(ObjectHandle object, AttributeSet attributes,
+                                                    Bytes tag) override {
     put<&FederateAmbassador::attribute_ownership_acquisition_notification>(object, attributes, tag);
   }
   void attribute_ownership_unavailable(ObjectHandle object, AttributeSet attributes) override {
     put<&FederateAmbassador::attribute_ownership_unavailable>(object, attributes);
   }
-  void request_attribute_ownership_release(ObjectHandle object, AttributeSet attributes, Bytes tag) override {
+  void request_attribute_ownership_release(ObjectHandle object, AttributeSet attributes,
+                                           Bytes tag) override {
     put<&FederateAmbassador::request_attribute_ownership_release>(object, attributes, tag);
   }
-  void confirm_attribute_ownership_acquisition_cancellation(ObjectHandle object, AttributeSet attributes) override {
-    put<&FederateAmbassador::confirm_attribute_ownership_acquisition_cancellation>(object, attributes);
+  void confirm_attribute_ownership_acquisition_cancellation(ObjectHandle object,
+                                                            AttributeSet attributes) override {
+    put<&FederateAmbassador::confirm_attribute_ownership_acquisition_cancellation>(object,
+                                                                                   attributes);
   }
-  void inform_attribute_ownership(ObjectHandle object, AttributeHandle attribute, FederateHandle owner) override {
+  void inform_attribute_ownership(ObjectHandle object, AttributeHandle attribute,
+                                  FederateHandle owner) override {
     put<&FederateAmbassador::inform_attribute_ownership>(object, attribute, owner);
   }
-  void attribute_is_not_owned(ObjectHandle object, AttributeHandle attribute) override { put<&FederateAmbassador::attribute_is_not_owned>(object, attribute); }
-  void attribute_ownership_divested(ObjectHandle object, AttributeSet attributes) override { put<&FederateAmbassador::attribute_ownership_divested>(object, attributes); }
-  void attribute_ownership_kept(ObjectHandle object, AttributeSet attributes) override { put<&FederateAmbassador::attribute_ownership_kept>(object, attributes); }
+  void attribute_is_not_owned(ObjectHandle object, AttributeHandle attribute) override {
+    put<&FederateAmbassador::attribute_is_not_owned>(object, attribute);
+  }
+  void attribute_ownership_divested(ObjectHandle object, AttributeSet attributes) override {
+    put<&FederateAmbassador::attribute_ownership_divested>(object, attributes);
+  }
+  void attribute_ownership_kept(ObjectHandle object, AttributeSet attributes) override {
+    put<&FederateAmbassador::attribute_ownership_kept>(object, attributes);
+  }
 
  private:
   /// A record: this, then the arguments, each at a multiple of `alignment`.
@@ -147,15 +233,17 @@ class CallbackQueue final : public FederateAmbassador {
     void (*deliver)(FederateAmbassador& federate, const std::byte* arguments);
     std::size_t size;  ///< of the whole record [bytes]
   };
-  static constexpr std::size_t header_size = (sizeof(Header) + ArgumentWriter::alignment - 1) / ArgumentWriter::alignment * ArgumentWriter::alignment;
+  static constexpr std::size_t header_size = (sizeof(Header) + ArgumentWriter::alignment - 1) /
+                                             ArgumentWriter::alignment * ArgumentWriter::alignment;
   /// Writes one callback at the end.
   template <auto callback, class... Arguments>
   void put(const Arguments&... arguments);
 
   FederateAmbassador& federate_;
   std::vector<std::byte> records_;
-  std::size_t taken_ = 0;               ///< bytes of `records_` that were delivered
-  std::vector<std::byte> delivering_;   ///< the record at hand: what its callback causes may move the others
+  std::size_t taken_ = 0;  ///< bytes of `records_` that were delivered
+  std::vector<std::byte>
+      delivering_;  ///< the record at hand: what its callback causes may move the others
   bool is_delivering_ = false;
 };
 
@@ -167,7 +255,8 @@ void CallbackQueue::put(const Arguments&... arguments) {
   (writer.put(arguments), ...);
   const auto deliver = [](FederateAmbassador& federate, const std::byte* at) {
     ArgumentReader reader(at);
-    const std::tuple<Arguments...> values{reader.take<Arguments>()...};  // in braces: from left to right
+    const std::tuple<Arguments...> values{
+        reader.take<Arguments>()...};  // in braces: from left to right
     std::apply([&federate](const Arguments&... each) { (federate.*callback)(each...); }, values);
   };
   const Header header{deliver, records_.size() - start};

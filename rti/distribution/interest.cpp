@@ -8,8 +8,14 @@
 
 namespace rink::rti {
 
-Interest::Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)
-    : fom_(fom), objects_(objects), ownership_(ownership), filter_(std::move(filter)), traits_(filter_->traits()), budget_(filter_->priority() ? filter_->priority()->budget() : 0) {
+Interest::Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership,
+                   std::unique_ptr<im::Filter> filter)
+    : fom_(fom),
+      objects_(objects),
+      ownership_(ownership),
+      filter_(std::move(filter)),
+      traits_(filter_->traits()),
+      budget_(filter_->priority() ? filter_->priority()->budget() : 0) {
   const auto x = fom.dimension("X"), y = fom.dimension("Y");
   if (!x || !y) return;
   x_ = *x, y_ = *y;
@@ -42,32 +48,39 @@ void Interest::remove_federate(std::uint32_t federate) {
 void Interest::expand(ClassInterest& interest) const {
   for (std::uint32_t i = 0; i < interest.declared.size(); ++i) {
     interest.expanded[i] = interest.declared[i];
-    for (ObjectClassHandle parent = fom_.at(ObjectClassHandle{i}).parent; parent; parent = fom_.at(parent).parent)
+    for (ObjectClassHandle parent = fom_.at(ObjectClassHandle{i}).parent; parent;
+         parent = fom_.at(parent).parent)
       interest.expanded[i] = interest.expanded[i] | interest.declared[parent.value];
   }
 }
 
-bool Interest::subscribe(std::uint32_t federate, std::uint16_t object_class, const Subscription& attributes, RegionHandle region) {
+bool Interest::subscribe(std::uint32_t federate, std::uint16_t object_class,
+                         const Subscription& attributes, RegionHandle region) {
   DeclaredInterest& interest = *federates_[federate];
   if (region && !has_region(federate, region)) return false;
   const RegionSlot slot = region ? slot_of(federate, region) : no_region;
   ClassInterest& classes = region ? regional(interest, slot).classes : interest.everywhere;
   classes.declared[object_class] = attributes.heard;
   const AttributeSet passive = attributes.heard.without(attributes.active);
-  if (classes.passive.empty() && !passive.is_empty()) classes.passive.resize(classes.declared.size());
+  if (classes.passive.empty() && !passive.is_empty())
+    classes.passive.resize(classes.declared.size());
   if (!classes.passive.empty()) classes.passive[object_class] = passive;
   expand(classes);
   interest.is_changed = true;
   const auto& declared = classes.declared;
-  if (region && std::all_of(declared.begin(), declared.end(), [](AttributeSet set) { return set.is_empty(); })) drop_regional(interest, slot);
+  if (region && std::all_of(declared.begin(), declared.end(),
+                            [](AttributeSet set) { return set.is_empty(); }))
+    drop_regional(interest, slot);
   return true;
 }
 
-Subscription Interest::subscribed(std::uint32_t federate, std::uint16_t object_class, RegionHandle region) const {
+Subscription Interest::subscribed(std::uint32_t federate, std::uint16_t object_class,
+                                  RegionHandle region) const {
   const DeclaredInterest& interest = *federates_[federate];
   const auto of = [object_class](const ClassInterest& classes) {
     const AttributeSet heard = classes.declared[object_class];
-    return Subscription{heard, classes.passive.empty() ? heard : heard.without(classes.passive[object_class])};
+    return Subscription{
+        heard, classes.passive.empty() ? heard : heard.without(classes.passive[object_class])};
   };
   if (!region) return of(interest.everywhere);
   for (const Regional& each : interest.regionals)
@@ -75,9 +88,11 @@ Subscription Interest::subscribed(std::uint32_t federate, std::uint16_t object_c
   return {};
 }
 
-Subscription Interest::subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const {
+Subscription Interest::subscribed_anywhere(std::uint32_t federate,
+                                           std::uint16_t object_class) const {
   const DeclaredInterest& interest = *federates_[federate];
-  Subscription all{interest.everywhere.expanded[object_class], active(interest.everywhere, object_class)};
+  Subscription all{interest.everywhere.expanded[object_class],
+                   active(interest.everywhere, object_class)};
   for (const Regional& each : interest.regionals) {
     all.heard = all.heard | each.classes.expanded[object_class];
     all.active = all.active | active(each.classes, object_class);
@@ -88,32 +103,43 @@ Subscription Interest::subscribed_anywhere(std::uint32_t federate, std::uint16_t
 AttributeSet Interest::active(const ClassInterest& interest, std::uint16_t object_class) const {
   if (interest.passive.empty()) return interest.expanded[object_class];
   AttributeSet set;
-  for (ObjectClassHandle each{object_class}; each; each = fom_.at(each).parent) set = set | interest.declared[each.value].without(interest.passive[each.value]);
+  for (ObjectClassHandle each{object_class}; each; each = fom_.at(each).parent)
+    set = set | interest.declared[each.value].without(interest.passive[each.value]);
   return set;
 }
 
-bool Interest::subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class, RegionHandle region, Listening listening) {
+bool Interest::subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class,
+                                     RegionHandle region, Listening listening) {
   if (!has_region(federate, region)) return false;
   auto& interactions = federates_[federate]->interactions;
   const RegionSlot slot = slot_of(federate, region);
-  std::erase_if(interactions, [&](const auto& each) { return each.interaction_class == interaction_class && each.region == slot; });
-  if (listening != Listening::none) interactions.push_back({interaction_class, slot, listening == Listening::passive});
+  std::erase_if(interactions, [&](const auto& each) {
+    return each.interaction_class == interaction_class && each.region == slot;
+  });
+  if (listening != Listening::none)
+    interactions.push_back({interaction_class, slot, listening == Listening::passive});
   return true;
 }
 
-Listening Interest::subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const {
+Listening Interest::subscribes_interaction(std::uint32_t federate,
+                                           std::uint16_t interaction_class) const {
   Listening found = Listening::none;
   for (const auto& each : federates_[federate]->interactions) {
-    if (!fom_.is_a(InteractionClassHandle{interaction_class}, InteractionClassHandle{each.interaction_class})) continue;
+    if (!fom_.is_a(InteractionClassHandle{interaction_class},
+                   InteractionClassHandle{each.interaction_class}))
+      continue;
     if (!each.is_passive) return Listening::active;
     found = Listening::passive;
   }
   return found;
 }
 
-bool Interest::hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender, std::span<const RegionHandle> sent) {
+bool Interest::hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender,
+                     std::span<const RegionHandle> sent) {
   for (const auto& each : federates_[federate]->interactions) {
-    if (!fom_.is_a(InteractionClassHandle{interaction_class}, InteractionClassHandle{each.interaction_class})) continue;
+    if (!fom_.is_a(InteractionClassHandle{interaction_class},
+                   InteractionClassHandle{each.interaction_class}))
+      continue;
     for (const RegionHandle region : sent)
       if (regions_overlap(regions_[slot_of(sender, region)], regions_[each.region])) return true;
   }
@@ -173,7 +199,8 @@ void Interest::list_regions_of_interest(std::vector<RegionOfInterest>& regions) 
     if (!interest) continue;
     for (const Regional& each : interest->regionals) {
       const DistributedRegion& region = regions_[each.region];
-      if (region.is_placed && region.is_committed) regions.push_back({interest->federate, region.plane});
+      if (region.is_placed && region.is_committed)
+        regions.push_back({interest->federate, region.plane});
     }
   }
 }
@@ -192,19 +219,25 @@ void Interest::object_deleted(ObjectSlot slot) {
 
 bool Interest::overlaps(const Regional& regional, RegionSlot update) {
   const DistributedRegion& region = regions_[update];
-  if (!regional.is_placed || !region.is_placed) return regions_overlap(region, regions_[regional.region]);
+  if (!regional.is_placed || !region.is_placed)
+    return regions_overlap(region, regions_[regional.region]);
   if (!regional.inside.contains(region.entity)) return false;
   if (regional.is_planar || region.is_planar) return true;
   const DistributedRegion& subscribed = regions_[regional.region];
-  return ranges_overlap(region, subscribed, DimensionSet(region.dimensions.bits & subscribed.dimensions.bits & ~plane_.bits));
+  return ranges_overlap(
+      region, subscribed,
+      DimensionSet(region.dimensions.bits & subscribed.dimensions.bits & ~plane_.bits));
 }
 
-/// Those of `attributes` that the regional subscription gets of an object that uses several regions.
-AttributeSet Interest::covered(const Regional& regional, ObjectSlot object, AttributeSet attributes) {
+/// Those of `attributes` that the regional subscription gets of an object that uses several
+/// regions.
+AttributeSet Interest::covered(const Regional& regional, ObjectSlot object,
+                               AttributeSet attributes) {
   AttributeSet placed, inside;
   for (const Association& each : associations_.at(object)) {
     placed = placed | each.attributes;
-    if (!(each.attributes & attributes).is_empty() && overlaps(regional, each.region)) inside = inside | each.attributes;
+    if (!(each.attributes & attributes).is_empty() && overlaps(regional, each.region))
+      inside = inside | each.attributes;
   }
   return AttributeSet(attributes.bits & (inside.bits | ~placed.bits));
 }
@@ -218,25 +251,31 @@ template <bool is_active_only>
 AttributeSet Interest::wanted(const DeclaredInterest& interest, ObjectSlot slot) {
   const Object& object = objects_[slot];
   if (!object.is_alive || object.is_leaving || object.owner == interest.federate) return {};
-  AttributeSet set = is_active_only ? active(interest.everywhere, object.object_class) : interest.everywhere.expanded[object.object_class];
+  AttributeSet set = is_active_only ? active(interest.everywhere, object.object_class)
+                                    : interest.everywhere.expanded[object.object_class];
   const Use& used = uses_[slot];
   for (const Regional& each : interest.regionals) {
-    const AttributeSet named = is_active_only ? active(each.classes, object.object_class) : each.classes.expanded[object.object_class];
+    const AttributeSet named = is_active_only ? active(each.classes, object.object_class)
+                                              : each.classes.expanded[object.object_class];
     if (used.region == several) {
       set = set | (is_own(interest, slot) ? named : covered(each, slot, named));
       continue;
     }
-    const bool is_heard = used.region == no_region || (used.entity != no_entity && each.is_placed ? each.inside.contains(used.entity) : overlaps(each, used.region));
+    const bool is_heard = used.region == no_region || (used.entity != no_entity && each.is_placed
+                                                           ? each.inside.contains(used.entity)
+                                                           : overlaps(each, used.region));
     if (is_heard || is_own(interest, slot)) set = set | named;
   }
-  return object.owner == no_federate ? set & ownership_.owned_by_others(interest.federate, slot) : set;
+  return object.owner == no_federate ? set & ownership_.owned_by_others(interest.federate, slot)
+                                     : set;
 }
 
 AttributeSet Interest::told_actively(std::uint32_t federate, ObjectSlot slot) {
   const DeclaredInterest& interest = *federates_[federate];
   const AttributeSet told = interest.told(slot, objects_[slot].object_class);
   const auto is_passive = [](const Regional& each) { return !each.classes.passive.empty(); };
-  const bool has_passive = !interest.everywhere.passive.empty() || std::ranges::any_of(interest.regionals, is_passive);
+  const bool has_passive =
+      !interest.everywhere.passive.empty() || std::ranges::any_of(interest.regionals, is_passive);
   return told.is_empty() || !has_passive ? told : told & wanted<true>(interest, slot);
 }
 
@@ -259,16 +298,19 @@ void Interest::take_filter_changes() {
     Regional* regional = find(*federates_[subscribers_[each.subscriber]], each.subscriber);
     if (each.transition == im::Transition::left) regional->inside.erase(each.entity);
     else regional->inside.insert(each.entity);  // it may be there already and only change its tier
-    if (traits_.says_tiers) set_tier(*regional, each.entity, each.transition == im::Transition::left ? 0u : each.tier);
+    if (traits_.says_tiers)
+      set_tier(*regional, each.entity, each.transition == im::Transition::left ? 0u : each.tier);
   }
   for (const im::Change& each : changes) {
     DeclaredInterest& interest = *federates_[subscribers_[each.subscriber]];
     if (interest.is_changed) continue;
-    for (const ObjectSlot slot : regions_[region_of_entity_[each.entity]].objects) reconsider(interest, slot);
+    for (const ObjectSlot slot : regions_[region_of_entity_[each.entity]].objects)
+      reconsider(interest, slot);
   }
 }
 
-/// Those that changed in a way that the filter can't know: in other dimensions than the plane's, or against a region that lacks one of these.
+/// Those that changed in a way that the filter can't know: in other dimensions than the plane's, or
+/// against a region that lacks one of these.
 void Interest::take_changed_regions() {
   for (const RegionSlot slot : changed_regions_) {
     DistributedRegion& region = regions_[slot];
@@ -282,7 +324,8 @@ void Interest::take_changed_regions() {
   changed_regions_.clear();
 }
 
-/// All that may have come or gone by a change of the subscription's region in other dimensions: what the filter lets through and what it doesn't know.
+/// All that may have come or gone by a change of the subscription's region in other dimensions:
+/// what the filter lets through and what it doesn't know.
 void Interest::reconsider_around(DeclaredInterest& interest, const Regional& regional) {
   if (!regional.is_placed) {
     for (ObjectSlot slot = 0; slot < uses_.size(); ++slot)
@@ -291,13 +334,15 @@ void Interest::reconsider_around(DeclaredInterest& interest, const Regional& reg
   }
   if (!regional.is_planar)
     regional.inside.for_each([&](im::Entity entity) {
-      for (const ObjectSlot slot : regions_[region_of_entity_[entity]].objects) reconsider(interest, slot);
+      for (const ObjectSlot slot : regions_[region_of_entity_[entity]].objects)
+        reconsider(interest, slot);
     });
   for (const RegionSlot region : unplaced_)
     for (const ObjectSlot slot : regions_[region].objects) reconsider(interest, slot);
 }
 
-bool Interest::uniform_classes(const DeclaredInterest& interest, std::vector<AttributeSet>& by_class) const {
+bool Interest::uniform_classes(const DeclaredInterest& interest,
+                               std::vector<AttributeSet>& by_class) const {
   if (!associations_.empty() && !interest.regionals.empty()) return false;
   by_class = interest.everywhere.expanded;
   for (const Regional& each : interest.regionals)
@@ -313,7 +358,10 @@ void Interest::reconsider_all(DeclaredInterest& interest) {
   interest.is_changed = false;
   std::vector<AttributeSet> by_class, by_object;
   const bool is_uniform = uniform_classes(interest, by_class);
-  if (!is_uniform) by_object.resize(objects_.slot_count());  // else four bytes per object of the world would come and go with every client, and leave holes in the heap
+  if (!is_uniform)
+    by_object.resize(
+        objects_.slot_count());  // else four bytes per object of the world would come and go with
+                                 // every client, and leave holes in the heap
   for (ObjectSlot slot = 0; slot < objects_.slot_count(); ++slot) {
     const AttributeSet was = interest.told(slot, objects_[slot].object_class);
     const AttributeSet is = wanted(interest, slot);
@@ -328,7 +376,8 @@ void Interest::reconsider_all(DeclaredInterest& interest) {
 
 void Interest::reconsider(DeclaredInterest& interest, ObjectSlot slot) {
   ++counters_.pairs_reconsidered;
-  const AttributeSet was = interest.told(slot, objects_[slot].object_class), is = wanted(interest, slot);
+  const AttributeSet was = interest.told(slot, objects_[slot].object_class),
+                     is = wanted(interest, slot);
   settle(interest, slot, was, is);
   if (!is.is_empty()) touch(slot);  // what is heard as before may be heard passively now
   if (interest.is_uniform) return;
@@ -336,7 +385,8 @@ void Interest::reconsider(DeclaredInterest& interest, ObjectSlot slot) {
   interest.by_object[slot] = is;
 }
 
-void Interest::settle(DeclaredInterest& interest, ObjectSlot slot, AttributeSet was, AttributeSet is) {
+void Interest::settle(DeclaredInterest& interest, ObjectSlot slot, AttributeSet was,
+                      AttributeSet is) {
   if (traits_.says_tiers && !is.is_empty()) place_in_tier(interest, slot, was.is_empty());
   if (was == is) return;
   touch(slot);

@@ -1,4 +1,5 @@
-// Roles, headings and flights: what the filter knows of objects and federates beside regions, and what a federate owns.
+// Roles, headings and flights: what the filter knows of objects and federates beside regions, and
+// what a federate owns.
 #include "rti/distribution/interest.h"
 
 namespace rink::rti {
@@ -21,11 +22,15 @@ void Interest::set_federate_role(std::uint32_t federate, const im::Role& role) {
     if (each.is_placed) tell_subscriber(interest, each.subscriber);
 }
 
-/// Objects that share a region differ to the filter in nothing, so they have in common what they agree in; one of them that is always relevant takes the others along.
+/// Objects that share a region differ to the filter in nothing, so they have in common what they
+/// agree in; one of them that is always relevant takes the others along.
 void Interest::tell_role(RegionSlot slot) {
   const DistributedRegion& region = regions_[slot];
-  if (!traits_.uses_roles || !region.is_placed || !region.is_committed || region.objects.empty()) return;
-  const auto role_of = [this](ObjectSlot object) { return object < roles_.size() ? roles_[object] : im::Role{}; };
+  if (!traits_.uses_roles || !region.is_placed || !region.is_committed || region.objects.empty())
+    return;
+  const auto role_of = [this](ObjectSlot object) {
+    return object < roles_.size() ? roles_[object] : im::Role{};
+  };
   im::Role common = role_of(region.objects.front());
   for (const ObjectSlot object : region.objects) {
     const im::Role role = role_of(object);
@@ -53,7 +58,9 @@ void Interest::set_federate_heading(std::uint32_t federate, const im::Heading& h
 void Interest::set_flight(ObjectSlot slot, const im::Flight& flight) {
   if (!traits_.uses_flights) return;
   for (const Association& each : associations_of(slot))
-    if (const DistributedRegion& region = regions_[each.region]; region.is_placed && region.is_committed) filter_->set_flight(region.entity, flight);
+    if (const DistributedRegion& region = regions_[each.region];
+        region.is_placed && region.is_committed)
+      filter_->set_flight(region.entity, flight);
 }
 
 void Interest::set_time(double now) {
@@ -61,7 +68,8 @@ void Interest::set_time(double now) {
 }
 
 bool Interest::is_own(const DeclaredInterest& interest, ObjectSlot slot) const {
-  return interest.role.owner != im::Role::none && slot < roles_.size() && roles_[slot].owner == interest.role.owner;
+  return interest.role.owner != im::Role::none && slot < roles_.size() &&
+         roles_[slot].owner == interest.role.owner;
 }
 
 }  // namespace rink::rti

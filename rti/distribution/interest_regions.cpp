@@ -35,7 +35,8 @@ bool Interest::create_region(std::uint32_t federate, RegionHandle region, Dimens
   return true;
 }
 
-bool Interest::modify_region(std::uint32_t federate, RegionHandle handle, const im::Region& bounds) {
+bool Interest::modify_region(std::uint32_t federate, RegionHandle handle,
+                             const im::Region& bounds) {
   if (!has_region(federate, handle)) return false;
   const RegionSlot slot = slot_of(federate, handle);
   DistributedRegion& region = regions_[slot];
@@ -50,7 +51,8 @@ bool Interest::modify_region(std::uint32_t federate, RegionHandle handle, const 
   return true;
 }
 
-void Interest::modify_region(std::uint32_t federate, RegionHandle handle, std::span<const Range> ranges) {
+void Interest::modify_region(std::uint32_t federate, RegionHandle handle,
+                             std::span<const Range> ranges) {
   const RegionSlot slot = slot_of(federate, handle);
   DistributedRegion& region = regions_[slot];
   assert(ranges.size() == region.dimensions.count());
@@ -73,7 +75,8 @@ void Interest::modify_region(std::uint32_t federate, RegionHandle handle, std::s
   mark_changed(slot);
 }
 
-/// The filter ignores roles of whom it does not know yet, so who `is_new` to it is told of with his.
+/// The filter ignores roles of whom it does not know yet, so who `is_new` to it is told of with
+/// his.
 void Interest::tell_filter(const DistributedRegion& region, RegionSlot slot, bool is_new) {
   if (!region.objects.empty()) {
     filter_->set_update_region(region.entity, region.plane);
@@ -186,10 +189,12 @@ void Interest::set_associations(ObjectSlot object, std::vector<Association> asso
 
 void Interest::associate(std::uint32_t federate, ObjectSlot object, RegionHandle region) {
   if (!region) return set_associations(object, {});
-  set_associations(object, {{slot_of(federate, region), fom_.attributes(ObjectClassHandle{objects_[object].object_class})}});
+  set_associations(object, {{slot_of(federate, region),
+                             fom_.attributes(ObjectClassHandle{objects_[object].object_class})}});
 }
 
-void Interest::associate(std::uint32_t federate, ObjectSlot object, RegionHandle region, AttributeSet attributes) {
+void Interest::associate(std::uint32_t federate, ObjectSlot object, RegionHandle region,
+                         AttributeSet attributes) {
   const RegionSlot slot = slot_of(federate, region);
   std::vector<Association> all = associations_of(object);
   const auto found = std::ranges::find(all, slot, &Association::region);
@@ -198,7 +203,8 @@ void Interest::associate(std::uint32_t federate, ObjectSlot object, RegionHandle
   set_associations(object, std::move(all));
 }
 
-void Interest::disassociate(std::uint32_t federate, ObjectSlot object, RegionHandle region, AttributeSet attributes) {
+void Interest::disassociate(std::uint32_t federate, ObjectSlot object, RegionHandle region,
+                            AttributeSet attributes) {
   const RegionSlot slot = slot_of(federate, region);
   std::vector<Association> all = associations_of(object);
   for (Association& each : all)
@@ -206,7 +212,8 @@ void Interest::disassociate(std::uint32_t federate, ObjectSlot object, RegionHan
   set_associations(object, std::move(all));
 }
 
-bool Interest::ranges_overlap(const DistributedRegion& a, const DistributedRegion& b, DimensionSet dimensions) {
+bool Interest::ranges_overlap(const DistributedRegion& a, const DistributedRegion& b,
+                              DimensionSet dimensions) {
   for (std::uint64_t left = dimensions.bits; left != 0; left &= left - 1) {
     const DimensionHandle dimension{static_cast<std::uint32_t>(std::countr_zero(left))};
     ++counters_.ranges_tested;
@@ -217,7 +224,8 @@ bool Interest::ranges_overlap(const DistributedRegion& a, const DistributedRegio
 
 Range Interest::range(const DistributedRegion& region, DimensionHandle dimension) const {
   if (!region.is_planar) return region.ranges[region.dimensions.rank(dimension)];
-  return dimension == x_ ? Range{region.plane.low_x, region.plane.high_x} : Range{region.plane.low_y, region.plane.high_y};
+  return dimension == x_ ? Range{region.plane.low_x, region.plane.high_x}
+                         : Range{region.plane.low_y, region.plane.high_y};
 }
 
 /// IEEE 1516.1-2010, 9.1: in all dimensions that they have in common, of which there must be one.
@@ -227,11 +235,13 @@ bool Interest::regions_overlap(const DistributedRegion& a, const DistributedRegi
   if (!a.is_placed || !b.is_placed) return !common.is_empty() && ranges_overlap(a, b, common);
   counters_.ranges_tested += 2;
   const im::Region &p = a.plane, &q = b.plane;
-  if (!(p.low_x <= q.high_x && q.low_x <= p.high_x && p.low_y <= q.high_y && q.low_y <= p.high_y)) return false;
+  if (!(p.low_x <= q.high_x && q.low_x <= p.high_x && p.low_y <= q.high_y && q.low_y <= p.high_y))
+    return false;
   return ranges_overlap(a, b, DimensionSet(common.bits & ~plane_.bits));
 }
 
-AttributeSet Interest::overlapping(std::uint32_t federate, RegionHandle region, ObjectSlot object, AttributeSet attributes) {
+AttributeSet Interest::overlapping(std::uint32_t federate, RegionHandle region, ObjectSlot object,
+                                   AttributeSet attributes) {
   const DistributedRegion& asked = regions_[slot_of(federate, region)];
   AttributeSet regional, inside;
   for (const Association& each : associations_of(object)) {

@@ -20,16 +20,21 @@ void Interest::set_tier(Regional& regional, im::Entity entity, std::uint32_t tie
 bool Interest::never_waits(const DeclaredInterest& interest, ObjectSlot slot) {
   const Use& used = uses_[slot];
   const std::uint16_t object_class = objects_[slot].object_class;
-  if (used.region == no_region || is_own(interest, slot) || !interest.everywhere.expanded[object_class].is_empty()) return true;
+  if (used.region == no_region || is_own(interest, slot) ||
+      !interest.everywhere.expanded[object_class].is_empty())
+    return true;
   return used.region != several && std::ranges::any_of(interest.regionals, [&](const auto& each) {
-           return !each.is_placed && !each.classes.expanded[object_class].is_empty() && overlaps(each, used.region);
+           return !each.is_placed && !each.classes.expanded[object_class].is_empty() &&
+                  overlaps(each, used.region);
          });
 }
 
-/// The nearest in which some subscription has it; 0 if one hears of it without the filter's saying so.
+/// The nearest in which some subscription has it; 0 if one hears of it without the filter's saying
+/// so.
 void Interest::place_in_tier(DeclaredInterest& interest, ObjectSlot slot, bool is_new) {
   const Use& used = uses_[slot];
-  std::uint32_t tier = used.entity == no_entity || never_waits(interest, slot) ? 0 : Turns::tier_max;
+  std::uint32_t tier =
+      used.entity == no_entity || never_waits(interest, slot) ? 0 : Turns::tier_max;
   for (const Regional& each : interest.regionals) {
     if (tier == 0 || !(each.is_placed && each.inside.contains(used.entity))) continue;
     std::uint32_t own = 0;
@@ -57,7 +62,8 @@ void Interest::take_turns(std::uint32_t federate) {
     const Bitmap& tier = turns.tiers[k - 1];
     const std::uint64_t turn = turn_of(match_, k);
     for (std::size_t i = 0; i < tier.word_count(); ++i)
-      turns.waiting.insert_word(i, tier.word(i) & ~turn & interest.in_scope.word(i) & ~interest.fresh.word(i) & ~turns.prompt.word(i));
+      turns.waiting.insert_word(i, tier.word(i) & ~turn & interest.in_scope.word(i) &
+                                       ~interest.fresh.word(i) & ~turns.prompt.word(i));
   }
   turns.prompt.clear();
 }
@@ -91,10 +97,14 @@ void Interest::share_out(std::uint32_t federate, const BytesDue& bytes_due) {
       each.inside.for_each([&](im::Entity entity) { list(entity, put_off_); });
       continue;
     }
-    for (const im::PriorityOrder::Item& item : order.fill(each.subscriber, budget, [&](const im::PriorityOrder::Item& asked) { return due(asked.entity); })) list(item.entity, sent_);
+    for (const im::PriorityOrder::Item& item :
+         order.fill(each.subscriber, budget,
+                    [&](const im::PriorityOrder::Item& asked) { return due(asked.entity); }))
+      list(item.entity, sent_);
     for (const im::PriorityOrder::Item& item : order.put_off()) list(item.entity, put_off_);
   }
-  for (std::size_t i = 0; i < put_off_.word_count(); ++i) turns.waiting.insert_word(i, put_off_.word(i) & ~sent_.word(i) & interest.in_scope.word(i));
+  for (std::size_t i = 0; i < put_off_.word_count(); ++i)
+    turns.waiting.insert_word(i, put_off_.word(i) & ~sent_.word(i) & interest.in_scope.word(i));
 }
 
 }  // namespace rink::rti

@@ -10,7 +10,8 @@
 
 namespace rink::rti {
 
-/// Objects by their numbers, 64 at once as in `Bitmap`. One bit for each object and each attribute that was ever late: what its values are the object table knows.
+/// Objects by their numbers, 64 at once as in `Bitmap`. One bit for each object and each attribute
+/// that was ever late: what its values are the object table knows.
 class LateStates {
  public:
   void put_off(std::size_t word, std::uint64_t objects, AttributeSet attributes) {

@@ -13,18 +13,25 @@ namespace {
 static_assert(region_max == 1u << RegionBook::number_bits);
 constexpr std::uint64_t is_interaction = std::uint64_t{1} << 63;
 
-std::uint64_t key_of(ObjectClassHandle object_class, std::uint32_t region) { return std::uint64_t{object_class.value} << 32 | region; }
-std::uint64_t key_of(InteractionClassHandle interaction_class, std::uint32_t region) { return is_interaction | std::uint64_t{interaction_class.value} << 32 | region; }
+std::uint64_t key_of(ObjectClassHandle object_class, std::uint32_t region) {
+  return std::uint64_t{object_class.value} << 32 | region;
+}
+std::uint64_t key_of(InteractionClassHandle interaction_class, std::uint32_t region) {
+  return is_interaction | std::uint64_t{interaction_class.value} << 32 | region;
+}
 
 }  // namespace
 
 void RegionBook::sign(std::string_view federate_name) {
   std::uint32_t hash = 2166136261u;  // FNV-1a
-  for (const char letter : federate_name) hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619u;
+  for (const char letter : federate_name)
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619u;
   mark_ = hash % ((1u << (32 - number_bits)) - 1);  // never all ones, as the empty handle's is
 }
 
-std::string RegionBook::name(RegionHandle region) { return "region " + std::to_string(region.value & number_mask); }
+std::string RegionBook::name(RegionHandle region) {
+  return "region " + std::to_string(region.value & number_mask);
+}
 
 RegionHandle RegionBook::create(DimensionSet dimensions) {
   auto number = static_cast<std::uint32_t>(entries_.size());
@@ -38,15 +45,19 @@ RegionHandle RegionBook::create(DimensionSet dimensions) {
   const auto x = fom_.dimension("X"), y = fom_.dimension("Y");
   const bool is_planar = dimensions.is_empty() || (x && y && dimensions == DimensionSet{*x, *y});
   entries_[number] = {{}, 0, true, is_planar};
-  if (!is_planar) templates_[number] = {dimensions, std::vector<std::optional<Range>>(dimensions.count())};
+  if (!is_planar)
+    templates_[number] = {dimensions, std::vector<std::optional<Range>>(dimensions.count())};
   return {mark_ << number_bits | number};
 }
 
 std::uint32_t RegionBook::check(RegionHandle region) const {
   if (!region) throw RtiException(HlaError::invalid_region, "the empty handle names no region");
-  if (region.value >> number_bits != mark_) throw RtiException(HlaError::region_not_created_by_this_federate, name(region) + " is another federate's");
+  if (region.value >> number_bits != mark_)
+    throw RtiException(HlaError::region_not_created_by_this_federate,
+                       name(region) + " is another federate's");
   const std::uint32_t number = region.value & number_mask;
-  if (number >= entries_.size() || !entries_[number].exists) throw RtiException(HlaError::invalid_region, name(region) + " does not exist");
+  if (number >= entries_.size() || !entries_[number].exists)
+    throw RtiException(HlaError::invalid_region, name(region) + " does not exist");
   return number;
 }
 
@@ -59,30 +70,46 @@ DimensionSet RegionBook::dimensions(RegionHandle region) const {
 
 void RegionBook::set_plane(RegionHandle region, const im::Region& bounds) {
   const std::uint32_t number = check(region);
-  if (!entries_[number].is_planar) throw RtiException(HlaError::invalid_region_context, name(region) + " is not over X and Y alone; set its ranges one by one");
-  if (!im::is_valid(bounds)) throw RtiException(HlaError::invalid_range_bound, name(region) + " needs finite bounds, low <= high");
+  if (!entries_[number].is_planar)
+    throw RtiException(HlaError::invalid_region_context,
+                       name(region) + " is not over X and Y alone; set its ranges one by one");
+  if (!im::is_valid(bounds))
+    throw RtiException(HlaError::invalid_range_bound,
+                       name(region) + " needs finite bounds, low <= high");
   entries_[number].plane = bounds;
 }
 
-std::size_t RegionBook::rank(const Template& all, RegionHandle region, DimensionHandle dimension) const {
-  if (dimension.value >= fom_.dimensions().size()) throw RtiException(HlaError::invalid_dimension_handle, "the model has no dimension " + std::to_string(dimension.value));
+std::size_t RegionBook::rank(const Template& all, RegionHandle region,
+                             DimensionHandle dimension) const {
+  if (dimension.value >= fom_.dimensions().size())
+    throw RtiException(HlaError::invalid_dimension_handle,
+                       "the model has no dimension " + std::to_string(dimension.value));
   if (!all.dimensions.contains(dimension))
-    throw RtiException(HlaError::region_does_not_contain_specified_dimension, name(region) + " is not over '" + fom_.at(dimension).name + "'");
+    throw RtiException(HlaError::region_does_not_contain_specified_dimension,
+                       name(region) + " is not over '" + fom_.at(dimension).name + "'");
   return all.dimensions.rank(dimension);
 }
 
 void RegionBook::set_range(RegionHandle region, DimensionHandle dimension, const Range& range) {
   const std::uint32_t number = check(region);
   Entry& entry = entries_[number];
-  const std::size_t at = rank(entry.is_planar ? Template{dimensions(region), {}} : templates_.at(number), region, dimension);
+  const std::size_t at =
+      rank(entry.is_planar ? Template{dimensions(region), {}} : templates_.at(number), region,
+           dimension);
   const std::optional<std::uint32_t> bound = fom_.at(dimension).upper_bound;
   const bool is_whole = range.low == std::floor(range.low) && range.high == std::floor(range.high);
   if (bound && !(is_whole && range.low >= 0.0 && range.low < range.high && range.high <= *bound))
-    throw RtiException(HlaError::invalid_range_bound, "dimension '" + fom_.at(dimension).name + "' takes whole numbers with 0 <= lower < upper <= " + std::to_string(*bound));
+    throw RtiException(
+        HlaError::invalid_range_bound,
+        "dimension '" + fom_.at(dimension).name +
+            "' takes whole numbers with 0 <= lower < upper <= " + std::to_string(*bound));
   if (!bound && !(std::isfinite(range.low) && std::isfinite(range.high) && range.low <= range.high))
-    throw RtiException(HlaError::invalid_range_bound, "dimension '" + fom_.at(dimension).name + "' takes finite numbers with lower <= upper");
+    throw RtiException(
+        HlaError::invalid_range_bound,
+        "dimension '" + fom_.at(dimension).name + "' takes finite numbers with lower <= upper");
   if (!entry.is_planar) templates_.at(number).ranges[at] = range;
-  else if (fom_.at(dimension).name == "X") entry.plane.low_x = range.low, entry.plane.high_x = range.high;
+  else if (fom_.at(dimension).name == "X")
+    entry.plane.low_x = range.low, entry.plane.high_x = range.high;
   else entry.plane.low_y = range.low, entry.plane.high_y = range.high;
 }
 
@@ -91,10 +118,15 @@ Range RegionBook::range(RegionHandle region, DimensionHandle dimension) const {
   const Entry& entry = entries_[number];
   const Template& all = entry.is_planar ? Template{dimensions(region), {}} : templates_.at(number);
   const std::size_t at = rank(all, region, dimension);
-  if (entry.is_planar) return fom_.at(dimension).name == "X" ? Range{entry.plane.low_x, entry.plane.high_x} : Range{entry.plane.low_y, entry.plane.high_y};
+  if (entry.is_planar)
+    return fom_.at(dimension).name == "X" ? Range{entry.plane.low_x, entry.plane.high_x}
+                                          : Range{entry.plane.low_y, entry.plane.high_y};
   if (all.ranges[at]) return *all.ranges[at];
   const std::optional<std::uint32_t> bound = fom_.at(dimension).upper_bound;
-  if (!bound) throw RtiException(HlaError::invalid_region, name(region) + " has no range in '" + fom_.at(dimension).name + "', which has no upper bound to fill it with");
+  if (!bound)
+    throw RtiException(HlaError::invalid_region, name(region) + " has no range in '" +
+                                                     fom_.at(dimension).name +
+                                                     "', which has no upper bound to fill it with");
   return {0.0, static_cast<double>(*bound)};
 }
 
@@ -107,14 +139,18 @@ void RegionBook::closed_ranges(RegionHandle region, std::vector<Range>& ranges) 
   });
 }
 
-void RegionBook::check_context(RegionHandle region, DimensionSet available, std::string_view of) const {
+void RegionBook::check_context(RegionHandle region, DimensionSet available,
+                               std::string_view of) const {
   const DimensionSet all = dimensions(region);
   if (available.includes(all) && !all.is_empty()) return;
   std::string foreign;
   all.for_each([&](DimensionHandle each) {
-    if (!available.contains(each)) foreign += (foreign.empty() ? "'" : ", '") + fom_.at(each).name + "'";
+    if (!available.contains(each))
+      foreign += (foreign.empty() ? "'" : ", '") + fom_.at(each).name + "'";
   });
-  throw RtiException(HlaError::invalid_region_context, name(region) + " is over " + (foreign.empty() ? "no dimension" : foreign) + ", which " + std::string(of) + " has not");
+  throw RtiException(HlaError::invalid_region_context,
+                     name(region) + " is over " + (foreign.empty() ? "no dimension" : foreign) +
+                         ", which " + std::string(of) + " has not");
 }
 
 void RegionBook::set_subscription(std::uint64_t key, AttributeSet attributes) {
@@ -130,18 +166,21 @@ void RegionBook::set_subscription(std::uint64_t key, AttributeSet attributes) {
   subscriptions_[key] = attributes;
 }
 
-void RegionBook::subscribe(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region, bool is_added) {
+void RegionBook::subscribe(ObjectClassHandle object_class, AttributeSet attributes,
+                           RegionHandle region, bool is_added) {
   const std::uint64_t key = key_of(object_class, number(region));
   const auto known = subscriptions_.find(key);
   const AttributeSet now = known == subscriptions_.end() ? AttributeSet() : known->second;
   set_subscription(key, is_added ? now | attributes : now.without(attributes));
 }
 
-void RegionBook::replace_subscription(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region) {
+void RegionBook::replace_subscription(ObjectClassHandle object_class, AttributeSet attributes,
+                                      RegionHandle region) {
   set_subscription(key_of(object_class, number(region)), attributes);
 }
 
-void RegionBook::subscribe(InteractionClassHandle interaction_class, RegionHandle region, bool is_added) {
+void RegionBook::subscribe(InteractionClassHandle interaction_class, RegionHandle region,
+                           bool is_added) {
   set_subscription(key_of(interaction_class, number(region)), AttributeSet(is_added ? 1u : 0u));
 }
 
@@ -152,7 +191,8 @@ void RegionBook::associate(ObjectHandle object, RegionHandle region) {
   ++entries_[number(region)].use_count;
 }
 
-void RegionBook::associate(ObjectHandle object, AttributeSet all, AttributeSet attributes, RegionHandle region, bool is_added) {
+void RegionBook::associate(ObjectHandle object, AttributeSet all, AttributeSet attributes,
+                           RegionHandle region, bool is_added) {
   auto& associations = partial_[object.value];
   if (const std::uint32_t* whole = whole_.find(object)) {
     associations.push_back({*whole, all});
@@ -164,7 +204,8 @@ void RegionBook::associate(ObjectHandle object, AttributeSet all, AttributeSet a
     found = associations.end() - 1;
     ++entries_[number(region)].use_count;
   }
-  found->attributes = is_added ? found->attributes | attributes : found->attributes.without(attributes);
+  found->attributes =
+      is_added ? found->attributes | attributes : found->attributes.without(attributes);
   if (found->attributes.is_empty()) {
     associations.erase(found);
     --entries_[number(region)].use_count;
@@ -189,7 +230,8 @@ std::vector<ObjectHandle> RegionBook::users_of(std::uint32_t number) const {
     if (region == number) users.push_back(object);
   });
   for (const auto& [object, associations] : partial_)
-    if (std::ranges::find(associations, number, &Association::region) != associations.end()) users.push_back({object});
+    if (std::ranges::find(associations, number, &Association::region) != associations.end())
+      users.push_back({object});
   return users;
 }
 
@@ -201,8 +243,10 @@ void RegionBook::release(std::uint32_t number) {
 
 std::size_t RegionBook::memory_bytes() const {
   constexpr std::size_t node_size = 16;  // what a map adds to each, about
-  return entries_.capacity() * sizeof entries_[0] + free_.capacity() * sizeof free_[0] + whole_.memory_bytes() +
-         templates_.size() * (sizeof(Template) + node_size) + subscriptions_.size() * (sizeof(std::uint64_t) * 2 + node_size) + partial_.size() * (sizeof(Association) + node_size);
+  return entries_.capacity() * sizeof entries_[0] + free_.capacity() * sizeof free_[0] +
+         whole_.memory_bytes() + templates_.size() * (sizeof(Template) + node_size) +
+         subscriptions_.size() * (sizeof(std::uint64_t) * 2 + node_size) +
+         partial_.size() * (sizeof(Association) + node_size);
 }
 
 }  // namespace rink::rti

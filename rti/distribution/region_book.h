@@ -15,14 +15,17 @@
 
 namespace rink::rti {
 
-/// Attributes and the regions that they are published or wanted in: each attribute with each region.
+/// Attributes and the regions that they are published or wanted in: each attribute with each
+/// region.
 struct AttributeRegions {
   AttributeSet attributes;
   std::vector<RegionHandle> regions;
 };
 
-/// Every member but the bulk's throws `RtiException` before it changes anything: InvalidRegion for what is no region, RegionNotCreatedByThisFederate for another federate's.
-/// A handle holds a mark of its federate's name beside the number that the wire carries; two federates have equal marks once in 16,383.
+/// Every member but the bulk's throws `RtiException` before it changes anything: InvalidRegion for
+/// what is no region, RegionNotCreatedByThisFederate for another federate's. A handle holds a mark
+/// of its federate's name beside the number that the wire carries; two federates have equal marks
+/// once in 16,383.
 class RegionBook {
  public:
   static constexpr std::uint32_t number_bits = 18;
@@ -31,14 +34,17 @@ class RegionBook {
   /// Before the first region is made.
   void sign(std::string_view federate_name);
 
-  /// Without dimensions: over the plane of X and Y [m], whether or not the model has them. Empty if all numbers are in use.
+  /// Without dimensions: over the plane of X and Y [m], whether or not the model has them. Empty if
+  /// all numbers are in use.
   RegionHandle create(DimensionSet dimensions);
-  /// Throws RegionInUseForUpdateOrSubscription if it is; an object for which `is_own(ObjectHandle)` is false uses nothing any more.
+  /// Throws RegionInUseForUpdateOrSubscription if it is; an object for which `is_own(ObjectHandle)`
+  /// is false uses nothing any more.
   template <class IsOwn>
   void remove(RegionHandle region, IsOwn is_own) {
     const std::uint32_t number = check(region);
     if (entries_[number].use_count > 0) release_lost(number, is_own);
-    if (entries_[number].use_count > 0) throw RtiException(HlaError::region_in_use_for_update_or_subscription, name(region));
+    if (entries_[number].use_count > 0)
+      throw RtiException(HlaError::region_in_use_for_update_or_subscription, name(region));
     release(number);
   }
 
@@ -54,27 +60,36 @@ class RegionBook {
 
   /// Of a planar region.
   void set_plane(RegionHandle region, const im::Region& bounds);
-  void set_plane_unchecked(std::uint32_t number, const im::Region& bounds) { entries_[number].plane = bounds; }
+  void set_plane_unchecked(std::uint32_t number, const im::Region& bounds) {
+    entries_[number].plane = bounds;
+  }
   const im::Region& plane(std::uint32_t number) const { return entries_[number].plane; }
-  /// Throws RegionDoesNotContainSpecifiedDimension and InvalidRangeBound. Of a dimension with an upper bound: whole numbers, 0 <= low < high <= bound, and `high` is the first that the
-  /// range does not hold; of one without: finite, low <= high, both held.
+  /// Throws RegionDoesNotContainSpecifiedDimension and InvalidRangeBound. Of a dimension with an
+  /// upper bound: whole numbers, 0 <= low < high <= bound, and `high` is the first that the range
+  /// does not hold; of one without: finite, low <= high, both held.
   void set_range(RegionHandle region, DimensionHandle dimension, const Range& range);
-  /// As it was set; all of a dimension with an upper bound that was not. Throws InvalidRegion for one without a bound that was not.
+  /// As it was set; all of a dimension with an upper bound that was not. Throws InvalidRegion for
+  /// one without a bound that was not.
   Range range(RegionHandle region, DimensionHandle dimension) const;
-  /// What the wire carries: closed ranges, one for each dimension in ascending order. Throws InvalidRegion if one is due that was never set.
+  /// What the wire carries: closed ranges, one for each dimension in ascending order. Throws
+  /// InvalidRegion if one is due that was never set.
   void closed_ranges(RegionHandle region, std::vector<Range>& ranges) const;
 
-  /// Throws InvalidRegionContext unless every dimension of the region is one of `available`, which `of` has.
+  /// Throws InvalidRegionContext unless every dimension of the region is one of `available`, which
+  /// `of` has.
   void check_context(RegionHandle region, DimensionSet available, std::string_view of) const;
 
   /// What uses what. The pairs have been checked.
-  void subscribe(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region, bool is_added);
-  void replace_subscription(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region);
+  void subscribe(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region,
+                 bool is_added);
+  void replace_subscription(ObjectClassHandle object_class, AttributeSet attributes,
+                            RegionHandle region);
   void subscribe(InteractionClassHandle interaction_class, RegionHandle region, bool is_added);
   /// All of it uses the region alone; an empty one: none.
   void associate(ObjectHandle object, RegionHandle region);
   /// `all` are those of its class.
-  void associate(ObjectHandle object, AttributeSet all, AttributeSet attributes, RegionHandle region, bool is_added);
+  void associate(ObjectHandle object, AttributeSet all, AttributeSet attributes,
+                 RegionHandle region, bool is_added);
   void forget(ObjectHandle object);
 
   std::size_t memory_bytes() const;
@@ -107,11 +122,12 @@ class RegionBook {
 
   const Fom& fom_;
   std::uint32_t mark_ = 0;
-  std::vector<Entry> entries_;                                   ///< by number
+  std::vector<Entry> entries_;  ///< by number
   std::vector<std::uint32_t> free_;
-  std::unordered_map<std::uint32_t, Template> templates_;        ///< of regions that are not planar
-  std::unordered_map<std::uint64_t, AttributeSet> subscriptions_;///< by kind, class and region; interactions with one bit
-  ObjectMap<std::uint32_t> whole_;                               ///< the one region of an object
+  std::unordered_map<std::uint32_t, Template> templates_;  ///< of regions that are not planar
+  std::unordered_map<std::uint64_t, AttributeSet>
+      subscriptions_;               ///< by kind, class and region; interactions with one bit
+  ObjectMap<std::uint32_t> whole_;  ///< the one region of an object
   std::unordered_map<std::uint32_t, std::vector<Association>> partial_;
 };
 

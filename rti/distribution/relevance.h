@@ -1,4 +1,5 @@
-// Who hears anything of a class, counted, so that those who publish it can be told when nobody does.
+// Who hears anything of a class, counted, so that those who publish it can be told when nobody
+// does.
 #pragma once
 
 #include <array>
@@ -9,17 +10,22 @@
 
 namespace rink::rti {
 
-/// Subscriptions of all federates, in whatever region. Classes of objects and of interactions are rows of one table: an interaction class is one attribute, the first.
-/// A change costs as many steps as attributes change, not as there are federates.
+/// Subscriptions of all federates, in whatever region. Classes of objects and of interactions are
+/// rows of one table: an interaction class is one attribute, the first. A change costs as many
+/// steps as attributes change, not as there are federates.
 class Relevance {
  public:
   /// What a row's listeners are to an interaction class.
-  static Subscription of(Listening listening) { return {AttributeSet(listening != Listening::none), AttributeSet(listening == Listening::active)}; }
+  static Subscription of(Listening listening) {
+    return {AttributeSet(listening != Listening::none),
+            AttributeSet(listening == Listening::active)};
+  }
 
   explicit Relevance(std::size_t rows) : rows_(rows) {}
   std::size_t row_count() const { return rows_.size(); }
 
-  /// Replaces what `federate` hears of a row. True if that may concern another federate than before: what two others hear, a third one's coming or going does not change.
+  /// Replaces what `federate` hears of a row. True if that may concern another federate than
+  /// before: what two others hear, a third one's coming or going does not change.
   bool set(std::uint32_t federate, std::size_t row, const Subscription& now) {
     if (federate >= federates_.size()) federates_.resize(federate + 1);
     auto& own = federates_[federate];
@@ -31,7 +37,9 @@ class Relevance {
   }
   /// What others than `federate` hear of a row.
   Subscription of_others(std::uint32_t federate, std::size_t row) const {
-    const Subscription own = federate < federates_.size() && !federates_[federate].empty() ? federates_[federate][row] : Subscription();
+    const Subscription own = federate < federates_.size() && !federates_[federate].empty()
+                                 ? federates_[federate][row]
+                                 : Subscription();
     return {rows_[row].heard.of_others(own.heard), rows_[row].active.of_others(own.active)};
   }
 
@@ -59,7 +67,8 @@ class Relevance {
     Counts heard, active;
   };
   std::vector<Row> rows_;
-  std::vector<std::vector<Subscription>> federates_;  ///< by slot, then by row; empty where nothing was ever heard
+  std::vector<std::vector<Subscription>>
+      federates_;  ///< by slot, then by row; empty where nothing was ever heard
 };
 
 }  // namespace rink::rti

@@ -11,25 +11,31 @@ namespace rink::rti {
 
 /// One federate's, under a filter that says tiers or has a budget. Sets of objects by slot.
 struct Turns {
-  /// What is in tier k is told of every 2^k-th match, at most this k: objects take turns by their slots, and the turns of 64 of them fit a word.
+  /// What is in tier k is told of every 2^k-th match, at most this k: objects take turns by their
+  /// slots, and the turns of 64 of them fit a word.
   static constexpr std::uint32_t tier_max = 6;
 
-  std::array<Bitmap, tier_max> tiers;  ///< in scope and in tier 1, 2 ...; who is in none is in tier 0
-  Bitmap prompt;                       ///< changed their tiers since the last flush: what is late of them waits no longer
-  std::uint64_t shared_out = 0;        ///< the match whose budget is spent
+  std::array<Bitmap, tier_max>
+      tiers;  ///< in scope and in tier 1, 2 ...; who is in none is in tier 0
+  Bitmap
+      prompt;  ///< changed their tiers since the last flush: what is late of them waits no longer
+  std::uint64_t shared_out = 0;  ///< the match whose budget is spent
   LateStates late;
 
   // Of the flush at hand.
-  Bitmap waiting;     ///< in scope, and not told of
-  Bitmap caught_up;   ///< told of what is late from the newest state, since the updates at hand don't say it all
-  Bitmap heard;       ///< told of by the updates at hand
+  Bitmap waiting;    ///< in scope, and not told of
+  Bitmap caught_up;  ///< told of what is late from the newest state, since the updates at hand
+                     ///< don't say it all
+  Bitmap heard;      ///< told of by the updates at hand
 };
 
 /// The slots from 64 i on whose turn it is at `match` in tier `tier`, for every i alike.
 constexpr std::uint64_t turn_of(std::uint64_t match, std::uint32_t tier) {
   const std::uint32_t period = 1u << tier;
   std::uint64_t slots = 0;
-  for (std::uint32_t slot = static_cast<std::uint32_t>((period - match % period) % period); slot < 64; slot += period) slots |= std::uint64_t{1} << slot;
+  for (std::uint32_t slot = static_cast<std::uint32_t>((period - match % period) % period);
+       slot < 64; slot += period)
+    slots |= std::uint64_t{1} << slot;
   return slots;
 }
 

@@ -1,6 +1,7 @@
-// Periodic state as a federate hears it: differences to keyframes that it keeps and has acknowledged.
-#include "rti/federate/ambassador_say.h"
+// Periodic state as a federate hears it: differences to keyframes that it keeps and has
+// acknowledged.
 #include "rti/baselines/delta_bits.h"
+#include "rti/federate/ambassador_say.h"
 #include "rti/wire/baseline_messages.h"
 
 namespace rink::rti {
@@ -22,10 +23,13 @@ void AmbassadorParts::end_keyframe() {
 
 bool AmbassadorParts::take_deltas(Reader& reader) {
   DeltasMessage message;
-  if (!exchange(reader, message) || !heard_stamp_ || message.object_class >= fom_.object_classes().size()) return false;
+  if (!exchange(reader, message) || !heard_stamp_ ||
+      message.object_class >= fom_.object_classes().size())
+    return false;
   const std::optional<AttributeHandle> attribute = fom_.periodic_attribute({message.object_class});
   if (!attribute) return false;
-  const QuantisedCodec& codec = *fom_.at(ObjectClassHandle{message.object_class}).attributes[attribute->value].baselines;
+  const QuantisedCodec& codec =
+      *fom_.at(ObjectClassHandle{message.object_class}).attributes[attribute->value].baselines;
   BitReader bits(reader.rest());
   DeltaHeader header;
   if (!exchange(bits, header, codec.fields().size())) return false;
@@ -38,7 +42,8 @@ bool AmbassadorParts::take_deltas(Reader& reader) {
     if (next != HandleReader::Next::handle) return false;
     const KnownObject* known = find({object});
     const bool is_object_gone = known == nullptr && is_gone({object});
-    if (!is_object_gone && (known == nullptr || known->object_class != message.object_class)) return false;
+    if (!is_object_gone && (known == nullptr || known->object_class != message.object_class))
+      return false;
     const DeltaOutcome outcome = take_periodic(bits, codec, header, object, stamp);
     if (outcome == DeltaOutcome::malformed) return false;
     if (outcome == DeltaOutcome::no_baseline) {
@@ -48,7 +53,9 @@ bool AmbassadorParts::take_deltas(Reader& reader) {
     }
     if (is_object_gone) continue;
     ++counters_.updates_reflected;
-    if (has_datagrams_) arrivals_.accept({object}, message.object_class, AttributeSet{*attribute}, order_of_frame(frames_heard_));
+    if (has_datagrams_)
+      arrivals_.accept({object}, message.object_class, AttributeSet{*attribute},
+                       order_of_frame(frames_heard_));
     callbacks_.reflect_attribute_values({object}, AttributeSet{*attribute}, decoded_, stamp);
     if (phase_ != Phase::joined) return true;
   }
@@ -58,9 +65,14 @@ bool AmbassadorParts::take_deltas(Reader& reader) {
 }
 
 /// Decodes one record into `decoded_` and keeps it if a keyframe is being told.
-AmbassadorParts::DeltaOutcome AmbassadorParts::take_periodic(BitReader& bits, const QuantisedCodec& codec, const DeltaHeader& header, std::uint32_t object, const Stamp& stamp) {
+AmbassadorParts::DeltaOutcome AmbassadorParts::take_periodic(BitReader& bits,
+                                                             const QuantisedCodec& codec,
+                                                             const DeltaHeader& header,
+                                                             std::uint32_t object,
+                                                             const Stamp& stamp) {
   bool is_absolute = false;
-  if (!bits.flag(is_absolute) || (!is_absolute && !header.has_baseline)) return DeltaOutcome::malformed;
+  if (!bits.flag(is_absolute) || (!is_absolute && !header.has_baseline))
+    return DeltaOutcome::malformed;
   decoded_.clear();
   QuantisedCodec::Counts counts{};
   if (is_absolute) {
@@ -68,14 +80,19 @@ AmbassadorParts::DeltaOutcome AmbassadorParts::take_periodic(BitReader& bits, co
     if (!is_quantised) return DeltaOutcome::malformed;
     if (!*is_quantised) return DeltaOutcome::decoded;  // in full: nobody's baseline
   } else {
-    const std::optional<KeyframeMemory::Baseline> baseline = keyframes_.find(header.baseline, object);
-    if (!baseline || baseline->counts.size() != codec.fields().size()) return skip_differences(bits, codec, header.orders) ? DeltaOutcome::no_baseline : DeltaOutcome::malformed;
+    const std::optional<KeyframeMemory::Baseline> baseline =
+        keyframes_.find(header.baseline, object);
+    if (!baseline || baseline->counts.size() != codec.fields().size())
+      return skip_differences(bits, codec, header.orders) ? DeltaOutcome::no_baseline
+                                                          : DeltaOutcome::malformed;
     QuantisedCodec::Counts predicted{};
     predict(codec, baseline->counts, stamp.time - baseline->time, predicted);
-    if (!exchange_differences(bits, codec, header.orders, predicted, counts)) return DeltaOutcome::malformed;
+    if (!exchange_differences(bits, codec, header.orders, predicted, counts))
+      return DeltaOutcome::malformed;
     codec.append_value(counts, decoded_);
   }
-  if (keyframes_.is_open()) keyframes_.add(object, stamp.time, std::span(counts).first(codec.fields().size()));
+  if (keyframes_.is_open())
+    keyframes_.add(object, stamp.time, std::span(counts).first(codec.fields().size()));
   return DeltaOutcome::decoded;
 }
 

@@ -1,6 +1,7 @@
-// Best-effort updates of a federate's own on their way to the RTI: by datagram where there is a way, and never out of order with what goes by the stream.
-#include "rti/federate/ambassador_say.h"
+// Best-effort updates of a federate's own on their way to the RTI: by datagram where there is a
+// way, and never out of order with what goes by the stream.
 #include "rti/buffering/best_effort_outbox.h"
+#include "rti/federate/ambassador_say.h"
 #include "rti/wire/datagram.h"
 
 namespace rink::rti {
@@ -12,20 +13,26 @@ void Ambassador::expect_datagrams(std::size_t size_max) {
   if (!outbox_ && size_max >= BestEffortOutbox::size_min && arrivals_.has_best_effort()) {
     // Who publishes no such attribute, as most of a crowd, needs none.
     for (std::uint16_t i = 0; i < declared_.objects.size() && !outbox_; ++i)
-      if (!(declared_.objects[i].published & arrivals_.best_effort(i)).is_empty()) outbox_ = std::make_unique<BestEffortOutbox>(fom_);
+      if (!(declared_.objects[i].published & arrivals_.best_effort(i)).is_empty())
+        outbox_ = std::make_unique<BestEffortOutbox>(fom_);
   }
   if (outbox_) outbox_->set_size(size_max);
 }
 
 /// Who keeps time, or leaves objects behind, says everything by the stream.
-AttributeSet AmbassadorParts::by_datagram(ObjectHandle object, ObjectClassHandle object_class) const {
+AttributeSet AmbassadorParts::by_datagram(ObjectHandle object,
+                                          ObjectClassHandle object_class) const {
   if (!outbox_ || !outbox_->is_usable() || is_timed_ || !declared_.is_deleting) return {};
   const AttributeSet* reliable = made_reliable_.find(object);
-  return outbox_->best_effort(object_class).without(reliable != nullptr ? *reliable : AttributeSet());
+  return outbox_->best_effort(object_class)
+      .without(reliable != nullptr ? *reliable : AttributeSet());
 }
 
-/// Sends those of an update that go by datagram, and leaves the others, with their values in `cut_values_`. `values` are coded.
-AttributeSet AmbassadorParts::say_best_effort(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes& values, const Stamp& stamp) {
+/// Sends those of an update that go by datagram, and leaves the others, with their values in
+/// `cut_values_`. `values` are coded.
+AttributeSet AmbassadorParts::say_best_effort(ObjectHandle object, ObjectClassHandle object_class,
+                                              AttributeSet attributes, Bytes& values,
+                                              const Stamp& stamp) {
   const AttributeSet best_effort = attributes & by_datagram(object, object_class);
   if (best_effort.is_empty()) return attributes;
   const AttributeSet rest = attributes.without(best_effort);
@@ -46,10 +53,14 @@ AttributeSet AmbassadorParts::say_best_effort(ObjectHandle object, ObjectClassHa
   return rest;
 }
 
-std::uint32_t AmbassadorParts::frames_said() const { return static_cast<std::uint32_t>(outgoing_.frame_count() - frames_to_join_); }
+std::uint32_t AmbassadorParts::frames_said() const {
+  return static_cast<std::uint32_t>(outgoing_.frame_count() - frames_to_join_);
+}
 
-/// Something about these attributes goes by the stream. What was said of any by datagram was said before: in a frame that is over.
-void AmbassadorParts::before_stream(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes) {
+/// Something about these attributes goes by the stream. What was said of any by datagram was said
+/// before: in a frame that is over.
+void AmbassadorParts::before_stream(ObjectHandle object, ObjectClassHandle object_class,
+                                    AttributeSet attributes) {
   if (!outbox_ || (attributes & outbox_->best_effort(object_class)).is_empty()) return;
   if (outbox_->is_pending()) {
     outbox_->seal(frames_said(), now_);
@@ -79,10 +90,12 @@ void AmbassadorParts::release_best_effort() {
 void AmbassadorParts::release_best_effort(ObjectClassHandle object_class) {
   if (!outbox_) return;
   for (const ObjectHandle object : outbox_->list())
-    if (outbox_->find(object)->object_class == object_class.value) release_best_effort(object, AttributeSet(~0u));
+    if (outbox_->find(object)->object_class == object_class.value)
+      release_best_effort(object, AttributeSet(~0u));
 }
 
-/// What was lost is said again as it is now: by datagram or, if there is no way any more, by the stream.
+/// What was lost is said again as it is now: by datagram or, if there is no way any more, by the
+/// stream.
 void AmbassadorParts::repair_best_effort() {
   outbox_->advance_clock(now_, frames_said());
   std::vector<DatagramLedger::Lost> due;
@@ -96,8 +109,11 @@ void AmbassadorParts::repair_best_effort() {
       const BestEffortOutbox::Value& value = newest.values[one.value];
       ++counters_.updates_repaired;
       const bool goes_by_datagram = by_datagram(object, {newest.object_class}).contains(one);
-      const bool is_said = goes_by_datagram && outbox_->say(object, {newest.object_class}, AttributeSet{one}, value.stamp, value.coded);
-      if (!is_said) say_update(object, {newest.object_class}, AttributeSet{one}, value.coded, value.stamp);
+      const bool is_said =
+          goes_by_datagram &&
+          outbox_->say(object, {newest.object_class}, AttributeSet{one}, value.stamp, value.coded);
+      if (!is_said)
+        say_update(object, {newest.object_class}, AttributeSet{one}, value.coded, value.stamp);
     });
   }
 }

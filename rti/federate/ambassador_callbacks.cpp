@@ -7,8 +7,12 @@ bool Ambassador::evoke_callback() { return evoke_multiple_callbacks(1); }
 
 bool Ambassador::evoke_multiple_callbacks(std::size_t count_max) {
   if (!queue_) return false;
-  if (queue_->is_delivering()) throw RtiException(HlaError::call_not_allowed_from_within_callback, "callbacks are evoked one after the other");
-  for (std::size_t count = 0; count < count_max && are_callbacks_enabled_ && !queue_->is_empty(); ++count) queue_->deliver_one();
+  if (queue_->is_delivering())
+    throw RtiException(HlaError::call_not_allowed_from_within_callback,
+                       "callbacks are evoked one after the other");
+  for (std::size_t count = 0; count < count_max && are_callbacks_enabled_ && !queue_->is_empty();
+       ++count)
+    queue_->deliver_one();
   return !queue_->is_empty();
 }
 

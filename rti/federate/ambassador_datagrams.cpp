@@ -1,4 +1,5 @@
-// Best-effort updates on the federate's side: applied unless something newer is known, acknowledged so that the RTI need not send them again.
+// Best-effort updates on the federate's side: applied unless something newer is known, acknowledged
+// so that the RTI need not send them again.
 #include <bit>
 #include <utility>
 
@@ -10,7 +11,8 @@
 namespace rink::rti {
 
 namespace {
-constexpr std::size_t held_max = 256;  ///< datagrams that wait for their frames; more are lost, and come again
+constexpr std::size_t held_max =
+    256;  ///< datagrams that wait for their frames; more are lost, and come again
 }
 
 void Ambassador::receive_datagram(Bytes datagram) {
@@ -23,10 +25,12 @@ void Ambassador::receive_datagram(Bytes datagram) {
     ++counters_.datagrams_ignored;
     return;
   }
-  // It may speak of objects that a frame on its way tells of; and while callbacks are disabled frames are held back too.
+  // It may speak of objects that a frame on its way tells of; and while callbacks are disabled
+  // frames are held back too.
   const bool may_tell = are_callbacks_enabled_ || queue_;
   if (may_tell && head.frames <= frames_heard_) apply_datagram(datagram);
-  else if (held_datagrams_.size() < held_max) held_datagrams_.emplace_back(datagram.begin(), datagram.end());
+  else if (held_datagrams_.size() < held_max)
+    held_datagrams_.emplace_back(datagram.begin(), datagram.end());
   else ++counters_.datagrams_ignored;
 }
 
@@ -69,8 +73,11 @@ bool AmbassadorParts::take_datagram(const DatagramHead& head, Reader& reader) {
     if (kind == datagram_end) break;
     AcknowledgeDatagramsMessage ours;
     if (static_cast<MessageKind>(kind) == MessageKind::stamp) is_understood = take_stamp(reader);
-    else if (static_cast<MessageKind>(kind) == MessageKind::acknowledge_datagrams) is_understood = exchange(reader, ours) && outbox_ && outbox_->acknowledge(ours, now_);
-    else is_understood = static_cast<MessageKind>(kind) == MessageKind::updates && take_datagram_updates(head, reader);
+    else if (static_cast<MessageKind>(kind) == MessageKind::acknowledge_datagrams)
+      is_understood = exchange(reader, ours) && outbox_ && outbox_->acknowledge(ours, now_);
+    else
+      is_understood = static_cast<MessageKind>(kind) == MessageKind::updates &&
+                      take_datagram_updates(head, reader);
   }
   heard_stamp_ = stamp_of_frame;
   return is_understood;
@@ -78,34 +85,43 @@ bool AmbassadorParts::take_datagram(const DatagramHead& head, Reader& reader) {
 
 bool AmbassadorParts::take_datagram_updates(const DatagramHead& head, Reader& reader) {
   UpdatesMessage message;
-  if (!exchange(reader, message) || !heard_stamp_ || message.object_class >= fom_.object_classes().size()) return false;
+  if (!exchange(reader, message) || !heard_stamp_ ||
+      message.object_class >= fom_.object_classes().size())
+    return false;
   const AttributeSet attributes{message.attributes};
   if (!arrivals_.best_effort(message.object_class).includes(attributes)) return false;
   const ObjectClass& object_class = fom_.at(ObjectClassHandle{message.object_class});
   const Stamp stamp = *heard_stamp_;
-  const bool is_read = read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
-    const KnownObject* known = find({object});
-    // One that is unknown or out of scope by now has been told of since this was said, or will be, with its whole state.
-    const bool is_known = known != nullptr && known->object_class == message.object_class;
-    const AttributeSet accepted = is_known ? arrivals_.accept({object}, message.object_class, attributes, order_of_datagram(head)) : AttributeSet();
-    if (accepted.is_empty()) return ++counters_.updates_outdated, true;
-    if (accepted != attributes) {
-      heard_values_.clear();
-      for (std::uint32_t bits = accepted.bits; bits != 0; bits &= bits - 1) {
-        const Bytes value = coded_value(object_class, attributes, {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
-        heard_values_.insert(heard_values_.end(), value.begin(), value.end());
-      }
-      values = heard_values_;
-    }
-    if (is_coded(object_class, accepted)) {
-      decoded_.clear();
-      if (!decode(object_class, accepted, values, stamp.time, decoded_)) return false;
-      values = decoded_;
-    }
-    ++counters_.updates_reflected;
-    callbacks_.reflect_attribute_values({object}, accepted, values, stamp);
-    return phase_ == Phase::joined;
-  });
+  const bool is_read =
+      read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
+        const KnownObject* known = find({object});
+        // One that is unknown or out of scope by now has been told of since this was said, or will
+        // be, with its whole state.
+        const bool is_known = known != nullptr && known->object_class == message.object_class;
+        const AttributeSet accepted = is_known
+                                          ? arrivals_.accept({object}, message.object_class,
+                                                             attributes, order_of_datagram(head))
+                                          : AttributeSet();
+        if (accepted.is_empty()) return ++counters_.updates_outdated, true;
+        if (accepted != attributes) {
+          heard_values_.clear();
+          for (std::uint32_t bits = accepted.bits; bits != 0; bits &= bits - 1) {
+            const Bytes value =
+                coded_value(object_class, attributes,
+                            {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
+            heard_values_.insert(heard_values_.end(), value.begin(), value.end());
+          }
+          values = heard_values_;
+        }
+        if (is_coded(object_class, accepted)) {
+          decoded_.clear();
+          if (!decode(object_class, accepted, values, stamp.time, decoded_)) return false;
+          values = decoded_;
+        }
+        ++counters_.updates_reflected;
+        callbacks_.reflect_attribute_values({object}, accepted, values, stamp);
+        return phase_ == Phase::joined;
+      });
   return is_read || phase_ != Phase::joined;
 }
 

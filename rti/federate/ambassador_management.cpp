@@ -1,4 +1,5 @@
-// A federate's side of federation management: what it asks a host, join and resign, synchronisation points.
+// A federate's side of federation management: what it asks a host, join and resign, synchronisation
+// points.
 #include <algorithm>
 
 #include "rti/federate/ambassador_say.h"
@@ -10,19 +11,27 @@ namespace rink::rti {
 namespace {
 
 void require_text(std::string_view text, std::size_t max, const char* what) {
-  if (text.size() > max) throw RtiException(HlaError::illegal_name, std::string(what) + " has " + std::to_string(text.size()) + " bytes; allowed are at most " + std::to_string(max));
+  if (text.size() > max)
+    throw RtiException(HlaError::illegal_name,
+                       std::string(what) + " has " + std::to_string(text.size()) +
+                           " bytes; allowed are at most " + std::to_string(max));
 }
 
 }  // namespace
 
 void AmbassadorParts::refuse_stranger() const {
-  throw RtiException(HlaError::federate_not_execution_member, phase_ == Phase::idle ? "join first" : "this federate has left its federation execution");
+  throw RtiException(
+      HlaError::federate_not_execution_member,
+      phase_ == Phase::idle ? "join first" : "this federate has left its federation execution");
 }
 
-/// A message in a frame of its own: a host reads the first message of a frame to know whom it concerns, and short frames only.
+/// A message in a frame of its own: a host reads the first message of a frame to know whom it
+/// concerns, and short frames only.
 template <class Message>
 void AmbassadorParts::ask(Message message) {
-  if (phase_ != Phase::idle) throw RtiException(HlaError::federate_already_execution_member, "a host is asked before the join, or by another ambassador");
+  if (phase_ != Phase::idle)
+    throw RtiException(HlaError::federate_already_execution_member,
+                       "a host is asked before the join, or by another ambassador");
   has_asked_ = true;
   outgoing_.close_frame();
   append(message);
@@ -31,7 +40,8 @@ void AmbassadorParts::ask(Message message) {
 
 void Ambassador::create_federation_execution(std::string_view federation, const Fom& model) {
   require_text(federation, text_max, "the federation execution's name");
-  if (federation.empty()) throw RtiException(HlaError::illegal_name, "a federation execution needs a name");
+  if (federation.empty())
+    throw RtiException(HlaError::illegal_name, "a federation execution needs a name");
   ask(CreateFederationExecutionMessage{federation, model.hash()});
 }
 
@@ -47,8 +57,10 @@ void Ambassador::query_management() {
   else say(QueryManagementMessage{});
 }
 
-void Ambassador::join(std::string_view federation, std::string_view federate_name, std::string_view federate_type) {
-  if (phase_ != Phase::idle) throw RtiException(HlaError::federate_already_execution_member, "an ambassador joins once");
+void Ambassador::join(std::string_view federation, std::string_view federate_name,
+                      std::string_view federate_type) {
+  if (phase_ != Phase::idle)
+    throw RtiException(HlaError::federate_already_execution_member, "an ambassador joins once");
   require_text(federation, text_max, "the federation execution's name");
   require_text(federate_name, text_max, "the federate's name");
   require_text(federate_type, text_max, "the federate's type");
@@ -73,17 +85,24 @@ void Ambassador::resign() {
 
 void Ambassador::watch_federates() { say(WatchFederatesMessage{}); }
 
-void Ambassador::register_synchronization_point(std::string_view label, Bytes tag, std::span<const FederateHandle> members) {
+void Ambassador::register_synchronization_point(std::string_view label, Bytes tag,
+                                                std::span<const FederateHandle> members) {
   require_text(label, text_max, "the synchronisation point's label");
-  if (tag.size() > synchronization_tag_max) throw RtiException(HlaError::rti_internal_error, "a synchronisation point's tag has at most 1024 bytes");
-  if (members.size() > HandleList::count_max) throw RtiException(HlaError::rti_internal_error, "a synchronisation point's set names at most 16000 federates");
+  if (tag.size() > synchronization_tag_max)
+    throw RtiException(HlaError::rti_internal_error,
+                       "a synchronisation point's tag has at most 1024 bytes");
+  if (members.size() > HandleList::count_max)
+    throw RtiException(HlaError::rti_internal_error,
+                       "a synchronisation point's set names at most 16000 federates");
   say(RegisterSynchronizationPointMessage{label, tag, list_of(members)});
 }
 
 void Ambassador::synchronization_point_achieved(std::string_view label, bool is_success) {
   if (phase_ != Phase::joined) refuse_stranger();
   if (std::erase(announced_points_, label) == 0)
-    throw RtiException(HlaError::synchronization_point_label_not_announced, "'" + std::string(label) + "' is not announced to this federate, or it has achieved it");
+    throw RtiException(
+        HlaError::synchronization_point_label_not_announced,
+        "'" + std::string(label) + "' is not announced to this federate, or it has achieved it");
   say(SynchronizationPointAchievedMessage{label, static_cast<std::uint8_t>(is_success)});
 }
 
@@ -91,8 +110,11 @@ bool AmbassadorParts::take_synchronization(Reader& reader, MessageKind kind) {
   if (kind == MessageKind::synchronization_point_registered) {
     SynchronizationPointRegisteredMessage message;
     if (!exchange(reader, message)) return false;
-    if (message.failure == 0) callbacks_.synchronization_point_registration_succeeded(message.label);
-    else callbacks_.synchronization_point_registration_failed(message.label, static_cast<SynchronizationFailure>(message.failure));
+    if (message.failure == 0)
+      callbacks_.synchronization_point_registration_succeeded(message.label);
+    else
+      callbacks_.synchronization_point_registration_failed(
+          message.label, static_cast<SynchronizationFailure>(message.failure));
     return true;
   }
   if (kind == MessageKind::announce_synchronization_point) {
@@ -114,7 +136,8 @@ bool AmbassadorParts::take_host_answer(Reader& reader, MessageKind kind) {
   FederationExecutionCreatedMessage message;  // the two outcomes differ in their kind only
   if (!exchange(reader, message)) return false;
   const auto error = static_cast<HlaError>(message.error);
-  if (kind == MessageKind::federation_execution_created) callbacks_.federation_execution_created(message.federation, error);
+  if (kind == MessageKind::federation_execution_created)
+    callbacks_.federation_execution_created(message.federation, error);
   else callbacks_.federation_execution_destroyed(message.federation, error);
   return true;
 }
@@ -123,7 +146,8 @@ bool AmbassadorParts::take_execution(Reader& reader) {
   FederationExecutionMessage message;
   if (!exchange(reader, message)) return false;
   if (message.is_end == 0) {
-    executions_.push_back({std::string(message.federation), std::string(message.model), message.federates});
+    executions_.push_back(
+        {std::string(message.federation), std::string(message.model), message.federates});
     return true;
   }
   std::vector<FederationExecutionInformation> executions;
@@ -136,13 +160,19 @@ bool AmbassadorParts::take_report(Reader& reader, MessageKind kind) {
   if (kind == MessageKind::federation_report) {
     FederationReportMessage message;
     if (!exchange(reader, message)) return false;
-    reports_.push_back({std::string(message.federation), std::string(message.model), std::string(message.filter), message.objects, message.drops, {}});
+    reports_.push_back({std::string(message.federation),
+                        std::string(message.model),
+                        std::string(message.filter),
+                        message.objects,
+                        message.drops,
+                        {}});
     return true;
   }
   if (kind == MessageKind::federate_report) {
     FederateReportMessage message;
     if (!exchange(reader, message) || reports_.empty()) return false;
-    reports_.back().federates.push_back({{message.federate}, std::string(message.name), std::string(message.type), message.counts});
+    reports_.back().federates.push_back(
+        {{message.federate}, std::string(message.name), std::string(message.type), message.counts});
     return true;
   }
   std::vector<FederationReport> reports;
@@ -160,12 +190,15 @@ FederateHandle Ambassador::get_federate_handle(std::string_view name) const {
 const std::string& Ambassador::get_federate_name(FederateHandle federate) const {
   for (const auto& [each, name] : federates_)
     if (federate && each == federate) return name;
-  throw RtiException(HlaError::name_not_found, "no federate of handle " + std::to_string(federate.value) + " is known");
+  throw RtiException(HlaError::name_not_found,
+                     "no federate of handle " + std::to_string(federate.value) + " is known");
 }
 
 ObjectClassHandle Ambassador::get_known_object_class_handle(ObjectHandle object) const {
   const KnownObject* known = const_cast<Ambassador*>(this)->find(object);
-  if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
+  if (known == nullptr)
+    throw RtiException(HlaError::object_instance_not_known,
+                       "object " + std::to_string(object.value));
   return {known->object_class};
 }
 

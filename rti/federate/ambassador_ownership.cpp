@@ -1,4 +1,5 @@
-// Ownership management at the federate's side: its own part of each object's ownership, judged before anything is sent.
+// Ownership management at the federate's side: its own part of each object's ownership, judged
+// before anything is sent.
 #include "rti/federate/ambassador_say.h"
 #include "rti/wire/object_block.h"
 #include "rti/wire/ownership_messages.h"
@@ -14,14 +15,18 @@ void require(bool is_met, HlaError error, ObjectHandle object, std::string_view 
 }  // namespace
 
 AttributeSet AmbassadorParts::all_of(const KnownObject& known) const {
-  return fom_.attributes(ObjectClassHandle{known.object_class}) | AttributeSet{privilege_to_delete_object};
+  return fom_.attributes(ObjectClassHandle{known.object_class}) |
+         AttributeSet{privilege_to_delete_object};
 }
 
 KnownObject& AmbassadorParts::known_or_throw(ObjectHandle object, AttributeSet attributes) {
-  if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
+  if (phase_ != Phase::joined)
+    throw RtiException(HlaError::federate_not_execution_member, "join first");
   KnownObject* known = find(object);
-  require(known != nullptr, HlaError::object_instance_not_known, object, "it must have been registered or discovered");
-  require(all_of(*known).includes(attributes), HlaError::attribute_not_defined, object, "its class has no such attribute");
+  require(known != nullptr, HlaError::object_instance_not_known, object,
+          "it must have been registered or discovered");
+  require(all_of(*known).includes(attributes), HlaError::attribute_not_defined, object,
+          "its class has no such attribute");
   return *known;
 }
 
@@ -42,31 +47,39 @@ Holding& AmbassadorParts::holding_of(ObjectHandle object, const KnownObject& kno
 void AmbassadorParts::settle_holding(ObjectHandle object, KnownObject& known) {
   const Holding* holding = holdings_.find(object);
   known.is_own = holding->owned == all_of(known);
-  if (holding->owned.is_empty()) regions_.forget(object);  // its regions are the new owner's to associate
-  if ((known.is_own || holding->owned.is_empty()) && holding->offered.is_empty() && holding->pending().is_empty()) holdings_.erase(object);
+  if (holding->owned.is_empty())
+    regions_.forget(object);  // its regions are the new owner's to associate
+  if ((known.is_own || holding->owned.is_empty()) && holding->offered.is_empty() &&
+      holding->pending().is_empty())
+    holdings_.erase(object);
 }
 
 void AmbassadorParts::check_update(ObjectHandle object, AttributeSet attributes) {
   const KnownObject& known = known_or_throw(object, attributes);
-  require(owned_of(object, known).includes(attributes), HlaError::attribute_not_owned, object, "an attribute that is updated must be owned");
+  require(owned_of(object, known).includes(attributes), HlaError::attribute_not_owned, object,
+          "an attribute that is updated must be owned");
 }
 
 template <class Visit>
 void AmbassadorParts::for_each_known(Visit visit) {
   for (std::uint32_t i = 0; i < own_.size(); ++i)
-    if (own_[i].object_class != KnownObject::unknown) visit(ObjectHandle{object_block_ * object_block + i}, own_[i]);
+    if (own_[i].object_class != KnownObject::unknown)
+      visit(ObjectHandle{object_block_ * object_block + i}, own_[i]);
   known_.for_each(visit);
 }
 
 /// What of the class is owned is given up with its publication, at the RTI too.
-void AmbassadorParts::withdraw_publication(ObjectClassHandle object_class, AttributeSet attributes, bool is_all) {
+void AmbassadorParts::withdraw_publication(ObjectClassHandle object_class, AttributeSet attributes,
+                                           bool is_all) {
   if (attributes.is_empty()) return;
   if (is_all) attributes.insert(privilege_to_delete_object);
   std::vector<ObjectHandle> owned;
   for_each_known([&](ObjectHandle object, const KnownObject& known) {
     if (known.object_class != object_class.value) return;
     const Holding* holding = holdings_.find(object);
-    require(!holding || (holding->pending() & attributes).is_empty(), HlaError::ownership_acquisition_pending, object, "cancel the acquisition before its class is unpublished");
+    require(!holding || (holding->pending() & attributes).is_empty(),
+            HlaError::ownership_acquisition_pending, object,
+            "cancel the acquisition before its class is unpublished");
     if (!(owned_of(object, known) & attributes).is_empty()) owned.push_back(object);
   });
   for (const ObjectHandle object : owned) {
@@ -78,34 +91,41 @@ void AmbassadorParts::withdraw_publication(ObjectClassHandle object_class, Attri
 
 AttributeSet AmbassadorParts::require_owned(ObjectHandle object, AttributeSet attributes) {
   const KnownObject& known = known_or_throw(object, attributes);
-  require(owned_of(object, known).includes(attributes), HlaError::attribute_not_owned, object, "all of the attributes must be owned");
+  require(owned_of(object, known).includes(attributes), HlaError::attribute_not_owned, object,
+          "all of the attributes must be owned");
   const Holding* holding = holdings_.find(object);
   return holding ? holding->offered : AttributeSet();
 }
 
-void AmbassadorParts::ask_ownership(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag) {
+void AmbassadorParts::ask_ownership(OwnershipRequest request, ObjectHandle object,
+                                    AttributeSet attributes, Bytes tag) {
   if (attributes.is_empty()) return;
   release_spared(object);
   release_best_effort(object, AttributeSet(~0u));
-  require(tag.size() <= ownership_tag_max, HlaError::rti_internal_error, object, "a tag of an ownership service has at most 1,024 bytes");
+  require(tag.size() <= ownership_tag_max, HlaError::rti_internal_error, object,
+          "a tag of an ownership service has at most 1,024 bytes");
   say_of(OwnershipRequestMessage{static_cast<std::uint8_t>(request), attributes.bits, tag}, object);
 }
 
-void AmbassadorParts::give_up(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag) {
+void AmbassadorParts::give_up(OwnershipRequest request, ObjectHandle object,
+                              AttributeSet attributes, Bytes tag) {
   ask_ownership(request, object, attributes, tag);
   KnownObject& known = *find(object);
   holding_of(object, known).lose(attributes);
   settle_holding(object, known);
 }
 
-void Ambassador::unconditional_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes) {
+void Ambassador::unconditional_attribute_ownership_divestiture(ObjectHandle object,
+                                                               AttributeSet attributes) {
   require_owned(object, attributes);
   give_up(OwnershipRequest::divest, object, attributes, {});
 }
 
-void Ambassador::negotiated_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag) {
+void Ambassador::negotiated_attribute_ownership_divestiture(ObjectHandle object,
+                                                            AttributeSet attributes, Bytes tag) {
   const AttributeSet offered = require_owned(object, attributes);
-  require((offered & attributes).is_empty(), HlaError::attribute_already_being_divested, object, "an attribute is offered once");
+  require((offered & attributes).is_empty(), HlaError::attribute_already_being_divested, object,
+          "an attribute is offered once");
   ask_ownership(OwnershipRequest::offer, object, attributes, tag);
   KnownObject& known = *find(object);
   Holding& holding = holding_of(object, known);
@@ -115,9 +135,11 @@ void Ambassador::negotiated_attribute_ownership_divestiture(ObjectHandle object,
 
 void Ambassador::confirm_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag) {
   const AttributeSet offered = require_owned(object, attributes);
-  require(offered.includes(attributes), HlaError::attribute_divestiture_was_not_requested, object, "only what is offered can be confirmed");
+  require(offered.includes(attributes), HlaError::attribute_divestiture_was_not_requested, object,
+          "only what is offered can be confirmed");
   const Holding* holding = holdings_.find(object);
-  require(attributes.is_empty() || holding->confirmable.includes(attributes), HlaError::no_acquisition_pending, object, "nobody has asked for it yet");
+  require(attributes.is_empty() || holding->confirmable.includes(attributes),
+          HlaError::no_acquisition_pending, object, "nobody has asked for it yet");
   give_up(OwnershipRequest::confirm, object, attributes, tag);
 }
 
@@ -126,14 +148,17 @@ void Ambassador::attribute_ownership_release_denied(ObjectHandle object, Attribu
   ask_ownership(OwnershipRequest::deny_release, object, attributes, {});
 }
 
-void Ambassador::attribute_ownership_divestiture_if_wanted(ObjectHandle object, AttributeSet attributes) {
+void Ambassador::attribute_ownership_divestiture_if_wanted(ObjectHandle object,
+                                                           AttributeSet attributes) {
   require_owned(object, attributes);
   give_up(OwnershipRequest::give_if_wanted, object, attributes, {});
 }
 
-void Ambassador::cancel_negotiated_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes) {
+void Ambassador::cancel_negotiated_attribute_ownership_divestiture(ObjectHandle object,
+                                                                   AttributeSet attributes) {
   const AttributeSet offered = require_owned(object, attributes);
-  require(offered.includes(attributes), HlaError::attribute_divestiture_was_not_requested, object, "only an offer can be withdrawn");
+  require(offered.includes(attributes), HlaError::attribute_divestiture_was_not_requested, object,
+          "only an offer can be withdrawn");
   ask_ownership(OwnershipRequest::withdraw_offer, object, attributes, {});
   if (attributes.is_empty()) return;
   KnownObject& known = *find(object);
@@ -146,17 +171,22 @@ void Ambassador::cancel_negotiated_attribute_ownership_divestiture(ObjectHandle 
 AttributeSet AmbassadorParts::require_acquirable(ObjectHandle object, AttributeSet attributes) {
   const KnownObject& known = known_or_throw(object, attributes);
   const AttributeSet published = declared_.objects[known.object_class].published;
-  require(!published.is_empty(), HlaError::object_class_not_published, object, "its class must be published");
-  require((published | AttributeSet{privilege_to_delete_object}).includes(attributes), HlaError::attribute_not_published, object, "all of the attributes must be published");
-  require((owned_of(object, known) & attributes).is_empty(), HlaError::federate_owns_attributes, object, "what is owned can't be acquired");
+  require(!published.is_empty(), HlaError::object_class_not_published, object,
+          "its class must be published");
+  require((published | AttributeSet{privilege_to_delete_object}).includes(attributes),
+          HlaError::attribute_not_published, object, "all of the attributes must be published");
+  require((owned_of(object, known) & attributes).is_empty(), HlaError::federate_owns_attributes,
+          object, "what is owned can't be acquired");
   const Holding* holding = holdings_.find(object);
   return holding ? holding->pending() : AttributeSet();
 }
 
-void Ambassador::attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes, Bytes tag) {
+void Ambassador::attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes,
+                                                 Bytes tag) {
   require_acquirable(object, attributes);
   const Holding* before = holdings_.find(object);
-  const AttributeSet asked = before ? attributes.without(before->acquiring) : attributes;  // asking twice is asking once
+  const AttributeSet asked =
+      before ? attributes.without(before->acquiring) : attributes;  // asking twice is asking once
   ask_ownership(OwnershipRequest::acquire, object, asked, tag);
   if (asked.is_empty()) return;
   Holding& holding = holding_of(object, *find(object));
@@ -164,20 +194,25 @@ void Ambassador::attribute_ownership_acquisition(ObjectHandle object, AttributeS
   holding.acquiring_if_available = holding.acquiring_if_available.without(asked);
 }
 
-void Ambassador::attribute_ownership_acquisition_if_available(ObjectHandle object, AttributeSet attributes) {
+void Ambassador::attribute_ownership_acquisition_if_available(ObjectHandle object,
+                                                              AttributeSet attributes) {
   const AttributeSet pending = require_acquirable(object, attributes);
-  require((pending & attributes).is_empty(), HlaError::attribute_already_being_acquired, object, "its acquisition is under way");
+  require((pending & attributes).is_empty(), HlaError::attribute_already_being_acquired, object,
+          "its acquisition is under way");
   ask_ownership(OwnershipRequest::acquire_if_available, object, attributes, {});
   if (attributes.is_empty()) return;
   Holding& holding = holding_of(object, *find(object));
   holding.acquiring_if_available = holding.acquiring_if_available | attributes;
 }
 
-void Ambassador::cancel_attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes) {
+void Ambassador::cancel_attribute_ownership_acquisition(ObjectHandle object,
+                                                        AttributeSet attributes) {
   const KnownObject& known = known_or_throw(object, attributes);
-  require((owned_of(object, known) & attributes).is_empty(), HlaError::attribute_already_owned, object, "what is owned is no longer being acquired");
+  require((owned_of(object, known) & attributes).is_empty(), HlaError::attribute_already_owned,
+          object, "what is owned is no longer being acquired");
   const Holding* holding = holdings_.find(object);
-  require(attributes.is_empty() || (holding && holding->acquiring.includes(attributes)), HlaError::attribute_acquisition_was_not_requested, object, "nothing to cancel");
+  require(attributes.is_empty() || (holding && holding->acquiring.includes(attributes)),
+          HlaError::attribute_acquisition_was_not_requested, object, "nothing to cancel");
   ask_ownership(OwnershipRequest::cancel_acquisition, object, attributes, {});
 }
 
@@ -186,30 +221,41 @@ void Ambassador::query_attribute_ownership(ObjectHandle object, AttributeHandle 
   say(QueryOwnershipMessage{object.value, static_cast<std::uint8_t>(attribute.value)});
 }
 
-bool Ambassador::is_attribute_owned_by_federate(ObjectHandle object, AttributeHandle attribute) { return owned_of(object, known_or_throw(object, AttributeSet{attribute})).contains(attribute); }
+bool Ambassador::is_attribute_owned_by_federate(ObjectHandle object, AttributeHandle attribute) {
+  return owned_of(object, known_or_throw(object, AttributeSet{attribute})).contains(attribute);
+}
 
 void Ambassador::set_automatic_resign_directive(ResignAction action) {
-  if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
+  if (phase_ != Phase::joined)
+    throw RtiException(HlaError::federate_not_execution_member, "join first");
   say_directive(action);
 }
 
 /// What outlives its federate must be known to the RTI.
 void AmbassadorParts::say_directive(ResignAction action) {
   declared_.is_deleting = deletes(action);
-  if (!declared_.is_deleting) release_spared(ObjectClassHandle{}, AttributeSet(~0u)), release_best_effort();
+  if (!declared_.is_deleting)
+    release_spared(ObjectClassHandle{}, AttributeSet(~0u)), release_best_effort();
   say(ResignDirectiveMessage{static_cast<std::uint8_t>(action)});
 }
 
 void Ambassador::resign(ResignAction action) {
-  if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
-  const bool cancels = action == ResignAction::cancel_pending_ownership_acquisitions || action == ResignAction::cancel_then_delete_then_divest;
+  if (phase_ != Phase::joined)
+    throw RtiException(HlaError::federate_not_execution_member, "join first");
+  const bool cancels = action == ResignAction::cancel_pending_ownership_acquisitions ||
+                       action == ResignAction::cancel_then_delete_then_divest;
   const bool deletes = action == ResignAction::delete_objects;
-  const bool divests = action == ResignAction::unconditionally_divest_attributes || action == ResignAction::delete_objects_then_divest || action == ResignAction::cancel_then_delete_then_divest;
+  const bool divests = action == ResignAction::unconditionally_divest_attributes ||
+                       action == ResignAction::delete_objects_then_divest ||
+                       action == ResignAction::cancel_then_delete_then_divest;
   const auto check = [&](ObjectHandle object, const KnownObject& known) {
     const AttributeSet owned = owned_of(object, known);
     const Holding* holding = holdings_.find(object);
-    require(cancels || !holding || holding->pending().is_empty(), HlaError::ownership_acquisition_pending, object, "the action must cancel acquisitions");
-    require(divests || owned.is_empty() || (deletes && owned.contains(privilege_to_delete_object)), HlaError::federate_owns_attributes, object, "the action must divest or delete what is owned");
+    require(cancels || !holding || holding->pending().is_empty(),
+            HlaError::ownership_acquisition_pending, object, "the action must cancel acquisitions");
+    require(divests || owned.is_empty() || (deletes && owned.contains(privilege_to_delete_object)),
+            HlaError::federate_owns_attributes, object,
+            "the action must divest or delete what is owned");
   };
   for_each_known(check);
   say_directive(action);
@@ -221,8 +267,11 @@ bool AmbassadorParts::take_ownership(Reader& reader, std::uint8_t kind) {
     InformOwnershipMessage message;
     if (!exchange(reader, message)) return false;
     if (!find({message.object})) return is_gone({message.object});
-    if (message.federate == FederateHandle::none) callbacks_.attribute_is_not_owned({message.object}, {message.attribute});
-    else callbacks_.inform_attribute_ownership({message.object}, {message.attribute}, {message.federate});
+    if (message.federate == FederateHandle::none)
+      callbacks_.attribute_is_not_owned({message.object}, {message.attribute});
+    else
+      callbacks_.inform_attribute_ownership({message.object}, {message.attribute},
+                                            {message.federate});
     return true;
   }
   OwnershipNoticeMessage message;
@@ -231,54 +280,75 @@ bool AmbassadorParts::take_ownership(Reader& reader, std::uint8_t kind) {
     KnownObject* known = find(object);
     if (known == nullptr) return is_gone(object);
     if (!all_of(*known).includes(AttributeSet(message.attributes))) return false;
-    take_notice(object, *known, static_cast<OwnershipNotice>(message.word), AttributeSet(message.attributes), message.tag);
+    take_notice(object, *known, static_cast<OwnershipNotice>(message.word),
+                AttributeSet(message.attributes), message.tag);
     return phase_ == Phase::joined;
   });
   return is_read || phase_ != Phase::joined;
 }
 
-/// What crossed a word of ours on its way is about what we no longer own or want, and passes in silence.
-void AmbassadorParts::take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice, AttributeSet attributes, Bytes tag) {
+/// What crossed a word of ours on its way is about what we no longer own or want, and passes in
+/// silence.
+void AmbassadorParts::take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice,
+                                  AttributeSet attributes, Bytes tag) {
   Holding& holding = holding_of(object, known);
   const AttributeSet pending = attributes & holding.pending();
   AttributeSet told = attributes;
   switch (notice) {
-    case OwnershipNotice::assumption_requested: told = attributes.without(holding.owned).without(pending); break;
+    case OwnershipNotice::assumption_requested:
+      told = attributes.without(holding.owned).without(pending);
+      break;
     case OwnershipNotice::confirmation_requested:
       told = attributes & holding.offered;
       holding.confirmable = holding.confirmable | told;
       break;
-    case OwnershipNotice::release_requested: told = attributes & holding.owned; break;
+    case OwnershipNotice::release_requested:
+      told = attributes & holding.owned;
+      break;
     case OwnershipNotice::unavailable:
     case OwnershipNotice::acquisition_cancelled:
       told = pending;
       holding.end_acquisition(attributes);
       break;
     case OwnershipNotice::acquired:
-    case OwnershipNotice::kept: holding.gain(attributes); break;
+    case OwnershipNotice::kept:
+      holding.gain(attributes);
+      break;
     case OwnershipNotice::kept_offered:
       holding.gain(attributes);
       holding.offered = holding.offered | attributes;
       break;
-    case OwnershipNotice::divested: break;
+    case OwnershipNotice::divested:
+      break;
   }
   settle_holding(object, known);
   if (!told.is_empty()) call_back(object, notice, told, tag);
   const bool is_kept = notice == OwnershipNotice::kept || notice == OwnershipNotice::kept_offered;
-  if (is_kept && !pending.is_empty()) call_back(object, OwnershipNotice::acquired, pending, {});  // asked for again before it was clear that it had stayed
+  if (is_kept && !pending.is_empty())
+    call_back(object, OwnershipNotice::acquired, pending,
+              {});  // asked for again before it was clear that it had stayed
 }
 
-void AmbassadorParts::call_back(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes, Bytes tag) {
+void AmbassadorParts::call_back(ObjectHandle object, OwnershipNotice notice,
+                                AttributeSet attributes, Bytes tag) {
   switch (notice) {
-    case OwnershipNotice::assumption_requested: return callbacks_.request_attribute_ownership_assumption(object, attributes, tag);
-    case OwnershipNotice::confirmation_requested: return callbacks_.request_divestiture_confirmation(object, attributes);
-    case OwnershipNotice::release_requested: return callbacks_.request_attribute_ownership_release(object, attributes, tag);
-    case OwnershipNotice::unavailable: return callbacks_.attribute_ownership_unavailable(object, attributes);
-    case OwnershipNotice::acquisition_cancelled: return callbacks_.confirm_attribute_ownership_acquisition_cancellation(object, attributes);
-    case OwnershipNotice::acquired: return callbacks_.attribute_ownership_acquisition_notification(object, attributes, tag);
+    case OwnershipNotice::assumption_requested:
+      return callbacks_.request_attribute_ownership_assumption(object, attributes, tag);
+    case OwnershipNotice::confirmation_requested:
+      return callbacks_.request_divestiture_confirmation(object, attributes);
+    case OwnershipNotice::release_requested:
+      return callbacks_.request_attribute_ownership_release(object, attributes, tag);
+    case OwnershipNotice::unavailable:
+      return callbacks_.attribute_ownership_unavailable(object, attributes);
+    case OwnershipNotice::acquisition_cancelled:
+      return callbacks_.confirm_attribute_ownership_acquisition_cancellation(object, attributes);
+    case OwnershipNotice::acquired:
+      return callbacks_.attribute_ownership_acquisition_notification(object, attributes, tag);
     case OwnershipNotice::kept:
-    case OwnershipNotice::kept_offered: return callbacks_.attribute_ownership_kept(object, attributes);
-    case OwnershipNotice::divested: return callbacks_.attribute_ownership_divested(object, attributes);
+    case OwnershipNotice::kept_offered:
+      return callbacks_.attribute_ownership_kept(object, attributes);
+    case OwnershipNotice::divested:
+      return callbacks_.attribute_ownership_divested(object, attributes);
   }
 }
 

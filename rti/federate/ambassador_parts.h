@@ -14,21 +14,21 @@
 #include "rti/ambassador_counters.h"
 #include "rti/baselines/keyframe_memory.h"
 #include "rti/callbacks/callback_queue.h"
-#include "rti/federate_ambassador.h"
 #include "rti/distribution/region_book.h"
+#include "rti/federate_ambassador.h"
 #include "rti/fom/fom_lookup.h"
 #include "rti/hla_error.h"
-#include "rti/wire/frame.h"
-#include "rti/wire/message.h"
 #include "rti/objects/arrival_order.h"
 #include "rti/objects/declared_state.h"
 #include "rti/objects/known_object.h"
 #include "rti/objects/name_book.h"
-#include "rti/wire/object_block.h"
-#include "rti/wire/ownership_messages.h"
 #include "rti/objects/object_map.h"
 #include "rti/patience.h"
 #include "rti/time/federate_clock.h"
+#include "rti/wire/frame.h"
+#include "rti/wire/message.h"
+#include "rti/wire/object_block.h"
+#include "rti/wire/ownership_messages.h"
 #include "rti/wire/stream.h"
 
 namespace rink::rti {
@@ -39,21 +39,25 @@ struct DeltaHeader;
 /// The data of an ambassador, and all of its functions that are no services.
 class AmbassadorParts : public FomLookup {
  public:
-  static constexpr std::size_t waiting_callbacks_max = 64u << 20;  ///< of callbacks that wait to be evoked, or of what they would be made of [bytes]
+  static constexpr std::size_t waiting_callbacks_max =
+      64u << 20;  ///< of callbacks that wait to be evoked, or of what they would be made of [bytes]
 
  protected:
-  AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience, CallbackModel model);
+  AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience,
+                  CallbackModel model);
   ~AmbassadorParts();
 
   enum class Phase : std::uint8_t { idle, joining, joined, ended };
-  /// Appends a message; the block of updates that grows at the end is over. Throws FederateNotExecutionMember.
+  /// Appends a message; the block of updates that grows at the end is over. Throws
+  /// FederateNotExecutionMember.
   template <class Message>
   void say(Message message);
   template <class Message>
   void append(Message& message);
   [[noreturn]] void refuse_stranger() const;
   bool is_ours(ObjectHandle object) const { return object.value / object_block == object_block_; }
-  /// In a block of ours that is used up: what is left of it is among `known_`, as what was acquired from others.
+  /// In a block of ours that is used up: what is left of it is among `known_`, as what was acquired
+  /// from others.
   bool was_ours(ObjectHandle object) const;
   void begin_further_block();
   bool take_further_block(Reader& reader);
@@ -85,10 +89,14 @@ class AmbassadorParts : public FomLookup {
   bool take_stamp(Reader& reader);
   bool take_updates(Reader& reader);
   bool take_interaction(Reader& reader);
-  void associate_regions(ObjectHandle object, std::span<const AttributeRegions> pairs, bool is_added);
-  void subscribe_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action);
-  void say_regional_class(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action);
-  void subscribe_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, Listening listening);
+  void associate_regions(ObjectHandle object, std::span<const AttributeRegions> pairs,
+                         bool is_added);
+  void subscribe_with_regions(ObjectClassHandle object_class,
+                              std::span<const AttributeRegions> pairs, RegionAction action);
+  void say_regional_class(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs,
+                          RegionAction action);
+  void subscribe_with_regions(InteractionClassHandle interaction_class,
+                              std::span<const RegionHandle> regions, Listening listening);
   void write_numbers(std::span<const RegionHandle> regions);
   template <class Tell>
   void for_each_message(std::span<const AttributeRegions> pairs, Tell tell);
@@ -101,7 +109,8 @@ class AmbassadorParts : public FomLookup {
   bool take_keyframe(Reader& reader);
   void end_keyframe();
   bool take_deltas(Reader& reader);
-  DeltaOutcome take_periodic(BitReader& bits, const QuantisedCodec& codec, const DeltaHeader& header, std::uint32_t object, const Stamp& stamp);
+  DeltaOutcome take_periodic(BitReader& bits, const QuantisedCodec& codec,
+                             const DeltaHeader& header, std::uint32_t object, const Stamp& stamp);
   // Ownership (ambassador_ownership.cpp).
   AttributeSet all_of(const KnownObject& known) const;
   template <class Visit>
@@ -114,13 +123,17 @@ class AmbassadorParts : public FomLookup {
   static void require_parameters(Bytes parameters);
   static void require_stamp(const Stamp& stamp);
   void require_values(ObjectClassHandle object_class, AttributeSet attributes, Bytes values) const;
-  AttributeSet require_owned(ObjectHandle object, AttributeSet attributes);       ///< returns what is offered
-  AttributeSet require_acquirable(ObjectHandle object, AttributeSet attributes);  ///< returns what is being acquired
-  void ask_ownership(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag);
+  AttributeSet require_owned(ObjectHandle object,
+                             AttributeSet attributes);  ///< returns what is offered
+  AttributeSet require_acquirable(ObjectHandle object,
+                                  AttributeSet attributes);  ///< returns what is being acquired
+  void ask_ownership(OwnershipRequest request, ObjectHandle object, AttributeSet attributes,
+                     Bytes tag);
   void give_up(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag);
   void say_directive(ResignAction action);
   bool take_ownership(Reader& reader, std::uint8_t kind);
-  void take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice, AttributeSet attributes, Bytes tag);
+  void take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice,
+                   AttributeSet attributes, Bytes tag);
   void call_back(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes, Bytes tag);
   /// Says the header of `object`, in one block with those before it if they had the same.
   template <class Header>
@@ -137,7 +150,8 @@ class AmbassadorParts : public FomLookup {
   void acknowledge_datagrams();
   // One's own (ambassador_best_effort.cpp).
   AttributeSet by_datagram(ObjectHandle object, ObjectClassHandle object_class) const;
-  AttributeSet say_best_effort(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes& values, const Stamp& stamp);
+  AttributeSet say_best_effort(ObjectHandle object, ObjectClassHandle object_class,
+                               AttributeSet attributes, Bytes& values, const Stamp& stamp);
   std::uint32_t frames_said() const;
   void before_stream(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes);
   void release_best_effort();
@@ -159,10 +173,12 @@ class AmbassadorParts : public FomLookup {
   bool take_object_relevance(Reader& reader);
   bool may_spare() const;
   bool spares_interaction(InteractionClassHandle interaction_class);
-  bool spare(ObjectHandle object, const KnownObject& known, AttributeSet attributes, Bytes values, const Stamp& stamp);
+  bool spare(ObjectHandle object, const KnownObject& known, AttributeSet attributes, Bytes values,
+             const Stamp& stamp);
   void release_spared(ObjectClassHandle object_class, AttributeSet heard);
   void release_spared(ObjectHandle object);
-  void say_update(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes values, const Stamp& stamp);
+  void say_update(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes,
+                  Bytes values, const Stamp& stamp);
   void begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp);
 
   // Time management (ambassador_time.cpp).
@@ -174,39 +190,44 @@ class AmbassadorParts : public FomLookup {
   bool postpone(Reader& reader, MessageKind kind);
   bool release_postponed();
 
-  std::unique_ptr<CallbackQueue> queue_;  ///< null in the immediate model, which pays nothing for it
-  FederateAmbassador& callbacks_;         ///< the federate, or the queue before it
+  std::unique_ptr<CallbackQueue>
+      queue_;                      ///< null in the immediate model, which pays nothing for it
+  FederateAmbassador& callbacks_;  ///< the federate, or the queue before it
   bool are_callbacks_enabled_ = true;
-  std::vector<std::byte> held_;           ///< what came while callbacks were disabled in the immediate model
-  std::string held_loss_;                 ///< and why the connection was lost
+  std::vector<std::byte> held_;  ///< what came while callbacks were disabled in the immediate model
+  std::string held_loss_;        ///< and why the connection was lost
   Patience patience_;
   Phase phase_ = Phase::idle;
   FederateHandle federate_;
   std::uint32_t object_block_ = 0, objects_registered_ = 0;  ///< in that block
-  std::optional<std::uint32_t> further_block_;  ///< for when it is used up
+  std::optional<std::uint32_t> further_block_;               ///< for when it is used up
   std::vector<std::uint32_t> former_blocks_;
-  std::vector<KnownObject> own_;    ///< registered here, by number within our block
-  ObjectMap<KnownObject> known_;    ///< of others: few of many, so memory follows what is in sight
-  std::vector<GoneObject> gone_;    ///< of others, that the RTI may still tell of
+  std::vector<KnownObject> own_;  ///< registered here, by number within our block
+  ObjectMap<KnownObject> known_;  ///< of others: few of many, so memory follows what is in sight
+  std::vector<GoneObject> gone_;  ///< of others, that the RTI may still tell of
   NameBook names_;
   RegionBook regions_;
   std::vector<Range> ranges_;
   std::string fom_difference_;  ///< from the federation's model, if the RTI told
   std::vector<std::byte> region_records_;
-  std::vector<std::pair<FederateHandle, std::string>> federates_;  ///< that we were told of, and ourselves first
-  std::vector<std::string> announced_points_;  ///< synchronisation points that we have not achieved yet
+  std::vector<std::pair<FederateHandle, std::string>>
+      federates_;  ///< that we were told of, and ourselves first
+  std::vector<std::string>
+      announced_points_;  ///< synchronisation points that we have not achieved yet
   std::vector<FederationExecutionInformation> executions_;  ///< of the list that is being told
-  std::vector<FederationReport> reports_;      ///< likewise
-  bool has_asked_ = false;                     ///< the host, before the join
-  ObjectMap<Holding> holdings_;     ///< of objects owned in part or negotiated about
+  std::vector<FederationReport> reports_;                   ///< likewise
+  bool has_asked_ = false;                                  ///< the host, before the join
+  ObjectMap<Holding> holdings_;  ///< of objects owned in part or negotiated about
   DeclaredState declared_;
-  ObjectBlockWriter object_block_writer_;  ///< the block of objects at the end of `outgoing_`, if any
+  ObjectBlockWriter
+      object_block_writer_;  ///< the block of objects at the end of `outgoing_`, if any
   FrameWriter outgoing_;
   FrameReader incoming_;
   OpenUpdates open_;  ///< that still grow at the end of `outgoing_`, if any
-  Stamp said_stamp_;                   ///< the last one said
-  std::uint64_t stamped_frame_ = 0;    ///< the frame in which it was said: a stamp is good for its frame
-  std::optional<Stamp> heard_stamp_;   ///< of the frame being read
+  Stamp said_stamp_;  ///< the last one said
+  std::uint64_t stamped_frame_ =
+      0;  ///< the frame in which it was said: a stamp is good for its frame
+  std::optional<Stamp> heard_stamp_;  ///< of the frame being read
   std::vector<std::byte> coded_, decoded_;
   KeyframeMemory keyframes_;
 
@@ -215,14 +236,16 @@ class AmbassadorParts : public FomLookup {
   DatagramReceipts receipts_;
   std::vector<std::vector<std::byte>> held_datagrams_;  ///< came before the frames that they follow
   std::vector<std::byte> acknowledgement_, cut_values_, best_effort_values_;
-  std::vector<std::byte> heard_values_;                ///< of the datagram whose callback runs: apart from those above, for a callback may send
-  std::vector<Datagram> datagrams_;                    ///< that go out
-  std::unique_ptr<BestEffortOutbox> outbox_;           ///< null until there is a way and something to send by it
-  ObjectMap<AttributeSet> made_reliable_;              ///< of objects of ours
-  std::uint64_t frames_to_join_ = 0;                   ///< said up to the one that asks to join
-  bool is_timed_ = false;                              ///< it has used time management
-  std::uint32_t frames_heard_ = 0;                     ///< from the one that let us in
-  bool has_datagrams_ = false;                         ///< one may come
+  std::vector<std::byte> heard_values_;  ///< of the datagram whose callback runs: apart from those
+                                         ///< above, for a callback may send
+  std::vector<Datagram> datagrams_;      ///< that go out
+  std::unique_ptr<BestEffortOutbox>
+      outbox_;  ///< null until there is a way and something to send by it
+  ObjectMap<AttributeSet> made_reliable_;  ///< of objects of ours
+  std::uint64_t frames_to_join_ = 0;       ///< said up to the one that asks to join
+  bool is_timed_ = false;                  ///< it has used time management
+  std::uint32_t frames_heard_ = 0;         ///< from the one that let us in
+  bool has_datagrams_ = false;             ///< one may come
   double receipts_due_since_ = 0.0;
 
   double now_ = 0.0, last_heard_ = 0.0, last_said_ = 0.0;
@@ -230,11 +253,17 @@ class AmbassadorParts : public FomLookup {
   AmbassadorCounters counters_;
 
   FederateClock clock_;
-  const TimedStamp* timed_ = nullptr;     ///< of the message being read, if it was sent in time-stamp order
-  std::vector<std::byte> postponed_, content_; ///< messages in receive order that wait for the next request; the message inside one that goes in time-stamp order
-  std::unordered_map<std::uint32_t, AttributeSet> order_changes_;  ///< objects whose attributes go in another order than the model says: those in time-stamp order
-  std::vector<Order> interaction_orders_;                              ///< by class, once one differs from the model
-  std::vector<TimedDeletion> deletions_;       ///< in time-stamp order, as long as they can be taken back
+  const TimedStamp* timed_ =
+      nullptr;  ///< of the message being read, if it was sent in time-stamp order
+  std::vector<std::byte> postponed_,
+      content_;  ///< messages in receive order that wait for the next request; the message inside
+                 ///< one that goes in time-stamp order
+  std::unordered_map<std::uint32_t, AttributeSet>
+      order_changes_;  ///< objects whose attributes go in another order than the model says: those
+                       ///< in time-stamp order
+  std::vector<Order> interaction_orders_;  ///< by class, once one differs from the model
+  std::vector<TimedDeletion>
+      deletions_;  ///< in time-stamp order, as long as they can be taken back
 };
 
 }  // namespace rink::rti

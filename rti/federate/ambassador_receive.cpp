@@ -20,10 +20,14 @@ bool Ambassador::receive(Bytes bytes) {
 }
 
 bool AmbassadorParts::take_bytes(Bytes bytes) {
-  const bool is_understood = incoming_.receive(bytes, [] { return frame_max_to_federate; }, [this](Bytes frame) { return take_frame(frame); }) == Framing::sound;
+  const bool is_understood =
+      incoming_.receive(
+          bytes, [] { return frame_max_to_federate; },
+          [this](Bytes frame) { return take_frame(frame); }) == Framing::sound;
   if (!is_understood) lose("the RTI sent what this version does not understand");
   if (!held_datagrams_.empty()) apply_held_datagrams();
-  return is_understood && (!queue_ || queue_->waiting_bytes() <= waiting_callbacks_max || (lose("too many callbacks wait to be evoked"), false));
+  return is_understood && (!queue_ || queue_->waiting_bytes() <= waiting_callbacks_max ||
+                           (lose("too many callbacks wait to be evoked"), false));
 }
 
 void Ambassador::disconnected(std::string_view why) { lose(why); }
@@ -51,10 +55,12 @@ bool AmbassadorParts::take_frame(Bytes frame) {
   return true;
 }
 
-/// True of an object that was deleted or forgotten here: what the RTI still says of it, it said before it heard so.
+/// True of an object that was deleted or forgotten here: what the RTI still says of it, it said
+/// before it heard so.
 bool AmbassadorParts::is_gone(ObjectHandle object) const {
   if (is_ours(object)) return object.value % object_block < objects_registered_;
-  return was_ours(object) || known_.find(object) != nullptr || std::ranges::find(gone_, object, &GoneObject::object) != gone_.end();
+  return was_ours(object) || known_.find(object) != nullptr ||
+         std::ranges::find(gone_, object, &GoneObject::object) != gone_.end();
 }
 
 /// The RTI has heard so: it says nothing more of it, unless it is discovered anew.
@@ -68,43 +74,68 @@ bool AmbassadorParts::take_message(Reader& reader) {
   std::uint8_t kind = 0;
   reader.number(kind);
   const auto name = static_cast<MessageKind>(kind);
-  if (clock_.holds_receive_order() && timed_ == nullptr && is_receive_ordered(name)) return postpone(reader, name);
+  if (clock_.holds_receive_order() && timed_ == nullptr && is_receive_ordered(name))
+    return postpone(reader, name);
   if (name == MessageKind::expelled) return take_expulsion(reader);
-  if (name == MessageKind::joined || name == MessageKind::refused || name == MessageKind::fom_digest) return take_membership(reader, kind);
-  if (name >= MessageKind::federation_execution_created && name <= MessageKind::federation_execution) return take_host_answer(reader, name);
-  if (name >= MessageKind::federation_report && name <= MessageKind::report_end) return take_report(reader, name);
+  if (name == MessageKind::joined || name == MessageKind::refused ||
+      name == MessageKind::fom_digest)
+    return take_membership(reader, kind);
+  if (name >= MessageKind::federation_execution_created &&
+      name <= MessageKind::federation_execution)
+    return take_host_answer(reader, name);
+  if (name >= MessageKind::federation_report && name <= MessageKind::report_end)
+    return take_report(reader, name);
   if (phase_ != Phase::joined) return false;
   switch (name) {
-    case MessageKind::heartbeat: return true;
-    case MessageKind::further_block: return take_further_block(reader);
+    case MessageKind::heartbeat:
+      return true;
+    case MessageKind::further_block:
+      return take_further_block(reader);
     case MessageKind::synchronization_point_registered:
     case MessageKind::announce_synchronization_point:
-    case MessageKind::federation_synchronized: return take_synchronization(reader, name);
+    case MessageKind::federation_synchronized:
+      return take_synchronization(reader, name);
     case MessageKind::federate_joined:
-    case MessageKind::federate_resigned: return take_federate(reader, kind);
+    case MessageKind::federate_resigned:
+      return take_federate(reader, kind);
     case MessageKind::discover_object:
-    case MessageKind::remove_object: return take_object(reader, kind);
+    case MessageKind::remove_object:
+      return take_object(reader, kind);
     case MessageKind::in_scope:
-    case MessageKind::out_of_scope: return take_scope(reader, kind);
-    case MessageKind::provide_update: return take_provide_update(reader);
-    case MessageKind::instance_names_answer: return take_names(reader);
-    case MessageKind::transportation: return take_transportation(reader);
-    case MessageKind::class_relevance: return take_class_relevance(reader);
-    case MessageKind::object_relevance: return take_object_relevance(reader);
+    case MessageKind::out_of_scope:
+      return take_scope(reader, kind);
+    case MessageKind::provide_update:
+      return take_provide_update(reader);
+    case MessageKind::instance_names_answer:
+      return take_names(reader);
+    case MessageKind::transportation:
+      return take_transportation(reader);
+    case MessageKind::class_relevance:
+      return take_class_relevance(reader);
+    case MessageKind::object_relevance:
+      return take_object_relevance(reader);
     case MessageKind::ownership_notice:
-    case MessageKind::inform_ownership: return take_ownership(reader, kind);
-    case MessageKind::stamp: return take_stamp(reader);
-    case MessageKind::updates: return take_updates(reader);
-    case MessageKind::begin_keyframe: return take_keyframe(reader);
-    case MessageKind::deltas: return take_deltas(reader);
-    case MessageKind::interaction: return take_interaction(reader);
+    case MessageKind::inform_ownership:
+      return take_ownership(reader, kind);
+    case MessageKind::stamp:
+      return take_stamp(reader);
+    case MessageKind::updates:
+      return take_updates(reader);
+    case MessageKind::begin_keyframe:
+      return take_keyframe(reader);
+    case MessageKind::deltas:
+      return take_deltas(reader);
+    case MessageKind::interaction:
+      return take_interaction(reader);
     case MessageKind::time_regulation_enabled:
     case MessageKind::time_constrained_enabled:
     case MessageKind::time_advance_grant:
     case MessageKind::timed_delivery:
     case MessageKind::request_retraction:
-    case MessageKind::time_bounds: return take_time(reader, kind);
-    default: return false;
+    case MessageKind::time_bounds:
+      return take_time(reader, kind);
+    default:
+      return false;
   }
 }
 
@@ -115,7 +146,8 @@ bool AmbassadorParts::take_membership(Reader& reader, std::uint8_t kind) {
     RefusedMessage message;
     if (!exchange(reader, message)) return false;
     phase_ = Phase::ended;
-    const std::string why = std::string(message.why) + (fom_difference_.empty() ? "" : ": " + fom_difference_);
+    const std::string why =
+        std::string(message.why) + (fom_difference_.empty() ? "" : ": " + fom_difference_);
     callbacks_.join_refused(static_cast<Refusal>(message.refusal), why);
     return true;
   }
@@ -153,14 +185,16 @@ bool AmbassadorParts::take_federate(Reader& reader, std::uint8_t kind) {
   if (static_cast<MessageKind>(kind) == MessageKind::federate_joined) {
     FederateJoinedMessage message;
     if (!exchange(reader, message)) return false;
-    if (FederateHandle{message.federate} != federate_) federates_.emplace_back(FederateHandle{message.federate}, message.name);
+    if (FederateHandle{message.federate} != federate_)
+      federates_.emplace_back(FederateHandle{message.federate}, message.name);
     callbacks_.federate_joined({message.federate}, message.name, message.type);
     return true;
   }
   FederateResignedMessage message;
   if (!exchange(reader, message)) return false;
   std::erase_if(federates_, [&](const auto& each) { return each.first.value == message.federate; });
-  callbacks_.federate_resigned({message.federate}, message.name, message.type, static_cast<ResignReason>(message.reason));
+  callbacks_.federate_resigned({message.federate}, message.name, message.type,
+                               static_cast<ResignReason>(message.reason));
   return true;
 }
 
@@ -180,13 +214,18 @@ bool AmbassadorParts::take_object(Reader& reader, std::uint8_t kind) {
   DiscoverObjectMessage message;
   if (!exchange(reader, message)) return false;
   const ObjectHandle object{message.object};
-  if (message.object_class >= fom_.object_classes().size() || !object || is_ours(object) || was_ours(object) || known_.find(object) != nullptr) return false;
+  if (message.object_class >= fom_.object_classes().size() || !object || is_ours(object) ||
+      was_ours(object) || known_.find(object) != nullptr)
+    return false;
   std::erase_if(gone_, [object](const GoneObject& each) { return each.object == object; });
   known_[object] = {message.object_class, false};
   ++counters_.objects_discovered;
   names_.give(object, message.name);
-  if (!message.name.empty()) callbacks_.discover_object_instance(object, {message.object_class}, message.name);
-  else callbacks_.discover_object_instance(object, {message.object_class}, NameBook::default_name(object));
+  if (!message.name.empty())
+    callbacks_.discover_object_instance(object, {message.object_class}, message.name);
+  else
+    callbacks_.discover_object_instance(object, {message.object_class},
+                                        NameBook::default_name(object));
   return true;
 }
 
@@ -214,36 +253,47 @@ bool AmbassadorParts::take_stamp(Reader& reader) {
 
 bool AmbassadorParts::take_updates(Reader& reader) {
   UpdatesMessage message;
-  if (!exchange(reader, message) || !heard_stamp_ || message.object_class >= fom_.object_classes().size()) return false;
+  if (!exchange(reader, message) || !heard_stamp_ ||
+      message.object_class >= fom_.object_classes().size())
+    return false;
   const AttributeSet attributes{message.attributes};
   if (!fom_.attributes(ObjectClassHandle{message.object_class}).includes(attributes)) return false;
   const ObjectClass& object_class = fom_.at(ObjectClassHandle{message.object_class});
   const bool has_codec = is_coded(object_class, attributes);
   const Stamp stamp = *heard_stamp_;
-  const bool is_read = read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
-    const KnownObject* known = find({object});
-    if (known == nullptr) return is_gone({object});
-    if (known->object_class != message.object_class) return false;
-    if (has_codec) {
-      decoded_.clear();
-      if (!decode(object_class, attributes, values, stamp.time, decoded_)) return false;
-      values = decoded_;
-    }
-    ++counters_.updates_reflected;
-    if (has_datagrams_) arrivals_.accept({object}, message.object_class, attributes, order_of_frame(frames_heard_));
-    if (timed_ != nullptr) callbacks_.reflect_attribute_values_with_time({object}, attributes, values, *timed_);
-    else callbacks_.reflect_attribute_values({object}, attributes, values, stamp);
-    return phase_ == Phase::joined;
-  });
+  const bool is_read =
+      read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
+        const KnownObject* known = find({object});
+        if (known == nullptr) return is_gone({object});
+        if (known->object_class != message.object_class) return false;
+        if (has_codec) {
+          decoded_.clear();
+          if (!decode(object_class, attributes, values, stamp.time, decoded_)) return false;
+          values = decoded_;
+        }
+        ++counters_.updates_reflected;
+        if (has_datagrams_)
+          arrivals_.accept({object}, message.object_class, attributes,
+                           order_of_frame(frames_heard_));
+        if (timed_ != nullptr)
+          callbacks_.reflect_attribute_values_with_time({object}, attributes, values, *timed_);
+        else callbacks_.reflect_attribute_values({object}, attributes, values, stamp);
+        return phase_ == Phase::joined;
+      });
   return is_read || phase_ != Phase::joined;
 }
 
 bool AmbassadorParts::take_interaction(Reader& reader) {
   InteractionMessage message;
-  if (!exchange(reader, message) || message.interaction_class >= fom_.interaction_classes().size()) return false;
+  if (!exchange(reader, message) || message.interaction_class >= fom_.interaction_classes().size())
+    return false;
   ++counters_.interactions_received;
-  if (timed_ != nullptr) callbacks_.receive_interaction_with_time({message.interaction_class}, message.parameters, {message.federate}, *timed_);
-  else callbacks_.receive_interaction({message.interaction_class}, message.parameters, {message.federate}, message.stamp);
+  if (timed_ != nullptr)
+    callbacks_.receive_interaction_with_time({message.interaction_class}, message.parameters,
+                                             {message.federate}, *timed_);
+  else
+    callbacks_.receive_interaction({message.interaction_class}, message.parameters,
+                                   {message.federate}, message.stamp);
   return true;
 }
 

@@ -6,7 +6,8 @@
 
 namespace rink::rti {
 
-/// Gathers the pairs, as many as a message takes at once, in `region_records_`, and calls `tell(count)` for each message.
+/// Gathers the pairs, as many as a message takes at once, in `region_records_`, and calls
+/// `tell(count)` for each message.
 template <class Tell>
 void AmbassadorParts::for_each_message(std::span<const AttributeRegions> pairs, Tell tell) {
   region_records_.clear();
@@ -31,23 +32,36 @@ RegionHandle Ambassador::create_region() {
 }
 
 RegionHandle Ambassador::create_region(DimensionSet dimensions) {
-  if (dimensions.is_empty()) throw RtiException(HlaError::invalid_dimension_handle, "a region needs a dimension");
+  if (dimensions.is_empty())
+    throw RtiException(HlaError::invalid_dimension_handle, "a region needs a dimension");
   dimensions.for_each([this](DimensionHandle each) { check(each); });
   const RegionHandle region = regions_.create(dimensions);
   if (region) say(CreateRegionOverMessage{regions_.number(region), dimensions.bits});
   return region;
 }
 
-void Ambassador::set_region(RegionHandle region, const im::Region& bounds) { regions_.set_plane(region, bounds); }
-void Ambassador::set_range_bounds(RegionHandle region, DimensionHandle dimension, const Range& range) { regions_.set_range(region, dimension, range); }
-Range Ambassador::get_range_bounds(RegionHandle region, DimensionHandle dimension) const { return regions_.range(region, dimension); }
-DimensionSet Ambassador::get_dimension_handle_set(RegionHandle region) const { return regions_.dimensions(region); }
+void Ambassador::set_region(RegionHandle region, const im::Region& bounds) {
+  regions_.set_plane(region, bounds);
+}
+void Ambassador::set_range_bounds(RegionHandle region, DimensionHandle dimension,
+                                  const Range& range) {
+  regions_.set_range(region, dimension, range);
+}
+Range Ambassador::get_range_bounds(RegionHandle region, DimensionHandle dimension) const {
+  return regions_.range(region, dimension);
+}
+DimensionSet Ambassador::get_dimension_handle_set(RegionHandle region) const {
+  return regions_.dimensions(region);
+}
 
-void Ambassador::commit_region_modifications(RegionHandle region) { commit_region_modifications(std::span(&region, 1)); }
+void Ambassador::commit_region_modifications(RegionHandle region) {
+  commit_region_modifications(std::span(&region, 1));
+}
 
 void Ambassador::commit_region_modifications(std::span<const RegionHandle> regions) {
   for (const RegionHandle region : regions)
-    if (!regions_.is_planar(region)) regions_.closed_ranges(region, ranges_);  // all are checked before any is said
+    if (!regions_.is_planar(region))
+      regions_.closed_ranges(region, ranges_);  // all are checked before any is said
   for (const RegionHandle region : regions) {
     if (regions_.is_planar(region)) {
       const RegionBounds one{region, regions_.plane(regions_.number(region))};
@@ -58,7 +72,8 @@ void Ambassador::commit_region_modifications(std::span<const RegionHandle> regio
     region_records_.clear();
     Writer writer(region_records_);
     for (Range& each : ranges_) exchange(writer, each);
-    say(ModifyRangesMessage{regions_.number(region), static_cast<std::uint8_t>(ranges_.size()), region_records_});
+    say(ModifyRangesMessage{regions_.number(region), static_cast<std::uint8_t>(ranges_.size()),
+                            region_records_});
   }
 }
 
@@ -80,7 +95,9 @@ void Ambassador::commit_region_modifications(std::span<const RegionBounds> regio
 
 void Ambassador::delete_region(RegionHandle region) {
   const std::uint32_t number = regions_.check(region);
-  regions_.remove(region, [this](ObjectHandle object) { return find(object) != nullptr && !owned_of(object, *find(object)).is_empty(); });
+  regions_.remove(region, [this](ObjectHandle object) {
+    return find(object) != nullptr && !owned_of(object, *find(object)).is_empty();
+  });
   say(DeleteRegionMessage{number});
 }
 
@@ -91,43 +108,58 @@ void Ambassador::associate_regions_for_updates(ObjectHandle object, RegionHandle
   say(AssociateRegionMessage{object.value, number});
 }
 
-void Ambassador::associate_regions_for_updates(ObjectHandle object, std::span<const AttributeRegions> pairs) {
+void Ambassador::associate_regions_for_updates(ObjectHandle object,
+                                               std::span<const AttributeRegions> pairs) {
   associate_regions(object, pairs, true);
 }
-void Ambassador::unassociate_regions_for_updates(ObjectHandle object, std::span<const AttributeRegions> pairs) {
+void Ambassador::unassociate_regions_for_updates(ObjectHandle object,
+                                                 std::span<const AttributeRegions> pairs) {
   associate_regions(object, pairs, false);
 }
 
-void AmbassadorParts::associate_regions(ObjectHandle object, std::span<const AttributeRegions> pairs, bool is_added) {
+void AmbassadorParts::associate_regions(ObjectHandle object,
+                                        std::span<const AttributeRegions> pairs, bool is_added) {
   const ObjectClassHandle object_class = own_class(object);
   check(object_class, pairs);
   for (const AttributeRegions& each : pairs)
-    for (const RegionHandle region : each.regions) regions_.associate(object, fom_.attributes(object_class), each.attributes, region, is_added);
-  for_each_message(pairs, [&](std::uint16_t count) { say(AssociateRegionsMessage{object.value, is_added, count, region_records_}); });
+    for (const RegionHandle region : each.regions)
+      regions_.associate(object, fom_.attributes(object_class), each.attributes, region, is_added);
+  for_each_message(pairs, [&](std::uint16_t count) {
+    say(AssociateRegionsMessage{object.value, is_added, count, region_records_});
+  });
 }
 
-ObjectHandle Ambassador::register_object_instance_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, std::string_view name) {
+ObjectHandle Ambassador::register_object_instance_with_regions(
+    ObjectClassHandle object_class, std::span<const AttributeRegions> pairs,
+    std::string_view name) {
   check(object_class, pairs);
   const ObjectHandle object = register_object_instance(object_class, name);
   if (object) associate_regions(object, pairs, true);
   return object;
 }
 
-void Ambassador::subscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_active) {
-  subscribe_with_regions(object_class, pairs, is_active ? RegionAction::add : RegionAction::add_passively);
+void Ambassador::subscribe_object_class_attributes_with_regions(
+    ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_active) {
+  subscribe_with_regions(object_class, pairs,
+                         is_active ? RegionAction::add : RegionAction::add_passively);
 }
-void Ambassador::unsubscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
+void Ambassador::unsubscribe_object_class_attributes_with_regions(
+    ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
   subscribe_with_regions(object_class, pairs, RegionAction::remove);
 }
 
-void AmbassadorParts::subscribe_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action) {
+void AmbassadorParts::subscribe_with_regions(ObjectClassHandle object_class,
+                                             std::span<const AttributeRegions> pairs,
+                                             RegionAction action) {
   check(object_class, pairs);
   for (const AttributeRegions& each : pairs)
-    for (const RegionHandle region : each.regions) regions_.subscribe(object_class, each.attributes, region, action != RegionAction::remove);
+    for (const RegionHandle region : each.regions)
+      regions_.subscribe(object_class, each.attributes, region, action != RegionAction::remove);
   say_regional_class(object_class, pairs, action);
 }
 
-void Ambassador::request_attribute_value_update_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
+void Ambassador::request_attribute_value_update_with_regions(
+    ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
   check(object_class, pairs);
   say_regional_class(object_class, pairs, RegionAction::request_update);
 }
@@ -143,34 +175,51 @@ bool AmbassadorParts::take_provide_update(Reader& reader) {
   return true;
 }
 
-void AmbassadorParts::say_regional_class(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action) {
+void AmbassadorParts::say_regional_class(ObjectClassHandle object_class,
+                                         std::span<const AttributeRegions> pairs,
+                                         RegionAction action) {
   for_each_message(pairs, [&](std::uint16_t count) {
-    say(RegionalClassMessage{static_cast<std::uint16_t>(object_class.value), static_cast<std::uint8_t>(action), count, region_records_});
+    say(RegionalClassMessage{static_cast<std::uint16_t>(object_class.value),
+                             static_cast<std::uint8_t>(action), count, region_records_});
   });
 }
 
-void Ambassador::subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, bool is_active) {
-  subscribe_with_regions(interaction_class, regions, is_active ? Listening::active : Listening::passive);
+void Ambassador::subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class,
+                                                          std::span<const RegionHandle> regions,
+                                                          bool is_active) {
+  subscribe_with_regions(interaction_class, regions,
+                         is_active ? Listening::active : Listening::passive);
 }
-void Ambassador::unsubscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) {
+void Ambassador::unsubscribe_interaction_class_with_regions(
+    InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) {
   subscribe_with_regions(interaction_class, regions, Listening::none);
 }
 
-void AmbassadorParts::subscribe_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, Listening listening) {
+void AmbassadorParts::subscribe_with_regions(InteractionClassHandle interaction_class,
+                                             std::span<const RegionHandle> regions,
+                                             Listening listening) {
   check(interaction_class, regions);
-  for (const RegionHandle region : regions) regions_.subscribe(interaction_class, region, listening != Listening::none);
+  for (const RegionHandle region : regions)
+    regions_.subscribe(interaction_class, region, listening != Listening::none);
   write_numbers(regions);
-  say(RegionalInteractionMessage{static_cast<std::uint16_t>(interaction_class.value), static_cast<std::uint8_t>(listening), static_cast<std::uint16_t>(regions.size()), region_records_});
+  say(RegionalInteractionMessage{static_cast<std::uint16_t>(interaction_class.value),
+                                 static_cast<std::uint8_t>(listening),
+                                 static_cast<std::uint16_t>(regions.size()), region_records_});
 }
 
-void Ambassador::send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters, std::span<const RegionHandle> regions, const Stamp& stamp) {
+void Ambassador::send_interaction_with_regions(InteractionClassHandle interaction_class,
+                                               Bytes parameters,
+                                               std::span<const RegionHandle> regions,
+                                               const Stamp& stamp) {
   check(interaction_class, regions);
   require_published(interaction_class);
   require_parameters(parameters);
   require_stamp(stamp);
   if (spares_interaction(interaction_class)) return;
   write_numbers(regions);
-  say(InteractionWithinMessage{static_cast<std::uint16_t>(interaction_class.value), stamp, static_cast<std::uint16_t>(regions.size()), region_records_, parameters});
+  say(InteractionWithinMessage{static_cast<std::uint16_t>(interaction_class.value), stamp,
+                               static_cast<std::uint16_t>(regions.size()), region_records_,
+                               parameters});
   ++counters_.interactions_sent;
 }
 
@@ -185,33 +234,47 @@ void AmbassadorParts::write_numbers(std::span<const RegionHandle> regions) {
 
 ObjectClassHandle AmbassadorParts::own_class(ObjectHandle object) {
   const KnownObject* known = find(object);
-  if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
-  if (owned_of(object, *known).is_empty()) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is another federate's");
+  if (known == nullptr)
+    throw RtiException(HlaError::object_instance_not_known,
+                       "object " + std::to_string(object.value));
+  if (owned_of(object, *known).is_empty())
+    throw RtiException(HlaError::attribute_not_owned,
+                       "object " + std::to_string(object.value) + " is another federate's");
   return {known->object_class};
 }
 
-void AmbassadorParts::check(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) const {
-  if (object_class.value >= fom_.object_classes().size()) throw RtiException(HlaError::object_class_not_defined, "object class " + std::to_string(object_class.value));
+void AmbassadorParts::check(ObjectClassHandle object_class,
+                            std::span<const AttributeRegions> pairs) const {
+  if (object_class.value >= fom_.object_classes().size())
+    throw RtiException(HlaError::object_class_not_defined,
+                       "object class " + std::to_string(object_class.value));
   const ObjectClass& known = fom_.at(object_class);
   for (const AttributeRegions& each : pairs) {
-    if (!fom_.attributes(object_class).includes(each.attributes)) throw RtiException(HlaError::attribute_not_defined, "class '" + known.name + "' has not all of these attributes");
+    if (!fom_.attributes(object_class).includes(each.attributes))
+      throw RtiException(HlaError::attribute_not_defined,
+                         "class '" + known.name + "' has not all of these attributes");
     for (const RegionHandle region : each.regions) {
       regions_.check(region);
       for (std::uint32_t bits = each.attributes.bits; bits != 0; bits &= bits - 1) {
-        const Attribute& attribute = known.attributes[static_cast<std::size_t>(std::countr_zero(bits))];
+        const Attribute& attribute =
+            known.attributes[static_cast<std::size_t>(std::countr_zero(bits))];
         regions_.check_context(region, attribute.dimensions, "attribute '" + attribute.name + "'");
       }
     }
   }
 }
 
-void AmbassadorParts::check(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) const {
+void AmbassadorParts::check(InteractionClassHandle interaction_class,
+                            std::span<const RegionHandle> regions) const {
   if (interaction_class.value >= fom_.interaction_classes().size())
-    throw RtiException(HlaError::interaction_class_not_defined, "interaction class " + std::to_string(interaction_class.value));
+    throw RtiException(HlaError::interaction_class_not_defined,
+                       "interaction class " + std::to_string(interaction_class.value));
   if (regions.empty() || regions.size() > regions_per_message_max)
-    throw RtiException(HlaError::invalid_region, "1 to " + std::to_string(regions_per_message_max) + " regions are needed");
+    throw RtiException(HlaError::invalid_region,
+                       "1 to " + std::to_string(regions_per_message_max) + " regions are needed");
   const InteractionClass& known = fom_.at(interaction_class);
-  for (const RegionHandle region : regions) regions_.check_context(region, known.dimensions, "interaction class '" + known.name + "'");
+  for (const RegionHandle region : regions)
+    regions_.check_context(region, known.dimensions, "interaction class '" + known.name + "'");
 }
 
 }  // namespace rink::rti

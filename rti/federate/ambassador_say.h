@@ -1,4 +1,5 @@
-// How an ambassador puts a message at the end of what goes out, and names what it complains of; for its own sources only.
+// How an ambassador puts a message at the end of what goes out, and names what it complains of; for
+// its own sources only.
 #pragma once
 
 #include <cassert>

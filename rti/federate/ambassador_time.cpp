@@ -1,4 +1,5 @@
-// Time management at the federate's side: requests, messages in time-stamp order, and what waits while a federate may not be disturbed.
+// Time management at the federate's side: requests, messages in time-stamp order, and what waits
+// while a federate may not be disturbed.
 #include <algorithm>
 #include <string>
 
@@ -53,7 +54,8 @@ void Ambassador::modify_lookahead(double lookahead) {
 
 void Ambassador::query_time_bounds() { say(QueryTimeBoundsMessage{}); }
 
-AttributeSet AmbassadorParts::timestamped(ObjectHandle object, ObjectClassHandle object_class) const {
+AttributeSet AmbassadorParts::timestamped(ObjectHandle object,
+                                          ObjectClassHandle object_class) const {
   const auto changed = order_changes_.find(object.value);
   if (changed != order_changes_.end()) return changed->second;
   AttributeSet set;
@@ -73,17 +75,24 @@ RetractionHandle AmbassadorParts::say_timed(LogicalTime time, std::uint64_t tag,
   return {federate_, message.number, time.value};
 }
 
-RetractionHandle Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, LogicalTime time, std::uint64_t tag) {
+RetractionHandle Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes,
+                                                     Bytes values, LogicalTime time,
+                                                     std::uint64_t tag) {
   const KnownObject* known = find(object);
-  if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
+  if (known == nullptr)
+    throw RtiException(HlaError::object_instance_not_known,
+                       "object " + std::to_string(object.value));
   const ObjectClassHandle object_class{known->object_class};
-  const AttributeSet in_order = clock_.is_regulating() ? attributes & timestamped(object, object_class) : AttributeSet();
+  const AttributeSet in_order =
+      clock_.is_regulating() ? attributes & timestamped(object, object_class) : AttributeSet();
   if (in_order.is_empty()) {
     update_attribute_values(object, attributes, values, Stamp{time.value, tag});
     return {};
   }
   clock_.check_send(time.value);
-  if (!known->is_own && !owned_of(object, *known).includes(attributes)) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is somebody else's");
+  if (!known->is_own && !owned_of(object, *known).includes(attributes))
+    throw RtiException(HlaError::attribute_not_owned,
+                       "object " + std::to_string(object.value) + " is somebody else's");
   require_values(object_class, attributes, values);
   std::vector<std::byte> ordered, others;  // each attribute's value goes with those of its order
   for (std::uint32_t i = 0; i < attribute_max; ++i) {
@@ -101,45 +110,60 @@ RetractionHandle Ambassador::update_attribute_values(ObjectHandle object, Attrib
   write(content_, header);
   std::uint64_t step = handle_step(0, object.value);
   Writer(content_).varint(step);
-  if (is_coded(fom_.at(object_class), in_order)) encode(fom_.at(object_class), in_order, ordered, time.value, content_);
+  if (is_coded(fom_.at(object_class), in_order))
+    encode(fom_.at(object_class), in_order, ordered, time.value, content_);
   else content_.insert(content_.end(), ordered.begin(), ordered.end());
   content_.push_back(std::byte{0});
   return say_timed(time, tag, content_);
 }
 
-RetractionHandle Ambassador::send_interaction(InteractionClassHandle interaction_class, Bytes parameters, LogicalTime time, std::uint64_t tag) {
+RetractionHandle Ambassador::send_interaction(InteractionClassHandle interaction_class,
+                                              Bytes parameters, LogicalTime time,
+                                              std::uint64_t tag) {
   return send_directed_interaction(interaction_class, {}, parameters, time, tag);
 }
 
-RetractionHandle Ambassador::send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, LogicalTime time, std::uint64_t tag) {
-  if (interaction_class.value >= fom_.interaction_classes().size()) throw RtiException(HlaError::interaction_class_not_defined, std::to_string(interaction_class.value));
-  const Order order = interaction_orders_.empty() ? fom_.at(interaction_class).order : interaction_orders_[interaction_class.value];
+RetractionHandle Ambassador::send_directed_interaction(InteractionClassHandle interaction_class,
+                                                       FederateHandle receiver, Bytes parameters,
+                                                       LogicalTime time, std::uint64_t tag) {
+  if (interaction_class.value >= fom_.interaction_classes().size())
+    throw RtiException(HlaError::interaction_class_not_defined,
+                       std::to_string(interaction_class.value));
+  const Order order = interaction_orders_.empty() ? fom_.at(interaction_class).order
+                                                  : interaction_orders_[interaction_class.value];
   if (!clock_.is_regulating() || order == Order::receive || fom_.is_for_rti(interaction_class)) {
     send_directed_interaction(interaction_class, receiver, parameters, Stamp{time.value, tag});
     return {};
   }
   require_parameters(parameters);
   content_.clear();
-  InteractionMessage message{static_cast<std::uint16_t>(interaction_class.value), receiver.value, {}, parameters};
+  InteractionMessage message{
+      static_cast<std::uint16_t>(interaction_class.value), receiver.value, {}, parameters};
   write(content_, message);
   const RetractionHandle handle = say_timed(time, tag, content_);
   ++counters_.interactions_sent;
   return handle;
 }
 
-RetractionHandle Ambassador::delete_object_instance(ObjectHandle object, LogicalTime time, std::uint64_t tag) {
+RetractionHandle Ambassador::delete_object_instance(ObjectHandle object, LogicalTime time,
+                                                    std::uint64_t tag) {
   if (!clock_.is_regulating()) {
     delete_object_instance(object);
     return {};
   }
   KnownObject* known = find(object);
-  if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
-  if (!owned_of(object, *known).contains(privilege_to_delete_object)) throw RtiException(HlaError::delete_privilege_not_held, "object " + std::to_string(object.value) + " is somebody else's");
+  if (known == nullptr)
+    throw RtiException(HlaError::object_instance_not_known,
+                       "object " + std::to_string(object.value));
+  if (!owned_of(object, *known).contains(privilege_to_delete_object))
+    throw RtiException(HlaError::delete_privilege_not_held,
+                       "object " + std::to_string(object.value) + " is somebody else's");
   content_.clear();
   DeleteObjectMessage message{object.value};
   write(content_, message);
   const RetractionHandle handle = say_timed(time, tag, content_);
-  std::erase_if(deletions_, [this](const TimedDeletion& each) { return each.time < clock_.earliest_ever(); });
+  std::erase_if(deletions_,
+                [this](const TimedDeletion& each) { return each.time < clock_.earliest_ever(); });
   deletions_.push_back({handle.number, object.value, *known, time.value});
   *known = {};
   return handle;
@@ -155,20 +179,32 @@ void Ambassador::retract(const RetractionHandle& handle) {
   deletions_.erase(deletion);
 }
 
-void Ambassador::change_attribute_order_type(ObjectHandle object, AttributeSet attributes, Order order) {
+void Ambassador::change_attribute_order_type(ObjectHandle object, AttributeSet attributes,
+                                             Order order) {
   const KnownObject* known = find(object);
-  if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
+  if (known == nullptr)
+    throw RtiException(HlaError::object_instance_not_known,
+                       "object " + std::to_string(object.value));
   const ObjectClassHandle object_class{known->object_class};
-  if (!fom_.attributes(object_class).includes(attributes)) throw RtiException(HlaError::attribute_not_defined, "in class " + fom_.at(object_class).name);
-  if (!owned_of(object, *known).includes(attributes)) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is somebody else's");
+  if (!fom_.attributes(object_class).includes(attributes))
+    throw RtiException(HlaError::attribute_not_defined, "in class " + fom_.at(object_class).name);
+  if (!owned_of(object, *known).includes(attributes))
+    throw RtiException(HlaError::attribute_not_owned,
+                       "object " + std::to_string(object.value) + " is somebody else's");
   const AttributeSet before = timestamped(object, object_class);
-  order_changes_[object.value] = order == Order::timestamp ? before | attributes : AttributeSet(before.bits & ~attributes.bits);
+  order_changes_[object.value] = order == Order::timestamp
+                                     ? before | attributes
+                                     : AttributeSet(before.bits & ~attributes.bits);
 }
 
-void Ambassador::change_interaction_order_type(InteractionClassHandle interaction_class, Order order) {
-  if (interaction_class.value >= fom_.interaction_classes().size()) throw RtiException(HlaError::interaction_class_not_defined, std::to_string(interaction_class.value));
+void Ambassador::change_interaction_order_type(InteractionClassHandle interaction_class,
+                                               Order order) {
+  if (interaction_class.value >= fom_.interaction_classes().size())
+    throw RtiException(HlaError::interaction_class_not_defined,
+                       std::to_string(interaction_class.value));
   if (interaction_orders_.empty())
-    for (const InteractionClass& each : fom_.interaction_classes()) interaction_orders_.push_back(each.order);
+    for (const InteractionClass& each : fom_.interaction_classes())
+      interaction_orders_.push_back(each.order);
   interaction_orders_[interaction_class.value] = order;
 }
 
@@ -182,7 +218,8 @@ bool AmbassadorParts::take_time(Reader& reader, std::uint8_t number) {
     callbacks_.time_advance_grant(LogicalTime(message.seconds));
   } else if (kind == MessageKind::time_regulation_enabled) {
     TimeRegulationEnabledMessage message;
-    if (!exchange(reader, message) || !clock_.regulation_enabled(message.time, message.earliest)) return false;
+    if (!exchange(reader, message) || !clock_.regulation_enabled(message.time, message.earliest))
+      return false;
     callbacks_.time_regulation_enabled(LogicalTime(message.time));
   } else if (kind == MessageKind::time_constrained_enabled) {
     TimeConstrainedEnabledMessage message;
@@ -204,12 +241,16 @@ bool AmbassadorParts::take_timed(Reader& reader) {
   TimedDeliveryMessage message;
   if (!exchange(reader, message) || timed_ != nullptr) return false;
   ++counters_.timed_received;
-  const TimedStamp timed{message.stamp, message.is_in_order != 0, {{message.sender}, message.number, message.stamp.time}};
+  const TimedStamp timed{message.stamp,
+                         message.is_in_order != 0,
+                         {{message.sender}, message.number, message.stamp.time}};
   const std::optional<Stamp> outer = std::exchange(heard_stamp_, message.stamp);
   timed_ = &timed;
   Reader content(message.content);
-  const bool is_content = !message.content.empty() && is_receive_ordered(static_cast<MessageKind>(message.content[0]));
-  const bool is_read = is_content && take_message(content) && (content.is_at_end() || phase_ != Phase::joined);
+  const bool is_content =
+      !message.content.empty() && is_receive_ordered(static_cast<MessageKind>(message.content[0]));
+  const bool is_read =
+      is_content && take_message(content) && (content.is_at_end() || phase_ != Phase::joined);
   timed_ = nullptr;
   heard_stamp_ = outer;
   return is_read;
@@ -221,10 +262,14 @@ bool AmbassadorParts::postpone(Reader& reader, MessageKind kind) {
   bool is_read = false;
   if (kind == MessageKind::updates) {
     UpdatesMessage message;
-    if (!heard_stamp_ || !exchange(reader, message) || message.object_class >= fom_.object_classes().size()) return false;
+    if (!heard_stamp_ || !exchange(reader, message) ||
+        message.object_class >= fom_.object_classes().size())
+      return false;
     StampMessage stamp{*heard_stamp_};
     write(postponed_, stamp);
-    is_read = read_records(reader, fom_.object_classes()[message.object_class], AttributeSet(message.attributes), [](std::uint32_t, Bytes) { return true; });
+    is_read =
+        read_records(reader, fom_.object_classes()[message.object_class],
+                     AttributeSet(message.attributes), [](std::uint32_t, Bytes) { return true; });
   } else if (kind == MessageKind::interaction) {
     InteractionMessage message;
     is_read = exchange(reader, message);
@@ -233,8 +278,10 @@ bool AmbassadorParts::postpone(Reader& reader, MessageKind kind) {
     is_read = exchange(reader, message);
   }
   postponed_.push_back(static_cast<std::byte>(kind));
-  postponed_.insert(postponed_.end(), body.begin(), body.end() - static_cast<std::ptrdiff_t>(reader.left()));
-  if (postponed_.size() > postponed_max) lose("more to tell than a federate that never advances is kept");
+  postponed_.insert(postponed_.end(), body.begin(),
+                    body.end() - static_cast<std::ptrdiff_t>(reader.left()));
+  if (postponed_.size() > postponed_max)
+    lose("more to tell than a federate that never advances is kept");
   return is_read;
 }
 

@@ -9,8 +9,10 @@
 namespace rink::rti {
 
 struct DatagramWay {
-  static constexpr double fallback_after_s = 2.0;  ///< without an answer, everything goes by the stream again [s]
-  static constexpr double probe_period_s = 1.0;    ///< then an empty datagram asks now and then if the way is open again [s]
+  static constexpr double fallback_after_s =
+      2.0;  ///< without an answer, everything goes by the stream again [s]
+  static constexpr double probe_period_s =
+      1.0;  ///< then an empty datagram asks now and then if the way is open again [s]
   explicit DatagramWay(SaidLists& lists) : ledger(lists) {}
 
   DatagramLedger ledger;

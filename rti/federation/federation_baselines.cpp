@@ -9,15 +9,18 @@ namespace {
 /// Which of a run's records go to a federate, 64 slots at a time.
 class Wanted {
  public:
-  Wanted(const UpdateRun& run, const FederateInterest& interest) : run_(run), interest_(interest), heard_(interest.heard()) {}
+  Wanted(const UpdateRun& run, const FederateInterest& interest)
+      : run_(run), interest_(interest), heard_(interest.heard()) {}
 
   std::uint64_t word(std::size_t i) const {
     std::uint64_t bits = run_.members.word(i) & heard_.word(i) & ~interest_.fresh.word(i);
-    if (interest_.is_uniform) return (interest_.by_class[run_.object_class] & run_.attributes).is_empty() ? 0 : bits;
+    if (interest_.is_uniform)
+      return (interest_.by_class[run_.object_class] & run_.attributes).is_empty() ? 0 : bits;
     for (std::uint64_t left = bits; left != 0; left &= left - 1) {
       const auto bit = static_cast<unsigned>(std::countr_zero(left));
       const auto slot = static_cast<ObjectSlot>(i * 64 + bit);
-      if ((interest_.told(slot, run_.object_class) & run_.attributes).is_empty()) bits &= ~(std::uint64_t{1} << bit);
+      if ((interest_.told(slot, run_.object_class) & run_.attributes).is_empty())
+        bits &= ~(std::uint64_t{1} << bit);
     }
     return bits;
   }
@@ -35,7 +38,8 @@ class Wanted {
       return;
     }
     for (std::size_t i = run_.first_word; i <= run_.last_word; ++i)
-      for (std::uint64_t bits = word(i); bits != 0; bits &= bits - 1) visit(run_.record_of[i * 64 + static_cast<std::size_t>(std::countr_zero(bits))]);
+      for (std::uint64_t bits = word(i); bits != 0; bits &= bits - 1)
+        visit(run_.record_of[i * 64 + static_cast<std::size_t>(std::countr_zero(bits))]);
   }
 
  private:
@@ -68,7 +72,8 @@ void FederationExecution::Parts::gather_periodic(std::size_t index, std::uint32_
 }
 
 /// The records in the federate's interest, bit by bit; those whose baseline it lacks are absolute.
-void FederationExecution::Parts::cut_periodic(const UpdateRun& run, const DeltaBlock& block, std::uint32_t slot) {
+void FederationExecution::Parts::cut_periodic(const UpdateRun& run, const DeltaBlock& block,
+                                              std::uint32_t slot) {
   say(scratch_, DeltasMessage{run.object_class});
   BitWriter bits(scratch_);
   DeltaHeader header = block.header;
@@ -79,7 +84,8 @@ void FederationExecution::Parts::cut_periodic(const UpdateRun& run, const DeltaB
     write_handle(bits, previous, run.records[index].handle);
     previous = run.records[index].handle;
     const DeltaBlock::Record& record = block.records[index];
-    const bool is_known = (baselines_.known(slot, run.slots[index] / 64) >> run.slots[index] % 64 & 1u) != 0;
+    const bool is_known =
+        (baselines_.known(slot, run.slots[index] / 64) >> run.slots[index] % 64 & 1u) != 0;
     if (record.is_difference && !is_known) baselines_.append_absolute(bits, run, block.run, index);
     else append_bits(bits, block.message, record.at, record.size);
     ++records;
@@ -103,7 +109,9 @@ void FederationExecution::Parts::begin_keyframe(const Stamp& stamp) {
   say(scratch_, BeginKeyframeMessage{*baselines_.keyframe()});
 }
 
-FederationExecution::Parts::Outcome FederationExecution::Parts::take_keyframe(std::uint32_t slot, MessageKind kind, Reader& reader) {
+FederationExecution::Parts::Outcome FederationExecution::Parts::take_keyframe(std::uint32_t slot,
+                                                                              MessageKind kind,
+                                                                              Reader& reader) {
   AcknowledgeKeyframeMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (kind == MessageKind::acknowledge_keyframe) baselines_.acknowledge(slot, message.number);

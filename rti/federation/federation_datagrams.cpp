@@ -1,4 +1,5 @@
-// Best-effort updates by datagram, where a federate has a way for them: what goes out, what was lost, and falling back to the stream.
+// Best-effort updates by datagram, where a federate has a way for them: what goes out, what was
+// lost, and falling back to the stream.
 #include <bit>
 
 #include "rti/buffering/run_scope.h"
@@ -10,9 +11,11 @@ namespace rink::rti {
 namespace {
 
 /// Appends the values of `wanted`, a part of `set`, from those of `set`.
-void cut_values(const ObjectClass& object_class, AttributeSet set, AttributeSet wanted, Bytes values, std::vector<std::byte>& bytes) {
+void cut_values(const ObjectClass& object_class, AttributeSet set, AttributeSet wanted,
+                Bytes values, std::vector<std::byte>& bytes) {
   for (std::uint32_t bits = wanted.bits; bits != 0; bits &= bits - 1) {
-    const Bytes value = coded_value(object_class, set, {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
+    const Bytes value = coded_value(object_class, set,
+                                    {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
     bytes.insert(bytes.end(), value.begin(), value.end());
   }
 }
@@ -26,12 +29,17 @@ void FederationExecution::Parts::list_best_effort() {
   }
 }
 
-void FederationExecution::Parts::append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp, Bytes values) {
-  const AttributeSet best_effort = attributes & by_datagram(object), reliable(attributes.bits & ~best_effort.bits);
-  if (best_effort.is_empty() || reliable.is_empty()) return buffering_->append(slot, object, objects_[object], attributes, stamp, values);
+void FederationExecution::Parts::append_apart(std::uint32_t slot, ObjectSlot object,
+                                              AttributeSet attributes, const Stamp& stamp,
+                                              Bytes values) {
+  const AttributeSet best_effort = attributes & by_datagram(object),
+                     reliable(attributes.bits & ~best_effort.bits);
+  if (best_effort.is_empty() || reliable.is_empty())
+    return buffering_->append(slot, object, objects_[object], attributes, stamp, values);
   for (const AttributeSet part : {reliable, best_effort}) {
     values_.clear();
-    cut_values(fom_.object_classes()[objects_[object].object_class], attributes, part, values, values_);
+    cut_values(fom_.object_classes()[objects_[object].object_class], attributes, part, values,
+               values_);
     buffering_->append(slot, object, objects_[object], part, stamp, values_);
   }
 }
@@ -40,7 +48,8 @@ void FederationExecution::Parts::append_apart(std::uint32_t slot, ObjectSlot obj
 void FederationExecution::Parts::begin_datagrams(Federate& federate, Outlet& outlet) {
   way_ = nullptr;
   if (!has_best_effort_) return;
-  const std::size_t size_max = federate.has_stream_only ? 0 : outlet.datagram_max(federate.connection);
+  const std::size_t size_max =
+      federate.has_stream_only ? 0 : outlet.datagram_max(federate.connection);
   const bool is_open = size_max >= 256;  // less is no use
   if (!federate.way && !is_open) return;
   if (!federate.way) {
@@ -57,7 +66,8 @@ void FederationExecution::Parts::begin_datagrams(Federate& federate, Outlet& out
     way.ledger.abandon(way.due);
     ++counters_.datagram_fallbacks;
   }
-  if (way.has_fallen_back && is_open && now_ - way.probed_s >= DatagramWay::probe_period_s) probe(federate, outlet);
+  if (way.has_fallen_back && is_open && now_ - way.probed_s >= DatagramWay::probe_period_s)
+    probe(federate, outlet);
   if (way.has_fallen_back) return;
   way_ = &way;
   datagram_size_max_ = size_max - DatagramHead::size;
@@ -82,15 +92,19 @@ void FederationExecution::Parts::write_due_states(std::uint32_t slot) {
   const FederateInterest& interest = interest_.of(slot);
   for (const DatagramLedger::Lost& each : way.due) {
     const ObjectSlot object = objects_.find({each.handle});
-    if (object == no_object || interest.fresh.contains(object)) continue;  // gone, or told as a whole anyway
-    const AttributeSet set = interest.told(object, objects_[object].object_class) & objects_[object].valued & each.attributes;
+    if (object == no_object || interest.fresh.contains(object))
+      continue;  // gone, or told as a whole anyway
+    const AttributeSet set = interest.told(object, objects_[object].object_class) &
+                             objects_[object].valued & each.attributes;
     if (set.is_empty()) continue;
     values_.clear();
     objects_.append(object, set, values_);
     const Stamp stamp = newest_of(object);
     ++counters_.updates_sent;
     ++counters_.updates_repaired;
-    if (way_ != nullptr && batch_.add(objects_[object].object_class, set, stamp, each.handle, values_)) continue;
+    if (way_ != nullptr &&
+        batch_.add(objects_[object].object_class, set, stamp, each.handle, values_))
+      continue;
     write_stamp(stamp);
     say(scratch_, UpdatesMessage{objects_[object].object_class, set.bits});
     RecordWriter(scratch_).add(each.handle, values_);
@@ -98,13 +112,15 @@ void FederationExecution::Parts::write_due_states(std::uint32_t slot) {
   way.due.clear();
 }
 
-bool FederationExecution::Parts::gather_datagrams(std::size_t index, const FederateInterest& interest) {
+bool FederationExecution::Parts::gather_datagrams(std::size_t index,
+                                                  const FederateInterest& interest) {
   const UpdateRun& run = runs_[index];
   if (!best_effort_[run.object_class].includes(run.attributes)) return false;
   const CutRun& cut = batch_.cut(index, run, datagram_size_max_);
   if (!cut.fits) return false;
   const bool has_changed = changed_transportation_.size() > 0;
-  const bool is_whole = !has_changed && interest.is_uniform && !interest.has_fresh && interest.by_class[run.object_class].includes(run.attributes);
+  const bool is_whole = !has_changed && interest.is_uniform && !interest.has_fresh &&
+                        interest.by_class[run.object_class].includes(run.attributes);
   if (is_whole && is_all_in_scope(run, interest.heard())) {
     batch_.add(cut);
     counters_.updates_sent += run.slots.size();
@@ -120,7 +136,9 @@ bool FederationExecution::Parts::gather_datagrams(std::size_t index, const Feder
       values = values_;
     }
     ++counters_.updates_sent;
-    if (!has_changed || by_datagram(run.slots[record]).includes(wanted)) return void(batch_.add(run.object_class, wanted, run.stamp, run.records[record].handle, values));
+    if (!has_changed || by_datagram(run.slots[record]).includes(wanted))
+      return void(
+          batch_.add(run.object_class, wanted, run.stamp, run.records[record].handle, values));
     write_stamp(run.stamp);
     say(scratch_, UpdatesMessage{run.object_class, wanted.bits});
     RecordWriter(scratch_).add(run.records[record].handle, values);
@@ -138,7 +156,9 @@ void FederationExecution::Parts::send_datagrams(Federate& federate, Outlet& outl
   counters_.datagrams_sent += datagrams.size();
   federate.counts.bytes_received += size;
   // Who hears of us by datagrams, as its answers tell, needs no heartbeat beside them.
-  if (const auto since = way_->ledger.unanswered_since(); !since || now_ - *since < settings_.patience.heartbeat_s) federate.last_said = now_;
+  if (const auto since = way_->ledger.unanswered_since();
+      !since || now_ - *since < settings_.patience.heartbeat_s)
+    federate.last_said = now_;
   outlet.send_datagrams(federate.connection, datagrams);
 }
 

@@ -1,4 +1,5 @@
-// What federates publish and subscribe, and who is told that somebody hears it (IEEE 1516.1-2010, clause 5; docs/rti.md, "Nobody listens").
+// What federates publish and subscribe, and who is told that somebody hears it (IEEE 1516.1-2010,
+// clause 5; docs/rti.md, "Nobody listens").
 #include <algorithm>
 
 #include "rti/federation/federation_management_objects.h"
@@ -8,7 +9,8 @@ namespace rink::rti {
 
 using Outcome = std::optional<Violation>;
 
-Outcome FederationExecution::Parts::take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader) {
+Outcome FederationExecution::Parts::take_declaration(std::uint32_t slot, MessageKind kind,
+                                                     Reader& reader) {
   if (kind == MessageKind::publish_object_class) return publish_object_class(slot, reader);
   if (kind == MessageKind::subscribe_object_class) return subscribe_object_class(slot, reader);
   if (kind == MessageKind::advisory_switch) return switch_advisory(slot, reader);
@@ -21,9 +23,11 @@ Outcome FederationExecution::Parts::publish_object_class(std::uint32_t slot, Rea
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   const ObjectClassHandle object_class{message.object_class};
-  if (!fom_.attributes(object_class).includes(AttributeSet(message.attributes))) return Violation::unknown_name;
+  if (!fom_.attributes(object_class).includes(AttributeSet(message.attributes)))
+    return Violation::unknown_name;
   if (fom_.is_management(object_class)) return Violation::not_owned;
-  const AttributeSet before = std::exchange(federate.published[message.object_class], AttributeSet(message.attributes));
+  const AttributeSet before =
+      std::exchange(federate.published[message.object_class], AttributeSet(message.attributes));
   published_changed(slot, message.object_class, before);
   tell_relevance(slot, message.object_class);
   return std::nullopt;
@@ -34,26 +38,33 @@ Outcome FederationExecution::Parts::subscribe_object_class(std::uint32_t slot, R
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   const AttributeSet attributes{message.attributes};
-  if (!fom_.attributes(ObjectClassHandle{message.object_class}).includes(attributes)) return Violation::unknown_name;
-  const Subscription subscription{attributes, message.is_passive != 0 ? AttributeSet() : attributes};
-  if (!interest_.subscribe(slot, message.object_class, subscription, {message.region})) return Violation::unknown_name;
+  if (!fom_.attributes(ObjectClassHandle{message.object_class}).includes(attributes))
+    return Violation::unknown_name;
+  const Subscription subscription{attributes,
+                                  message.is_passive != 0 ? AttributeSet() : attributes};
+  if (!interest_.subscribe(slot, message.object_class, subscription, {message.region}))
+    return Violation::unknown_name;
   subscribed(slot);
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader) {
+Outcome FederationExecution::Parts::declare_interaction(std::uint32_t slot, MessageKind kind,
+                                                        Reader& reader) {
   SubscribeInteractionClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
+  if (message.interaction_class >= fom_.interaction_classes().size())
+    return Violation::unknown_name;
   if (kind == MessageKind::publish_interaction_class) {
     if (message.is_declared > 1) return Violation::malformed;
     const InteractionClassHandle interaction_class{message.interaction_class};
-    if (fom_.is_management(interaction_class) && !fom_.is_for_rti(interaction_class)) return Violation::not_owned;
+    if (fom_.is_management(interaction_class) && !fom_.is_for_rti(interaction_class))
+      return Violation::not_owned;
     federates_[slot].published_interactions[message.interaction_class] = message.is_declared != 0;
     tell_relevance(slot, fom_.object_classes().size() + message.interaction_class);
     return std::nullopt;
   }
-  federates_[slot].subscribed_interactions[message.interaction_class] = static_cast<Listening>(message.is_declared);
+  federates_[slot].subscribed_interactions[message.interaction_class] =
+      static_cast<Listening>(message.is_declared);
   join_groups(slot);
   return std::nullopt;
 }
@@ -68,53 +79,69 @@ void FederationExecution::Parts::join_groups(std::uint32_t slot) {
 }
 
 /// How it subscribes to the class or a superclass, with and without regions.
-Listening FederationExecution::Parts::listening(std::uint32_t slot, std::uint16_t interaction_class) const {
+Listening FederationExecution::Parts::listening(std::uint32_t slot,
+                                                std::uint16_t interaction_class) const {
   Listening found = interest_.subscribes_interaction(slot, interaction_class);
-  for (InteractionClassHandle each{interaction_class}; each && found != Listening::active; each = fom_.at(each).parent)
-    if (const Listening here = federates_[slot].subscribed_interactions[each.value]; here != Listening::none) found = here;
+  for (InteractionClassHandle each{interaction_class}; each && found != Listening::active;
+       each = fom_.at(each).parent)
+    if (const Listening here = federates_[slot].subscribed_interactions[each.value];
+        here != Listening::none)
+      found = here;
   return found;
 }
 
-bool FederationExecution::Parts::hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const {
+bool FederationExecution::Parts::hears_everywhere(std::uint32_t slot,
+                                                  std::uint16_t interaction_class) const {
   for (InteractionClassHandle each{interaction_class}; each; each = fom_.at(each).parent)
     if (federates_[slot].subscribed_interactions[each.value] != Listening::none) return true;
   return false;
 }
 
-/// Takes what it subscribes now into account, and tells publishers who are concerned, at once: whatever a subscriber says next reaches them after that.
+/// Takes what it subscribes now into account, and tells publishers who are concerned, at once:
+/// whatever a subscriber says next reaches them after that.
 void FederationExecution::Parts::subscribed(std::uint32_t slot) {
   const std::size_t object_classes = fom_.object_classes().size();
   for (std::size_t row = 0; row < relevance_.row_count(); ++row) {
-    const auto number = static_cast<std::uint16_t>(row < object_classes ? row : row - object_classes);
+    const auto number =
+        static_cast<std::uint16_t>(row < object_classes ? row : row - object_classes);
     Subscription now;
-    if (federates_[slot].is_joined) now = row < object_classes ? interest_.subscribed_anywhere(slot, number) : Relevance::of(listening(slot, number));
+    if (federates_[slot].is_joined)
+      now = row < object_classes ? interest_.subscribed_anywhere(slot, number)
+                                 : Relevance::of(listening(slot, number));
     if (relevance_.set(slot, row, now)) tell_publishers(row);
   }
   manage_subscriptions(slot);
 }
 
 void FederationExecution::Parts::manage_subscriptions(std::uint32_t slot) {
-  if (!management_objects_ && ManagementObjects::is_heard(*this)) management_objects_ = std::make_unique<ManagementObjects>(*this);
+  if (!management_objects_ && ManagementObjects::is_heard(*this))
+    management_objects_ = std::make_unique<ManagementObjects>(*this);
   if (management_objects_) management_objects_->subscribed(slot);
 }
 
-/// What others than `slot` hear of a row. The RTI itself hears what the management object model lets federates ask of it.
+/// What others than `slot` hear of a row. The RTI itself hears what the management object model
+/// lets federates ask of it.
 Subscription FederationExecution::Parts::others_hear(std::uint32_t slot, std::size_t row) const {
   const std::size_t object_classes = fom_.object_classes().size();
-  if (row >= object_classes && fom_.is_for_rti(InteractionClassHandle{static_cast<std::uint32_t>(row - object_classes)})) return Relevance::of(Listening::active);
+  if (row >= object_classes &&
+      fom_.is_for_rti(InteractionClassHandle{static_cast<std::uint32_t>(row - object_classes)}))
+    return Relevance::of(Listening::active);
   return relevance_.of_others(slot, row);
 }
 
 void FederationExecution::Parts::tell_publishers(std::size_t row) {
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot) {
     const Federate& federate = federates_[slot];
-    if (federate.is_joined && publishes(slot, row) && federate.told_relevance[row] != others_hear(slot, row)) tell_relevance(slot, row);
+    if (federate.is_joined && publishes(slot, row) &&
+        federate.told_relevance[row] != others_hear(slot, row))
+      tell_relevance(slot, row);
   }
 }
 
 bool FederationExecution::Parts::publishes(std::uint32_t slot, std::size_t row) const {
   const std::size_t object_classes = fom_.object_classes().size();
-  return row < object_classes ? !federates_[slot].published[row].is_empty() : federates_[slot].published_interactions[row - object_classes];
+  return row < object_classes ? !federates_[slot].published[row].is_empty()
+                              : federates_[slot].published_interactions[row - object_classes];
 }
 
 void FederationExecution::Parts::tell_relevance(std::uint32_t slot, std::size_t row) {
@@ -123,7 +150,8 @@ void FederationExecution::Parts::tell_relevance(std::uint32_t slot, std::size_t 
   const bool is_interaction = row >= object_classes;
   const Subscription others = federates_[slot].told_relevance[row] = others_hear(slot, row);
   const auto number = static_cast<std::uint16_t>(is_interaction ? row - object_classes : row);
-  say(federates_[slot].control, ClassRelevanceMessage{is_interaction, number, others.heard.bits, others.active.bits});
+  say(federates_[slot].control,
+      ClassRelevanceMessage{is_interaction, number, others.heard.bits, others.active.bits});
 }
 
 /// Its sender keeps newer values back, for nobody heard them when it heard from us last.
@@ -135,7 +163,9 @@ Outcome FederationExecution::Parts::take_spare_update(std::uint32_t slot, Reader
   const AttributeSet attributes{message.attributes};
   if (!ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
   objects_[object].valued = objects_[object].valued.without(attributes);
-  if (UpwardWay* way = federates_[slot].upward.get()) way->accept({message.object}, objects_[object].object_class, attributes, order_of_frame(federates_[slot].frames_heard));
+  if (UpwardWay* way = federates_[slot].upward.get())
+    way->accept({message.object}, objects_[object].object_class, attributes,
+                order_of_frame(federates_[slot].frames_heard));
   return std::nullopt;
 }
 
@@ -150,11 +180,13 @@ Outcome FederationExecution::Parts::switch_advisory(std::uint32_t slot, Reader& 
   return std::nullopt;
 }
 
-/// Tells owners who asked for it which of their attributes are in the scope of an active subscriber now. Nothing is kept or done where nobody asked.
+/// Tells owners who asked for it which of their attributes are in the scope of an active subscriber
+/// now. Nothing is kept or done where nobody asked.
 void FederationExecution::Parts::tell_object_relevance() {
   std::vector<ObjectSlot>& touched = interest_.touched();
   if (touched.empty()) return;
-  interest_.watch_scope(std::ranges::any_of(federates_, [](const Federate& each) { return each.told_objects != nullptr; }));
+  interest_.watch_scope(std::ranges::any_of(
+      federates_, [](const Federate& each) { return each.told_objects != nullptr; }));
   std::ranges::sort(touched);
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   for (const ObjectSlot object : touched) {
@@ -163,9 +195,11 @@ void FederationExecution::Parts::tell_object_relevance() {
     for (std::uint32_t owner = 0; owner < federates_.size(); ++owner) {
       if (!federates_[owner].told_objects) continue;
       AttributeSet heard;
-      const AttributeSet owned = ownership_.owned_by(owner, object).without(AttributeSet{privilege_to_delete_object});
+      const AttributeSet owned =
+          ownership_.owned_by(owner, object).without(AttributeSet{privilege_to_delete_object});
       for (std::uint32_t slot = 0; slot < federates_.size() && heard != owned; ++slot)
-        if (slot != owner && federates_[slot].is_joined) heard = heard | (interest_.told_actively(slot, object) & owned);
+        if (slot != owner && federates_[slot].is_joined)
+          heard = heard | (interest_.told_actively(slot, object) & owned);
       ObjectMap<AttributeSet>& told = *federates_[owner].told_objects;
       const AttributeSet* before = told.find(handle);
       if (heard == (before != nullptr ? *before : AttributeSet())) continue;

@@ -15,7 +15,8 @@ namespace {
 /// Every cache line of it.
 template <class Value>
 void fetch(const Value& value) {
-  for (std::size_t at = 0; at < sizeof value; at += 64) __builtin_prefetch(reinterpret_cast<const char*>(&value) + at);
+  for (std::size_t at = 0; at < sizeof value; at += 64)
+    __builtin_prefetch(reinterpret_cast<const char*>(&value) + at);
 }
 
 }  // namespace
@@ -42,7 +43,8 @@ void FederationExecution::Parts::flush(Outlet& outlet) {
   farewells_.clear();
 }
 
-/// What a flush needs of a federate has left the cache since the last one if there are many: what the next ones need is fetched meanwhile, in the order in which one leads to the other.
+/// What a flush needs of a federate has left the cache since the last one if there are many: what
+/// the next ones need is fetched meanwhile, in the order in which one leads to the other.
 void FederationExecution::Parts::look_ahead(std::uint32_t slot) {
   if (slot + 3 < federates_.size()) fetch(federates_[slot + 3]);
   if (slot + 2 < federates_.size() && federates_[slot + 2].is_joined) {
@@ -67,7 +69,9 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   is_all_told_ = false;
   const std::uint64_t before = counters_.updates_sent;
   std::ranges::sort(interest_.of(slot).pressing);
-  for (const ObjectSlot each : interest_.of(slot).pressing) interest_.of(slot).fresh.insert(each);  // what this flush's runs say of them is part of what was told
+  for (const ObjectSlot each : interest_.of(slot).pressing)
+    interest_.of(slot).fresh.insert(
+        each);  // what this flush's runs say of them is part of what was told
   begin_datagrams(federate, outlet);
   if (federate.upward) acknowledge_datagrams(federate, outlet);
   scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
@@ -96,7 +100,8 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   for (const ObjectSlot told : interest.pressing) interest.fresh.erase(told);
   interest.pressing.clear();
   for (const ObjectSlot told : told_whole_) {
-    interest.fresh.erase(told);  // not before: their updates in this flush are part of what was told
+    interest.fresh.erase(
+        told);  // not before: their updates in this flush are part of what was told
     if (interest.turns) interest.turns->late.told(told);
   }
   if (pieces_.empty() && scratch_.size() == frame_header_size) {
@@ -112,37 +117,45 @@ void FederationExecution::Parts::write_stamp(const Stamp& stamp) {
   say(scratch_, StampMessage{stamp});
 }
 
-/// Who comes into a large world would be closed for a queue that no reader empties in one tick: what does not fit is told by the next flushes.
+/// Who comes into a large world would be closed for a queue that no reader empties in one tick:
+/// what does not fit is told by the next flushes.
 std::size_t FederationExecution::Parts::entry_room(std::uint32_t slot, const Outlet& outlet) const {
   const FederateInterest& interest = interest_.of(slot);
   if (interest.events.empty() && !interest.has_fresh && !interest.has_unannounced) return 0;
-  return settings_.entry_bytes_per_flush_max - std::min(settings_.entry_bytes_per_flush_max, outlet.waiting_bytes(federates_[slot].connection));
+  return settings_.entry_bytes_per_flush_max -
+         std::min(settings_.entry_bytes_per_flush_max,
+                  outlet.waiting_bytes(federates_[slot].connection));
 }
 
 /// Up to `end` bytes in `scratch_`.
 void FederationExecution::Parts::write_scope_events(std::uint32_t slot, std::size_t end) {
   FederateInterest& interest = interest_.of(slot);
   const std::size_t before = scratch_.size();
-  const auto is_too_late = [&](ObjectSlot object) { return objects_[object].is_leaving && !interest.known.contains(object); };  // nobody discovers it any more
+  const auto is_too_late = [&](ObjectSlot object) {
+    return objects_[object].is_leaving && !interest.known.contains(object);
+  };  // nobody discovers it any more
   if (interest.has_unannounced) {
-    interest.announced_to = interest.unannounced.visit_from(interest.announced_to, [&](ObjectSlot object) {
-      if (scratch_.size() >= end) return false;
-      if (is_too_late(object)) interest.unannounced.erase(object);
-      else announce(slot, object);
-      return true;
-    });
+    interest.announced_to =
+        interest.unannounced.visit_from(interest.announced_to, [&](ObjectSlot object) {
+          if (scratch_.size() >= end) return false;
+          if (is_too_late(object)) interest.unannounced.erase(object);
+          else announce(slot, object);
+          return true;
+        });
     interest.has_unannounced = scratch_.size() >= end;
   }
   for (const ScopeEvent& event : interest.events) {
     const Object& object = objects_[event.slot];
-    if (!object.is_alive || std::ranges::binary_search(interest.pressing, event.slot)) continue;  // it came and went between two flushes, or its removal is on its way
+    if (!object.is_alive || std::ranges::binary_search(interest.pressing, event.slot))
+      continue;  // it came and went between two flushes, or its removal is on its way
     if (is_too_late(event.slot)) {
       interest.unannounced.erase(event.slot);
       continue;
     }
     if (event.transition == im::Transition::left) {
       if (interest.unannounced.contains(event.slot)) interest.unannounced.erase(event.slot);
-      else if (interest.known.contains(event.slot)) say(scratch_, OutOfScopeMessage{object.handle.value});
+      else if (interest.known.contains(event.slot))
+        say(scratch_, OutOfScopeMessage{object.handle.value});
     } else if (scratch_.size() < end) {
       announce(slot, event.slot);
     } else {
@@ -162,13 +175,15 @@ void FederationExecution::Parts::announce(std::uint32_t slot, ObjectSlot at) {
     ++federates_[slot].objects_discovered;
     if (is_auto_providing_) ask_owners(slot, at, interest.told(at, object.object_class), {});
   }
-  if (object.negotiation != Object::no_negotiation && !interest.known.contains(at)) offer_to(slot, at, ownership_.all(at));
+  if (object.negotiation != Object::no_negotiation && !interest.known.contains(at))
+    offer_to(slot, at, ownership_.all(at));
   interest.known.insert(at);
   interest.unannounced.erase(at);
   say(scratch_, InScopeMessage{object.handle.value});
 }
 
-/// A message in time-stamp order is about to speak of it: it is announced, and its state told, before all else that this flush says.
+/// A message in time-stamp order is about to speak of it: it is announced, and its state told,
+/// before all else that this flush says.
 void FederationExecution::Parts::press(std::uint32_t slot, ObjectSlot object) {
   FederateInterest& interest = interest_.of(slot);
   std::vector<std::byte>& control = federates_[slot].control;
@@ -181,7 +196,8 @@ void FederationExecution::Parts::press(std::uint32_t slot, ObjectSlot object) {
   interest.pressing.push_back(object);
 }
 
-/// Up to `end` bytes in `scratch_`. Their stamp is their owner's newest, not that of the update which said it: what they are was not changed until then.
+/// Up to `end` bytes in `scratch_`. Their stamp is their owner's newest, not that of the update
+/// which said it: what they are was not changed until then.
 void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::size_t end) {
   FederateInterest& interest = interest_.of(slot);
   if (!interest.has_fresh) return;
@@ -189,7 +205,9 @@ void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::siz
   const std::size_t before = scratch_.size();
   std::optional<UpdatesBlock> block;
   interest.told_to = interest.fresh.visit_from(interest.told_to, [&](ObjectSlot fresh) {
-    if (interest.unannounced.contains(fresh) || std::ranges::binary_search(interest.pressing, fresh)) return true;
+    if (interest.unannounced.contains(fresh) ||
+        std::ranges::binary_search(interest.pressing, fresh))
+      return true;
     if (scratch_.size() >= end) {
       is_whole = false;
       return false;
@@ -209,7 +227,8 @@ void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::siz
       write_stamp(stamp);
       block.emplace(scratch_);
     }
-    block->append(object.object_class, set, object.handle, [&] { objects_.append(fresh, set, scratch_); });
+    block->append(object.object_class, set, object.handle,
+                  [&] { objects_.append(fresh, set, scratch_); });
     ++counters_.updates_sent;
     return true;
   });
@@ -223,11 +242,14 @@ bool FederationExecution::Parts::holds_back(std::uint32_t slot, const Outlet& ou
   return buffering_->holds_back(slot, outlet.waiting_bytes(federates_[slot].connection));
 }
 
-/// What it would have heard of becomes due whole, as if it had come into scope: the newest state, once, however many updates there were.
+/// What it would have heard of becomes due whole, as if it had come into scope: the newest state,
+/// once, however many updates there were.
 void FederationExecution::Parts::hold_back(std::uint32_t slot) {
   FederateInterest& interest = interest_.of(slot);
   for (const UpdateRun& run : runs_) {
-    if (run.owner == slot || (interest.is_uniform && (interest.by_class[run.object_class] & run.attributes).is_empty())) continue;
+    if (run.owner == slot ||
+        (interest.is_uniform && (interest.by_class[run.object_class] & run.attributes).is_empty()))
+      continue;
     for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
       const std::uint64_t heard = run.members.word(i) & interest.in_scope.word(i);
       interest.fresh.insert_word(i, heard);
@@ -266,7 +288,8 @@ void FederationExecution::Parts::gather_runs(std::uint32_t slot) {
   counters_.update_bytes_sent += scratch_.size() - before;
 }
 
-void FederationExecution::Parts::gather_run(const UpdateRun& run, const FederateInterest& interest) {
+void FederationExecution::Parts::gather_run(const UpdateRun& run,
+                                            const FederateInterest& interest) {
   std::optional<RecordWriter> writer;
   for_each_record(run, interest, [&](std::size_t index) {
     if (!writer) {
@@ -279,7 +302,8 @@ void FederationExecution::Parts::gather_run(const UpdateRun& run, const Federate
   });
 }
 
-void FederationExecution::Parts::gather_cut_run(const UpdateRun& run, const FederateInterest& interest) {
+void FederationExecution::Parts::gather_cut_run(const UpdateRun& run,
+                                                const FederateInterest& interest) {
   const ObjectClass& object_class = fom_.at(ObjectClassHandle{run.object_class});
   std::optional<UpdatesBlock> block;
   for_each_record(run, interest, [&](std::size_t index) {
@@ -322,11 +346,15 @@ void FederationExecution::Parts::send_pieces(Federate& federate, Outlet& outlet)
   gathered_.clear();
   std::size_t size = 0;
   for (const Piece& piece : pieces_) {
-    gathered_.push_back(piece.shared.empty() ? Bytes(scratch_).subspan(piece.scratch_from, piece.scratch_to - piece.scratch_from) : piece.shared);
+    gathered_.push_back(
+        piece.shared.empty()
+            ? Bytes(scratch_).subspan(piece.scratch_from, piece.scratch_to - piece.scratch_from)
+            : piece.shared);
     size += gathered_.back().size();
   }
   if (size - frame_header_size > frame_max_to_federate)
-    return expel(federate.connection, Violation::over_limit, ResignReason::lost, "more to tell in one tick than a frame holds");
+    return expel(federate.connection, Violation::over_limit, ResignReason::lost,
+                 "more to tell in one tick than a frame holds");
   const auto length = static_cast<std::uint32_t>(size - frame_header_size);
   std::memcpy(scratch_.data(), &length, sizeof length);
   federate.last_said = now_;

@@ -14,7 +14,9 @@ Outcome FederationExecution::Parts::register_point(Reader& reader, std::uint32_t
   SynchronizationPoint point;
   point.registrar = federates_[slot].handle;
   const auto failure = find_members(message, point);
-  say(federates_[slot].control, SynchronizationPointRegisteredMessage{message.label, static_cast<std::uint8_t>(failure.value_or(SynchronizationFailure{}))});
+  say(federates_[slot].control,
+      SynchronizationPointRegisteredMessage{
+          message.label, static_cast<std::uint8_t>(failure.value_or(SynchronizationFailure{}))});
   if (failure) return std::nullopt;
   point.label = message.label;
   point.tag.assign(message.tag.begin(), message.tag.end());
@@ -24,7 +26,8 @@ Outcome FederationExecution::Parts::register_point(Reader& reader, std::uint32_t
   return std::nullopt;
 }
 
-std::optional<SynchronizationFailure> FederationExecution::Parts::find_members(const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const {
+std::optional<SynchronizationFailure> FederationExecution::Parts::find_members(
+    const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const {
   std::size_t own = 0;
   for (const SynchronizationPoint& other : points_) {
     if (other.label == message.label) return SynchronizationFailure::label_not_unique;
@@ -37,7 +40,8 @@ std::optional<SynchronizationFailure> FederationExecution::Parts::find_members(c
       if (federates_[slot].is_joined) point.members.push_back(slot);
   }
   for (const FederateHandle handle : handles_of(message.members)) {
-    const bool is_joined = handle.value < slot_of_handle_.size() && federates_[slot_of_handle_[handle.value]].handle == handle;
+    const bool is_joined = handle.value < slot_of_handle_.size() &&
+                           federates_[slot_of_handle_[handle.value]].handle == handle;
     if (!is_joined) return SynchronizationFailure::member_not_joined;
     point.members.push_back(slot_of_handle_[handle.value]);
   }
@@ -53,9 +57,12 @@ void FederationExecution::Parts::announce(const SynchronizationPoint& point, std
 Outcome FederationExecution::Parts::achieve_point(Reader& reader, std::uint32_t slot) {
   SynchronizationPointAchievedMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  const auto point = std::find_if(points_.begin(), points_.end(), [&](const SynchronizationPoint& each) { return each.label == message.label; });
+  const auto point =
+      std::find_if(points_.begin(), points_.end(),
+                   [&](const SynchronizationPoint& each) { return each.label == message.label; });
   // Nobody who is awaited can lose a race: the point stays until all have spoken.
-  if (point == points_.end() || std::erase(point->awaited, slot) == 0) return Violation::unknown_name;
+  if (point == points_.end() || std::erase(point->awaited, slot) == 0)
+    return Violation::unknown_name;
   if (message.is_success == 0) point->failed.push_back(federates_[slot].handle);
   complete_points();
   return std::nullopt;
@@ -71,8 +78,10 @@ void FederationExecution::Parts::join_points(std::uint32_t slot) {
 }
 
 void FederationExecution::Parts::leave_points(std::uint32_t slot) {
-  // Points outlive who registered them, but not so many that joining, registering and leaving over and over grows for ever.
-  auto left = std::ranges::count_if(points_, [](const SynchronizationPoint& each) { return !each.registrar; });
+  // Points outlive who registered them, but not so many that joining, registering and leaving over
+  // and over grows for ever.
+  auto left = std::ranges::count_if(
+      points_, [](const SynchronizationPoint& each) { return !each.registrar; });
   std::vector<SynchronizationPoint> kept;
   for (SynchronizationPoint& point : points_) {
     const bool is_left = point.registrar == federates_[slot].handle;
@@ -92,19 +101,23 @@ void FederationExecution::Parts::leave_points(std::uint32_t slot) {
 void FederationExecution::Parts::complete_points() {
   for (const SynchronizationPoint& point : points_)
     if (point.awaited.empty())
-      for (const std::uint32_t member : point.members) say(federates_[member].control, FederationSynchronizedMessage{point.label, list_of(point.failed)});
+      for (const std::uint32_t member : point.members)
+        say(federates_[member].control,
+            FederationSynchronizedMessage{point.label, list_of(point.failed)});
   std::erase_if(points_, [](const SynchronizationPoint& point) { return point.awaited.empty(); });
 }
 
 template <class Message>
 void FederationExecution::Parts::answer(ConnectionId connection, Message message) {
-  if (answers_.empty() || answers_.back().connection != connection) answers_.push_back({connection, {}, {}});
+  if (answers_.empty() || answers_.back().connection != connection)
+    answers_.push_back({connection, {}, {}});
   const std::vector<std::byte> frame = framed(message);
   answers_.back().bytes.insert(answers_.back().bytes.end(), frame.begin(), frame.end());
 }
 
 void FederationExecution::Parts::query_management(ConnectionId connection) {
-  if (!std::exchange(connections_[connection].questions.wants_report, true)) management_queries_.push_back(connection);
+  if (!std::exchange(connections_[connection].questions.wants_report, true))
+    management_queries_.push_back(connection);
 }
 
 void FederationExecution::Parts::send_answers(Outlet& outlet) {
@@ -119,7 +132,8 @@ void FederationExecution::Parts::send_answers(Outlet& outlet) {
 }
 
 /// A host of one execution makes no others and keeps the one it has.
-Outcome FederationExecution::Parts::answer_stranger(ConnectionId connection, MessageKind kind, Reader& reader) {
+Outcome FederationExecution::Parts::answer_stranger(ConnectionId connection, MessageKind kind,
+                                                    Reader& reader) {
   CreateFederationExecutionMessage creation;
   DestroyFederationExecutionMessage destruction;
   Questions& questions = connections_[connection].questions;
@@ -128,21 +142,28 @@ Outcome FederationExecution::Parts::answer_stranger(ConnectionId connection, Mes
     case MessageKind::create_federation_execution: {
       if (!exchange(reader, creation)) return Violation::malformed;
       const bool exists = creation.federation == settings_.federation;
-      const auto error = static_cast<std::uint8_t>(exists ? HlaError::federation_execution_already_exists : HlaError::unauthorized);
-      return answer(connection, FederationExecutionCreatedMessage{creation.federation, error}), std::nullopt;
+      const auto error = static_cast<std::uint8_t>(
+          exists ? HlaError::federation_execution_already_exists : HlaError::unauthorized);
+      return answer(connection, FederationExecutionCreatedMessage{creation.federation, error}),
+             std::nullopt;
     }
     case MessageKind::destroy_federation_execution: {
       if (!exchange(reader, destruction)) return Violation::malformed;
       const bool exists = destruction.federation == settings_.federation;
-      const auto error = static_cast<std::uint8_t>(exists ? HlaError::unauthorized : HlaError::federation_execution_does_not_exist);
-      return answer(connection, FederationExecutionDestroyedMessage{destruction.federation, error}), std::nullopt;
+      const auto error = static_cast<std::uint8_t>(
+          exists ? HlaError::unauthorized : HlaError::federation_execution_does_not_exist);
+      return answer(connection, FederationExecutionDestroyedMessage{destruction.federation, error}),
+             std::nullopt;
     }
     case MessageKind::list_federation_executions:
       if (std::exchange(questions.wants_list, true)) return std::nullopt;
-      answer(connection, FederationExecutionMessage{0, settings_.federation, fom_.name(), static_cast<std::uint32_t>(federate_count_)});
+      answer(connection, FederationExecutionMessage{0, settings_.federation, fom_.name(),
+                                                    static_cast<std::uint32_t>(federate_count_)});
       return answer(connection, FederationExecutionMessage{1, {}, {}, 0}), std::nullopt;
-    case MessageKind::query_management: return query_management(connection), std::nullopt;
-    default: return Violation::wrong_phase;
+    case MessageKind::query_management:
+      return query_management(connection), std::nullopt;
+    default:
+      return Violation::wrong_phase;
   }
 }
 

@@ -1,4 +1,5 @@
-// The interactions of the management object model: what federates adjust and ask of the RTI, and what it reports.
+// The interactions of the management object model: what federates adjust and ask of the RTI, and
+// what it reports.
 #include "rti/federation/federation_management_objects.h"
 #include "rti/management/management_values.h"
 
@@ -12,12 +13,14 @@ constexpr std::size_t label_bytes_max = 30'000;
 }  // namespace
 
 /// An interaction whose receiver is the RTI itself; others may listen too.
-Outcome FederationExecution::Parts::take_management(std::uint32_t slot, const InteractionMessage& message) {
+Outcome FederationExecution::Parts::take_management(std::uint32_t slot,
+                                                    const InteractionMessage& message) {
   const InteractionClassHandle asked{message.interaction_class};
   ManagementReader reader(message.parameters);
   if (asked == management_.set_switches) {
     const std::int32_t value = reader.count();
-    if (!reader.is_whole() || !reader.is_at_end() || value < 0 || value > 1) return Violation::malformed;
+    if (!reader.is_whole() || !reader.is_at_end() || value < 0 || value > 1)
+      return Violation::malformed;
     is_auto_providing_ = value != 0;
     if (management_objects_) management_objects_->switched();
     return std::nullopt;
@@ -25,9 +28,11 @@ Outcome FederationExecution::Parts::take_management(std::uint32_t slot, const In
   if (asked == management_.request_points) return report_points(slot), std::nullopt;
   const std::uint32_t handle = reader.handle();
   const std::int32_t period = asked == management_.set_timing ? reader.count() : 0;
-  if (!reader.is_whole() || !reader.is_at_end() || period < 0 || handle >= slot_of_handle_.size()) return Violation::malformed;
+  if (!reader.is_whole() || !reader.is_at_end() || period < 0 || handle >= slot_of_handle_.size())
+    return Violation::malformed;
   const std::uint32_t about = slot_of_handle_[handle];
-  if (federates_[about].handle.value != handle) return ++counters_.late_requests, std::nullopt;  // it has left
+  if (federates_[about].handle.value != handle)
+    return ++counters_.late_requests, std::nullopt;  // it has left
   if (asked == management_.set_timing) {
     federates_[about].report_period = period;
     if (management_objects_) management_objects_->timed(about);
@@ -37,10 +42,13 @@ Outcome FederationExecution::Parts::take_management(std::uint32_t slot, const In
   return std::nullopt;
 }
 
-/// To all who subscribe to the report; its bytes count as said by who asked for it, so that asking can't fill the queues of those who listen.
-void FederationExecution::Parts::report_to_all(std::uint32_t asking, InteractionClassHandle report, Bytes parameters) {
+/// To all who subscribe to the report; its bytes count as said by who asked for it, so that asking
+/// can't fill the queues of those who listen.
+void FederationExecution::Parts::report_to_all(std::uint32_t asking, InteractionClassHandle report,
+                                               Bytes parameters) {
   const std::span<const std::uint32_t> receivers = groups_->receivers(report.value, no_federate);
-  InteractionMessage message{static_cast<std::uint16_t>(report.value), FederateHandle::none, {}, parameters};
+  InteractionMessage message{
+      static_cast<std::uint16_t>(report.value), FederateHandle::none, {}, parameters};
   if (!receivers.empty()) federates_[asking].said += interaction_head + parameters.size();
   for (const std::uint32_t receiver : receivers) {
     say(federates_[receiver].tail, message);
@@ -50,9 +58,12 @@ void FederationExecution::Parts::report_to_all(std::uint32_t asking, Interaction
   }
 }
 
-/// One report for each class of which `set_of(class)` names attributes; one of no class if there is none.
+/// One report for each class of which `set_of(class)` names attributes; one of no class if there is
+/// none.
 template <class SetOf, class Write>
-void FederationExecution::Parts::report_classes(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report, SetOf set_of, Write write) {
+void FederationExecution::Parts::report_classes(std::uint32_t asking, std::uint32_t about,
+                                                InteractionClassHandle report, SetOf set_of,
+                                                Write write) {
   std::vector<std::uint32_t> classes;
   for (std::uint32_t i = 0; i < fom_.object_classes().size(); ++i)
     if (!set_of(i).is_empty()) classes.push_back(i);
@@ -73,7 +84,9 @@ void FederationExecution::Parts::report_classes(std::uint32_t asking, std::uint3
 }
 
 template <class IsNamed>
-void FederationExecution::Parts::report_interactions(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report, IsNamed is_named) {
+void FederationExecution::Parts::report_interactions(std::uint32_t asking, std::uint32_t about,
+                                                     InteractionClassHandle report,
+                                                     IsNamed is_named) {
   std::vector<std::uint32_t> classes;
   for (std::uint32_t i = 0; i < fom_.interaction_classes().size(); ++i)
     if (is_named(i)) classes.push_back(i);
@@ -86,23 +99,38 @@ void FederationExecution::Parts::report_interactions(std::uint32_t asking, std::
 
 void FederationExecution::Parts::report_publications(std::uint32_t asking, std::uint32_t about) {
   const Federate& federate = federates_[about];
-  report_classes(asking, about, management_.report_object_publication, [&](std::uint32_t i) { return federate.published[i]; }, [](ManagementWriter&, std::uint32_t) {});
-  report_interactions(asking, about, management_.report_interaction_publication, [&](std::uint32_t i) { return bool{federate.published_interactions[i]}; });
+  report_classes(
+      asking, about, management_.report_object_publication,
+      [&](std::uint32_t i) { return federate.published[i]; },
+      [](ManagementWriter&, std::uint32_t) {});
+  report_interactions(asking, about, management_.report_interaction_publication,
+                      [&](std::uint32_t i) { return bool{federate.published_interactions[i]}; });
 }
 
 /// What it hears of each class, by that or a superclass, in whatever region.
 void FederationExecution::Parts::report_subscriptions(std::uint32_t asking, std::uint32_t about) {
-  const auto heard = [&](std::uint32_t i) { return i < fom_.object_classes().size() ? interest_.subscribed_anywhere(about, static_cast<std::uint16_t>(i)) : Subscription(); };
+  const auto heard = [&](std::uint32_t i) {
+    return i < fom_.object_classes().size()
+               ? interest_.subscribed_anywhere(about, static_cast<std::uint16_t>(i))
+               : Subscription();
+  };
   report_classes(
-      asking, about, management_.report_object_subscription, [&](std::uint32_t i) { return heard(i).heard; },
-      [&](ManagementWriter& writer, std::uint32_t i) { writer.count(heard(i).active.is_empty() ? 0 : 1); });
-  report_interactions(asking, about, management_.report_interaction_subscription, [&](std::uint32_t i) { return listening(about, static_cast<std::uint16_t>(i)) != Listening::none; });
+      asking, about, management_.report_object_subscription,
+      [&](std::uint32_t i) { return heard(i).heard; },
+      [&](ManagementWriter& writer, std::uint32_t i) {
+        writer.count(heard(i).active.is_empty() ? 0 : 1);
+      });
+  report_interactions(asking, about, management_.report_interaction_subscription,
+                      [&](std::uint32_t i) {
+                        return listening(about, static_cast<std::uint16_t>(i)) != Listening::none;
+                      });
 }
 
 void FederationExecution::Parts::report_points(std::uint32_t asking) {
   std::vector<std::byte> labels, parameters;
   for (const SynchronizationPoint& each : points_)
-    if (labels.size() + each.label.size() <= label_bytes_max) ManagementWriter(labels).text(each.label);
+    if (labels.size() + each.label.size() <= label_bytes_max)
+      ManagementWriter(labels).text(each.label);
   ManagementWriter(parameters).text({reinterpret_cast<const char*>(labels.data()), labels.size()});
   report_to_all(asking, management_.report_points, parameters);
 }

@@ -1,4 +1,5 @@
-// The objects of the management object model: registered while somebody subscribes to them, told when asked, when due and when their state changes.
+// The objects of the management object model: registered while somebody subscribes to them, told
+// when asked, when due and when their state changes.
 #include "rti/federation/federation_management_objects.h"
 
 #include <algorithm>
@@ -11,19 +12,27 @@
 namespace rink::rti {
 
 bool FederationExecution::Parts::ManagementObjects::is_heard(const Parts& parts) {
-  const auto heard = [&parts](ObjectClassHandle each) { return each && !parts.relevance_.of_others(no_federate, each.value).heard.is_empty(); };
+  const auto heard = [&parts](ObjectClassHandle each) {
+    return each && !parts.relevance_.of_others(no_federate, each.value).heard.is_empty();
+  };
   return heard(parts.management_.federation) || heard(parts.management_.federate);
 }
 
 FederationExecution::Parts::ManagementObjects::ManagementObjects(Parts& parts)
-    : parts_(parts), federation_class_(parts.management_.federation), federate_class_(parts.management_.federate), slot_(parts.take_federate_slot()) {
+    : parts_(parts),
+      federation_class_(parts.management_.federation),
+      federate_class_(parts.management_.federate),
+      slot_(parts.take_federate_slot()) {
   parts_.federates_[slot_] = {};
   parts_.federates_[slot_].block = parts_.take_block();
 }
 
-bool FederationExecution::Parts::ManagementObjects::owns(ObjectSlot object) const { return parts_.objects_[object].owner == slot_; }
+bool FederationExecution::Parts::ManagementObjects::owns(ObjectSlot object) const {
+  return parts_.objects_[object].owner == slot_;
+}
 
-FederationExecution::Parts::ManagementObjects::Told& FederationExecution::Parts::ManagementObjects::told_of(std::uint32_t slot) {
+FederationExecution::Parts::ManagementObjects::Told&
+FederationExecution::Parts::ManagementObjects::told_of(std::uint32_t slot) {
   if (slot >= federates_.size()) federates_.resize(slot + 1);
   return federates_[slot];
 }
@@ -33,7 +42,10 @@ void FederationExecution::Parts::ManagementObjects::subscribed(std::uint32_t slo
   if (is_heard_ && !was_heard) begin();
   if (!is_heard_ && was_heard) end();
   if (!is_heard_ || !parts_.federates_[slot].is_joined) return;
-  const auto hears = [&](ObjectClassHandle each) { return !parts_.interest_.subscribed_anywhere(slot, static_cast<std::uint16_t>(each.value)).heard.is_empty(); };
+  const auto hears = [&](ObjectClassHandle each) {
+    return !parts_.interest_.subscribed_anywhere(slot, static_cast<std::uint16_t>(each.value))
+                .heard.is_empty();
+  };
   if (!hears(federation_class_) && !hears(federate_class_)) return;
   federation_.is_due = true;
   for (Told& each : federates_) each.is_due = static_cast<bool>(each.object);
@@ -50,9 +62,11 @@ void FederationExecution::Parts::ManagementObjects::end() {
   for (Told& each : federates_) remove(each);
 }
 
-void FederationExecution::Parts::ManagementObjects::add(Told& told, ObjectClassHandle object_class) {
+void FederationExecution::Parts::ManagementObjects::add(Told& told,
+                                                        ObjectClassHandle object_class) {
   Federate& self = parts_.federates_[slot_];
-  if (self.objects_registered == object_block) {  // those who come and go have used up all handles of the block
+  if (self.objects_registered ==
+      object_block) {  // those who come and go have used up all handles of the block
     parts_.objects_.close_block(self.block);
     self.block = parts_.take_block();
     self.objects_registered = 0;
@@ -60,8 +74,10 @@ void FederationExecution::Parts::ManagementObjects::add(Told& told, ObjectClassH
   told = {};
   told.object = {self.block * object_block + self.objects_registered++};
   told.is_due = true;
-  parts_.interest_.object_registered(parts_.objects_.insert(told.object, slot_, static_cast<std::uint16_t>(object_class.value), {}));
-  if (&told != &federation_) slots_[told.object.value] = static_cast<std::uint32_t>(&told - federates_.data());
+  parts_.interest_.object_registered(parts_.objects_.insert(
+      told.object, slot_, static_cast<std::uint16_t>(object_class.value), {}));
+  if (&told != &federation_)
+    slots_[told.object.value] = static_cast<std::uint32_t>(&told - federates_.data());
 }
 
 void FederationExecution::Parts::ManagementObjects::remove(Told& told) {
@@ -82,11 +98,14 @@ void FederationExecution::Parts::ManagementObjects::left(std::uint32_t slot) {
   federation_.is_due = true;
 }
 
-void FederationExecution::Parts::ManagementObjects::ask(ObjectSlot object, AttributeSet attributes) {
+void FederationExecution::Parts::ManagementObjects::ask(ObjectSlot object,
+                                                        AttributeSet attributes) {
   const auto slot = slots_.find(parts_.objects_[object].handle.value);
   Told& told = slot == slots_.end() ? federation_ : federates_[slot->second];
   if (told.object != parts_.objects_[object].handle) return;
-  told.asked = told.asked | (attributes & parts_.fom_.attributes(ObjectClassHandle{parts_.objects_[object].object_class}));
+  told.asked = told.asked |
+               (attributes &
+                parts_.fom_.attributes(ObjectClassHandle{parts_.objects_[object].object_class}));
 }
 
 void FederationExecution::Parts::ManagementObjects::tell() {
@@ -99,7 +118,8 @@ void FederationExecution::Parts::ManagementObjects::tell() {
     const double period = parts_.federates_[slot].report_period;
     const bool is_time = period > 0.0 && parts_.now_ >= told.due_at;
     if (is_time) told.due_at = parts_.now_ + period;
-    if (is_time || told.is_due || !told.asked.is_empty() || told.state != state_of(slot)) tell_federate(slot, told);
+    if (is_time || told.is_due || !told.asked.is_empty() || told.state != state_of(slot))
+      tell_federate(slot, told);
   }
 }
 
@@ -112,7 +132,8 @@ unsigned FederationExecution::Parts::ManagementObjects::state_of(std::uint32_t s
 void FederationExecution::Parts::ManagementObjects::begin_values(ObjectClassHandle object_class) {
   values_.clear();
   const ObjectClassHandle manager = parts_.fom_.at(object_class).parent;
-  ends_.assign(parts_.fom_.at(manager).attributes.size(), 0);  // what a model gives its root is not ours to tell
+  ends_.assign(parts_.fom_.at(manager).attributes.size(),
+               0);  // what a model gives its root is not ours to tell
 }
 
 template <class Write>
@@ -151,14 +172,21 @@ void FederationExecution::Parts::ManagementObjects::tell_federate(std::uint32_t 
   value([&](ManagementWriter to) { to.text(rti_version()); });
   value([&](ManagementWriter to) { to.count(is_constrained ? 1 : 0); });
   value([&](ManagementWriter to) { to.count(is_regulating ? 1 : 0); });
-  value([&](ManagementWriter to) { to.count(1); });  // ActiveFederate: nothing is saved or restored here
+  value([&](ManagementWriter to) {
+    to.count(1);
+  });  // ActiveFederate: nothing is saved or restored here
   value([&](ManagementWriter to) { to.count(federate.is_advancing ? 1 : 0); });
-  value([&](ManagementWriter to) { to.time(time != nullptr && told.state != 0 ? time->time(slot) : 0.0); });
+  value([&](ManagementWriter to) {
+    to.time(time != nullptr && told.state != 0 ? time->time(slot) : 0.0);
+  });
   value([&](ManagementWriter to) { to.time(is_regulating ? federate.lookahead : 0.0); });
   value([&](ManagementWriter to) { to.time(time != nullptr ? time->galt(slot) : unbounded); });
   value([&](ManagementWriter to) { to.time(time != nullptr ? time->lits(slot) : unbounded); });
-  for (const std::uint64_t count : {federate.counts.reflections_received, federate.counts.updates_sent, federate.counts.interactions_received, federate.counts.interactions_sent,
-                                    std::uint64_t{deletable_[slot]}, federate.objects_deleted, federate.objects_removed, std::uint64_t{federate.objects_registered}, federate.objects_discovered})
+  for (const std::uint64_t count :
+       {federate.counts.reflections_received, federate.counts.updates_sent,
+        federate.counts.interactions_received, federate.counts.interactions_sent,
+        std::uint64_t{deletable_[slot]}, federate.objects_deleted, federate.objects_removed,
+        std::uint64_t{federate.objects_registered}, federate.objects_discovered})
     value([&](ManagementWriter to) { to.count(count); });
   update(told);
 }

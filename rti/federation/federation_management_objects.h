@@ -1,4 +1,5 @@
-// The RTI as the owner of the management object model's objects (IEEE 1516.1-2010, clause 11); for the federation execution's own sources only.
+// The RTI as the owner of the management object model's objects (IEEE 1516.1-2010, clause 11); for
+// the federation execution's own sources only.
 #pragma once
 
 #include <unordered_map>
@@ -7,19 +8,24 @@
 
 namespace rink::rti {
 
-/// Made when the first federate subscribes to HLAmanager.HLAfederation or HLAmanager.HLAfederate; while nobody does, there is no object and nothing is worked out. It has a
-/// slot among the federates, as the owner of objects, but has not joined: it is sent nothing, and nobody counts it.
+/// Made when the first federate subscribes to HLAmanager.HLAfederation or HLAmanager.HLAfederate;
+/// while nobody does, there is no object and nothing is worked out. It has a slot among the
+/// federates, as the owner of objects, but has not joined: it is sent nothing, and nobody counts
+/// it.
 class FederationExecution::Parts::ManagementObjects {
  public:
   explicit ManagementObjects(Parts& parts);
 
-  /// Somebody's subscriptions changed: to whom it now hears anything, everything is up to date at the next flush.
+  /// Somebody's subscriptions changed: to whom it now hears anything, everything is up to date at
+  /// the next flush.
   void subscribed(std::uint32_t slot);
   void joined(std::uint32_t slot);
   /// While it is still known what it was.
   void left(std::uint32_t slot);
   /// Its period of reports has changed: the next one is due a period from now.
-  void timed(std::uint32_t slot) { told_of(slot).due_at = parts_.now_ + parts_.federates_[slot].report_period; }
+  void timed(std::uint32_t slot) {
+    told_of(slot).due_at = parts_.now_ + parts_.federates_[slot].report_period;
+  }
   /// HLAautoProvide has changed.
   void switched() { federation_.is_due = static_cast<bool>(federation_.object); }
   bool owns(ObjectSlot object) const;
@@ -32,11 +38,11 @@ class FederationExecution::Parts::ManagementObjects {
  private:
   /// One object of ours.
   struct Told {
-    ObjectHandle object;    ///< none: not registered
+    ObjectHandle object;  ///< none: not registered
     AttributeSet asked;
     bool is_due = false;
-    double due_at = 0.0;    ///< the next report, if a period is set [s]
-    unsigned state = 0;     ///< of time management, as it was told: it is told when it changes
+    double due_at = 0.0;  ///< the next report, if a period is set [s]
+    unsigned state = 0;   ///< of time management, as it was told: it is told when it changes
   };
   void begin();
   void end();
@@ -46,7 +52,8 @@ class FederationExecution::Parts::ManagementObjects {
   void tell_federation();
   void tell_federate(std::uint32_t slot, Told& told);
   unsigned state_of(std::uint32_t slot) const;
-  /// The values of the class's attributes are in `values_`, those of attribute k up to `ends_[k]`: tells those that differ from what was told, and those asked for.
+  /// The values of the class's attributes are in `values_`, those of attribute k up to `ends_[k]`:
+  /// tells those that differ from what was told, and those asked for.
   void update(Told& told);
   void begin_values(ObjectClassHandle object_class);
   template <class Write>
@@ -58,10 +65,12 @@ class FederationExecution::Parts::ManagementObjects {
   bool is_heard_ = false;
   Told federation_;
   std::vector<Told> federates_;  ///< by slot
-  std::unordered_map<std::uint32_t, std::uint32_t> slots_;  ///< by object, of the federates that they are about
+  std::unordered_map<std::uint32_t, std::uint32_t>
+      slots_;  ///< by object, of the federates that they are about
   std::vector<std::byte> values_, before_, changed_;
   std::vector<std::size_t> ends_;
-  std::vector<std::uint32_t> deletable_;  ///< by slot: objects that it may delete, worked out once per `tell` that needs it
+  std::vector<std::uint32_t> deletable_;  ///< by slot: objects that it may delete, worked out once
+                                          ///< per `tell` that needs it
   bool has_counted_ = false;
 };
 

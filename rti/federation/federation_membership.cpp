@@ -14,9 +14,12 @@ namespace rink::rti {
 
 namespace {
 
-std::unique_ptr<DataDistribution> distribution_of(const FederationServices& services, const Fom& fom, const ObjectTable& objects, const Ownership& ownership,
+std::unique_ptr<DataDistribution> distribution_of(const FederationServices& services,
+                                                  const Fom& fom, const ObjectTable& objects,
+                                                  const Ownership& ownership,
                                                   std::unique_ptr<im::Filter> filter) {
-  if (services.data_distribution) return services.data_distribution(fom, objects, ownership, std::move(filter));
+  if (services.data_distribution)
+    return services.data_distribution(fom, objects, ownership, std::move(filter));
   return std::make_unique<Interest>(fom, objects, ownership, std::move(filter));
 }
 
@@ -32,7 +35,9 @@ std::unique_ptr<Buffering> buffering_of(const FederationServices& services) {
 
 }  // namespace
 
-FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services, std::unique_ptr<im::Filter> filter)
+FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& settings,
+                                  const FederationServices& services,
+                                  std::unique_ptr<im::Filter> filter)
     : fom_(fom),
       settings_(settings),
       make_time_management_(services.time_management),
@@ -58,9 +63,12 @@ void FederationExecution::Parts::connect(ConnectionId connection) {
 
 void FederationExecution::Parts::disconnect(ConnectionId connection, std::string_view) {
   if (connection >= connections_.size()) return;
-  if (connections_[connection].phase == Phase::joined) remove_federate(connections_[connection].federate, ResignReason::lost);
+  if (connections_[connection].phase == Phase::joined)
+    remove_federate(connections_[connection].federate, ResignReason::lost);
   connections_[connection] = {};
-  for (std::vector<Farewell>* words : {&answers_, &farewells_}) std::erase_if(*words, [connection](const Farewell& each) { return each.connection == connection; });
+  for (std::vector<Farewell>* words : {&answers_, &farewells_})
+    std::erase_if(*words,
+                  [connection](const Farewell& each) { return each.connection == connection; });
 }
 
 void FederationExecution::Parts::advance_clock(double now) {
@@ -70,56 +78,76 @@ void FederationExecution::Parts::advance_clock(double now) {
     if (connection.phase == Phase::unknown) continue;
     if (connection.has_spoken) connection.last_heard = now;
     connection.has_spoken = false;
-    if (now - connection.last_heard > settings_.patience.lost_after_s) expel(id, Violation::silent, ResignReason::lost, explain(Violation::silent));
+    if (now - connection.last_heard > settings_.patience.lost_after_s)
+      expel(id, Violation::silent, ResignReason::lost, explain(Violation::silent));
   }
 }
 
-void FederationExecution::Parts::expel(ConnectionId connection, Violation violation, ResignReason reason, std::string_view why) {
+void FederationExecution::Parts::expel(ConnectionId connection, Violation violation,
+                                       ResignReason reason, std::string_view why) {
   ++counters_.drops[static_cast<std::size_t>(violation)];
   // A stranger who breaks a rule gets no answer: it may be another program altogether.
   const bool was_joined = connections_[connection].phase == Phase::joined;
   if (was_joined) remove_federate(connections_[connection].federate, reason);
   connections_[connection] = {};
-  farewells_.push_back({connection, std::string(why), was_joined ? framed(ExpelledMessage{why}) : std::vector<std::byte>()});
+  farewells_.push_back({connection, std::string(why),
+                        was_joined ? framed(ExpelledMessage{why}) : std::vector<std::byte>()});
 }
 
-FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionId connection, Reader& reader) {
+FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionId connection,
+                                                                     Reader& reader) {
   JoinMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.version != protocol_version)
-    return refuse(connection, Refusal::wrong_version, refused_version(message.version, protocol_version)), std::nullopt;
+    return refuse(connection, Refusal::wrong_version,
+                  refused_version(message.version, protocol_version)),
+           std::nullopt;
   if (message.fom_hash != fom_.hash())
-    return refuse(connection, Refusal::wrong_fom, refused_fom(message.fom_hash, fom_.hash())), std::nullopt;
-  if (message.federation != settings_.federation) return refuse(connection, Refusal::wrong_federation), std::nullopt;
+    return refuse(connection, Refusal::wrong_fom, refused_fom(message.fom_hash, fom_.hash())),
+           std::nullopt;
+  if (message.federation != settings_.federation)
+    return refuse(connection, Refusal::wrong_federation), std::nullopt;
   if (message.name.empty()) return refuse(connection, Refusal::bad_name), std::nullopt;
-  if (!settings_.members.empty() && std::ranges::find(settings_.members, message.name) == settings_.members.end()) return refuse(connection, Refusal::not_listed), std::nullopt;
-  if (names_.contains(std::string(message.name))) return refuse(connection, Refusal::name_taken), std::nullopt;
-  const bool is_full = federate_count_ >= settings_.federate_max || (free_blocks_.empty() && next_block_ >= object_block_max);
+  if (!settings_.members.empty() &&
+      std::ranges::find(settings_.members, message.name) == settings_.members.end())
+    return refuse(connection, Refusal::not_listed), std::nullopt;
+  if (names_.contains(std::string(message.name)))
+    return refuse(connection, Refusal::name_taken), std::nullopt;
+  const bool is_full = federate_count_ >= settings_.federate_max ||
+                       (free_blocks_.empty() && next_block_ >= object_block_max);
   if (is_full) return refuse(connection, Refusal::federation_full), std::nullopt;
   admit(connection, message);
   return std::nullopt;
 }
 
-void FederationExecution::Parts::refuse(ConnectionId connection, Refusal refusal, const std::string& why) {
+void FederationExecution::Parts::refuse(ConnectionId connection, Refusal refusal,
+                                        const std::string& why) {
   expel(connection, Violation::refused, ResignReason::misbehaved, why);
   std::vector<std::byte>& bytes = farewells_.back().bytes;
   if (refusal == Refusal::wrong_fom) bytes = framed_digest();
-  const std::vector<std::byte> refused = framed(RefusedMessage{static_cast<std::uint8_t>(refusal), why});
+  const std::vector<std::byte> refused =
+      framed(RefusedMessage{static_cast<std::uint8_t>(refusal), why});
   bytes.insert(bytes.end(), refused.begin(), refused.end());
 }
 
-/// The federate finds out from the digest where its own model differs; nothing of a model too large for one.
+/// The federate finds out from the digest where its own model differs; nothing of a model too large
+/// for one.
 std::vector<std::byte> FederationExecution::Parts::framed_digest() const {
   const std::vector<FomDigestEntry> entries = digest(fom_);
   if (entries.size() > FomDigestMessage::count_max) return {};
-  return framed(FomDigestMessage{static_cast<std::uint16_t>(entries.size()), std::as_bytes(std::span(entries))});
+  return framed(FomDigestMessage{static_cast<std::uint16_t>(entries.size()),
+                                 std::as_bytes(std::span(entries))});
 }
 
 /// Nothing if it has left, or there was none of that handle.
-std::optional<std::uint32_t> FederationExecution::Parts::joined_slot(FederateHandle federate) const {
+std::optional<std::uint32_t> FederationExecution::Parts::joined_slot(
+    FederateHandle federate) const {
   if (federate.value >= slot_of_handle_.size()) return std::nullopt;
   const std::uint32_t slot = slot_of_handle_[federate.value];
-  return slot < federates_.size() && federates_[slot].is_joined && federates_[slot].handle == federate ? std::optional(slot) : std::nullopt;
+  return slot < federates_.size() && federates_[slot].is_joined &&
+                 federates_[slot].handle == federate
+             ? std::optional(slot)
+             : std::nullopt;
 }
 
 std::uint32_t FederationExecution::Parts::take_federate_slot() {
@@ -163,7 +191,9 @@ void FederationExecution::Parts::admit(ConnectionId connection, const JoinMessag
   ++counters_.joins;
   say(federate.control, JoinedMessage{federate.handle.value, federate.block});
   for (Federate& other : federates_)
-    if (other.is_watching) say(other.control, FederateJoinedMessage{federate.handle.value, federate.name, federate.type});
+    if (other.is_watching)
+      say(other.control,
+          FederateJoinedMessage{federate.handle.value, federate.name, federate.type});
   join_points(slot);
   if (management_objects_) management_objects_->joined(slot);
 }
@@ -187,7 +217,9 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
   leave_points(slot);
   for (Federate& other : federates_)
     if (other.is_watching)
-      say(other.tail, FederateResignedMessage{federate.handle.value, static_cast<std::uint8_t>(reason), federate.name, federate.type});
+      say(other.tail,
+          FederateResignedMessage{federate.handle.value, static_cast<std::uint8_t>(reason),
+                                  federate.name, federate.type});
   --federate_count_;
   ++counters_.resigns;
   leave_time(slot);
@@ -199,7 +231,8 @@ FederationExecution::Parts::Outcome FederationExecution::Parts::watch(Federate& 
   if (federate.is_watching) return std::nullopt;
   federate.is_watching = true;
   for (const Federate& other : federates_)
-    if (other.is_joined) say(federate.control, FederateJoinedMessage{other.handle.value, other.name, other.type});
+    if (other.is_joined)
+      say(federate.control, FederateJoinedMessage{other.handle.value, other.name, other.type});
   return std::nullopt;
 }
 

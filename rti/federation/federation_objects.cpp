@@ -1,4 +1,5 @@
-// Object management at the RTI beyond updates: names, local deletion, requests for updates, transportation.
+// Object management at the RTI beyond updates: names, local deletion, requests for updates,
+// transportation.
 #include <algorithm>
 
 #include "rti/federation/federation_management_objects.h"
@@ -9,16 +10,24 @@ namespace rink::rti {
 using Outcome = std::optional<Violation>;
 
 namespace {
-std::string as_text(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+std::string as_text(Bytes bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 }  // namespace
 
-Outcome FederationExecution::Parts::take_object_request(std::uint32_t slot, MessageKind kind, Reader& reader) {
+Outcome FederationExecution::Parts::take_object_request(std::uint32_t slot, MessageKind kind,
+                                                        Reader& reader) {
   switch (kind) {
-    case MessageKind::instance_names: return take_names(slot, reader);
-    case MessageKind::local_delete: return delete_locally(slot, reader);
-    case MessageKind::request_update: return request_update(slot, reader);
-    case MessageKind::change_transportation: return change_transportation(slot, reader);
-    default: return query_transportation(slot, reader);
+    case MessageKind::instance_names:
+      return take_names(slot, reader);
+    case MessageKind::local_delete:
+      return delete_locally(slot, reader);
+    case MessageKind::request_update:
+      return request_update(slot, reader);
+    case MessageKind::change_transportation:
+      return change_transportation(slot, reader);
+    default:
+      return query_transportation(slot, reader);
   }
 }
 
@@ -29,36 +38,45 @@ Outcome FederationExecution::Parts::take_names(std::uint32_t slot, Reader& reade
   const FederateHandle federate = federates_[slot].handle;
   const auto request = static_cast<NameRequest>(message.word);
   std::vector<std::string> names;
-  if (!for_each_name(message.names, [&](std::string_view name) { names.emplace_back(name); })) return Violation::malformed;
+  if (!for_each_name(message.names, [&](std::string_view name) { names.emplace_back(name); }))
+    return Violation::malformed;
   if (request == NameRequest::reserve && names.size() != 1) return Violation::malformed;
   if (request == NameRequest::release) {
     for (const std::string& name : names) {
       const auto found = instance_names_.find(name);
-      if (found == instance_names_.end() || found->second != federate) return Violation::unknown_name;
+      if (found == instance_names_.end() || found->second != federate)
+        return Violation::unknown_name;
       instance_names_.erase(found);
     }
     return std::nullopt;
   }
   std::ranges::sort(names);
   const bool is_unique = std::ranges::adjacent_find(names) == names.end();
-  const bool is_free = is_unique && std::ranges::none_of(names, [this](const std::string& name) { return name.starts_with("HLA") || instance_names_.contains(name); });
-  const bool has_room = instance_names_.size() + names.size() <= 2 * std::size_t{settings_.object_max};
+  const bool is_free = is_unique && std::ranges::none_of(names, [this](const std::string& name) {
+                         return name.starts_with("HLA") || instance_names_.contains(name);
+                       });
+  const bool has_room =
+      instance_names_.size() + names.size() <= 2 * std::size_t{settings_.object_max};
   if (is_free && has_room)
     for (const std::string& name : names) instance_names_.emplace(name, federate);
   const bool is_set = request == NameRequest::reserve_set;
-  if (is_free && has_room) answer_names(slot, is_set ? NameAnswer::set_granted : NameAnswer::granted, message.names);
+  if (is_free && has_room)
+    answer_names(slot, is_set ? NameAnswer::set_granted : NameAnswer::granted, message.names);
   else answer_names(slot, is_set ? NameAnswer::set_refused : NameAnswer::refused, message.names);
   return std::nullopt;
 }
 
 void FederationExecution::Parts::answer_names(std::uint32_t slot, NameAnswer answer, Bytes names) {
-  say(federates_[slot].control, InstanceNamesAnswerMessage{static_cast<std::uint8_t>(answer), names});
+  say(federates_[slot].control,
+      InstanceNamesAnswerMessage{static_cast<std::uint8_t>(answer), names});
 }
 
-/// For an object that is being registered: its sender's reservation, or a name that is free. Else its sender is told.
+/// For an object that is being registered: its sender's reservation, or a name that is free. Else
+/// its sender is told.
 bool FederationExecution::Parts::take_name(std::uint32_t slot, std::string_view name) {
   const auto [found, is_new] = instance_names_.emplace(name, FederateHandle{});
-  if ((is_new && !name.starts_with("HLA")) || (!is_new && found->second && found->second == federates_[slot].handle)) {
+  if ((is_new && !name.starts_with("HLA")) ||
+      (!is_new && found->second && found->second == federates_[slot].handle)) {
     found->second = {};
     return true;
   }
@@ -72,7 +90,8 @@ bool FederationExecution::Parts::take_name(std::uint32_t slot, std::string_view 
 /// What it reserved and did not use is free again.
 void FederationExecution::Parts::leave_names(std::uint32_t slot) {
   const FederateHandle federate = federates_[slot].handle;
-  std::erase_if(instance_names_, [federate](const auto& each) { return each.second && each.second == federate; });
+  std::erase_if(instance_names_,
+                [federate](const auto& each) { return each.second && each.second == federate; });
 }
 
 /// Its confirmation comes before whatever makes the object discovered anew.
@@ -98,24 +117,35 @@ Outcome FederationExecution::Parts::request_update(std::uint32_t slot, Reader& r
   const AttributeSet attributes{message.attributes};
   if (message.is_class == 0) {
     ObjectSlot object = no_object;
-    if (const Outcome outcome = find_known(slot, {message.number}, object); outcome || object == no_object) return outcome;
+    if (const Outcome outcome = find_known(slot, {message.number}, object);
+        outcome || object == no_object)
+      return outcome;
     if (!ownership_.all(object).includes(attributes)) return Violation::unknown_name;
     ask_owners(slot, object, attributes, message.tag);
     return std::nullopt;
   }
-  if (message.number >= fom_.object_classes().size() || !fom_.attributes(ObjectClassHandle{message.number}).includes(attributes)) return Violation::unknown_name;
-  AttributeSet& asked = update_requests_[{slot, RegionHandle{}.value, static_cast<std::uint16_t>(message.number), as_text(message.tag)}];
+  if (message.number >= fom_.object_classes().size() ||
+      !fom_.attributes(ObjectClassHandle{message.number}).includes(attributes))
+    return Violation::unknown_name;
+  AttributeSet& asked =
+      update_requests_[{slot, RegionHandle{}.value, static_cast<std::uint16_t>(message.number),
+                        as_text(message.tag)}];
   asked = asked | attributes;
   return std::nullopt;
 }
 
 /// Nobody is asked for what is its own.
-void FederationExecution::Parts::ask_owners(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes tag) {
+void FederationExecution::Parts::ask_owners(std::uint32_t slot, ObjectSlot object,
+                                            AttributeSet attributes, Bytes tag) {
   if (attributes.is_empty()) return;
   const Object& asked = objects_[object];
-  if (management_objects_ && management_objects_->owns(object)) return management_objects_->ask(object, attributes);
+  if (management_objects_ && management_objects_->owns(object))
+    return management_objects_->ask(object, attributes);
   const auto ask = [&](std::uint32_t owner) {
-    const AttributeSet owned = owner == slot ? AttributeSet() : attributes & ownership_.owned_by(owner, object) & fom_.attributes(ObjectClassHandle{asked.object_class});
+    const AttributeSet owned = owner == slot
+                                   ? AttributeSet()
+                                   : attributes & ownership_.owned_by(owner, object) &
+                                         fom_.attributes(ObjectClassHandle{asked.object_class});
     if (owned.is_empty()) return;
     AttributeSet& told = updates_to_provide_[{owner, asked.handle.value, as_text(tag)}];
     told = told | owned;
@@ -124,9 +154,12 @@ void FederationExecution::Parts::ask_owners(std::uint32_t slot, ObjectSlot objec
   else ownership_.for_each_owner(object, ask);
 }
 
-/// Those that may travel by datagram: what the model says may become reliable, and only what it says travels so at all.
+/// Those that may travel by datagram: what the model says may become reliable, and only what it
+/// says travels so at all.
 AttributeSet FederationExecution::Parts::by_datagram(ObjectSlot object) const {
-  const AttributeSet* changed = changed_transportation_.size() > 0 ? changed_transportation_.find(objects_[object].handle) : nullptr;
+  const AttributeSet* changed = changed_transportation_.size() > 0
+                                    ? changed_transportation_.find(objects_[object].handle)
+                                    : nullptr;
   const AttributeSet best_effort = best_effort_[objects_[object].object_class];
   return changed != nullptr ? *changed & best_effort : best_effort;
 }
@@ -135,24 +168,31 @@ Outcome FederationExecution::Parts::change_transportation(std::uint32_t slot, Re
   ChangeTransportationMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const auto transportation = static_cast<Transportation>(message.transportation);
-  TransportationMessage answer{message.is_interaction, 1, message.number, message.attributes, message.transportation};
+  TransportationMessage answer{message.is_interaction, 1, message.number, message.attributes,
+                               message.transportation};
   Federate& federate = federates_[slot];
   if (message.is_interaction != 0) {
     if (message.number >= fom_.interaction_classes().size()) return Violation::unknown_name;
     if (!federate.published_interactions[message.number]) return Violation::undeclared;
-    std::erase_if(federate.changed_transportation, [&](const auto& each) { return each.first == message.number; });
-    federate.changed_transportation.emplace_back(static_cast<std::uint16_t>(message.number), transportation);
+    std::erase_if(federate.changed_transportation,
+                  [&](const auto& each) { return each.first == message.number; });
+    federate.changed_transportation.emplace_back(static_cast<std::uint16_t>(message.number),
+                                                 transportation);
     say(federate.tail, answer);
     return std::nullopt;
   }
   const ObjectSlot object = objects_.find({message.number});
   if (object == no_object) return is_late({message.number}) ? Outcome() : Violation::unknown_name;
   const AttributeSet attributes{message.attributes};
-  if (!fom_.attributes(ObjectClassHandle{objects_[object].object_class}).includes(attributes)) return Violation::unknown_name;
+  if (!fom_.attributes(ObjectClassHandle{objects_[object].object_class}).includes(attributes))
+    return Violation::unknown_name;
   if (!ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
   const AttributeSet* changed = changed_transportation_.find(objects_[object].handle);
-  const AttributeSet before = changed != nullptr ? *changed : best_effort_[objects_[object].object_class];
-  changed_transportation_[objects_[object].handle] = transportation == Transportation::best_effort ? before | attributes : before.without(attributes);
+  const AttributeSet before =
+      changed != nullptr ? *changed : best_effort_[objects_[object].object_class];
+  changed_transportation_[objects_[object].handle] = transportation == Transportation::best_effort
+                                                         ? before | attributes
+                                                         : before.without(attributes);
   say(federate.tail, answer);
   return std::nullopt;
 }
@@ -165,15 +205,22 @@ Outcome FederationExecution::Parts::query_transportation(std::uint32_t slot, Rea
   if (message.is_interaction != 0) {
     if (message.number >= fom_.interaction_classes().size()) return Violation::unknown_name;
     found = fom_.at(InteractionClassHandle{message.number}).transportation;
-    if (message.which < slot_of_handle_.size() && federates_[slot_of_handle_[message.which]].handle.value == message.which)
-      for (const auto& [interaction_class, transportation] : federates_[slot_of_handle_[message.which]].changed_transportation)
+    if (message.which < slot_of_handle_.size() &&
+        federates_[slot_of_handle_[message.which]].handle.value == message.which)
+      for (const auto& [interaction_class, transportation] :
+           federates_[slot_of_handle_[message.which]].changed_transportation)
         if (interaction_class == message.number) found = transportation;
   } else {
     ObjectSlot object = no_object;
-    if (const Outcome outcome = find_known(slot, {message.number}, object); outcome || object == no_object) return outcome;
-    if (!fom_.attributes(ObjectClassHandle{objects_[object].object_class}).contains({message.which})) return Violation::unknown_name;
+    if (const Outcome outcome = find_known(slot, {message.number}, object);
+        outcome || object == no_object)
+      return outcome;
+    if (!fom_.attributes(ObjectClassHandle{objects_[object].object_class})
+             .contains({message.which}))
+      return Violation::unknown_name;
     const AttributeSet* changed = changed_transportation_.find(objects_[object].handle);
-    const AttributeSet best_effort = changed != nullptr ? *changed : best_effort_[objects_[object].object_class];
+    const AttributeSet best_effort =
+        changed != nullptr ? *changed : best_effort_[objects_[object].object_class];
     if (best_effort.contains({message.which})) found = Transportation::best_effort;
   }
   answer.transportation = static_cast<std::uint8_t>(found);

@@ -8,24 +8,24 @@
 #include <unordered_map>
 #include <vector>
 
-#include "rti/federation_execution.h"
+#include "rti/baselines/baselines.h"
+#include "rti/buffering/buffering.h"
+#include "rti/buffering/datagram_batch.h"
 #include "rti/distribution/relevance.h"
+#include "rti/federation/datagram_way.h"
+#include "rti/federation/upward_way.h"
+#include "rti/federation_execution.h"
 #include "rti/federation_services.h"
 #include "rti/management/management_handles.h"
+#include "rti/objects/object_map.h"
+#include "rti/objects/object_table.h"
+#include "rti/ownership/ownership.h"
 #include "rti/questions.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/object_block.h"
 #include "rti/wire/object_messages.h"
 #include "rti/wire/ownership_messages.h"
-#include "rti/objects/object_map.h"
-#include "rti/objects/object_table.h"
-#include "rti/ownership/ownership.h"
-#include "rti/buffering/buffering.h"
-#include "rti/baselines/baselines.h"
-#include "rti/buffering/datagram_batch.h"
-#include "rti/federation/datagram_way.h"
-#include "rti/federation/upward_way.h"
 
 namespace rink::rti {
 
@@ -34,7 +34,8 @@ inline constexpr std::size_t interaction_head = 16;
 
 class FederationExecution::Parts {
  public:
-  Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services, std::unique_ptr<im::Filter> filter);
+  Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services,
+        std::unique_ptr<im::Filter> filter);
   ~Parts();
 
   /// A joined federate. Vectors by class are of fixed size.
@@ -42,36 +43,42 @@ class FederationExecution::Parts {
     bool is_joined = false, is_watching = false;
     ConnectionId connection = 0;
     FederateHandle handle;
-    std::uint32_t block = 0;  ///< of its objects' handles
-    std::uint32_t objects_registered = 0;      ///< in that block
-    std::optional<std::uint32_t> further_block{};  ///< that it was given for when this one is used up
-    std::vector<std::uint32_t> former_blocks{};    ///< used up
-    std::size_t name_bytes = 0;                ///< of their names
-    std::size_t looked_at = 0, said = 0;       ///< since the last flush: objects, for its requests for updates; bytes of interactions
+    std::uint32_t block = 0;               ///< of its objects' handles
+    std::uint32_t objects_registered = 0;  ///< in that block
+    std::optional<std::uint32_t>
+        further_block{};                         ///< that it was given for when this one is used up
+    std::vector<std::uint32_t> former_blocks{};  ///< used up
+    std::size_t name_bytes = 0;                  ///< of their names
+    std::size_t looked_at = 0, said = 0;  ///< since the last flush: objects, for its requests for
+                                          ///< updates; bytes of interactions
     std::string name, type;
-    std::vector<AttributeSet> published;                                  ///< by object class
-    std::vector<bool> published_interactions;                             ///< by interaction class
-    std::vector<Listening> subscribed_interactions;                       ///< likewise
-    std::vector<Subscription> told_relevance;                             ///< what it was told that others hear, by row of `Relevance`
-    std::unique_ptr<ObjectMap<AttributeSet>> told_objects;                ///< likewise of objects, if it asked for it: those that others hear
+    std::vector<AttributeSet> published;             ///< by object class
+    std::vector<bool> published_interactions;        ///< by interaction class
+    std::vector<Listening> subscribed_interactions;  ///< likewise
+    std::vector<Subscription>
+        told_relevance;  ///< what it was told that others hear, by row of `Relevance`
+    std::unique_ptr<ObjectMap<AttributeSet>>
+        told_objects;  ///< likewise of objects, if it asked for it: those that others hear
     std::vector<std::byte> control;  ///< messages that go out before this flush's updates
     std::vector<std::byte> tail;     ///< and after them
     ObjectBlockWriter tail_block;    ///< the block at the end of `tail`, if any
-    std::vector<std::pair<std::uint16_t, Transportation>> changed_transportation;  ///< of interactions that it sends otherwise than the model says
+    std::vector<std::pair<std::uint16_t, Transportation>>
+        changed_transportation;  ///< of interactions that it sends otherwise than the model says
     ResignAction resign_action = ResignAction::cancel_then_delete_then_divest;
     std::optional<Stamp> stamp;  ///< of the updates in the frame at hand, once it was said
-    Stamp newest;                ///< of its latest update: all that it says of its objects holds at least until then
+    Stamp newest;  ///< of its latest update: all that it says of its objects holds at least until
+                   ///< then
     double last_said = 0.0;
     double report_period = 0.0;  ///< of its HLAfederate object [s]; 0: none
     double lookahead = 0.0;      ///< as it last asked for [s]
     bool is_advancing = false;   ///< in logical time
     std::uint64_t objects_deleted = 0, objects_removed = 0, objects_discovered = 0;
-    FederateCounts counts;       ///< what is counted as it happens; `report` adds the rest
-    std::uint32_t frames = 0;          ///< sent to it
-    bool has_stream_only = false;      ///< no datagrams, whatever its connection could carry
-    std::unique_ptr<DatagramWay> way;  ///< null until it has one
-    std::uint32_t frames_heard = 0;    ///< after the one that asked to join
-    std::unique_ptr<UpwardWay> upward; ///< null until a datagram of its comes
+    FederateCounts counts;              ///< what is counted as it happens; `report` adds the rest
+    std::uint32_t frames = 0;           ///< sent to it
+    bool has_stream_only = false;       ///< no datagrams, whatever its connection could carry
+    std::unique_ptr<DatagramWay> way;   ///< null until it has one
+    std::uint32_t frames_heard = 0;     ///< after the one that asked to join
+    std::unique_ptr<UpwardWay> upward;  ///< null until a datagram of its comes
   };
   enum class Phase : std::uint8_t { unknown, connected, joined };
   struct Connection {
@@ -97,15 +104,19 @@ class FederationExecution::Parts {
     std::vector<FederateHandle> failed;  ///< those who said that they could not
   };
   using Outcome = std::optional<Violation>;  ///< nothing: all is well
-  static constexpr std::size_t synchronization_point_max = 64;  ///< of one federate, not reached yet
-  static constexpr std::size_t points_left_max = 256;  ///< that live on after their registrars have left
+  static constexpr std::size_t synchronization_point_max =
+      64;  ///< of one federate, not reached yet
+  static constexpr std::size_t points_left_max =
+      256;  ///< that live on after their registrars have left
 
   // Connections and membership (federation_membership.cpp).
   void connect(ConnectionId connection);
   void disconnect(ConnectionId connection, std::string_view why);
   void advance_clock(double now);
   Outcome join(ConnectionId connection, Reader& reader);
-  void refuse(ConnectionId connection, Refusal refusal) { refuse(connection, refusal, to_string(refusal)); }
+  void refuse(ConnectionId connection, Refusal refusal) {
+    refuse(connection, refusal, to_string(refusal));
+  }
   void refuse(ConnectionId connection, Refusal refusal, const std::string& why);
   std::vector<std::byte> framed_digest() const;
   void admit(ConnectionId connection, const JoinMessage& message);
@@ -113,7 +124,8 @@ class FederationExecution::Parts {
   std::optional<std::uint32_t> joined_slot(FederateHandle federate) const;
   std::uint32_t take_block();
   void remove_federate(std::uint32_t slot, ResignReason reason);
-  void expel(ConnectionId connection, Violation violation, ResignReason reason, std::string_view why);
+  void expel(ConnectionId connection, Violation violation, ResignReason reason,
+             std::string_view why);
   Outcome watch(Federate& federate);
 
   // Federation management (federation_management.cpp).
@@ -128,21 +140,25 @@ class FederationExecution::Parts {
   void answer_queries(Outlet& outlet);
   std::vector<std::uint32_t> count_deletable() const;
 
-  // The management object model (federation_management_objects.h). Nothing is kept, and nothing done, while nobody subscribes to it.
+  // The management object model (federation_management_objects.h). Nothing is kept, and nothing
+  // done, while nobody subscribes to it.
   class ManagementObjects;
   void manage_subscriptions(std::uint32_t slot);
   Subscription others_hear(std::uint32_t slot, std::size_t row) const;
   Outcome take_management(std::uint32_t slot, const InteractionMessage& message);
   void report_to_all(std::uint32_t asking, InteractionClassHandle report, Bytes parameters);
   template <class SetOf, class Write>
-  void report_classes(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report, SetOf set_of, Write write);
+  void report_classes(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report,
+                      SetOf set_of, Write write);
   template <class IsNamed>
-  void report_interactions(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report, IsNamed is_named);
+  void report_interactions(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report,
+                           IsNamed is_named);
   void report_publications(std::uint32_t asking, std::uint32_t about);
   void report_subscriptions(std::uint32_t asking, std::uint32_t about);
   void report_points(std::uint32_t asking);
   Outcome register_point(Reader& reader, std::uint32_t slot);
-  std::optional<SynchronizationFailure> find_members(const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const;
+  std::optional<SynchronizationFailure> find_members(
+      const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const;
   Outcome achieve_point(Reader& reader, std::uint32_t slot);
   void announce(const SynchronizationPoint& point, std::uint32_t slot);
   void join_points(std::uint32_t slot);
@@ -159,18 +175,22 @@ class FederationExecution::Parts {
   Outcome delete_object(std::uint32_t slot, Reader& reader);
   /// All who know it are told, who deleted it too: up to then it may hear of it.
   void delete_object(ObjectSlot object);
-  /// True, and counted, if an object of that handle was here: who may delete it did so while this was on its way, which is nobody's crime.
+  /// True, and counted, if an object of that handle was here: who may delete it did so while this
+  /// was on its way, which is nobody's crime.
   bool is_late(ObjectHandle handle);
   /// Objects that `federate` has registered and that are there.
   std::size_t registered_alive(const Federate& federate) const;
   void extend_block(Federate& federate);
   Outcome take_stamp(std::uint32_t slot, Reader& reader);
   Outcome take_updates(std::uint32_t slot, Reader& reader);
-  Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values);
-  void store_update(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp, Bytes values);
+  Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle,
+                      Bytes values);
+  void store_update(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
+                    const Stamp& stamp, Bytes values);
   Outcome take_interaction(std::uint32_t slot, Reader& reader);
   /// `regions` are the sender's; none: the default region, which overlaps all.
-  Outcome deliver_interaction(std::uint32_t slot, InteractionMessage& message, std::span<const RegionHandle> regions = {});
+  Outcome deliver_interaction(std::uint32_t slot, InteractionMessage& message,
+                              std::span<const RegionHandle> regions = {});
 
   // Declarations (federation_declarations.cpp).
   Outcome take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader);
@@ -203,7 +223,9 @@ class FederationExecution::Parts {
   AttributeSet by_datagram(ObjectSlot object) const;
   /// Names of objects that are reserved or in use, and by which federate they are reserved.
   std::unordered_map<std::string, FederateHandle> instance_names_;
-  ObjectMap<AttributeSet> changed_transportation_;  ///< of objects whose attributes travel otherwise than the model says: those by best effort
+  ObjectMap<AttributeSet>
+      changed_transportation_;  ///< of objects whose attributes travel otherwise than the model
+                                ///< says: those by best effort
 
   // Regions (federation_regions.cpp).
   Outcome take_region(std::uint32_t slot, MessageKind kind, Reader& reader);
@@ -215,31 +237,42 @@ class FederationExecution::Parts {
   Outcome associate_region(std::uint32_t slot, Reader& reader);
   Outcome associate_regions(std::uint32_t slot, Reader& reader);
   Outcome take_regional_class(std::uint32_t slot, Reader& reader);
-  /// Looks for the objects that requests mean, and tells their owners. Once per flush: however often is asked, each owner is told of an object once.
+  /// Looks for the objects that requests mean, and tells their owners. Once per flush: however
+  /// often is asked, each owner is told of an object once.
   void settle_update_requests();
   Outcome settle_update_requests(std::uint32_t slot, RegionHandle region);
-  void find_owners(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region, Bytes tag);
+  void find_owners(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes,
+                   RegionHandle region, Bytes tag);
   void forget_update_requests(std::uint32_t slot);
-  static constexpr std::size_t looked_at_max = 1u << 19;  ///< objects for one federate's requests in one flush; the rest waits for the next one
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::string>, AttributeSet> update_requests_;  ///< by asking federate's slot, region, class and tag
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::string>, AttributeSet> updates_to_provide_;  ///< by owner's slot, object and tag
+  static constexpr std::size_t looked_at_max =
+      1u
+      << 19;  ///< objects for one federate's requests in one flush; the rest waits for the next one
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::string>, AttributeSet>
+      update_requests_;  ///< by asking federate's slot, region, class and tag
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::string>, AttributeSet>
+      updates_to_provide_;  ///< by owner's slot, object and tag
   Outcome take_regional_interaction(std::uint32_t slot, Reader& reader);
   Outcome take_interaction_within(std::uint32_t slot, Reader& reader);
 
   // Ownership (federation_ownership.cpp).
   Outcome take_ownership(std::uint32_t slot, MessageKind kind, Reader& reader);
-  Outcome take_ownership_request(std::uint32_t slot, const OwnershipRequestMessage& message, ObjectHandle object);
+  Outcome take_ownership_request(std::uint32_t slot, const OwnershipRequestMessage& message,
+                                 ObjectHandle object);
   Outcome query_ownership(std::uint32_t slot, Reader& reader);
   /// The object that is meant, or no_object if it was deleted meanwhile, which is no crime.
   Outcome find_known(std::uint32_t slot, ObjectHandle handle, ObjectSlot& object);
   bool is_known_to(std::uint32_t slot, ObjectSlot object) const;
   AttributeSet acquirable(std::uint32_t slot, ObjectSlot object) const;
-  void serve_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request, AttributeSet attributes, Bytes tag);
-  void give_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request, AttributeSet attributes, Bytes tag);
+  void serve_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
+                       AttributeSet attributes, Bytes tag);
+  void give_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
+                      AttributeSet attributes, Bytes tag);
   void ownership_moved(ObjectSlot object, const Stamp& newest);
   Stamp newest_of(ObjectSlot object) const;
-  void notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object, AttributeSet attributes, Bytes tag);
-  void say_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request, Ownership::Events events, Bytes tag, const Stamp& newest);
+  void notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object,
+              AttributeSet attributes, Bytes tag);
+  void say_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
+                     Ownership::Events events, Bytes tag, const Stamp& newest);
   void offer_to_all(std::uint32_t from, ObjectSlot object, AttributeSet attributes, Bytes tag);
   void offer_to(std::uint32_t slot, ObjectSlot object, AttributeSet newly_published);
   void say_last_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest);
@@ -270,7 +303,8 @@ class FederationExecution::Parts {
   void write_stamp(const Stamp& stamp);
   void send_pieces(Federate& federate, Outlet& outlet);
 
-  // Time management (federation_time.h). Nothing is kept, and nothing done, before the first message of that kind.
+  // Time management (federation_time.h). Nothing is kept, and nothing done, before the first
+  // message of that kind.
   class Time;
   Outcome take_time(std::uint32_t slot, MessageKind kind, Reader& reader);
   void settle_time();
@@ -278,7 +312,8 @@ class FederationExecution::Parts {
 
   // Best-effort updates by datagram (federation_datagrams.cpp).
   void list_best_effort();
-  void append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp, Bytes values);
+  void append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
+                    const Stamp& stamp, Bytes values);
   void begin_datagrams(Federate& federate, Outlet& outlet);
   void probe(Federate& federate, Outlet& outlet);
   void write_due_states(std::uint32_t slot);
@@ -287,7 +322,8 @@ class FederationExecution::Parts {
   void receive_datagram(ConnectionId connection, Bytes datagram);
   // Those of federates (federation_upward.cpp).
   bool take_datagram(std::uint32_t slot, Bytes datagram);
-  bool take_datagram_updates(std::uint32_t slot, const DatagramHead& head, const Stamp& stamp, Reader& reader);
+  bool take_datagram_updates(std::uint32_t slot, const DatagramHead& head, const Stamp& stamp,
+                             Reader& reader);
   bool take_acknowledgement(std::uint32_t slot, Reader& reader);
   void take_held_datagrams(std::uint32_t slot);
   void acknowledge_datagrams(Federate& federate, Outlet& outlet);
@@ -295,7 +331,7 @@ class FederationExecution::Parts {
   bool has_best_effort_ = false;           ///< any at all
   bool has_ways_ = false;                  ///< some federate had a way
   DatagramBatch batch_;
-  DatagramWay* way_ = nullptr;             ///< of the federate at hand, while it is used
+  DatagramWay* way_ = nullptr;  ///< of the federate at hand, while it is used
   std::size_t datagram_size_max_ = 0;
   std::vector<std::byte> values_;
 
@@ -316,33 +352,38 @@ class FederationExecution::Parts {
   std::function<std::unique_ptr<TimeManagement>()> make_time_management_;
   ObjectTable objects_;
   Ownership ownership_;
-  std::vector<Stamp> inherited_;      ///< by object slot: the newest stamp of former owners; as long as the last object that changed hands
+  std::vector<Stamp> inherited_;  ///< by object slot: the newest stamp of former owners; as long as
+                                  ///< the last object that changed hands
   bool has_ownership_moved_ = false;  ///< else whatever a federate owns is in its block
   std::unique_ptr<DataDistribution> distribution_;
   DataDistribution& interest_;  ///< the same
   std::unique_ptr<Buffering> buffering_;
   std::vector<ObjectSlot> told_whole_;  ///< by the flush of the federate at hand
   bool is_all_told_ = false;            ///< nothing stays fresh beyond it
-  std::span<const UpdateRun> runs_;  ///< of the flush at hand
+  std::span<const UpdateRun> runs_;     ///< of the flush at hand
   Baselines baselines_;
-  bool is_keyframe_begun_ = false;  ///< in the frame that grows in `scratch_`
+  bool is_keyframe_begun_ = false;       ///< in the frame that grows in `scratch_`
   std::vector<Connection> connections_;  ///< by id
   std::vector<Federate> federates_;      ///< by slot
   std::vector<std::uint32_t> free_federates_, free_blocks_;
   std::uint32_t next_handle_ = 0, next_block_ = 0;
   std::size_t federate_count_ = 0;
-  std::vector<std::uint32_t> slot_of_handle_;  ///< by federate handle; stale once it left, so compare
+  std::vector<std::uint32_t>
+      slot_of_handle_;  ///< by federate handle; stale once it left, so compare
   std::unordered_map<std::string, std::uint32_t> names_;
   std::vector<SynchronizationPoint> points_;
   Relevance relevance_;
-  std::unique_ptr<GroupCommunication> groups_;  ///< of federate slots: a group for each interaction class
+  std::unique_ptr<GroupCommunication>
+      groups_;  ///< of federate slots: a group for each interaction class
   std::vector<ConnectionId> management_queries_;  ///< that wait for the next flush
-  std::vector<Farewell> farewells_, answers_;  ///< answers go to those who have not joined, and don't end their connection
+  std::vector<Farewell> farewells_,
+      answers_;  ///< answers go to those who have not joined, and don't end their connection
   std::vector<Range> ranges_;  ///< of the region at hand
   FederationCounters counters_;
   std::unique_ptr<Time> time_;
   ManagementHandles management_;
-  std::unique_ptr<ManagementObjects> management_objects_;  ///< null until somebody subscribes to its objects
+  std::unique_ptr<ManagementObjects>
+      management_objects_;  ///< null until somebody subscribes to its objects
   bool is_auto_providing_ = false;
   double now_ = 0.0;
 
@@ -352,7 +393,8 @@ class FederationExecution::Parts {
     std::size_t scratch_from = 0, scratch_to = 0;
   };
   std::vector<std::byte> scratch_;
-  std::optional<Stamp> frame_stamp_;  ///< of the updates in the frame that grows in `scratch_`, once it was written
+  std::optional<Stamp>
+      frame_stamp_;  ///< of the updates in the frame that grows in `scratch_`, once it was written
   std::vector<Piece> pieces_;
   std::size_t scratch_taken_ = 0;  ///< up to here `scratch_` is in `pieces_`
   std::vector<Bytes> gathered_;
@@ -363,7 +405,8 @@ class FederationExecution::Parts {
 template <class Visit>
 void FederationExecution::Parts::for_each_owned(std::uint32_t slot, Visit visit) {
   if (!has_ownership_moved_) {
-    for (const std::uint32_t block : federates_[slot].former_blocks) objects_.for_each_in_block(block, visit);
+    for (const std::uint32_t block : federates_[slot].former_blocks)
+      objects_.for_each_in_block(block, visit);
     return objects_.for_each_in_block(federates_[slot].block, visit);
   }
   for (ObjectSlot object = 0; object < objects_.slot_count(); ++object)

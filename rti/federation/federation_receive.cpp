@@ -15,19 +15,30 @@ void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
   counters_.bytes_received += bytes.size();
   // A stranger's frame counts when it is whole: one byte now and then says nothing.
   connections_[id].has_spoken |= connections_[id].phase == Phase::joined;
-  if (connections_[id].phase == Phase::joined) federates_[connections_[id].federate].counts.bytes_sent += bytes.size();
-  // The reader leaves its connection meanwhile: dropping the connection must not pull it from under our feet.
+  if (connections_[id].phase == Phase::joined)
+    federates_[connections_[id].federate].counts.bytes_sent += bytes.size();
+  // The reader leaves its connection meanwhile: dropping the connection must not pull it from under
+  // our feet.
   FrameReader reader = std::move(connections_[id].reader);
   Outcome outcome;
-  const auto limit = [&] { return connections_[id].phase == Phase::joined ? frame_max_to_rti : frame_max_to_join; };
+  const auto limit = [&] {
+    return connections_[id].phase == Phase::joined ? frame_max_to_rti : frame_max_to_join;
+  };
   const auto take = [&](Bytes frame) {
     outcome = take_frame(id, frame);
     return !outcome && connections_[id].phase != Phase::unknown;
   };
   switch (reader.receive(bytes, limit, take)) {
-    case Framing::sound: connections_[id].reader = std::move(reader); break;
-    case Framing::empty: expel(id, Violation::malformed, ResignReason::misbehaved, "it sent a frame without a message"); break;
-    case Framing::oversized: expel(id, Violation::oversized, ResignReason::misbehaved, explain(Violation::oversized)); break;
+    case Framing::sound:
+      connections_[id].reader = std::move(reader);
+      break;
+    case Framing::empty:
+      expel(id, Violation::malformed, ResignReason::misbehaved,
+            "it sent a frame without a message");
+      break;
+    case Framing::oversized:
+      expel(id, Violation::oversized, ResignReason::misbehaved, explain(Violation::oversized));
+      break;
     case Framing::stopped:
       if (outcome) expel(id, *outcome, ResignReason::misbehaved, explain(*outcome));
       assert(connections_[id].phase == Phase::unknown);
@@ -45,13 +56,17 @@ Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {
   Reader reader(frame);
   while (!reader.is_at_end() && connections_[id].phase != Phase::unknown) {
     if (connections_[id].phase == Phase::joined) {
-      if (const Outcome outcome = take_message(id, connections_[id].federate, reader)) return outcome;
+      if (const Outcome outcome = take_message(id, connections_[id].federate, reader))
+        return outcome;
       continue;
     }
     std::uint8_t kind = 0;
     reader.number(kind);
     const bool is_join = static_cast<MessageKind>(kind) == MessageKind::join;
-    if (const Outcome outcome = is_join ? join(id, reader) : answer_stranger(id, static_cast<MessageKind>(kind), reader)) return outcome;
+    if (const Outcome outcome = is_join
+                                    ? join(id, reader)
+                                    : answer_stranger(id, static_cast<MessageKind>(kind), reader))
+      return outcome;
   }
   if (connections_[id].phase != Phase::joined) return std::nullopt;
   const std::uint32_t slot = connections_[id].federate;
@@ -59,27 +74,35 @@ Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t slot, Reader& reader) {
+Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t slot,
+                                                 Reader& reader) {
   std::uint8_t number = 0;
   reader.number(number);
   const auto kind = static_cast<MessageKind>(number);
   switch (kind) {
-    case MessageKind::join: return Violation::wrong_phase;
+    case MessageKind::join:
+      return Violation::wrong_phase;
     case MessageKind::resign:
       remove_federate(slot, ResignReason::resigned);
       connections_[id] = {};
       farewells_.push_back({id, "resigned", {}});
       return std::nullopt;
-    case MessageKind::heartbeat: return std::nullopt;
-    case MessageKind::register_synchronization_point: return register_point(reader, slot);
-    case MessageKind::synchronization_point_achieved: return achieve_point(reader, slot);
-    case MessageKind::watch_federates: return watch(federates_[slot]);
-    case MessageKind::query_management: return query_management(id), std::nullopt;
+    case MessageKind::heartbeat:
+      return std::nullopt;
+    case MessageKind::register_synchronization_point:
+      return register_point(reader, slot);
+    case MessageKind::synchronization_point_achieved:
+      return achieve_point(reader, slot);
+    case MessageKind::watch_federates:
+      return watch(federates_[slot]);
+    case MessageKind::query_management:
+      return query_management(id), std::nullopt;
     case MessageKind::publish_object_class:
     case MessageKind::subscribe_object_class:
     case MessageKind::publish_interaction_class:
     case MessageKind::subscribe_interaction_class:
-    case MessageKind::advisory_switch: return take_declaration(slot, kind, reader);
+    case MessageKind::advisory_switch:
+      return take_declaration(slot, kind, reader);
     case MessageKind::create_region:
     case MessageKind::modify_regions:
     case MessageKind::associate_region:
@@ -89,35 +112,43 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::regional_class:
     case MessageKind::regional_interaction:
     case MessageKind::associate_regions:
-    case MessageKind::interaction_within: return take_region(slot, kind, reader);
+    case MessageKind::interaction_within:
+      return take_region(slot, kind, reader);
     case MessageKind::register_object:
     case MessageKind::delete_object:
     case MessageKind::stamp:
     case MessageKind::updates:
     case MessageKind::spare_update:
-    case MessageKind::interaction: return take_object(slot, kind, reader);
+    case MessageKind::interaction:
+      return take_object(slot, kind, reader);
     case MessageKind::instance_names:
     case MessageKind::local_delete:
     case MessageKind::request_update:
     case MessageKind::change_transportation:
-    case MessageKind::query_transportation: return take_object_request(slot, kind, reader);
+    case MessageKind::query_transportation:
+      return take_object_request(slot, kind, reader);
     case MessageKind::acknowledge_keyframe:
-    case MessageKind::refuse_keyframe: return take_keyframe(slot, kind, reader);
+    case MessageKind::refuse_keyframe:
+      return take_keyframe(slot, kind, reader);
     case MessageKind::enable_time_regulation:
     case MessageKind::time_switch:
     case MessageKind::modify_lookahead:
     case MessageKind::advance_request:
     case MessageKind::timed_send:
     case MessageKind::retract:
-    case MessageKind::query_time_bounds: return take_time(slot, kind, reader);
+    case MessageKind::query_time_bounds:
+      return take_time(slot, kind, reader);
     case MessageKind::ownership_request:
     case MessageKind::query_ownership:
-    case MessageKind::resign_directive: return take_ownership(slot, kind, reader);
-    default: return Violation::malformed;
+    case MessageKind::resign_directive:
+      return take_ownership(slot, kind, reader);
+    default:
+      return Violation::malformed;
   }
 }
 
-Outcome FederationExecution::Parts::take_object(std::uint32_t slot, MessageKind kind, Reader& reader) {
+Outcome FederationExecution::Parts::take_object(std::uint32_t slot, MessageKind kind,
+                                                Reader& reader) {
   if (kind == MessageKind::register_object) return register_object(slot, reader);
   if (kind == MessageKind::delete_object) return delete_object(slot, reader);
   if (kind == MessageKind::updates) return take_updates(slot, reader);
@@ -136,17 +167,23 @@ Outcome FederationExecution::Parts::register_object(std::uint32_t slot, Reader& 
   if (alive >= settings_.objects_per_federate_max) return Violation::over_limit;
   if (federate.objects_registered == object_block) extend_block(federate);
   // Handles come in order, so that a stranger can't make the table grow by naming a great one.
-  if (message.object != federate.block * object_block + federate.objects_registered) return Violation::unknown_name;
-  if (++federate.objects_registered == object_block / 2 && (!free_blocks_.empty() || next_block_ < object_block_max)) {
+  if (message.object != federate.block * object_block + federate.objects_registered)
+    return Violation::unknown_name;
+  if (++federate.objects_registered == object_block / 2 &&
+      (!free_blocks_.empty() || next_block_ < object_block_max)) {
     federate.further_block = take_block();
     say(federate.control, FurtherBlockMessage{*federate.further_block});
   }
   federate.name_bytes += message.name.size();
-  // Those who have more than their share are refused first, so nobody's hoard keeps others from theirs.
-  const bool is_full = objects_.size() >= settings_.object_max && alive >= settings_.object_max / federate_count_;
-  if (is_full || federate.name_bytes > settings_.name_bytes_per_federate_max) return refuse_object(slot, {message.object}), std::nullopt;
+  // Those who have more than their share are refused first, so nobody's hoard keeps others from
+  // theirs.
+  const bool is_full =
+      objects_.size() >= settings_.object_max && alive >= settings_.object_max / federate_count_;
+  if (is_full || federate.name_bytes > settings_.name_bytes_per_federate_max)
+    return refuse_object(slot, {message.object}), std::nullopt;
   const bool has_name = message.name.empty() || take_name(slot, message.name);
-  interest_.object_registered(objects_.insert({message.object}, slot, message.object_class, has_name ? message.name : std::string_view()));
+  interest_.object_registered(objects_.insert({message.object}, slot, message.object_class,
+                                              has_name ? message.name : std::string_view()));
   return std::nullopt;
 }
 
@@ -156,7 +193,8 @@ std::size_t FederationExecution::Parts::registered_alive(const Federate& federat
   return count;
 }
 
-/// Goes on in the block that it was given. Without one it stays where it is, and its next handle is none of its own.
+/// Goes on in the block that it was given. Without one it stays where it is, and its next handle is
+/// none of its own.
 void FederationExecution::Parts::extend_block(Federate& federate) {
   if (!federate.further_block) return;
   objects_.close_block(federate.block);
@@ -176,7 +214,9 @@ Outcome FederationExecution::Parts::delete_object(std::uint32_t slot, Reader& re
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
   if (object == no_object) return is_late({message.object}) ? Outcome() : Violation::unknown_name;
-  if (objects_[object].owner != slot && ownership_.owner_of(object, privilege_to_delete_object) != slot) return Violation::not_owned;
+  if (objects_[object].owner != slot &&
+      ownership_.owner_of(object, privilege_to_delete_object) != slot)
+    return Violation::not_owned;
   ++federates_[slot].objects_deleted;
   delete_object(object);
   return std::nullopt;
@@ -220,29 +260,40 @@ Outcome FederationExecution::Parts::take_updates(std::uint32_t slot, Reader& rea
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   const ObjectClassHandle object_class{message.object_class};
   const AttributeSet attributes{message.attributes};
-  if (!fom_.attributes(object_class).includes(attributes) || attributes.is_empty()) return Violation::unknown_name;
-  if (!federates_[slot].published[message.object_class].includes(attributes)) return Violation::undeclared;
+  if (!fom_.attributes(object_class).includes(attributes) || attributes.is_empty())
+    return Violation::unknown_name;
+  if (!federates_[slot].published[message.object_class].includes(attributes))
+    return Violation::undeclared;
   Outcome outcome;
-  const bool is_read = read_records(reader, fom_.at(object_class), attributes, [&](std::uint32_t handle, Bytes values) {
-    outcome = take_update(slot, message, {handle}, values);
-    return !outcome;
-  });
+  const bool is_read = read_records(reader, fom_.at(object_class), attributes,
+                                    [&](std::uint32_t handle, Bytes values) {
+                                      outcome = take_update(slot, message, {handle}, values);
+                                      return !outcome;
+                                    });
   return is_read || outcome ? outcome : Violation::malformed;
 }
 
-Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values) {
+Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const UpdatesMessage& message,
+                                                ObjectHandle handle, Bytes values) {
   const ObjectSlot object = objects_.find(handle);
   if (object == no_object && is_late(handle)) return std::nullopt;
-  if (object == no_object || objects_[object].object_class != message.object_class) return Violation::unknown_name;
-  if (objects_[object].owner != slot && !ownership_.owned_by(slot, object).includes(AttributeSet(message.attributes))) return Violation::not_owned;
+  if (object == no_object || objects_[object].object_class != message.object_class)
+    return Violation::unknown_name;
+  if (objects_[object].owner != slot &&
+      !ownership_.owned_by(slot, object).includes(AttributeSet(message.attributes)))
+    return Violation::not_owned;
   Federate& owner = federates_[slot];
   owner.newest = *owner.stamp;
-  if (owner.upward) owner.upward->accept(handle, message.object_class, AttributeSet(message.attributes), order_of_frame(owner.frames_heard));
+  if (owner.upward)
+    owner.upward->accept(handle, message.object_class, AttributeSet(message.attributes),
+                         order_of_frame(owner.frames_heard));
   store_update(slot, object, AttributeSet(message.attributes), owner.newest, values);
   return std::nullopt;
 }
 
-void FederationExecution::Parts::store_update(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp, Bytes values) {
+void FederationExecution::Parts::store_update(std::uint32_t slot, ObjectSlot object,
+                                              AttributeSet attributes, const Stamp& stamp,
+                                              Bytes values) {
   Federate& owner = federates_[slot];
   if (stamp.time >= owner.newest.time) owner.newest = stamp;  // a datagram may be late
   objects_.store(object, attributes, values);
@@ -255,25 +306,34 @@ void FederationExecution::Parts::store_update(std::uint32_t slot, ObjectSlot obj
 Outcome FederationExecution::Parts::take_interaction(std::uint32_t slot, Reader& reader) {
   InteractionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
+  if (message.interaction_class >= fom_.interaction_classes().size())
+    return Violation::unknown_name;
   return deliver_interaction(slot, message);
 }
 
-Outcome FederationExecution::Parts::deliver_interaction(std::uint32_t slot, InteractionMessage& message, std::span<const RegionHandle> regions) {
-  if (!federates_[slot].published_interactions[message.interaction_class]) return Violation::undeclared;
+Outcome FederationExecution::Parts::deliver_interaction(std::uint32_t slot,
+                                                        InteractionMessage& message,
+                                                        std::span<const RegionHandle> regions) {
+  if (!federates_[slot].published_interactions[message.interaction_class])
+    return Violation::undeclared;
   ++counters_.interactions_received;
   ++federates_[slot].counts.interactions_sent;
-  // Interactions are never held back, so a shouter would fill the queues of those who listen, and they would be closed instead of it.
-  const std::span<const std::uint32_t> receivers = groups_->receivers(message.interaction_class, slot);
+  // Interactions are never held back, so a shouter would fill the queues of those who listen, and
+  // they would be closed instead of it.
+  const std::span<const std::uint32_t> receivers =
+      groups_->receivers(message.interaction_class, slot);
   if (!receivers.empty()) federates_[slot].said += interaction_head + message.parameters.size();
   if (fom_.is_management(InteractionClassHandle{message.interaction_class}))
     if (const Outcome outcome = take_management(slot, message)) return outcome;
-  if (federates_[slot].said > settings_.interaction_bytes_per_flush_max) return Violation::over_limit;
+  if (federates_[slot].said > settings_.interaction_bytes_per_flush_max)
+    return Violation::over_limit;
   const std::uint32_t only = message.federate;
   message.federate = federates_[slot].handle.value;
   for (const std::uint32_t receiver : receivers) {
     if (only != FederateHandle::none && federates_[receiver].handle.value != only) continue;
-    if (!regions.empty() && !hears_everywhere(receiver, message.interaction_class) && !interest_.hears(receiver, message.interaction_class, slot, regions)) continue;
+    if (!regions.empty() && !hears_everywhere(receiver, message.interaction_class) &&
+        !interest_.hears(receiver, message.interaction_class, slot, regions))
+      continue;
     say(federates_[receiver].tail, message);
     counters_.interaction_bytes_sent += measure(message);
     ++counters_.interactions_sent;

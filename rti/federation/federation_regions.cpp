@@ -31,21 +31,32 @@ std::vector<RegionHandle> regions_of(Bytes bytes) {
 
 }  // namespace
 
-Outcome FederationExecution::Parts::take_region(std::uint32_t slot, MessageKind kind, Reader& reader) {
+Outcome FederationExecution::Parts::take_region(std::uint32_t slot, MessageKind kind,
+                                                Reader& reader) {
   switch (kind) {
-    case MessageKind::modify_regions: return modify_regions(slot, reader);
-    case MessageKind::modify_ranges: return modify_ranges(slot, reader);
-    case MessageKind::associate_region: return associate_region(slot, reader);
-    case MessageKind::associate_regions: return associate_regions(slot, reader);
-    case MessageKind::create_region_over: return create_region_over(slot, reader);
-    case MessageKind::regional_class: return take_regional_class(slot, reader);
-    case MessageKind::regional_interaction: return take_regional_interaction(slot, reader);
-    case MessageKind::interaction_within: return take_interaction_within(slot, reader);
-    default: return create_or_delete_region(slot, kind, reader);
+    case MessageKind::modify_regions:
+      return modify_regions(slot, reader);
+    case MessageKind::modify_ranges:
+      return modify_ranges(slot, reader);
+    case MessageKind::associate_region:
+      return associate_region(slot, reader);
+    case MessageKind::associate_regions:
+      return associate_regions(slot, reader);
+    case MessageKind::create_region_over:
+      return create_region_over(slot, reader);
+    case MessageKind::regional_class:
+      return take_regional_class(slot, reader);
+    case MessageKind::regional_interaction:
+      return take_regional_interaction(slot, reader);
+    case MessageKind::interaction_within:
+      return take_interaction_within(slot, reader);
+    default:
+      return create_or_delete_region(slot, kind, reader);
   }
 }
 
-Outcome FederationExecution::Parts::create_or_delete_region(std::uint32_t slot, MessageKind kind, Reader& reader) {
+Outcome FederationExecution::Parts::create_or_delete_region(std::uint32_t slot, MessageKind kind,
+                                                            Reader& reader) {
   CreateRegionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const RegionHandle region{message.region};
@@ -63,11 +74,14 @@ Outcome FederationExecution::Parts::create_region_over(std::uint32_t slot, Reade
   if (!exchange(reader, message)) return Violation::malformed;
   const DimensionSet dimensions{message.dimensions};
   const std::size_t count = fom_.dimensions().size();
-  const DimensionSet all{count == dimension_max ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1};
-  return all.includes(dimensions) ? create_region(slot, {message.region}, dimensions) : Violation::unknown_name;
+  const DimensionSet all{count == dimension_max ? ~std::uint64_t{0}
+                                                : (std::uint64_t{1} << count) - 1};
+  return all.includes(dimensions) ? create_region(slot, {message.region}, dimensions)
+                                  : Violation::unknown_name;
 }
 
-Outcome FederationExecution::Parts::create_region(std::uint32_t slot, RegionHandle region, DimensionSet dimensions) {
+Outcome FederationExecution::Parts::create_region(std::uint32_t slot, RegionHandle region,
+                                                  DimensionSet dimensions) {
   if (!interest_.create_region(slot, region, dimensions)) return Violation::unknown_name;
   ++federates_[slot].counts.regions;
   return std::nullopt;
@@ -76,22 +90,29 @@ Outcome FederationExecution::Parts::create_region(std::uint32_t slot, RegionHand
 Outcome FederationExecution::Parts::modify_regions(std::uint32_t slot, Reader& reader) {
   ModifyRegionsMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  return for_each_record<RegionBounds>(message.records, message.count, [&](const RegionBounds& record) -> Outcome {
-    return interest_.modify_region(slot, record.region, record.bounds) ? Outcome() : Violation::unknown_name;
-  });
+  return for_each_record<RegionBounds>(
+      message.records, message.count, [&](const RegionBounds& record) -> Outcome {
+        return interest_.modify_region(slot, record.region, record.bounds)
+                   ? Outcome()
+                   : Violation::unknown_name;
+      });
 }
 
 Outcome FederationExecution::Parts::modify_ranges(std::uint32_t slot, Reader& reader) {
   ModifyRangesMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const RegionHandle region{message.region};
-  // A model without X and Y has regions over the plane all the same, whose ranges have no dimensions to go by.
-  if (message.count == 0 || !interest_.has_region(slot, region) || interest_.dimensions(slot, region).count() != message.count) return Violation::unknown_name;
+  // A model without X and Y has regions over the plane all the same, whose ranges have no
+  // dimensions to go by.
+  if (message.count == 0 || !interest_.has_region(slot, region) ||
+      interest_.dimensions(slot, region).count() != message.count)
+    return Violation::unknown_name;
   ranges_.clear();
-  const Outcome outcome = for_each_record<Range>(message.ranges, message.count, [&](const Range& range) -> Outcome {
-    ranges_.push_back(range);
-    return std::nullopt;
-  });
+  const Outcome outcome =
+      for_each_record<Range>(message.ranges, message.count, [&](const Range& range) -> Outcome {
+        ranges_.push_back(range);
+        return std::nullopt;
+      });
   if (!outcome) interest_.modify_region(slot, region, ranges_);
   return outcome;
 }
@@ -102,7 +123,8 @@ Outcome FederationExecution::Parts::associate_region(std::uint32_t slot, Reader&
   const ObjectSlot object = objects_.find({message.object});
   const RegionHandle region{message.region};
   if (object == no_object && is_late({message.object})) return std::nullopt;
-  if (object == no_object || (region && !interest_.has_region(slot, region))) return Violation::unknown_name;
+  if (object == no_object || (region && !interest_.has_region(slot, region)))
+    return Violation::unknown_name;
   if (ownership_.owned_by(slot, object).is_empty()) return Violation::not_owned;
   interest_.associate(slot, object, region);
   return std::nullopt;
@@ -115,14 +137,17 @@ Outcome FederationExecution::Parts::associate_regions(std::uint32_t slot, Reader
   if (object == no_object && is_late({message.object})) return std::nullopt;
   if (object == no_object) return Violation::unknown_name;
   const AttributeSet all = fom_.attributes(ObjectClassHandle{objects_[object].object_class});
-  return for_each_record<AttributeRegionRecord>(message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
-    const AttributeSet attributes{pair.attributes};
-    if (!all.includes(attributes) || !interest_.has_region(slot, {pair.region})) return Violation::unknown_name;
-    if (message.is_associated == 0) return interest_.disassociate(slot, object, {pair.region}, attributes), std::nullopt;
-    if (!ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
-    interest_.associate(slot, object, {pair.region}, attributes);
-    return std::nullopt;
-  });
+  return for_each_record<AttributeRegionRecord>(
+      message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
+        const AttributeSet attributes{pair.attributes};
+        if (!all.includes(attributes) || !interest_.has_region(slot, {pair.region}))
+          return Violation::unknown_name;
+        if (message.is_associated == 0)
+          return interest_.disassociate(slot, object, {pair.region}, attributes), std::nullopt;
+        if (!ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
+        interest_.associate(slot, object, {pair.region}, attributes);
+        return std::nullopt;
+      });
 }
 
 Outcome FederationExecution::Parts::take_regional_class(std::uint32_t slot, Reader& reader) {
@@ -130,33 +155,42 @@ Outcome FederationExecution::Parts::take_regional_class(std::uint32_t slot, Read
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   const AttributeSet all = fom_.attributes(ObjectClassHandle{message.object_class});
-  const Outcome outcome = for_each_record<AttributeRegionRecord>(message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
-    const AttributeSet attributes{pair.attributes};
-    const RegionHandle region{pair.region};
-    if (!all.includes(attributes) || !interest_.has_region(slot, region)) return Violation::unknown_name;
-    const auto action = static_cast<RegionAction>(message.action);
-    if (action == RegionAction::request_update) {
-      AttributeSet& asked = update_requests_[{slot, region.value, message.object_class, std::string()}];
-      asked = asked | attributes;
-      return std::nullopt;
-    }
-    Subscription now = interest_.subscribed(slot, message.object_class, region);
-    now.heard = action == RegionAction::remove ? now.heard.without(attributes) : now.heard | attributes;
-    now.active = action == RegionAction::add ? now.active | attributes : now.active.without(attributes);
-    interest_.subscribe(slot, message.object_class, now, region);
-    return std::nullopt;
-  });
+  const Outcome outcome = for_each_record<AttributeRegionRecord>(
+      message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
+        const AttributeSet attributes{pair.attributes};
+        const RegionHandle region{pair.region};
+        if (!all.includes(attributes) || !interest_.has_region(slot, region))
+          return Violation::unknown_name;
+        const auto action = static_cast<RegionAction>(message.action);
+        if (action == RegionAction::request_update) {
+          AttributeSet& asked =
+              update_requests_[{slot, region.value, message.object_class, std::string()}];
+          asked = asked | attributes;
+          return std::nullopt;
+        }
+        Subscription now = interest_.subscribed(slot, message.object_class, region);
+        now.heard =
+            action == RegionAction::remove ? now.heard.without(attributes) : now.heard | attributes;
+        now.active =
+            action == RegionAction::add ? now.active | attributes : now.active.without(attributes);
+        interest_.subscribe(slot, message.object_class, now, region);
+        return std::nullopt;
+      });
   if (!outcome) subscribed(slot);
   return outcome;
 }
 
 /// Looks at every object: it is asked for seldom, and what overlaps is not kept.
-void FederationExecution::Parts::find_owners(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region, Bytes tag) {
+void FederationExecution::Parts::find_owners(std::uint32_t slot, ObjectClassHandle object_class,
+                                             AttributeSet attributes, RegionHandle region,
+                                             Bytes tag) {
   federates_[slot].looked_at += objects_.slot_count();
   for (ObjectSlot object = 0; object < objects_.slot_count(); ++object) {
     const Object& asked = objects_[object];
-    if (!asked.is_alive || !fom_.is_a(ObjectClassHandle{asked.object_class}, object_class)) continue;
-    ask_owners(slot, object, region ? interest_.overlapping(slot, region, object, attributes) : attributes, tag);
+    if (!asked.is_alive || !fom_.is_a(ObjectClassHandle{asked.object_class}, object_class))
+      continue;
+    ask_owners(slot, object,
+               region ? interest_.overlapping(slot, region, object, attributes) : attributes, tag);
   }
 }
 
@@ -172,14 +206,18 @@ void FederationExecution::Parts::settle_update_requests() {
   }
   for (const auto& [whom, attributes] : updates_to_provide_) {
     const auto& [owner, object, tag] = whom;
-    say(federates_[owner].tail, ProvideUpdateMessage{object, attributes.bits, std::as_bytes(std::span(tag))});
+    say(federates_[owner].tail,
+        ProvideUpdateMessage{object, attributes.bits, std::as_bytes(std::span(tag))});
   }
   updates_to_provide_.clear();
 }
 
-/// Those within a region that is about to go. Who makes regions, asks and deletes them faster than anybody can look is not waited for.
-Outcome FederationExecution::Parts::settle_update_requests(std::uint32_t slot, RegionHandle region) {
-  for (auto each = update_requests_.lower_bound({slot, region.value, 0, {}}); each != update_requests_.end();) {
+/// Those within a region that is about to go. Who makes regions, asks and deletes them faster than
+/// anybody can look is not waited for.
+Outcome FederationExecution::Parts::settle_update_requests(std::uint32_t slot,
+                                                           RegionHandle region) {
+  for (auto each = update_requests_.lower_bound({slot, region.value, 0, {}});
+       each != update_requests_.end();) {
     const auto& [asking, within, object_class, tag] = each->first;
     if (asking != slot || within != region.value) break;
     if (federates_[slot].looked_at >= looked_at_max) return Violation::over_limit;
@@ -190,16 +228,21 @@ Outcome FederationExecution::Parts::settle_update_requests(std::uint32_t slot, R
 }
 
 void FederationExecution::Parts::forget_update_requests(std::uint32_t slot) {
-  update_requests_.erase(update_requests_.lower_bound({slot, 0, 0, {}}), update_requests_.lower_bound({slot + 1, 0, 0, {}}));
-  updates_to_provide_.erase(updates_to_provide_.lower_bound({slot, 0, {}}), updates_to_provide_.lower_bound({slot + 1, 0, {}}));
+  update_requests_.erase(update_requests_.lower_bound({slot, 0, 0, {}}),
+                         update_requests_.lower_bound({slot + 1, 0, 0, {}}));
+  updates_to_provide_.erase(updates_to_provide_.lower_bound({slot, 0, {}}),
+                            updates_to_provide_.lower_bound({slot + 1, 0, {}}));
 }
 
 Outcome FederationExecution::Parts::take_regional_interaction(std::uint32_t slot, Reader& reader) {
   RegionalInteractionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
+  if (message.interaction_class >= fom_.interaction_classes().size())
+    return Violation::unknown_name;
   for (const RegionHandle region : regions_of(message.regions))
-    if (!interest_.subscribe_interaction(slot, message.interaction_class, region, static_cast<Listening>(message.is_subscribed))) return Violation::unknown_name;
+    if (!interest_.subscribe_interaction(slot, message.interaction_class, region,
+                                         static_cast<Listening>(message.is_subscribed)))
+      return Violation::unknown_name;
   join_groups(slot);
   return std::nullopt;
 }
@@ -207,11 +250,13 @@ Outcome FederationExecution::Parts::take_regional_interaction(std::uint32_t slot
 Outcome FederationExecution::Parts::take_interaction_within(std::uint32_t slot, Reader& reader) {
   InteractionWithinMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
+  if (message.interaction_class >= fom_.interaction_classes().size())
+    return Violation::unknown_name;
   const std::vector<RegionHandle> regions = regions_of(message.regions);
   for (const RegionHandle region : regions)
     if (!interest_.has_region(slot, region)) return Violation::unknown_name;
-  InteractionMessage interaction{message.interaction_class, FederateHandle::none, message.stamp, message.parameters};
+  InteractionMessage interaction{message.interaction_class, FederateHandle::none, message.stamp,
+                                 message.parameters};
   return deliver_interaction(slot, interaction, regions);
 }
 

@@ -1,11 +1,14 @@
-// The management service: a federation execution counts little and works out the rest when it is asked.
+// The management service: a federation execution counts little and works out the rest when it is
+// asked.
 #include "rti/federation/federation_parts.h"
 #include "rti/federation/federation_time.h"
 #include "rti/wire/management_messages.h"
 
 namespace rink::rti {
 
-FederationReport FederationExecution::report(const Outlet* outlet) const { return parts_->report(outlet); }
+FederationReport FederationExecution::report(const Outlet* outlet) const {
+  return parts_->report(outlet);
+}
 
 FederationReport FederationExecution::Parts::report(const Outlet* outlet) const {
   FederationReport report;
@@ -19,7 +22,8 @@ FederationReport FederationExecution::Parts::report(const Outlet* outlet) const 
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot) {
     const Federate& federate = federates_[slot];
     if (!federate.is_joined) continue;
-    FederateReport& each = report.federates.emplace_back(FederateReport{federate.handle, federate.name, federate.type, federate.counts});
+    FederateReport& each = report.federates.emplace_back(
+        FederateReport{federate.handle, federate.name, federate.type, federate.counts});
     each.counts.objects_owned = owned[slot];
     interest_.of(slot).in_scope.for_each([&](ObjectSlot) { ++each.counts.objects_in_scope; });
     each.counts.queue_bytes = outlet != nullptr ? outlet->waiting_bytes(federate.connection) : 0;
@@ -33,7 +37,8 @@ void FederationExecution::Parts::tell_time(std::uint32_t slot, FederateCounts& c
   const TimeManagement& management = time_->management();
   counts.is_time_regulating = management.is_regulating(slot);
   counts.is_time_constrained = management.is_constrained(slot);
-  if (counts.is_time_regulating != 0 || counts.is_time_constrained != 0) counts.logical_time = management.time(slot);
+  if (counts.is_time_regulating != 0 || counts.is_time_constrained != 0)
+    counts.logical_time = management.time(slot);
   if (counts.is_time_regulating != 0) counts.earliest_stamp = management.earliest(slot);
 }
 
@@ -48,7 +53,8 @@ std::vector<std::uint32_t> FederationExecution::Parts::count_owned() const {
       continue;
     }
     std::vector<bool> is_counted(federates_.size(), false);
-    for (std::uint32_t i = 0; i < fom_.at(ObjectClassHandle{object.object_class}).attributes.size(); ++i) {
+    for (std::uint32_t i = 0; i < fom_.at(ObjectClassHandle{object.object_class}).attributes.size();
+         ++i) {
       const std::uint32_t owner = ownership_.owner_of(slot, {i});
       if (owner >= owned.size() || is_counted[owner]) continue;
       is_counted[owner] = true;

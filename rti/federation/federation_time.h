@@ -1,4 +1,5 @@
-// What a federation execution keeps of time management, once somebody asked for it; for its own sources only.
+// What a federation execution keeps of time management, once somebody asked for it; for its own
+// sources only.
 #pragma once
 
 #include <unordered_map>
@@ -8,13 +9,16 @@
 
 namespace rink::rti {
 
-/// Checks what federates ask and send in time-stamp order, keeps each message until the last constrained receiver's time has come, and tells what the time management decides.
+/// Checks what federates ask and send in time-stamp order, keeps each message until the last
+/// constrained receiver's time has come, and tells what the time management decides.
 class FederationExecution::Parts::Time final : public TimeListener {
  public:
-  Time(Parts& parts, std::unique_ptr<TimeManagement> management) : parts_(parts), management_(std::move(management)) {}
+  Time(Parts& parts, std::unique_ptr<TimeManagement> management)
+      : parts_(parts), management_(std::move(management)) {}
 
   Outcome take(std::uint32_t slot, MessageKind kind, Reader& reader);
-  /// Gives what was sent since the last time to its receivers, then tells grants. Once per flush, after the match.
+  /// Gives what was sent since the last time to its receivers, then tells grants. Once per flush,
+  /// after the match.
   void settle();
   /// The federate is gone; its messages stay.
   void leave(std::uint32_t slot);
@@ -33,13 +37,14 @@ class FederationExecution::Parts::Time final : public TimeListener {
     FederateHandle sender;
     std::uint64_t number = 0;
     Stamp stamp;
-    std::uint32_t object = 0;       ///< of an update or deletion
+    std::uint32_t object = 0;  ///< of an update or deletion
     std::uint16_t class_number = 0;
-    FederateHandle only;            ///< of an interaction: the only receiver, if any
+    FederateHandle only;  ///< of an interaction: the only receiver, if any
     AttributeSet attributes;
-    std::vector<std::byte> body;    ///< of an update its coded values, of an interaction its parameters
+    std::vector<std::byte>
+        body;  ///< of an update its coded values, of an interaction its parameters
     std::vector<Receiver> receivers;
-    std::size_t waiting = 0;        ///< receivers in whose queue it is
+    std::size_t waiting = 0;  ///< receivers in whose queue it is
     bool is_distributed = false, is_retractable = false, is_retracted = false;
   };
   /// What a federate has sent and may still take back, by its count.
@@ -90,12 +95,13 @@ class FederationExecution::Parts::Time final : public TimeListener {
   std::unique_ptr<TimeManagement> management_;
   std::vector<Message> messages_;
   std::vector<std::uint32_t> free_;
-  std::size_t bytes_ = 0;                       ///< of the messages' bodies
-  std::vector<Sender> senders_;                 ///< by slot
-  std::vector<std::uint32_t> arrived_;          ///< messages to distribute
-  std::vector<std::uint32_t> asking_;           ///< slots that asked for their bounds
+  std::size_t bytes_ = 0;               ///< of the messages' bodies
+  std::vector<Sender> senders_;         ///< by slot
+  std::vector<std::uint32_t> arrived_;  ///< messages to distribute
+  std::vector<std::uint32_t> asking_;   ///< slots that asked for their bounds
   std::vector<std::byte> content_;
-  std::unordered_map<std::uint32_t, double> told_until_;  ///< by object: time stamp of the latest update that is its state for newcomers
+  std::unordered_map<std::uint32_t, double>
+      told_until_;  ///< by object: time stamp of the latest update that is its state for newcomers
 };
 
 }  // namespace rink::rti

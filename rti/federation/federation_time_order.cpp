@@ -1,4 +1,5 @@
-// Messages in time-stamp order on their way: whom they go to, when they are told, and what they leave behind.
+// Messages in time-stamp order on their way: whom they go to, when they are told, and what they
+// leave behind.
 #include <algorithm>
 
 #include "rti/federation/federation_time.h"
@@ -8,7 +9,8 @@ namespace rink::rti {
 
 namespace {
 
-/// Memory of messages that is used again: bytes of a body, and places once all are free. A flood's goes with it.
+/// Memory of messages that is used again: bytes of a body, and places once all are free. A flood's
+/// goes with it.
 constexpr std::size_t body_kept_max = 512, places_kept_max = 4096;
 
 }  // namespace
@@ -17,7 +19,9 @@ void FederationExecution::Parts::Time::settle() {
   for (const std::uint32_t index : arrived_) distribute(index);
   arrived_.clear();
   management_->settle(*this);
-  for (const std::uint32_t slot : asking_) say(parts_.federates_[slot].tail, TimeBoundsMessage{management_->galt(slot), management_->lits(slot)});
+  for (const std::uint32_t slot : asking_)
+    say(parts_.federates_[slot].tail,
+        TimeBoundsMessage{management_->galt(slot), management_->lits(slot)});
   asking_.clear();
 }
 
@@ -28,11 +32,15 @@ bool FederationExecution::Parts::Time::is_here(FederateHandle federate) const {
 
 void FederationExecution::Parts::Time::find_receivers(Message& message) {
   const auto add = [&](std::uint32_t slot, AttributeSet told) {
-    if (parts_.federates_[slot].handle != message.sender) message.receivers.push_back({parts_.federates_[slot].handle, told});
+    if (parts_.federates_[slot].handle != message.sender)
+      message.receivers.push_back({parts_.federates_[slot].handle, told});
   };
   if (message.kind == MessageKind::interaction) {
-    // The sender may be gone: its handle then names nobody's slot, and the check in `add` is all there is.
-    for (const std::uint32_t slot : parts_.groups_->receivers(message.class_number, is_here(message.sender) ? parts_.slot_of_handle_[message.sender.value] : no_federate))
+    // The sender may be gone: its handle then names nobody's slot, and the check in `add` is all
+    // there is.
+    for (const std::uint32_t slot : parts_.groups_->receivers(
+             message.class_number,
+             is_here(message.sender) ? parts_.slot_of_handle_[message.sender.value] : no_federate))
       if (!message.only || parts_.federates_[slot].handle == message.only) add(slot, {});
     return;
   }
@@ -41,11 +49,16 @@ void FederationExecution::Parts::Time::find_receivers(Message& message) {
   for (std::uint32_t slot = 0; slot < parts_.federates_.size(); ++slot) {
     if (!parts_.federates_[slot].is_joined) continue;
     const FederateInterest& interest = parts_.interest_.of(slot);
-    const AttributeSet told = interest.told(object, parts_.objects_[object].object_class) & message.attributes;
-    const bool is_concerned = message.kind == MessageKind::updates ? !told.is_empty() : interest.known.contains(object) || interest.in_scope.contains(object);
+    const AttributeSet told =
+        interest.told(object, parts_.objects_[object].object_class) & message.attributes;
+    const bool is_concerned =
+        message.kind == MessageKind::updates
+            ? !told.is_empty()
+            : interest.known.contains(object) || interest.in_scope.contains(object);
     if (is_concerned) add(slot, told);
   }
-  if (message.kind == MessageKind::delete_object) parts_.interest_.object_deleted(object);  // nobody else shall discover it any more
+  if (message.kind == MessageKind::delete_object)
+    parts_.interest_.object_deleted(object);  // nobody else shall discover it any more
 }
 
 /// To the queues of those who are constrained, to the others at once.
@@ -62,7 +75,8 @@ void FederationExecution::Parts::Time::distribute(std::uint32_t index) {
       continue;
     }
     ++message.waiting;
-    management_->enqueue(slot, {message.stamp.time, message.sender.value, message.number, index, place});
+    management_->enqueue(slot,
+                         {message.stamp.time, message.sender.value, message.number, index, place});
   }
   if (message.waiting == 0 && !message.is_retracted) complete(message);
   finish(index);
@@ -85,7 +99,9 @@ void FederationExecution::Parts::Time::write_content(const Message& message, Att
   const ObjectClass& object_class = parts_.fom_.at(ObjectClassHandle{message.class_number});
   for (std::uint32_t bits = told.bits; bits != 0; bits &= bits - 1) {
     const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
-    const Bytes value = told == message.attributes ? Bytes(message.body) : coded_value(object_class, message.attributes, attribute, message.body);
+    const Bytes value = told == message.attributes ? Bytes(message.body)
+                                                   : coded_value(object_class, message.attributes,
+                                                                 attribute, message.body);
     content_.insert(content_.end(), value.begin(), value.end());
     if (told == message.attributes) break;  // the whole at once
   }
@@ -93,7 +109,8 @@ void FederationExecution::Parts::Time::write_content(const Message& message, Att
 }
 
 /// False if there is nothing to tell, since the object is gone meanwhile.
-bool FederationExecution::Parts::Time::tell(std::uint32_t slot, const Message& message, AttributeSet told, bool is_in_order) {
+bool FederationExecution::Parts::Time::tell(std::uint32_t slot, const Message& message,
+                                            AttributeSet told, bool is_in_order) {
   if (message.kind != MessageKind::interaction) {
     const ObjectSlot object = parts_.objects_.find({message.object});
     if (object == no_object) return false;
@@ -105,12 +122,15 @@ bool FederationExecution::Parts::Time::tell(std::uint32_t slot, const Message& m
       interest.unannounced.erase(object);  // for who was not told of it, it was never there
       if (!is_known) return false;
       interest.known.erase(object);
-    } else if (is_in_scope && (!is_known || interest.unannounced.contains(object) || interest.fresh.contains(object))) {
+    } else if (is_in_scope && (!is_known || interest.unannounced.contains(object) ||
+                               interest.fresh.contains(object))) {
       parts_.press(slot, object);
     }
   }
   write_content(message, told);
-  say(parts_.federates_[slot].tail, TimedDeliveryMessage{message.sender.value, static_cast<std::uint8_t>(is_in_order), message.number, message.stamp, content_});
+  say(parts_.federates_[slot].tail,
+      TimedDeliveryMessage{message.sender.value, static_cast<std::uint8_t>(is_in_order),
+                           message.number, message.stamp, content_});
   ++parts_.counters_.timed_sent;
   FederateCounts& counts = parts_.federates_[slot].counts;
   if (message.kind == MessageKind::updates) ++counts.reflections_received;
@@ -134,9 +154,11 @@ void FederationExecution::Parts::Time::discard(std::uint32_t, const TimedEntry& 
   finish(entry.message);
 }
 
-/// Nobody waits for it any more: what it says is now the state that newcomers are told. (Earlier, they would be told what is to come.)
+/// Nobody waits for it any more: what it says is now the state that newcomers are told. (Earlier,
+/// they would be told what is to come.)
 void FederationExecution::Parts::Time::complete(const Message& message) {
-  const ObjectSlot slot = message.kind == MessageKind::interaction ? no_object : parts_.objects_.find({message.object});
+  const ObjectSlot slot =
+      message.kind == MessageKind::interaction ? no_object : parts_.objects_.find({message.object});
   if (slot == no_object) return;
   if (message.kind == MessageKind::delete_object) {
     told_until_.erase(message.object);
@@ -150,10 +172,13 @@ void FederationExecution::Parts::Time::complete(const Message& message) {
   if (newest.time < message.stamp.time) newest = message.stamp;
 }
 
-/// False for an update that is completed after a later one of its object, which had fewer to wait for.
+/// False for an update that is completed after a later one of its object, which had fewer to wait
+/// for.
 bool FederationExecution::Parts::Time::is_news(const Message& message) {
   if (told_until_.size() > 64 + 2 * parts_.objects_.size())
-    std::erase_if(told_until_, [this](const auto& each) { return parts_.objects_.find({each.first}) == no_object; });
+    std::erase_if(told_until_, [this](const auto& each) {
+      return parts_.objects_.find({each.first}) == no_object;
+    });
   double& until = told_until_.try_emplace(message.object, message.stamp.time).first->second;
   if (message.stamp.time < until) return false;
   until = message.stamp.time;
@@ -183,7 +208,8 @@ void FederationExecution::Parts::Time::release(std::uint32_t index) {
   free_ = {};
 }
 
-void FederationExecution::Parts::Time::regulation_enabled(std::uint32_t federate, double time, double earliest) {
+void FederationExecution::Parts::Time::regulation_enabled(std::uint32_t federate, double time,
+                                                          double earliest) {
   say(parts_.federates_[federate].tail, TimeRegulationEnabledMessage{time, earliest});
 }
 void FederationExecution::Parts::Time::constrained_enabled(std::uint32_t federate, double time) {

@@ -1,4 +1,5 @@
-// Best-effort updates by datagram from federates: applied unless something newer is known, acknowledged so that they need not be sent again.
+// Best-effort updates by datagram from federates: applied unless something newer is known,
+// acknowledged so that they need not be sent again.
 #include <algorithm>
 #include <bit>
 
@@ -19,7 +20,8 @@ void FederationExecution::Parts::receive_datagram(ConnectionId id, Bytes datagra
   Reader reader(datagram);
   bool is_taken = exchange(reader, head);
   if (is_taken && head.number != 0) {
-    if (!federate.upward && has_best_effort_) federate.upward = std::make_unique<UpwardWay>(fom_, federate.frames_heard);
+    if (!federate.upward && has_best_effort_)
+      federate.upward = std::make_unique<UpwardWay>(fom_, federate.frames_heard);
     is_taken = federate.upward && head.frames >= federate.upward->first_frames;
   }
   // It may speak of objects that a frame on its way registers.
@@ -49,9 +51,13 @@ bool FederationExecution::Parts::take_datagram(std::uint32_t slot, Bytes datagra
     if (kind == datagram_end) return true;
     StampMessage stamped;
     bool is_understood = false;
-    if (static_cast<MessageKind>(kind) == MessageKind::acknowledge_datagrams) is_understood = take_acknowledgement(slot, reader);
-    if (static_cast<MessageKind>(kind) == MessageKind::stamp && exchange(reader, stamped)) stamp = stamped.stamp, is_understood = true;
-    if (static_cast<MessageKind>(kind) == MessageKind::updates) is_understood = head.number != 0 && stamp && take_datagram_updates(slot, head, *stamp, reader);
+    if (static_cast<MessageKind>(kind) == MessageKind::acknowledge_datagrams)
+      is_understood = take_acknowledgement(slot, reader);
+    if (static_cast<MessageKind>(kind) == MessageKind::stamp && exchange(reader, stamped))
+      stamp = stamped.stamp, is_understood = true;
+    if (static_cast<MessageKind>(kind) == MessageKind::updates)
+      is_understood =
+          head.number != 0 && stamp && take_datagram_updates(slot, head, *stamp, reader);
     if (!is_understood) return false;
   }
   return true;
@@ -60,25 +66,32 @@ bool FederationExecution::Parts::take_datagram(std::uint32_t slot, Bytes datagra
 bool FederationExecution::Parts::take_acknowledgement(std::uint32_t slot, Reader& reader) {
   DatagramWay* way = federates_[slot].way.get();
   AcknowledgeDatagramsMessage message;
-  if (way == nullptr || !exchange(reader, message) || !way->ledger.acknowledge(message, now_, way->due)) return false;
+  if (way == nullptr || !exchange(reader, message) ||
+      !way->ledger.acknowledge(message, now_, way->due))
+    return false;
   counters_.datagram_recoveries += way->has_fallen_back ? 1u : 0u;
   way->has_fallen_back = false;
   return true;
 }
 
-bool FederationExecution::Parts::take_datagram_updates(std::uint32_t slot, const DatagramHead& head, const Stamp& stamp, Reader& reader) {
+bool FederationExecution::Parts::take_datagram_updates(std::uint32_t slot, const DatagramHead& head,
+                                                       const Stamp& stamp, Reader& reader) {
   UpdatesMessage message;
-  if (!exchange(reader, message) || message.object_class >= fom_.object_classes().size()) return false;
+  if (!exchange(reader, message) || message.object_class >= fom_.object_classes().size())
+    return false;
   const AttributeSet attributes{message.attributes};
-  if (attributes.is_empty() || !best_effort_[message.object_class].includes(attributes)) return false;
+  if (attributes.is_empty() || !best_effort_[message.object_class].includes(attributes))
+    return false;
   const ObjectClass& object_class = fom_.object_classes()[message.object_class];
   return read_records(reader, object_class, attributes, [&](std::uint32_t handle, Bytes values) {
     const ObjectSlot object = objects_.find({handle});
     if (object == no_object) return is_late({handle});
     if (objects_[object].object_class != message.object_class) return false;
     const AttributeSet owned = attributes & ownership_.owned_by(slot, object);
-    if (owned.is_empty()) return ++counters_.updates_outdated, true;  // nothing is kept of what is not its own
-    const AttributeSet accepted = federates_[slot].upward->accept({handle}, message.object_class, owned, order_of_datagram(head));
+    if (owned.is_empty())
+      return ++counters_.updates_outdated, true;  // nothing is kept of what is not its own
+    const AttributeSet accepted = federates_[slot].upward->accept({handle}, message.object_class,
+                                                                  owned, order_of_datagram(head));
     if (accepted.is_empty()) return ++counters_.updates_outdated, true;
     if (accepted == attributes) return store_update(slot, object, accepted, stamp, values), true;
     std::vector<std::byte> cut;
@@ -109,7 +122,9 @@ void FederationExecution::Parts::take_held_datagrams(std::uint32_t slot) {
 /// When many are due, one is missing, or the first has waited for long enough.
 void FederationExecution::Parts::acknowledge_datagrams(Federate& federate, Outlet& outlet) {
   UpwardWay& way = *federate.upward;
-  if (!way.receipts.is_due() || (!way.receipts.is_urgent() && now_ - way.due_since < DatagramReceipts::longest_delay_s)) return;
+  if (!way.receipts.is_due() ||
+      (!way.receipts.is_urgent() && now_ - way.due_since < DatagramReceipts::longest_delay_s))
+    return;
   if (outlet.datagram_max(federate.connection) == 0) return;
   std::vector<std::byte> bytes;
   DatagramHead head;

@@ -28,7 +28,9 @@ std::optional<std::size_t> one_coded_size(const Attribute& attribute, Bytes code
 }  // namespace
 
 std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) {
-  if (attribute.size) return *attribute.size <= values.size() ? std::optional<std::size_t>(*attribute.size) : std::nullopt;
+  if (attribute.size)
+    return *attribute.size <= values.size() ? std::optional<std::size_t>(*attribute.size)
+                                            : std::nullopt;
   std::uint32_t length = 0;
   if (values.size() < sizeof length) return std::nullopt;
   std::memcpy(&length, values.data(), sizeof length);
@@ -37,7 +39,9 @@ std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) 
 }
 
 bool is_coded(const ObjectClass& object_class, AttributeSet set) {
-  return !for_each(object_class, set, [](const Attribute& attribute, std::uint32_t) { return attribute.codec == nullptr; });
+  return !for_each(object_class, set, [](const Attribute& attribute, std::uint32_t) {
+    return attribute.codec == nullptr;
+  });
 }
 
 std::optional<std::uint32_t> coded_size(const ObjectClass& object_class, AttributeSet set) {
@@ -49,7 +53,8 @@ std::optional<std::uint32_t> coded_size(const ObjectClass& object_class, Attribu
   return is_fixed ? std::optional(size) : std::nullopt;
 }
 
-std::optional<std::size_t> coded_size(const ObjectClass& object_class, AttributeSet set, Bytes coded) {
+std::optional<std::size_t> coded_size(const ObjectClass& object_class, AttributeSet set,
+                                      Bytes coded) {
   std::size_t sum = 0;
   const bool is_whole = for_each(object_class, set, [&](const Attribute& attribute, std::uint32_t) {
     const std::optional<std::size_t> size = one_coded_size(attribute, coded.subspan(sum));
@@ -59,7 +64,8 @@ std::optional<std::size_t> coded_size(const ObjectClass& object_class, Attribute
   return is_whole ? std::optional(sum) : std::nullopt;
 }
 
-Bytes coded_value(const ObjectClass& object_class, AttributeSet set, AttributeHandle wanted, Bytes coded) {
+Bytes coded_value(const ObjectClass& object_class, AttributeSet set, AttributeHandle wanted,
+                  Bytes coded) {
   Bytes found;
   for_each(object_class, set, [&](const Attribute& attribute, std::uint32_t index) {
     found = coded.first(one_coded_size(attribute, coded).value_or(0));
@@ -69,7 +75,8 @@ Bytes coded_value(const ObjectClass& object_class, AttributeSet set, AttributeHa
   return found;
 }
 
-void encode(const ObjectClass& object_class, AttributeSet set, Bytes values, double time, std::vector<std::byte>& coded) {
+void encode(const ObjectClass& object_class, AttributeSet set, Bytes values, double time,
+            std::vector<std::byte>& coded) {
   for_each(object_class, set, [&](const Attribute& attribute, std::uint32_t) {
     const Bytes value = values.first(plain_size(attribute, values).value_or(0));
     if (attribute.codec) attribute.codec->encode(value, time, coded);
@@ -79,7 +86,8 @@ void encode(const ObjectClass& object_class, AttributeSet set, Bytes values, dou
   });
 }
 
-bool decode(const ObjectClass& object_class, AttributeSet set, Bytes coded, double time, std::vector<std::byte>& values) {
+bool decode(const ObjectClass& object_class, AttributeSet set, Bytes coded, double time,
+            std::vector<std::byte>& values) {
   return for_each(object_class, set, [&](const Attribute& attribute, std::uint32_t) {
     const std::optional<std::size_t> size = one_coded_size(attribute, coded);
     if (!size) return false;

@@ -1,4 +1,5 @@
-// How one attribute's value travels: the seam by which a user of the RTI sends values smaller than his object model writes them down.
+// How one attribute's value travels: the seam by which a user of the RTI sends values smaller than
+// his object model writes them down.
 #pragma once
 
 #include <cstddef>
@@ -11,43 +12,56 @@
 
 namespace rink::rti {
 
-/// Codes the values of one data type on their way. Federates hand in and get values as the object model says; only what lies between is coded. Without a codec a value
-/// travels as it is.
+/// Codes the values of one data type on their way. Federates hand in and get values as the object
+/// model says; only what lies between is coded. Without a codec a value travels as it is.
 ///
-/// A coded value must end by itself and must be readable by whoever gets it and nothing else: the RTI cuts blocks, keeps the latest value and gives it to late joiners, and
-/// never decodes. So a codec depends on the value and on logical time alone, never on what was sent before or to whom, and nothing breaks when updates are left out.
+/// A coded value must end by itself and must be readable by whoever gets it and nothing else: the
+/// RTI cuts blocks, keeps the latest value and gives it to late joiners, and never decodes. So a
+/// codec depends on the value and on logical time alone, never on what was sent before or to whom,
+/// and nothing breaks when updates are left out.
 class AttributeCodec {
  public:
   virtual ~AttributeCodec() = default;
 
-  /// Becomes part of the model's hash, so that two ends whose codecs differ refuse each other. Change it with the coded form.
+  /// Becomes part of the model's hash, so that two ends whose codecs differ refuse each other.
+  /// Change it with the coded form.
   virtual std::string name() const = 0;
-  /// Appends the coded form of `value`, which fits the data type. `time` [s] is that of the update's stamp.
+  /// Appends the coded form of `value`, which fits the data type. `time` [s] is that of the
+  /// update's stamp.
   virtual void encode(Bytes value, double time, std::vector<std::byte>& coded) const = 0;
-  /// Bytes of the coded value that starts `coded`; nothing if it is malformed or not all there. What has a size need not decode.
+  /// Bytes of the coded value that starts `coded`; nothing if it is malformed or not all there.
+  /// What has a size need not decode.
   virtual std::optional<std::size_t> size(Bytes coded) const = 0;
-  /// Appends the value; false if `coded`, whose size was found, is malformed. `time` [s] is that of the newest update known when it was sent on: never before that of
-  /// `encode`, and far behind it for one who heard nothing for long.
+  /// Appends the value; false if `coded`, whose size was found, is malformed. `time` [s] is that of
+  /// the newest update known when it was sent on: never before that of `encode`, and far behind it
+  /// for one who heard nothing for long.
   virtual bool decode(Bytes coded, double time, std::vector<std::byte>& value) const = 0;
 };
 
 struct Attribute;
 struct ObjectClass;
 
-/// Bytes of the uncoded value that starts `values` (its length word included if its size varies), or nothing if it isn't all there.
+/// Bytes of the uncoded value that starts `values` (its length word included if its size varies),
+/// or nothing if it isn't all there.
 std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values);
 
 /// True if any attribute of `set` has a codec.
 bool is_coded(const ObjectClass& object_class, AttributeSet set);
 /// Bytes that the values of `set` take on their way, if that is the same for all values.
 std::optional<std::uint32_t> coded_size(const ObjectClass& object_class, AttributeSet set);
-/// Bytes that the coded values of `set` take which start `coded`; nothing if they are malformed or not all there.
-std::optional<std::size_t> coded_size(const ObjectClass& object_class, AttributeSet set, Bytes coded);
+/// Bytes that the coded values of `set` take which start `coded`; nothing if they are malformed or
+/// not all there.
+std::optional<std::size_t> coded_size(const ObjectClass& object_class, AttributeSet set,
+                                      Bytes coded);
 /// Where the coded value of `attribute` stands in those of `set`, which must be whole.
-Bytes coded_value(const ObjectClass& object_class, AttributeSet set, AttributeHandle attribute, Bytes coded);
+Bytes coded_value(const ObjectClass& object_class, AttributeSet set, AttributeHandle attribute,
+                  Bytes coded);
 /// Appends the coded form of `values`, which must fit `set`.
-void encode(const ObjectClass& object_class, AttributeSet set, Bytes values, double time, std::vector<std::byte>& coded);
-/// Appends the values of `set` that `coded` holds; false if they are malformed. `coded` must have their size.
-bool decode(const ObjectClass& object_class, AttributeSet set, Bytes coded, double time, std::vector<std::byte>& values);
+void encode(const ObjectClass& object_class, AttributeSet set, Bytes values, double time,
+            std::vector<std::byte>& coded);
+/// Appends the values of `set` that `coded` holds; false if they are malformed. `coded` must have
+/// their size.
+bool decode(const ObjectClass& object_class, AttributeSet set, Bytes coded, double time,
+            std::vector<std::byte>& values);
 
 }  // namespace rink::rti

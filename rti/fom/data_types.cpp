@@ -14,16 +14,19 @@ struct BasicType {
   const char* name;
   std::uint32_t size;
 };
-/// The fixed-size representations of IEEE 1516.2, with its predefined HLAbyte, HLAASCIIchar, HLAunicodeChar and HLAboolean.
+/// The fixed-size representations of IEEE 1516.2, with its predefined HLAbyte, HLAASCIIchar,
+/// HLAunicodeChar and HLAboolean.
 constexpr std::array basic_types = {
-    BasicType{"HLAoctet", 1},        BasicType{"HLAbyte", 1},         BasicType{"HLAASCIIchar", 1},    BasicType{"HLAoctetPairBE", 2},
-    BasicType{"HLAoctetPairLE", 2},  BasicType{"HLAunicodeChar", 2},  BasicType{"HLAinteger16BE", 2},  BasicType{"HLAinteger16LE", 2},
-    BasicType{"HLAinteger32BE", 4},  BasicType{"HLAinteger32LE", 4},  BasicType{"HLAinteger64BE", 8},  BasicType{"HLAinteger64LE", 8},
-    BasicType{"HLAfloat32BE", 4},    BasicType{"HLAfloat32LE", 4},    BasicType{"HLAfloat64BE", 8},    BasicType{"HLAfloat64LE", 8},
-    BasicType{"HLAboolean", 4},
+    BasicType{"HLAoctet", 1},       BasicType{"HLAbyte", 1},        BasicType{"HLAASCIIchar", 1},
+    BasicType{"HLAoctetPairBE", 2}, BasicType{"HLAoctetPairLE", 2}, BasicType{"HLAunicodeChar", 2},
+    BasicType{"HLAinteger16BE", 2}, BasicType{"HLAinteger16LE", 2}, BasicType{"HLAinteger32BE", 4},
+    BasicType{"HLAinteger32LE", 4}, BasicType{"HLAinteger64BE", 8}, BasicType{"HLAinteger64LE", 8},
+    BasicType{"HLAfloat32BE", 4},   BasicType{"HLAfloat32LE", 4},   BasicType{"HLAfloat64BE", 8},
+    BasicType{"HLAfloat64LE", 8},   BasicType{"HLAboolean", 4},
 };
 /// Types of the standard whose size varies.
-constexpr std::array varying_types = {"HLAASCIIstring", "HLAunicodeString", "HLAopaqueData", "HLAtoken"};
+constexpr std::array varying_types = {"HLAASCIIstring", "HLAunicodeString", "HLAopaqueData",
+                                      "HLAtoken"};
 
 constexpr std::uint32_t count_size = 4;  ///< of the HLAinteger32BE that begins an HLAvariableArray
 
@@ -44,9 +47,12 @@ std::string encoding_of(const pugi::xml_node& node, const char* otherwise) {
 void DataTypes::declare(const Node& node) {
   const std::string name = text(node, "name");
   const auto [known, is_new] = declared_.emplace(name, node);
-  if (!is_new && known->second.root() == node.root()) fail(node, "data type '" + name + "' is declared twice");
+  if (!is_new && known->second.root() == node.root())
+    fail(node, "data type '" + name + "' is declared twice");
   if (!is_new) modules_.require_same(known->second, node, "");
-  const bool is_known = std::ranges::find(basic_types, name, &BasicType::name) != basic_types.end() || std::ranges::find(varying_types, name) != varying_types.end();
+  const bool is_known =
+      std::ranges::find(basic_types, name, &BasicType::name) != basic_types.end() ||
+      std::ranges::find(varying_types, name) != varying_types.end();
   if (!is_known) modules_.require_unreserved({name, {known->second, node}});
 }
 
@@ -54,10 +60,13 @@ void DataTypes::read() {
   for (const Node& section : modules_.sections("dataTypes"))
     for (const Node& group : section.children()) {
       const std::string_view name = group.name();
-      if (name != "basicDataRepresentations" && name != "simpleDataTypes" && name != "enumeratedDataTypes" && name != "arrayDataTypes" &&
+      if (name != "basicDataRepresentations" && name != "simpleDataTypes" &&
+          name != "enumeratedDataTypes" && name != "arrayDataTypes" &&
           name != "fixedRecordDataTypes" && name != "variantRecordDataTypes")
-        fail(group, "<dataTypes> holds <" + std::string(name) +
-                        ">; allowed are basicDataRepresentations, simpleDataTypes, enumeratedDataTypes, arrayDataTypes, fixedRecordDataTypes, variantRecordDataTypes");
+        fail(group,
+             "<dataTypes> holds <" + std::string(name) +
+                 ">; allowed are basicDataRepresentations, simpleDataTypes, enumeratedDataTypes, "
+                 "arrayDataTypes, fixedRecordDataTypes, variantRecordDataTypes");
       for (const Node& node : group.children()) declare(node);
     }
 }
@@ -66,7 +75,9 @@ void DataTypes::check() {
   for (const auto& [name, node] : declared_) {
     const Size size = size_of(name, node);
     const auto standard = std::ranges::find(basic_types, name, &BasicType::name);
-    if (standard != basic_types.end() && size != standard->size) fail(node, path(node) + " is the standard's, whose size is " + std::to_string(8 * standard->size) + " bits");
+    if (standard != basic_types.end() && size != standard->size)
+      fail(node, path(node) + " is the standard's, whose size is " +
+                     std::to_string(8 * standard->size) + " bits");
     if (std::string_view(node.name()) == "variantRecordData") check_variants(node);
     if (std::string_view(node.name()) == "enumeratedData") check_enumerators(node);
   }
@@ -75,18 +86,23 @@ void DataTypes::check() {
 void DataTypes::check_variants(const Node& node) {
   const std::string discriminant = text(node, "dataType");
   const auto found = declared_.find(discriminant);
-  if (discriminant != "HLAboolean" && (found == declared_.end() || std::string_view(found->second.name()) != "enumeratedData"))
-    fail(node.child("dataType"), path(node) + " must have an enumerated data type as its discriminant, not '" + discriminant + "'");
+  if (discriminant != "HLAboolean" &&
+      (found == declared_.end() || std::string_view(found->second.name()) != "enumeratedData"))
+    fail(node.child("dataType"),
+         path(node) + " must have an enumerated data type as its discriminant, not '" +
+             discriminant + "'");
   for (const Node& alternative : node.children("alternative")) {
     text(alternative, "enumerator");
-    if (modules_.text_or(alternative, "dataType", "NA") != "NA") size_of(text(alternative, "dataType"), alternative);
+    if (modules_.text_or(alternative, "dataType", "NA") != "NA")
+      size_of(text(alternative, "dataType"), alternative);
   }
 }
 
 void DataTypes::check_enumerators(const Node& node) {
   std::set<std::string> names;
   for (const Node& enumerator : node.children("enumerator"))
-    if (!names.insert(text(enumerator, "name")).second) fail(enumerator, path(enumerator) + " of " + path(node) + " is declared twice");
+    if (!names.insert(text(enumerator, "name")).second)
+      fail(enumerator, path(enumerator) + " of " + path(node) + " is declared twice");
 }
 
 DataTypes::Size DataTypes::size_of(const std::string& type, const Node& user) {
@@ -95,16 +111,21 @@ DataTypes::Size DataTypes::size_of(const std::string& type, const Node& user) {
   if (declared == declared_.end()) {
     for (const BasicType& basic : basic_types)
       if (type == basic.name) return basic.size;
-    if (std::find(varying_types.begin(), varying_types.end(), type) != varying_types.end()) return std::nullopt;
-    fail(user, path(user) + " has the unknown data type '" + type + "'; allowed are those in <dataTypes> and the standard's, such as HLAfloat32LE");
+    if (std::find(varying_types.begin(), varying_types.end(), type) != varying_types.end())
+      return std::nullopt;
+    fail(user, path(user) + " has the unknown data type '" + type +
+                   "'; allowed are those in <dataTypes> and the standard's, such as HLAfloat32LE");
   }
-  if (!being_sized_.insert(type).second) fail(declared->second, "data type '" + type + "' contains itself");
+  if (!being_sized_.insert(type).second)
+    fail(declared->second, "data type '" + type + "' contains itself");
   const Node node = declared->second;
   const std::string_view kind = node.name();
   Size size;
   if (kind == "basicData") {
     const int bits = node.child("size").text().as_int();
-    if (bits < 8 || bits > 1 << 20 || bits % 8 != 0) fail(node, path(node) + " must have a <size> in bits that is a multiple of 8, at most 1048576");
+    if (bits < 8 || bits > 1 << 20 || bits % 8 != 0)
+      fail(node,
+           path(node) + " must have a <size> in bits that is a multiple of 8, at most 1048576");
     size = static_cast<std::uint32_t>(bits / 8);
   } else if (kind == "simpleData" || kind == "enumeratedData") {
     size = size_of(text(node, "representation"), node);
@@ -113,7 +134,9 @@ DataTypes::Size DataTypes::size_of(const std::string& type, const Node& user) {
   } else if (kind == "fixedRecordData") {
     size = size_of_record(node);
   } else if (kind != "variantRecordData") {  // whose size varies
-    fail(node, "<dataTypes> holds " + path(node) + "; allowed are basicData, simpleData, enumeratedData, arrayData, fixedRecordData, variantRecordData");
+    fail(node, "<dataTypes> holds " + path(node) +
+                   "; allowed are basicData, simpleData, enumeratedData, arrayData, "
+                   "fixedRecordData, variantRecordData");
   }
   being_sized_.erase(type);
   sizes_[type] = size;
@@ -127,7 +150,8 @@ DataTypes::Size DataTypes::size_of_array(const Node& node) {
   const std::string cardinality = text(node, "cardinality");
   const Size element = size_of(text(node, "dataType"), node);
   if (cardinality.find_first_not_of("0123456789") != std::string::npos) {
-    if (cardinality != "Dynamic" && cardinality.front() != '[') fail(node, path(node) + " must have a <cardinality> that is a count, a [range] or Dynamic");
+    if (cardinality != "Dynamic" && cardinality.front() != '[')
+      fail(node, path(node) + " must have a <cardinality> that is a count, a [range] or Dynamic");
     return std::nullopt;
   }
   if (cardinality.size() > 6) fail(node, path(node) + " has more than 999999 elements");

@@ -11,7 +11,8 @@
 
 namespace rink::rti {
 
-/// Basic, simple, enumerated, array, fixed and variant record types of IEEE 1516.2, beside the standard's own. Every member throws `FileError` at what is wrong.
+/// Basic, simple, enumerated, array, fixed and variant record types of IEEE 1516.2, beside the
+/// standard's own. Every member throws `FileError` at what is wrong.
 class DataTypes {
  public:
   using Node = pugi::xml_node;
@@ -30,7 +31,9 @@ class DataTypes {
   const std::map<std::string, Node>& declared() const { return declared_; }
 
  private:
-  [[noreturn]] void fail(const Node& node, const std::string& what) const { modules_.fail(node, what); }
+  [[noreturn]] void fail(const Node& node, const std::string& what) const {
+    modules_.fail(node, what);
+  }
   static std::string path(const Node& node) { return FomModules::path(node); }
   std::string text(const Node& node, const char* child) const { return modules_.text(node, child); }
   void declare(const Node& node);

@@ -10,7 +10,8 @@ namespace {
 template <class Class>
 std::string qualified_name(const std::vector<Class>& classes, std::size_t index) {
   std::string name = classes[index].name;
-  for (auto parent = classes[index].parent; parent; parent = classes[parent.value].parent) name = classes[parent.value].name + "." + name;
+  for (auto parent = classes[index].parent; parent; parent = classes[parent.value].parent)
+    name = classes[parent.value].name + "." + name;
   return name;
 }
 
@@ -29,7 +30,8 @@ std::optional<std::uint32_t> find_class(const std::vector<Class>& classes, std::
 
 template <class Named>
 std::optional<std::uint32_t> find_named(const std::vector<Named>& members, std::string_view name) {
-  const auto found = std::find_if(members.begin(), members.end(), [&](const Named& member) { return member.name == name; });
+  const auto found = std::find_if(members.begin(), members.end(),
+                                  [&](const Named& member) { return member.name == name; });
   if (found == members.end()) return std::nullopt;
   return static_cast<std::uint32_t>(found - members.begin());
 }
@@ -46,9 +48,13 @@ void Fom::use_codec(std::string_view data_type, std::shared_ptr<const AttributeC
   bool is_used = false;
   for (ObjectClass& object_class : object_classes_)
     for (Attribute& attribute : object_class.attributes)
-      if (attribute.data_type == data_type) attribute.codec = codec, attribute.baselines = nullptr, is_used = true;
-  if (!is_used) throw FileError("object model '" + name_ + "': no attribute is of type '" + std::string(data_type) + "'");
-  for (const char letter : "codec " + std::string(data_type) + " " + codec->name() + "\n") hash_ = (hash_ ^ static_cast<unsigned char>(letter)) * 1099511628211ull;
+      if (attribute.data_type == data_type)
+        attribute.codec = codec, attribute.baselines = nullptr, is_used = true;
+  if (!is_used)
+    throw FileError("object model '" + name_ + "': no attribute is of type '" +
+                    std::string(data_type) + "'");
+  for (const char letter : "codec " + std::string(data_type) + " " + codec->name() + "\n")
+    hash_ = (hash_ ^ static_cast<unsigned char>(letter)) * 1099511628211ull;
 }
 
 std::optional<ObjectClassHandle> Fom::object_class(std::string_view name) const {
@@ -56,7 +62,8 @@ std::optional<ObjectClassHandle> Fom::object_class(std::string_view name) const 
   return index ? std::optional(ObjectClassHandle{*index}) : std::nullopt;
 }
 
-std::optional<AttributeHandle> Fom::attribute(ObjectClassHandle object_class, std::string_view name) const {
+std::optional<AttributeHandle> Fom::attribute(ObjectClassHandle object_class,
+                                              std::string_view name) const {
   if (name == "HLAprivilegeToDeleteObject") return privilege_to_delete_object;
   const auto index = find_named(at(object_class).attributes, name);
   return index ? std::optional(AttributeHandle{*index}) : std::nullopt;
@@ -67,7 +74,8 @@ std::optional<InteractionClassHandle> Fom::interaction_class(std::string_view na
   return index ? std::optional(InteractionClassHandle{*index}) : std::nullopt;
 }
 
-std::optional<ParameterHandle> Fom::parameter(InteractionClassHandle interaction_class, std::string_view name) const {
+std::optional<ParameterHandle> Fom::parameter(InteractionClassHandle interaction_class,
+                                              std::string_view name) const {
   const auto index = find_named(at(interaction_class).parameters, name);
   return index ? std::optional(ParameterHandle{*index}) : std::nullopt;
 }
@@ -95,13 +103,18 @@ AttributeSet Fom::attributes(ObjectClassHandle handle) const {
   return AttributeSet((1u << count) - 1u);
 }
 
-bool Fom::is_a(ObjectClassHandle handle, ObjectClassHandle ancestor) const { return inherits(object_classes_, handle, ancestor); }
-bool Fom::is_a(InteractionClassHandle handle, InteractionClassHandle ancestor) const { return inherits(interaction_classes_, handle, ancestor); }
+bool Fom::is_a(ObjectClassHandle handle, ObjectClassHandle ancestor) const {
+  return inherits(object_classes_, handle, ancestor);
+}
+bool Fom::is_a(InteractionClassHandle handle, InteractionClassHandle ancestor) const {
+  return inherits(interaction_classes_, handle, ancestor);
+}
 
 std::optional<std::uint32_t> Fom::values_size(ObjectClassHandle handle, AttributeSet set) const {
   std::uint32_t size = 0;
   for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
-    const Attribute& attribute = at(handle).attributes[static_cast<std::size_t>(std::countr_zero(bits))];
+    const Attribute& attribute =
+        at(handle).attributes[static_cast<std::size_t>(std::countr_zero(bits))];
     if (!attribute.size) return std::nullopt;
     size += *attribute.size;
   }
@@ -111,14 +124,16 @@ std::optional<std::uint32_t> Fom::values_size(ObjectClassHandle handle, Attribut
 bool Fom::values_fit(ObjectClassHandle handle, AttributeSet set, Bytes values) const {
   if (!attributes(handle).includes(set)) return false;
   for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
-    const auto size = plain_size(at(handle).attributes[static_cast<std::size_t>(std::countr_zero(bits))], values);
+    const auto size =
+        plain_size(at(handle).attributes[static_cast<std::size_t>(std::countr_zero(bits))], values);
     if (!size) return false;
     values = values.subspan(*size);
   }
   return values.empty();
 }
 
-Bytes Fom::value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute, Bytes values) const {
+Bytes Fom::value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute,
+                 Bytes values) const {
   for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
     const auto index = static_cast<std::uint32_t>(std::countr_zero(bits));
     const std::size_t size = plain_size(at(handle).attributes[index], values).value_or(0);

@@ -1,4 +1,5 @@
-// The federation object model: what federates may say to each other, read from an IEEE 1516.2 OMT XML file.
+// The federation object model: what federates may say to each other, read from an IEEE 1516.2 OMT
+// XML file.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +16,18 @@
 #include "rti/fom/dimension_set.h"
 #include "rti/fom/fom_switches.h"
 #include "rti/fom/quantised_codec.h"
-#include "rti/wire/bytes.h"
 #include "rti/handles.h"
 #include "rti/hla_error.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 
-/// A FOM or federation file that can't be used; `what` names file, line, element or key, and what is allowed.
+/// A FOM or federation file that can't be used; `what` names file, line, element or key, and what
+/// is allowed.
 class FileError : public std::runtime_error {
  public:
-  explicit FileError(const std::string& what, HlaError error = HlaError::error_reading_fdd) : std::runtime_error(what), error_(error) {}
+  explicit FileError(const std::string& what, HlaError error = HlaError::error_reading_fdd)
+      : std::runtime_error(what), error_(error) {}
   /// CouldNotOpenFDD, ErrorReadingFDD, or InconsistentFDD for modules that contradict each other.
   HlaError error() const { return error_; }
 
@@ -32,7 +35,8 @@ class FileError : public std::runtime_error {
   HlaError error_;
 };
 
-/// The text of one OMT XML module. `source` stands for the file's name in errors; only the standard's own may define names that begin with HLA.
+/// The text of one OMT XML module. `source` stands for the file's name in errors; only the
+/// standard's own may define names that begin with HLA.
 struct FomModule {
   std::string xml;
   std::string source;
@@ -50,9 +54,11 @@ struct Attribute {
   std::optional<std::uint32_t> size;  ///< encoded size [bytes]; nothing if it varies
   Transportation transportation = Transportation::reliable;
   Order order = Order::receive;
-  DimensionSet dimensions;            ///< those over which a region of it may be
+  DimensionSet dimensions;                      ///< those over which a region of it may be
   std::shared_ptr<const AttributeCodec> codec;  ///< null: values travel as they are
-  std::shared_ptr<const QuantisedCodec> baselines;  ///< not null: periodic state, which travels as differences to acknowledged baselines (rti/baselines)
+  std::shared_ptr<const QuantisedCodec>
+      baselines;  ///< not null: periodic state, which travels as differences to acknowledged
+                  ///< baselines (rti/baselines)
 };
 
 struct Parameter {
@@ -62,9 +68,10 @@ struct Parameter {
 };
 
 struct ObjectClass {
-  std::string name;                   ///< unqualified, as in the file
-  ObjectClassHandle parent;           ///< empty for the root
-  std::vector<Attribute> attributes;  ///< inherited ones first, so a handle means the same in every subclass
+  std::string name;          ///< unqualified, as in the file
+  ObjectClassHandle parent;  ///< empty for the root
+  std::vector<Attribute>
+      attributes;  ///< inherited ones first, so a handle means the same in every subclass
 };
 
 struct InteractionClass {
@@ -76,25 +83,29 @@ struct InteractionClass {
   DimensionSet dimensions;
 };
 
-/// One with an upper bound is the standard's: ranges are [lower, upper) over the integers from 0 to the bound. One without is measured: closed ranges of doubles in the unit of its
-/// data type, not normalised; so are X and Y [m], over which filters decide.
+/// One with an upper bound is the standard's: ranges are [lower, upper) over the integers from 0 to
+/// the bound. One without is measured: closed ranges of doubles in the unit of its data type, not
+/// normalised; so are X and Y [m], over which filters decide.
 struct Dimension {
   std::string name;
   std::optional<std::uint32_t> upper_bound;
 };
 
-/// Immutable once loaded and given its codecs; handles are indices into its arrays, equal for all who loaded an equal model.
+/// Immutable once loaded and given its codecs; handles are indices into its arrays, equal for all
+/// who loaded an equal model.
 class Fom {
  public:
   /// Throws `FileError`.
   static Fom load(const std::string& path);
   /// The same from text; `source` stands for the file's name in errors.
   static Fom parse(std::string_view xml, const std::string& source);
-  /// Several modules merged: what they repeat must be the same; classes are numbered as they first appear.
+  /// Several modules merged: what they repeat must be the same; classes are numbered as they first
+  /// appear.
   static Fom load(std::span<const std::string> paths);
   static Fom parse(std::span<const FomModule> modules);
 
-  /// From now on values of `data_type` travel as `codec` says. Before the model is handed to anybody. Throws `FileError` if no attribute is of that type.
+  /// From now on values of `data_type` travel as `codec` says. Before the model is handed to
+  /// anybody. Throws `FileError` if no attribute is of that type.
   void use_codec(std::string_view data_type, std::shared_ptr<const AttributeCodec> codec);
 
   const std::string& name() const { return name_; }
@@ -102,25 +113,33 @@ class Fom {
   const std::vector<InteractionClass>& interaction_classes() const { return interaction_classes_; }
   const std::vector<Dimension>& dimensions() const { return dimensions_; }
   const FomSwitches& switches() const { return switches_; }
-  /// True of a class of the management object model, which every model has behind its own (docs/rti.md, "Management"): the RTI's to speak of.
+  /// True of a class of the management object model, which every model has behind its own
+  /// (docs/rti.md, "Management"): the RTI's to speak of.
   bool is_management(ObjectClassHandle handle) const { return handle.value >= own_object_classes_; }
-  bool is_management(InteractionClassHandle handle) const { return handle.value >= own_interaction_classes_; }
+  bool is_management(InteractionClassHandle handle) const {
+    return handle.value >= own_interaction_classes_;
+  }
   /// True of those among them that federates send, for the RTI to act upon.
   bool is_for_rti(InteractionClassHandle handle) const;
 
-  /// Look-ups by name. A class may be named alone where that is unambiguous, or qualified from the root ("HLAobjectRoot.Entity").
-  /// Nothing if there is none, or several.
+  /// Look-ups by name. A class may be named alone where that is unambiguous, or qualified from the
+  /// root ("HLAobjectRoot.Entity"). Nothing if there is none, or several.
   std::optional<ObjectClassHandle> object_class(std::string_view name) const;
-  std::optional<AttributeHandle> attribute(ObjectClassHandle object_class, std::string_view name) const;
+  std::optional<AttributeHandle> attribute(ObjectClassHandle object_class,
+                                           std::string_view name) const;
   std::optional<InteractionClassHandle> interaction_class(std::string_view name) const;
-  std::optional<ParameterHandle> parameter(InteractionClassHandle interaction_class, std::string_view name) const;
+  std::optional<ParameterHandle> parameter(InteractionClassHandle interaction_class,
+                                           std::string_view name) const;
   std::optional<DimensionHandle> dimension(std::string_view name) const;
 
   /// The handle must name a class of this model.
   const ObjectClass& at(ObjectClassHandle handle) const { return object_classes_[handle.value]; }
-  const InteractionClass& at(InteractionClassHandle handle) const { return interaction_classes_[handle.value]; }
+  const InteractionClass& at(InteractionClassHandle handle) const {
+    return interaction_classes_[handle.value];
+  }
   const Dimension& at(DimensionHandle handle) const { return dimensions_[handle.value]; }
-  /// The attribute of a class that is told by baselines: the first of its attributes that are periodic and quantised throughout.
+  /// The attribute of a class that is told by baselines: the first of its attributes that are
+  /// periodic and quantised throughout.
   std::optional<AttributeHandle> periodic_attribute(ObjectClassHandle handle) const;
   /// All attributes of a class.
   AttributeSet attributes(ObjectClassHandle handle) const;
@@ -132,11 +151,14 @@ class Fom {
   std::optional<std::uint32_t> values_size(ObjectClassHandle handle, AttributeSet set) const;
   /// True if `values` are exactly one value for each attribute of `set`.
   bool values_fit(ObjectClassHandle handle, AttributeSet set, Bytes values) const;
-  /// Where the value of `attribute` stands in `values` of `set` (its length word included if its size varies); values must fit.
-  Bytes value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute, Bytes values) const;
+  /// Where the value of `attribute` stands in `values` of `set` (its length word included if its
+  /// size varies); values must fit.
+  Bytes value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute,
+              Bytes values) const;
 
-  /// Of what matters to a conversation: names, order, types, sizes, dimensions, codecs, switches; not of comments, layout, semantics or the management object model, which is always the
-  /// same. FNV-1a.
+  /// Of what matters to a conversation: names, order, types, sizes, dimensions, codecs, switches;
+  /// not of comments, layout, semantics or the management object model, which is always the same.
+  /// FNV-1a.
   std::uint64_t hash() const { return hash_; }
 
  private:
@@ -146,7 +168,8 @@ class Fom {
   std::vector<InteractionClass> interaction_classes_;
   std::vector<Dimension> dimensions_;
   FomSwitches switches_;
-  std::size_t own_object_classes_ = 0, own_interaction_classes_ = 0;  ///< those before the management object model's
+  std::size_t own_object_classes_ = 0,
+              own_interaction_classes_ = 0;  ///< those before the management object model's
   std::uint64_t hash_ = 0;
 };
 

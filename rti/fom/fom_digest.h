@@ -1,4 +1,5 @@
-// A short summary of a model, element by element, by which a refused federate finds out where its own differs.
+// A short summary of a model, element by element, by which a refused federate finds out where its
+// own differs.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,8 @@ struct FomDigestEntry {
 
 /// Classes, their own attributes or parameters, and dimensions, in the model's order.
 std::vector<FomDigestEntry> digest(const Fom& fom);
-/// How `own` differs from the model that `other` is of: "attribute 'speed' of object class 'Vessel' differs (and 2 more)". Empty if it does not.
+/// How `own` differs from the model that `other` is of: "attribute 'speed' of object class 'Vessel'
+/// differs (and 2 more)". Empty if it does not.
 std::string difference(const Fom& own, std::span<const FomDigestEntry> other);
 
 }  // namespace rink::rti

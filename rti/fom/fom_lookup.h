@@ -1,4 +1,5 @@
-// Names and handles: the look-ups of IEEE 1516.1-2010, clause 10, that the object model alone answers.
+// Names and handles: the look-ups of IEEE 1516.1-2010, clause 10, that the object model alone
+// answers.
 #pragma once
 
 #include <optional>
@@ -9,8 +10,10 @@
 
 namespace rink::rti {
 
-/// By name they throw NameNotFound, for handles of nothing ObjectClassNotDefined, AttributeNotDefined, InteractionClassNotDefined, InteractionParameterNotDefined,
-/// InvalidDimensionHandle. Class names may stand alone where that is unambiguous, and are told qualified.
+/// By name they throw NameNotFound, for handles of nothing ObjectClassNotDefined,
+/// AttributeNotDefined, InteractionClassNotDefined, InteractionParameterNotDefined,
+/// InvalidDimensionHandle. Class names may stand alone where that is unambiguous, and are told
+/// qualified.
 class FomLookup {
  public:
   /// Must outlive it.
@@ -20,11 +23,14 @@ class FomLookup {
   ObjectClassHandle get_object_class_handle(std::string_view name) const;
   std::string get_object_class_name(ObjectClassHandle object_class) const;
   AttributeHandle get_attribute_handle(ObjectClassHandle object_class, std::string_view name) const;
-  const std::string& get_attribute_name(ObjectClassHandle object_class, AttributeHandle attribute) const;
+  const std::string& get_attribute_name(ObjectClassHandle object_class,
+                                        AttributeHandle attribute) const;
   InteractionClassHandle get_interaction_class_handle(std::string_view name) const;
   std::string get_interaction_class_name(InteractionClassHandle interaction_class) const;
-  ParameterHandle get_parameter_handle(InteractionClassHandle interaction_class, std::string_view name) const;
-  const std::string& get_parameter_name(InteractionClassHandle interaction_class, ParameterHandle parameter) const;
+  ParameterHandle get_parameter_handle(InteractionClassHandle interaction_class,
+                                       std::string_view name) const;
+  const std::string& get_parameter_name(InteractionClassHandle interaction_class,
+                                        ParameterHandle parameter) const;
   /// "HLAreliable" and "HLAbestEffort".
   static Transportation get_transportation_type(std::string_view name);
   static std::string_view get_transportation_type_name(Transportation transportation);
@@ -34,8 +40,10 @@ class FomLookup {
   DimensionHandle get_dimension_handle(std::string_view name) const;
   const std::string& get_dimension_name(DimensionHandle dimension) const;
   std::optional<std::uint32_t> get_dimension_upper_bound(DimensionHandle dimension) const;
-  DimensionSet get_available_dimensions_for_class_attribute(ObjectClassHandle object_class, AttributeHandle attribute) const;
-  DimensionSet get_available_dimensions_for_interaction_class(InteractionClassHandle interaction_class) const;
+  DimensionSet get_available_dimensions_for_class_attribute(ObjectClassHandle object_class,
+                                                            AttributeHandle attribute) const;
+  DimensionSet get_available_dimensions_for_interaction_class(
+      InteractionClassHandle interaction_class) const;
 
  protected:
   void check(DimensionHandle dimension) const;

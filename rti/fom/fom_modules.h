@@ -1,4 +1,5 @@
-// The XML of one or several FOM modules: where each element stands, and how modules merge (IEEE 1516.2-2010, "FOM module merging").
+// The XML of one or several FOM modules: where each element stands, and how modules merge (IEEE
+// 1516.2-2010, "FOM module merging").
 #pragma once
 
 #include <deque>
@@ -11,8 +12,9 @@
 
 namespace rink::rti {
 
-/// Definitions may be repeated if they say the same, semantics aside; a class may be named without a content of its own to hang subclasses on it (scaffolding). All else is a conflict,
-/// an InconsistentFDD that names both places.
+/// Definitions may be repeated if they say the same, semantics aside; a class may be named without
+/// a content of its own to hang subclasses on it (scaffolding). All else is a conflict, an
+/// InconsistentFDD that names both places.
 class FomModules {
  public:
   using Node = pugi::xml_node;
@@ -22,7 +24,8 @@ class FomModules {
     std::vector<Node> nodes;
   };
 
-  /// Throws `FileError` unless each is well-formed XML whose outermost element is <objectModel>. The texts must outlive it.
+  /// Throws `FileError` unless each is well-formed XML whose outermost element is <objectModel>.
+  /// The texts must outlive it.
   explicit FomModules(std::span<const FomModule> modules);
 
   const std::vector<Node>& models() const { return models_; }
@@ -32,23 +35,29 @@ class FomModules {
   static std::string path(const Node& node);
   /// The one word that the child holds; throws if it is missing or holds anything else.
   std::string text(const Node& node, const char* child) const;
-  std::string text_or(const Node& node, const char* child, const char* otherwise) const { return node.child(child) ? text(node, child) : otherwise; }
-  /// All that the parents call `element`, by name, in the order of their first appearance. Throws if one parent has two of a name.
+  std::string text_or(const Node& node, const char* child, const char* otherwise) const {
+    return node.child(child) ? text(node, child) : otherwise;
+  }
+  /// All that the parents call `element`, by name, in the order of their first appearance. Throws
+  /// if one parent has two of a name.
   std::vector<Group> groups(std::span<const Node> parents, const char* element) const;
   /// The children of each model that are called so.
   std::vector<Node> sections(const char* element) const;
-  /// Throws InconsistentFDD unless both say the same; `of` stands behind the element's name, as " of class 'Vessel'".
+  /// Throws InconsistentFDD unless both say the same; `of` stands behind the element's name, as "
+  /// of class 'Vessel'".
   void require_same(const Node& first, const Node& second, const std::string& of) const;
   /// The same for one child, which either may lack.
   void require_same_child(const Node& first, const Node& second, const char* child) const;
   [[noreturn]] void conflict(const Node& here, const std::string& what, const Node& there) const;
-  /// Throws if a module that is not the standard's defines a name of the standard's: those that begin with HLA in any case.
+  /// Throws if a module that is not the standard's defines a name of the standard's: those that
+  /// begin with HLA in any case.
   void require_unreserved(const Group& group) const;
   bool is_standard(const Node& node) const { return module_of(node).is_standard; }
 
  private:
   const FomModule& module_of(const Node& node) const;
-  [[noreturn]] static void fail(const FomModule& module, std::ptrdiff_t offset, const std::string& what);
+  [[noreturn]] static void fail(const FomModule& module, std::ptrdiff_t offset,
+                                const std::string& what);
 
   std::span<const FomModule> modules_;
   std::deque<pugi::xml_document> documents_;

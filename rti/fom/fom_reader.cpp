@@ -30,10 +30,14 @@ class FomReader {
   using Node = pugi::xml_node;
   using Group = FomModules::Group;
 
-  [[noreturn]] void fail(const Node& node, const std::string& what) const { modules_.fail(node, what); }
+  [[noreturn]] void fail(const Node& node, const std::string& what) const {
+    modules_.fail(node, what);
+  }
   static std::string path(const Node& node) { return FomModules::path(node); }
   std::string text(const Node& node, const char* child) const { return modules_.text(node, child); }
-  std::string text_or(const Node& node, const char* child, const char* otherwise) const { return modules_.text_or(node, child, otherwise); }
+  std::string text_or(const Node& node, const char* child, const char* otherwise) const {
+    return modules_.text_or(node, child, otherwise);
+  }
 
   void read_dimensions();
   void read_object_class(const Group& group, ObjectClassHandle parent);
@@ -44,9 +48,11 @@ class FomReader {
   template <class Member>
   Member read_member(const Node& node, const std::vector<Member>& others, const std::string& owner);
   template <class Member>
-  void add_member(std::vector<Member>& members, Member member, std::size_t most, const Node& node, const Node& owner, const char* kind) const;
+  void add_member(std::vector<Member>& members, Member member, std::size_t most, const Node& node,
+                  const Node& owner, const char* kind) const;
   template <class Handle, class Class>
-  Handle add_class(std::vector<Class>& classes, Class read, const Node& node, const char* kind) const;
+  Handle add_class(std::vector<Class>& classes, Class read, const Node& node,
+                   const char* kind) const;
   Transportation transportation(const Node& node) const;
   Order order(const Node& node) const;
   DimensionSet dimensions_of(const Node& node) const;
@@ -61,19 +67,25 @@ class FomReader {
 
 Fom FomReader::read() {
   for (const Node& model : modules_.models())
-    if (fom_.name_.empty()) fom_.name_ = model.child("modelIdentification").child("name").text().get();
+    if (fom_.name_.empty())
+      fom_.name_ = model.child("modelIdentification").child("name").text().get();
   types_.read();
   read_dimensions();
-  const std::vector<Node> objects = modules_.sections("objects"), interactions = modules_.sections("interactions");
+  const std::vector<Node> objects = modules_.sections("objects"),
+                          interactions = modules_.sections("interactions");
   if (objects.empty()) fail(modules_.models().front(), "<objectModel> lacks <objects>");
   for (const Group& group : modules_.groups(objects, "objectClass")) read_object_class(group, {});
-  for (const Group& group : modules_.groups(interactions, "interactionClass")) read_interaction_class(group, {});
+  for (const Group& group : modules_.groups(interactions, "interactionClass"))
+    read_interaction_class(group, {});
   types_.check();
   fom_.switches_ = read_switches(modules_);
   fom_.hash_ = hash();
   fom_.own_object_classes_ = fom_.object_classes_.size();
   fom_.own_interaction_classes_ = fom_.interaction_classes_.size();
-  const bool brings_its_own = std::ranges::any_of(fom_.object_classes_, [](const ObjectClass& each) { return each.name == "HLAmanager"; });  // a module of the standard's
+  const bool brings_its_own =
+      std::ranges::any_of(fom_.object_classes_, [](const ObjectClass& each) {
+        return each.name == "HLAmanager";
+      });  // a module of the standard's
   if (!brings_its_own) append_management_classes(fom_.object_classes_, fom_.interaction_classes_);
   return std::move(fom_);
 }
@@ -83,7 +95,8 @@ void FomReader::read_dimensions() {
     const Node& node = group.nodes.front();
     modules_.require_unreserved(group);
     for (const Node& other : group.nodes) modules_.require_same(node, other, "");
-    if (fom_.dimensions_.size() == dimension_max) fail(node, "more than " + std::to_string(dimension_max) + " dimensions");
+    if (fom_.dimensions_.size() == dimension_max)
+      fail(node, "more than " + std::to_string(dimension_max) + " dimensions");
     fom_.dimensions_.push_back({group.name, upper_bound(node)});
   }
 }
@@ -91,9 +104,12 @@ void FomReader::read_dimensions() {
 std::optional<std::uint32_t> FomReader::upper_bound(const Node& node) const {
   if (!node.child("upperBound")) return std::nullopt;
   const std::string number = text(node, "upperBound");
-  const bool is_number = number.find_first_not_of("0123456789") == std::string::npos && number.size() <= 10;
+  const bool is_number =
+      number.find_first_not_of("0123456789") == std::string::npos && number.size() <= 10;
   const std::uint64_t value = is_number ? std::stoull(number) : 0;
-  if (value == 0 || value > 0xffffffffu) fail(node.child("upperBound"), path(node) + " must have an <upperBound> that is a whole number from 1 to 4294967295");
+  if (value == 0 || value > 0xffffffffu)
+    fail(node.child("upperBound"),
+         path(node) + " must have an <upperBound> that is a whole number from 1 to 4294967295");
   return static_cast<std::uint32_t>(value);
 }
 
@@ -102,7 +118,9 @@ DimensionSet FomReader::dimensions_of(const Node& node) const {
   for (const Node& dimension : node.child("dimensions").children("dimension")) {
     const std::string name = dimension.text().get();
     const auto handle = fom_.dimension(name);
-    if (!handle) fail(dimension, path(node) + " has the unknown dimension '" + name + "'; allowed are those in <dimensions>");
+    if (!handle)
+      fail(dimension, path(node) + " has the unknown dimension '" + name +
+                          "'; allowed are those in <dimensions>");
     set.insert(*handle);
   }
   return set;
@@ -112,24 +130,29 @@ Transportation FomReader::transportation(const Node& node) const {
   const std::string name = text_or(node, "transportation", "HLAreliable");
   if (name == "HLAreliable") return Transportation::reliable;
   if (name == "HLAbestEffort") return Transportation::best_effort;
-  fail(node.child("transportation"), path(node) + " has transportation '" + name + "'; allowed are HLAreliable, HLAbestEffort");
+  fail(node.child("transportation"),
+       path(node) + " has transportation '" + name + "'; allowed are HLAreliable, HLAbestEffort");
 }
 
 Order FomReader::order(const Node& node) const {
   const std::string name = text_or(node, "order", "Receive");
   if (name == "Receive") return Order::receive;
   if (name == "TimeStamp") return Order::timestamp;
-  fail(node.child("order"), path(node) + " has order '" + name + "'; allowed are Receive, TimeStamp");
+  fail(node.child("order"),
+       path(node) + " has order '" + name + "'; allowed are Receive, TimeStamp");
 }
 
-/// Members of a class that two modules define in full must be the same, in whatever order; the first module's order counts.
-void FomReader::require_same_members(const Node& first, const Node& second, const char* element) const {
+/// Members of a class that two modules define in full must be the same, in whatever order; the
+/// first module's order counts.
+void FomReader::require_same_members(const Node& first, const Node& second,
+                                     const char* element) const {
   const std::array both{first, second};
   const std::string of = " of class '" + text(first, "name") + "'";
   for (const Group& group : modules_.groups(both, element)) {
     const Node& node = group.nodes.front();
     if (group.nodes.size() == 2) modules_.require_same(node, group.nodes.back(), of);
-    else if (node.parent() == second) modules_.conflict(node, path(node) + of + " is missing in the definition", first);
+    else if (node.parent() == second)
+      modules_.conflict(node, path(node) + of + " is missing in the definition", first);
     else modules_.conflict(second, path(node) + of + " is missing here; it is defined", node);
   }
 }
@@ -150,10 +173,13 @@ void FomReader::read_object_class(const Group& group, ObjectClassHandle parent) 
   for (const Node& attribute : definition.children("attribute")) {
     if (text(attribute, "name") == "HLAprivilegeToDeleteObject") continue;  // every object has it
     modules_.require_unreserved({text(attribute, "name"), {attribute}});
-    add_member(object_class.attributes, read_attribute(attribute, object_class), named_attribute_max, attribute, front, "attributes");
+    add_member(object_class.attributes, read_attribute(attribute, object_class),
+               named_attribute_max, attribute, front, "attributes");
   }
-  const auto handle = add_class<ObjectClassHandle>(fom_.object_classes_, std::move(object_class), front, "object classes");
-  for (const Group& child : modules_.groups(group.nodes, "objectClass")) read_object_class(child, handle);
+  const auto handle = add_class<ObjectClassHandle>(fom_.object_classes_, std::move(object_class),
+                                                   front, "object classes");
+  for (const Group& child : modules_.groups(group.nodes, "objectClass"))
+    read_object_class(child, handle);
 }
 
 Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) {
@@ -161,12 +187,14 @@ Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) 
   attribute.transportation = transportation(node);
   attribute.order = order(node);
   attribute.dimensions = dimensions_of(node);
-  const bool is_first = std::ranges::none_of(owner.attributes, [](const Attribute& other) { return other.baselines != nullptr; });
+  const bool is_first = std::ranges::none_of(
+      owner.attributes, [](const Attribute& other) { return other.baselines != nullptr; });
   quantise(attribute, is_first && text_or(node, "updateType", "NA") == "Periodic");
   return attribute;
 }
 
-/// State that is told periodically travels as differences to baselines, unless some of it is not quantised.
+/// State that is told periodically travels as differences to baselines, unless some of it is not
+/// quantised.
 void FomReader::quantise(Attribute& attribute, bool is_periodic) {
   if (!attribute.size) return;
   try {
@@ -174,10 +202,9 @@ void FomReader::quantise(Attribute& attribute, bool is_periodic) {
     const QuantisationReader::Layout layout{
         [this](const std::string& type) { return types_.size_of(type, {}).value_or(0); },
         [this](const Node& record) { return types_.padding_of(record); }};
-    const auto codec =
-        known != codecs_.end()
-            ? known->second
-            : QuantisationReader::codec_of(attribute.data_type, types_.declared(), layout);
+    const auto codec = known != codecs_.end() ? known->second
+                                              : QuantisationReader::codec_of(
+                                                    attribute.data_type, types_.declared(), layout);
     codecs_[attribute.data_type] = codec;
     attribute.codec = codec;
     if (codec && is_periodic && codec->is_all_quantised()) attribute.baselines = codec;
@@ -195,11 +222,14 @@ void FomReader::read_interaction_class(const Group& group, InteractionClassHandl
   if (parent) interaction_class.parameters = fom_.at(parent).parameters;
   Node definition;
   for (const Node& node : group.nodes) {
-    if (!node.child("parameter") && !node.child("transportation") && !node.child("order") && !node.child("dimensions")) continue;  // a scaffold
+    if (!node.child("parameter") && !node.child("transportation") && !node.child("order") &&
+        !node.child("dimensions"))
+      continue;  // a scaffold
     if (!definition) definition = node;
     if (definition == node) continue;
     require_same_members(definition, node, "parameter");
-    for (const char* element : {"transportation", "order", "dimensions"}) modules_.require_same_child(definition, node, element);
+    for (const char* element : {"transportation", "order", "dimensions"})
+      modules_.require_same_child(definition, node, element);
   }
   if (!definition) definition = front;
   interaction_class.transportation = transportation(definition);
@@ -207,32 +237,42 @@ void FomReader::read_interaction_class(const Group& group, InteractionClassHandl
   interaction_class.dimensions = dimensions_of(definition);
   for (const Node& parameter : definition.children("parameter")) {
     modules_.require_unreserved({text(parameter, "name"), {parameter}});
-    add_member(interaction_class.parameters, read_member(parameter, interaction_class.parameters, group.name), parameter_max, parameter, front, "parameters");
+    add_member(interaction_class.parameters,
+               read_member(parameter, interaction_class.parameters, group.name), parameter_max,
+               parameter, front, "parameters");
   }
-  const auto handle = add_class<InteractionClassHandle>(fom_.interaction_classes_, std::move(interaction_class), front, "interaction classes");
-  for (const Group& child : modules_.groups(group.nodes, "interactionClass")) read_interaction_class(child, handle);
+  const auto handle = add_class<InteractionClassHandle>(
+      fom_.interaction_classes_, std::move(interaction_class), front, "interaction classes");
+  for (const Group& child : modules_.groups(group.nodes, "interactionClass"))
+    read_interaction_class(child, handle);
 }
 
-/// What attributes and parameters have in common; `others` are the members of class `owner` so far, inherited ones included.
+/// What attributes and parameters have in common; `others` are the members of class `owner` so far,
+/// inherited ones included.
 template <class Member>
-Member FomReader::read_member(const Node& node, const std::vector<Member>& others, const std::string& owner) {
+Member FomReader::read_member(const Node& node, const std::vector<Member>& others,
+                              const std::string& owner) {
   Member member;
   member.name = text(node, "name");
   for (const Member& other : others)
-    if (other.name == member.name) fail(node, path(node) + " is declared twice in class '" + owner + "' or what it inherits");
+    if (other.name == member.name)
+      fail(node, path(node) + " is declared twice in class '" + owner + "' or what it inherits");
   member.data_type = text(node, "dataType");
   member.size = types_.size_of(member.data_type, node);
   return member;
 }
 
 template <class Member>
-void FomReader::add_member(std::vector<Member>& members, Member member, std::size_t most, const Node& node, const Node& owner, const char* kind) const {
+void FomReader::add_member(std::vector<Member>& members, Member member, std::size_t most,
+                           const Node& node, const Node& owner, const char* kind) const {
   members.push_back(std::move(member));
-  if (members.size() > most) fail(node, path(owner) + " has more than " + std::to_string(most) + " " + kind);
+  if (members.size() > most)
+    fail(node, path(owner) + " has more than " + std::to_string(most) + " " + kind);
 }
 
 template <class Handle, class Class>
-Handle FomReader::add_class(std::vector<Class>& classes, Class read, const Node& node, const char* kind) const {
+Handle FomReader::add_class(std::vector<Class>& classes, Class read, const Node& node,
+                            const char* kind) const {
   const Handle handle{static_cast<std::uint32_t>(classes.size())};
   if (handle.value == class_max) fail(node, "more than " + std::to_string(class_max) + " " + kind);
   classes.push_back(std::move(read));
@@ -242,7 +282,8 @@ Handle FomReader::add_class(std::vector<Class>& classes, Class read, const Node&
 std::uint64_t FomReader::hash() const {
   std::uint64_t value = 14695981039346656037ull;
   const auto mix = [&](const std::string& word) {
-    for (const char letter : word + "\n") value = (value ^ static_cast<unsigned char>(letter)) * 1099511628211ull;
+    for (const char letter : word + "\n")
+      value = (value ^ static_cast<unsigned char>(letter)) * 1099511628211ull;
   };
   const auto mix_number = [&](std::uint64_t number) { mix(std::to_string(number)); };
   const auto mix_member = [&](const auto& member) {
@@ -252,26 +293,33 @@ std::uint64_t FomReader::hash() const {
     mix("object " + each.name), mix_number(each.parent.value);
     for (const Attribute& attribute : each.attributes) {
       mix_member(attribute);
-      mix_number(static_cast<std::uint64_t>(attribute.transportation)), mix_number(static_cast<std::uint64_t>(attribute.order)), mix_number(attribute.dimensions.bits);
+      mix_number(static_cast<std::uint64_t>(attribute.transportation)),
+          mix_number(static_cast<std::uint64_t>(attribute.order)),
+          mix_number(attribute.dimensions.bits);
     }
   }
   for (const InteractionClass& each : fom_.interaction_classes_) {
     mix("interaction " + each.name), mix_number(each.parent.value);
-    mix_number(static_cast<std::uint64_t>(each.transportation)), mix_number(static_cast<std::uint64_t>(each.order)), mix_number(each.dimensions.bits);
+    mix_number(static_cast<std::uint64_t>(each.transportation)),
+        mix_number(static_cast<std::uint64_t>(each.order)), mix_number(each.dimensions.bits);
     for (const Parameter& parameter : each.parameters) mix_member(parameter);
   }
-  for (const Dimension& dimension : fom_.dimensions_) mix("dimension " + dimension.name), mix_number(dimension.upper_bound.value_or(0));
+  for (const Dimension& dimension : fom_.dimensions_)
+    mix("dimension " + dimension.name), mix_number(dimension.upper_bound.value_or(0));
   for (const auto& [type, codec] : codecs_)
     if (codec) mix("codec " + type + " " + codec->name());
   for (const ObjectClass& each : fom_.object_classes_)
     for (const Attribute& attribute : each.attributes)
       if (attribute.baselines) mix("baselines " + each.name + " " + attribute.name);
-  if (const std::string switches = fom_.switches_.text(); !switches.empty()) mix("switches " + switches);
+  if (const std::string switches = fom_.switches_.text(); !switches.empty())
+    mix("switches " + switches);
   return value;
 }
 
 Fom Fom::parse(std::span<const FomModule> modules) {
-  if (modules.empty()) throw FileError("a federation object model needs at least one module", HlaError::could_not_open_fdd);
+  if (modules.empty())
+    throw FileError("a federation object model needs at least one module",
+                    HlaError::could_not_open_fdd);
   return FomReader(modules).read();
 }
 
@@ -283,7 +331,9 @@ Fom Fom::parse(std::string_view xml, const std::string& source) {
 FomModule read_fom_module(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) throw FileError(path + ": can't be read; expected an OMT XML file", HlaError::could_not_open_fdd);
+  if (!file || !(text << file.rdbuf()))
+    throw FileError(path + ": can't be read; expected an OMT XML file",
+                    HlaError::could_not_open_fdd);
   return {text.str(), path};
 }
 

@@ -21,15 +21,22 @@ constexpr std::array known_switches = {
     Switch{"objectClassRelevanceAdvisory", &FomSwitches::object_class_relevance_advisory},
     Switch{"interactionRelevanceAdvisory", &FomSwitches::interaction_relevance_advisory},
 };
-/// Those that may only be off: the regions of updates and interactions are not told, services and exceptions are not reported, subscriptions are not judged late.
-constexpr std::array never_on = {"conveyRegionDesignatorSets", "serviceReporting", "exceptionReporting", "delaySubscriptionEvaluation"};
+/// Those that may only be off: the regions of updates and interactions are not told, services and
+/// exceptions are not reported, subscriptions are not judged late.
+constexpr std::array never_on = {"conveyRegionDesignatorSets", "serviceReporting",
+                                 "exceptionReporting", "delaySubscriptionEvaluation"};
 /// May only be on: the sender of an interaction is always told.
 constexpr const char* always_on = "conveyProducingFederate";
-constexpr std::array resign_actions = {"UnconditionallyDivestAttributes", "DeleteObjects", "CancelPendingOwnershipAcquisitions", "DeleteObjectsThenDivest", "CancelThenDeleteThenDivest", "NoAction"};
+constexpr std::array resign_actions = {
+    "UnconditionallyDivestAttributes",    "DeleteObjects",
+    "CancelPendingOwnershipAcquisitions", "DeleteObjectsThenDivest",
+    "CancelThenDeleteThenDivest",         "NoAction"};
 
 bool is_enabled(const FomModules& modules, const pugi::xml_node& node) {
   const std::string value = node.attribute("isEnabled").value();
-  if (value != "true" && value != "false") modules.fail(node, "<" + std::string(node.name()) + "> of <switches> has isEnabled \"" + value + "\"; allowed are true, false");
+  if (value != "true" && value != "false")
+    modules.fail(node, "<" + std::string(node.name()) + "> of <switches> has isEnabled \"" + value +
+                           "\"; allowed are true, false");
   return value == "true";
 }
 
@@ -38,21 +45,29 @@ void read_switch(const FomModules& modules, const pugi::xml_node& node, FomSwitc
   if (name == "automaticResignAction") {
     const std::string action = node.attribute("resignAction").value();
     const auto found = std::ranges::find(resign_actions, action);
-    if (found == resign_actions.end()) modules.fail(node, "<automaticResignAction> of <switches> has resignAction \"" + action + "\"; allowed are the standard's, such as CancelThenDeleteThenDivest");
+    if (found == resign_actions.end())
+      modules.fail(node, "<automaticResignAction> of <switches> has resignAction \"" + action +
+                             "\"; allowed are the standard's, such as CancelThenDeleteThenDivest");
     switches.automatic_resign_action = static_cast<ResignAction>(found - resign_actions.begin());
     return;
   }
   const bool is_on = is_enabled(modules, node);
-  const auto known = std::ranges::find_if(known_switches, [&](const Switch& each) { return name == each.name; });
+  const auto known =
+      std::ranges::find_if(known_switches, [&](const Switch& each) { return name == each.name; });
   if (known != known_switches.end()) {
     switches.*(known->value) = is_on;
     return;
   }
   if (name == always_on) {
-    if (!is_on) modules.fail(node, "<" + name + "> can't be disabled: whoever receives an interaction is always told its sender");
+    if (!is_on)
+      modules.fail(
+          node,
+          "<" + name +
+              "> can't be disabled: whoever receives an interaction is always told its sender");
     return;
   }
-  if (std::ranges::find(never_on, name) == never_on.end()) modules.fail(node, "<switches> holds <" + name + ">, which is no switch of the standard");
+  if (std::ranges::find(never_on, name) == never_on.end())
+    modules.fail(node, "<switches> holds <" + name + ">, which is no switch of the standard");
   if (is_on) modules.fail(node, "<" + name + "> can't be enabled: this RTI does not do that");
 }
 
@@ -73,8 +88,12 @@ FomSwitches read_switches(const FomModules& modules) {
       if (node.type() != pugi::node_element) continue;
       for (const pugi::xml_node& other : tables)
         for (const char* value : {"isEnabled", "resignAction"})
-          if (const pugi::xml_node same = other.child(node.name()); same && std::string_view(same.attribute(value).value()) != node.attribute(value).value())
-            modules.conflict(same, "switch <" + std::string(node.name()) + "> differs from its definition", node);
+          if (const pugi::xml_node same = other.child(node.name());
+              same &&
+              std::string_view(same.attribute(value).value()) != node.attribute(value).value())
+            modules.conflict(
+                same, "switch <" + std::string(node.name()) + "> differs from its definition",
+                node);
       read_switch(modules, node, switches);
     }
   return switches;

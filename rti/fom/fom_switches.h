@@ -1,4 +1,5 @@
-// The switches table of an object model (IEEE 1516.2-2010, 4.10): how a federation execution begins.
+// The switches table of an object model (IEEE 1516.2-2010, 4.10): how a federation execution
+// begins.
 #pragma once
 
 #include <string>
@@ -9,17 +10,20 @@ namespace rink::rti {
 
 class FomModules;
 
-/// What a model leaves out is as it is here. The advisories are those of each federate when it joins, which its own services switch from then on.
+/// What a model leaves out is as it is here. The advisories are those of each federate when it
+/// joins, which its own services switch from then on.
 struct FomSwitches {
   bool auto_provide = false;  ///< owners are asked for values whenever an object is discovered
-  bool attribute_scope_advisory = true, attribute_relevance_advisory = false, object_class_relevance_advisory = true, interaction_relevance_advisory = true;
+  bool attribute_scope_advisory = true, attribute_relevance_advisory = false,
+       object_class_relevance_advisory = true, interaction_relevance_advisory = true;
   ResignAction automatic_resign_action = ResignAction::cancel_then_delete_then_divest;
   friend bool operator==(const FomSwitches&, const FomSwitches&) = default;
   /// In one word, for the hash; empty if nothing differs from the above.
   std::string text() const;
 };
 
-/// Throws `FileError`: a switch that is unknown or neither true nor false, one that two modules set differently, or one that asks for what this RTI does not do.
+/// Throws `FileError`: a switch that is unknown or neither true nor false, one that two modules set
+/// differently, or one that asks for what this RTI does not do.
 FomSwitches read_switches(const FomModules& modules);
 
 }  // namespace rink::rti

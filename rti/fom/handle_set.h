@@ -25,7 +25,9 @@ struct HandleSet {
     assert(handle.value < capacity);
     bits |= Word{1} << handle.value;
   }
-  bool contains(Handle handle) const { return handle.value < capacity && (bits >> handle.value & Word{1}) != 0; }
+  bool contains(Handle handle) const {
+    return handle.value < capacity && (bits >> handle.value & Word{1}) != 0;
+  }
   bool includes(HandleSet other) const { return (other.bits & ~bits) == 0; }
   bool is_empty() const { return bits == 0; }
   std::size_t count() const { return static_cast<std::size_t>(std::popcount(bits)); }
@@ -38,7 +40,8 @@ struct HandleSet {
   /// Calls `visit(Handle)` for each member in ascending order.
   template <class Visit>
   void for_each(Visit visit) const {
-    for (Word left = bits; left != 0; left &= left - 1) visit(Handle{static_cast<std::uint32_t>(std::countr_zero(left))});
+    for (Word left = bits; left != 0; left &= left - 1)
+      visit(Handle{static_cast<std::uint32_t>(std::countr_zero(left))});
   }
   friend HandleSet operator|(HandleSet a, HandleSet b) { return HandleSet(a.bits | b.bits); }
   friend HandleSet operator&(HandleSet a, HandleSet b) { return HandleSet(a.bits & b.bits); }

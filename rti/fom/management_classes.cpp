@@ -21,8 +21,13 @@ constexpr Member text(const char* name) { return {name, "HLAunicodeString", 0}; 
 constexpr Member handles(const char* name) { return {name, "HLAhandleList", 0}; }
 
 constexpr std::array federation_attributes = {
-    text("HLAfederationName"),         handles("HLAfederatesInFederation"), text("HLARTIversion"),      text("HLAMIMdesignator"),
-    text("HLAFOMmoduleDesignatorList"), text("HLAtimeImplementationName"),   truth("HLAautoProvide"),
+    text("HLAfederationName"),
+    handles("HLAfederatesInFederation"),
+    text("HLARTIversion"),
+    text("HLAMIMdesignator"),
+    text("HLAFOMmoduleDesignatorList"),
+    text("HLAtimeImplementationName"),
+    truth("HLAautoProvide"),
 };
 constexpr std::array federate_attributes = {
     handle("HLAfederateHandle"),
@@ -50,8 +55,10 @@ constexpr std::array federate_attributes = {
 
 constexpr std::array of_federate = {handle("HLAfederate")};
 constexpr std::array timing = {Member{"HLAreportPeriod", "HLAseconds", 4}};
-constexpr std::array object_publication = {count("HLAnumberOfClasses"), handle("HLAobjectClass"), handles("HLAattributeList")};
-constexpr std::array object_subscription = {count("HLAnumberOfClasses"), handle("HLAobjectClass"), truth("HLAactive"), handles("HLAattributeList")};
+constexpr std::array object_publication = {count("HLAnumberOfClasses"), handle("HLAobjectClass"),
+                                           handles("HLAattributeList")};
+constexpr std::array object_subscription = {count("HLAnumberOfClasses"), handle("HLAobjectClass"),
+                                            truth("HLAactive"), handles("HLAattributeList")};
 constexpr std::array interaction_list = {handles("HLAinteractionClassList")};
 constexpr std::array switches = {truth("HLAautoProvide")};
 constexpr std::array points = {Member{"HLAsyncPoints", "HLAsynchPointList", 0}};
@@ -83,7 +90,9 @@ const std::array interactions = {
     Interaction{3, "HLAreportSynchronizationPoints", points},
 };
 
-std::optional<std::uint32_t> size_of(const Member& member) { return member.size != 0 ? std::optional(member.size) : std::nullopt; }
+std::optional<std::uint32_t> size_of(const Member& member) {
+  return member.size != 0 ? std::optional(member.size) : std::nullopt;
+}
 
 template <class Class>
 auto root_of(std::vector<Class>& classes, const char* name) {
@@ -98,7 +107,8 @@ auto root_of(std::vector<Class>& classes, const char* name) {
   return handle;
 }
 
-ObjectClassHandle append(std::vector<ObjectClass>& classes, ObjectClassHandle parent, const char* name, std::span<const Member> members) {
+ObjectClassHandle append(std::vector<ObjectClass>& classes, ObjectClassHandle parent,
+                         const char* name, std::span<const Member> members) {
   ObjectClass added;
   added.name = name;
   added.parent = parent;
@@ -110,28 +120,34 @@ ObjectClassHandle append(std::vector<ObjectClass>& classes, ObjectClassHandle pa
     attribute.size = size_of(each);
   }
   if (added.attributes.size() > named_attribute_max)
-    throw FileError("HLAobjectRoot has " + std::to_string(classes[parent.value].attributes.size()) + " attributes, which leaves no room for those of " + added.name);
+    throw FileError("HLAobjectRoot has " + std::to_string(classes[parent.value].attributes.size()) +
+                    " attributes, which leaves no room for those of " + added.name);
   classes.push_back(std::move(added));
   return {static_cast<std::uint32_t>(classes.size() - 1)};
 }
 
-InteractionClassHandle append(std::vector<InteractionClass>& classes, InteractionClassHandle parent, const Interaction& interaction) {
+InteractionClassHandle append(std::vector<InteractionClass>& classes, InteractionClassHandle parent,
+                              const Interaction& interaction) {
   InteractionClass added;
   added.name = interaction.name;
   added.parent = parent;
   added.parameters = classes[parent.value].parameters;
-  for (const Member& each : interaction.parameters) added.parameters.push_back({each.name, each.data_type, size_of(each)});
+  for (const Member& each : interaction.parameters)
+    added.parameters.push_back({each.name, each.data_type, size_of(each)});
   classes.push_back(std::move(added));
   return {static_cast<std::uint32_t>(classes.size() - 1)};
 }
 
 }  // namespace
 
-void append_management_classes(std::vector<ObjectClass>& object_classes, std::vector<InteractionClass>& interaction_classes) {
-  const ObjectClassHandle manager = append(object_classes, root_of(object_classes, "HLAobjectRoot"), "HLAmanager", {});
+void append_management_classes(std::vector<ObjectClass>& object_classes,
+                               std::vector<InteractionClass>& interaction_classes) {
+  const ObjectClassHandle manager =
+      append(object_classes, root_of(object_classes, "HLAobjectRoot"), "HLAmanager", {});
   append(object_classes, manager, "HLAfederation", federation_attributes);
   append(object_classes, manager, "HLAfederate", federate_attributes);
-  std::array<InteractionClassHandle, 5> path{root_of(interaction_classes, "HLAinteractionRoot")};  // by depth + 1: the class that others hang on
+  std::array<InteractionClassHandle, 5> path{root_of(
+      interaction_classes, "HLAinteractionRoot")};  // by depth + 1: the class that others hang on
   for (const Interaction& each : interactions) {
     const auto depth = static_cast<std::size_t>(each.depth);
     path[depth + 1] = append(interaction_classes, path[depth], each);

@@ -23,18 +23,29 @@ struct Representation {
   bool is_big_endian;
 };
 constexpr std::array representations = {
-    Representation{"HLAfloat32LE", Form::float32, 4, false},     Representation{"HLAfloat32BE", Form::float32, 4, true},
-    Representation{"HLAfloat64LE", Form::float64, 8, false},     Representation{"HLAfloat64BE", Form::float64, 8, true},
-    Representation{"HLAinteger16LE", Form::integer16, 2, false}, Representation{"HLAinteger16BE", Form::integer16, 2, true},
-    Representation{"HLAinteger32LE", Form::integer32, 4, false}, Representation{"HLAinteger32BE", Form::integer32, 4, true},
+    Representation{"HLAfloat32LE", Form::float32, 4, false},
+    Representation{"HLAfloat32BE", Form::float32, 4, true},
+    Representation{"HLAfloat64LE", Form::float64, 8, false},
+    Representation{"HLAfloat64BE", Form::float64, 8, true},
+    Representation{"HLAinteger16LE", Form::integer16, 2, false},
+    Representation{"HLAinteger16BE", Form::integer16, 2, true},
+    Representation{"HLAinteger32LE", Form::integer32, 4, false},
+    Representation{"HLAinteger32BE", Form::integer32, 4, true},
 };
 
-std::string named(const Node& node) { return std::string("<").append(node.name()).append("> '").append(node.child("name").text().get()).append("'"); }
+std::string named(const Node& node) {
+  return std::string("<")
+      .append(node.name())
+      .append("> '")
+      .append(node.child("name").text().get())
+      .append("'");
+}
 
 /// The rest of the note of `node` that begins with `words`; nothing if it has none.
 std::optional<std::string> note(const Node& node, const std::string& words) {
   std::istringstream labels(node.attribute("notes").value());
-  const Node model = node.root().find_child([](const Node& each) { return each.type() == pugi::node_element; });
+  const Node model =
+      node.root().find_child([](const Node& each) { return each.type() == pugi::node_element; });
   for (std::string label; labels >> label;)
     for (const Node& each : model.child("notes").children("note")) {
       if (each.child("label").text().get() != label) continue;
@@ -49,13 +60,23 @@ std::optional<std::string> note(const Node& node, const std::string& words) {
 /// True if `form` holds each value of the grid exactly.
 bool holds(Form form, const Quantisation& grid) {
   constexpr double float_multiple_max = 1 << 24;
-  const auto is_within = [&](double low, double high) { return grid.step >= 1.0 && grid.low() >= low && grid.high() <= high; };
+  const auto is_within = [&](double low, double high) {
+    return grid.step >= 1.0 && grid.low() >= low && grid.high() <= high;
+  };
   switch (form) {
-    case Form::float32: return std::max(std::abs(grid.low()), std::abs(grid.high())) / grid.step <= float_multiple_max;
-    case Form::float64: return true;
-    case Form::integer16: return is_within(std::numeric_limits<std::int16_t>::min(), std::numeric_limits<std::int16_t>::max());
-    case Form::integer32: return is_within(std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max());
-    case Form::octets: break;
+    case Form::float32:
+      return std::max(std::abs(grid.low()), std::abs(grid.high())) / grid.step <=
+             float_multiple_max;
+    case Form::float64:
+      return true;
+    case Form::integer16:
+      return is_within(std::numeric_limits<std::int16_t>::min(),
+                       std::numeric_limits<std::int16_t>::max());
+    case Form::integer32:
+      return is_within(std::numeric_limits<std::int32_t>::min(),
+                       std::numeric_limits<std::int32_t>::max());
+    case Form::octets:
+      break;
   }
   return false;
 }
@@ -70,12 +91,20 @@ QuantisedField ranged_field(const Node& node) {
   std::istringstream bounds(range), resolution(node.child("resolution").text().get());
   double low = 0.0, high = 0.0, step = 0.0;
   std::string rest;
-  if (!(bounds >> low >> high) || bounds >> rest) throw QuantisationError{node, named(node) + " has a note 'range " + range + "'; expected 'range LOW HIGH', two numbers"};
-  if (!(resolution >> step) || resolution >> rest || !(step > 0.0)) throw QuantisationError{node, named(node) + " has a range, so its <resolution> must be a number above 0"};
+  if (!(bounds >> low >> high) || bounds >> rest)
+    throw QuantisationError{node, named(node) + " has a note 'range " + range +
+                                      "'; expected 'range LOW HIGH', two numbers"};
+  if (!(resolution >> step) || resolution >> rest || !(step > 0.0))
+    throw QuantisationError{
+        node, named(node) + " has a range, so its <resolution> must be a number above 0"};
   if (field.form == Form::octets)
-    throw QuantisationError{node, named(node) + " has a range, so its <representation> must be HLAfloat32, HLAfloat64, HLAinteger16 or HLAinteger32, LE or BE"};
+    throw QuantisationError{node, named(node) +
+                                      " has a range, so its <representation> must be HLAfloat32, "
+                                      "HLAfloat64, HLAinteger16 or HLAinteger32, LE or BE"};
   field.grid = Quantisation::of(low, high, 0.5 * step);
-  if (!field.grid || !holds(field.form, *field.grid)) throw QuantisationError{node, named(node) + " has a range and resolution that its representation cannot hold"};
+  if (!field.grid || !holds(field.form, *field.grid))
+    throw QuantisationError{
+        node, named(node) + " has a range and resolution that its representation cannot hold"};
   return field;
 }
 
@@ -90,7 +119,8 @@ class Flattening {
     const auto found = types_.find(type);
     const std::string_view kind = found == types_.end() ? "" : found->second.name();
     if (kind == "fixedRecordData") return add_record(found->second, padding);
-    if (kind == "simpleData" && note(found->second, "range")) fields.push_back(ranged_field(found->second));
+    if (kind == "simpleData" && note(found->second, "range"))
+      fields.push_back(ranged_field(found->second));
     else fields.push_back({.size = layout_.size_of(type)});
     fields.back().padding = padding;
   }
@@ -112,8 +142,11 @@ class Flattening {
       if (!rated) continue;
       const auto of = places.find(*rated);
       const std::size_t self = places[field.child("name").text().get()];
-      if (of == places.end() || of->second == self || !fields[self].grid || !fields[of->second].grid)
-        throw QuantisationError{field, named(field) + " is the rate of '" + *rated + "'; both must be fields of " + named(record) + " with a range and a resolution"};
+      if (of == places.end() || of->second == self || !fields[self].grid ||
+          !fields[of->second].grid)
+        throw QuantisationError{field, named(field) + " is the rate of '" + *rated +
+                                           "'; both must be fields of " + named(record) +
+                                           " with a range and a resolution"};
       fields[self].rate_of = static_cast<std::uint32_t>(of->second);
     }
   }
@@ -130,7 +163,8 @@ std::shared_ptr<const QuantisedCodec> QuantisationReader::codec_of(const std::st
   Flattening flat(types, layout);
   flat.add(data_type, 0);
   const auto has_grid = [](const QuantisedField& field) { return field.grid.has_value(); };
-  if (flat.fields.size() > QuantisedCodec::field_max || std::ranges::none_of(flat.fields, has_grid)) return nullptr;
+  if (flat.fields.size() > QuantisedCodec::field_max || std::ranges::none_of(flat.fields, has_grid))
+    return nullptr;
   return std::make_shared<QuantisedCodec>(std::move(flat.fields));
 }
 

@@ -18,8 +18,10 @@ struct QuantisationError {
   std::string what;
 };
 
-/// Finds the codecs of data types: of a simple type whose <resolution> is a number and that has a note "range LOW HIGH", and of fixed records that hold such a type. A field of a
-/// record whose note says "rate of FIELD" is that field's change per second, by which receivers of periodic state look ahead.
+/// Finds the codecs of data types: of a simple type whose <resolution> is a number and that has a
+/// note "range LOW HIGH", and of fixed records that hold such a type. A field of a record whose
+/// note says "rate of FIELD" is that field's change per second, by which receivers of periodic
+/// state look ahead.
 class QuantisationReader {
  public:
   using Types = std::map<std::string, pugi::xml_node>;

@@ -21,11 +21,16 @@ double load_as(const QuantisedField& field, Bytes at) {
 
 double load(const QuantisedField& field, Bytes at) {
   switch (field.form) {
-    case Form::float32: return load_as<float>(field, at);
-    case Form::float64: return load_as<double>(field, at);
-    case Form::integer16: return load_as<std::int16_t>(field, at);
-    case Form::integer32: return load_as<std::int32_t>(field, at);
-    case Form::octets: break;
+    case Form::float32:
+      return load_as<float>(field, at);
+    case Form::float64:
+      return load_as<double>(field, at);
+    case Form::integer16:
+      return load_as<std::int16_t>(field, at);
+    case Form::integer32:
+      return load_as<std::int32_t>(field, at);
+    case Form::octets:
+      break;
   }
   return 0.0;
 }
@@ -39,11 +44,16 @@ void append_as(const QuantisedField& field, double number, std::vector<std::byte
 
 void append(const QuantisedField& field, double number, std::vector<std::byte>& value) {
   switch (field.form) {
-    case Form::float32: return append_as<float>(field, number, value);
-    case Form::float64: return append_as<double>(field, number, value);
-    case Form::integer16: return append_as<std::int16_t>(field, number, value);
-    case Form::integer32: return append_as<std::int32_t>(field, number, value);
-    case Form::octets: break;
+    case Form::float32:
+      return append_as<float>(field, number, value);
+    case Form::float64:
+      return append_as<double>(field, number, value);
+    case Form::integer16:
+      return append_as<std::int16_t>(field, number, value);
+    case Form::integer32:
+      return append_as<std::int32_t>(field, number, value);
+    case Form::octets:
+      break;
   }
   assert(false && "octets have no grid");
 }
@@ -89,7 +99,9 @@ std::string QuantisedCodec::name() const {
   for (const QuantisedField& field : fields_) {
     add(' ', static_cast<int>(field.form));
     add(field.is_big_endian ? 'b' : 'l', field.size);
-    if (field.grid) add(':', std::ilogb(field.grid->step)), add(':', field.grid->first), add(':', static_cast<std::int64_t>(field.grid->last));
+    if (field.grid)
+      add(':', std::ilogb(field.grid->step)), add(':', field.grid->first),
+          add(':', static_cast<std::int64_t>(field.grid->last));
     if (field.rate_of) add('@', *field.rate_of);
     if (field.padding != 0) add('+', field.padding);
   }
@@ -128,7 +140,8 @@ std::optional<std::size_t> QuantisedCodec::size(Bytes coded) const {
 bool QuantisedCodec::is_sound(BitReader bits) const {
   for (const QuantisedField& field : fields_) {
     double number = 0.0;
-    if (field.grid ? !bits.quantised(number, *field.grid) : !bits.skip(8 * field.size)) return false;
+    if (field.grid ? !bits.quantised(number, *field.grid) : !bits.skip(8 * field.size))
+      return false;
   }
   return bits.finish();
 }
@@ -148,7 +161,8 @@ bool QuantisedCodec::decode(BitReader& bits, std::vector<std::byte>& value) cons
   for (const QuantisedField& field : fields_) {
     double number = 0.0;
     append_padding(field, value);
-    if (!(field.grid ? bits.quantised(number, *field.grid) : read_octets(bits, field.size, value))) return false;
+    if (!(field.grid ? bits.quantised(number, *field.grid) : read_octets(bits, field.size, value)))
+      return false;
     if (field.grid) append(field, number, value);
   }
   return true;
@@ -159,7 +173,8 @@ bool QuantisedCodec::decode(Bytes coded, double, std::vector<std::byte>& value) 
   return decode(bits, value) && bits.finish() && bits.left() == 0;
 }
 
-std::optional<bool> QuantisedCodec::decode(BitReader& bits, Counts& counts, std::vector<std::byte>& value) const {
+std::optional<bool> QuantisedCodec::decode(BitReader& bits, Counts& counts,
+                                           std::vector<std::byte>& value) const {
   assert(is_all_quantised_);
   bool is_full = false;
   if (!bits.flag(is_full) || !(is_full ? read_in_full(bits, value) : exchange_counts(bits, counts)))

@@ -47,19 +47,23 @@ class QuantisedCodec : public AttributeCodec {
     return is_full ? 1 + 8 * fields_size_ : packed_bits_;
   }
 
-  /// The counts of a coded value of a record that `is_all_quantised`; false if it travels in full. `coded` must have its size.
+  /// The counts of a coded value of a record that `is_all_quantised`; false if it travels in full.
+  /// `coded` must have its size.
   bool read_counts(Bytes coded, Counts& counts) const;
   /// Reads or writes the counts alone; a reader returns false if one is out of its range.
   template <class Stream>
   bool exchange_counts(Stream& stream, Counts& counts) const {
     for (std::size_t i = 0; i < fields_.size(); ++i)
-      if (!stream.ranged(counts[i], 0, static_cast<std::int64_t>(fields_[i].grid->last))) return false;
+      if (!stream.ranged(counts[i], 0, static_cast<std::int64_t>(fields_[i].grid->last)))
+        return false;
     return true;
   }
   /// Appends the value of a record that `is_all_quantised`.
   void append_value(const Counts& counts, std::vector<std::byte>& value) const;
-  /// Reads one coded value of such a record from the middle of a stream and appends it; nothing if it is malformed, false if it travels in full and thus has no counts.
-  std::optional<bool> decode(BitReader& reader, Counts& counts, std::vector<std::byte>& value) const;
+  /// Reads one coded value of such a record from the middle of a stream and appends it; nothing if
+  /// it is malformed, false if it travels in full and thus has no counts.
+  std::optional<bool> decode(BitReader& reader, Counts& counts,
+                             std::vector<std::byte>& value) const;
 
   std::string name() const override;
   void encode(Bytes value, double time, std::vector<std::byte>& coded) const override;

@@ -19,7 +19,8 @@ void MemberLists::remove_federate(std::uint32_t federate) {
 }
 
 bool MemberLists::is_member(std::uint32_t group, std::uint32_t federate) const {
-  return group < members_.size() && std::ranges::find(members_[group], federate) != members_[group].end();
+  return group < members_.size() &&
+         std::ranges::find(members_[group], federate) != members_[group].end();
 }
 
 std::span<const std::uint32_t> MemberLists::receivers(std::uint32_t group, std::uint32_t sender) {

@@ -1,4 +1,5 @@
-// What a federation execution knows of itself and its federates, as the management object model of IEEE 1516.1-2010, clause 11, names it.
+// What a federation execution knows of itself and its federates, as the management object model of
+// IEEE 1516.1-2010, clause 11, names it.
 #pragma once
 
 #include <array>
@@ -10,17 +11,18 @@
 
 namespace rink::rti {
 
-/// Of one federate, counted by the RTI since it joined; "sent" and "received" are seen from the federate.
+/// Of one federate, counted by the RTI since it joined; "sent" and "received" are seen from the
+/// federate.
 struct FederateCounts {
-  std::uint64_t updates_sent = 0, reflections_received = 0;          ///< objects, not attributes
+  std::uint64_t updates_sent = 0, reflections_received = 0;  ///< objects, not attributes
   std::uint64_t interactions_sent = 0, interactions_received = 0;
-  std::uint64_t bytes_sent = 0, bytes_received = 0;                  ///< payload, frame headers included
-  std::uint64_t queue_bytes = 0;                                     ///< sent to it, not yet taken by the operating system
+  std::uint64_t bytes_sent = 0, bytes_received = 0;  ///< payload, frame headers included
+  std::uint64_t queue_bytes = 0;  ///< sent to it, not yet taken by the operating system
   std::uint32_t objects_owned = 0, objects_in_scope = 0, regions = 0;
   std::uint8_t is_time_regulating = 0, is_time_constrained = 0;
-  double logical_time = 0.0;                                         ///< [s]; 0 while it neither regulates nor is constrained
-  double earliest_stamp = 0.0;                                       ///< the least that it may still use [s]; 0 unless it regulates
-  double silence_s = 0.0;                                            ///< since something was heard of it
+  double logical_time = 0.0;    ///< [s]; 0 while it neither regulates nor is constrained
+  double earliest_stamp = 0.0;  ///< the least that it may still use [s]; 0 unless it regulates
+  double silence_s = 0.0;       ///< since something was heard of it
   friend bool operator==(const FederateCounts&, const FederateCounts&) = default;
 };
 

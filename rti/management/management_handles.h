@@ -8,15 +8,22 @@
 
 namespace rink::rti {
 
-/// Handles of nothing where the model brings management classes of its own, by a module of the standard's: then the RTI tells nothing by objects.
+/// Handles of nothing where the model brings management classes of its own, by a module of the
+/// standard's: then the RTI tells nothing by objects.
 struct ManagementHandles {
   ObjectClassHandle federation, federate;
-  InteractionClassHandle set_timing, set_switches, request_publications, request_subscriptions, request_points;
-  InteractionClassHandle report_object_publication, report_object_subscription, report_interaction_publication, report_interaction_subscription, report_points;
+  InteractionClassHandle set_timing, set_switches, request_publications, request_subscriptions,
+      request_points;
+  InteractionClassHandle report_object_publication, report_object_subscription,
+      report_interaction_publication, report_interaction_subscription, report_points;
 
   explicit ManagementHandles(const Fom& fom) {
-    const auto object = [&fom](const char* name) { return own(fom, fom.object_class(std::string("HLAobjectRoot.HLAmanager.") + name)); };
-    const auto interaction = [&fom](const char* name) { return own(fom, fom.interaction_class(std::string("HLAinteractionRoot.HLAmanager.") + name)); };
+    const auto object = [&fom](const char* name) {
+      return own(fom, fom.object_class(std::string("HLAobjectRoot.HLAmanager.") + name));
+    };
+    const auto interaction = [&fom](const char* name) {
+      return own(fom, fom.interaction_class(std::string("HLAinteractionRoot.HLAmanager.") + name));
+    };
     federation = object("HLAfederation");
     federate = object("HLAfederate");
     set_timing = interaction("HLAfederate.HLAadjust.HLAsetTiming");
@@ -24,10 +31,14 @@ struct ManagementHandles {
     request_publications = interaction("HLAfederate.HLArequest.HLArequestPublications");
     request_subscriptions = interaction("HLAfederate.HLArequest.HLArequestSubscriptions");
     request_points = interaction("HLAfederation.HLArequest.HLArequestSynchronizationPoints");
-    report_object_publication = interaction("HLAfederate.HLAreport.HLAreportObjectClassPublication");
-    report_object_subscription = interaction("HLAfederate.HLAreport.HLAreportObjectClassSubscription");
-    report_interaction_publication = interaction("HLAfederate.HLAreport.HLAreportInteractionPublication");
-    report_interaction_subscription = interaction("HLAfederate.HLAreport.HLAreportInteractionSubscription");
+    report_object_publication =
+        interaction("HLAfederate.HLAreport.HLAreportObjectClassPublication");
+    report_object_subscription =
+        interaction("HLAfederate.HLAreport.HLAreportObjectClassSubscription");
+    report_interaction_publication =
+        interaction("HLAfederate.HLAreport.HLAreportInteractionPublication");
+    report_interaction_subscription =
+        interaction("HLAfederate.HLAreport.HLAreportInteractionSubscription");
     report_points = interaction("HLAfederation.HLAreport.HLAreportSynchronizationPoints");
   }
 
@@ -39,6 +50,8 @@ struct ManagementHandles {
 };
 
 /// The value of HLARTIversion.
-inline std::string rti_version() { return "Rink, protocol version " + std::to_string(protocol_version); }
+inline std::string rti_version() {
+  return "Rink, protocol version " + std::to_string(protocol_version);
+}
 
 }  // namespace rink::rti

@@ -1,4 +1,5 @@
-// Values of the management object model: how the RTI writes them, and how a federate that subscribes to it reads them.
+// Values of the management object model: how the RTI writes them, and how a federate that
+// subscribes to it reads them.
 #pragma once
 
 #include <bit>
@@ -14,7 +15,8 @@
 
 namespace rink::rti {
 
-/// Appends values as the standard encodes them, big-endian; one of varying size behind its length [bytes], a little-endian u32, as all that travel here.
+/// Appends values as the standard encodes them, big-endian; one of varying size behind its length
+/// [bytes], a little-endian u32, as all that travel here.
 class ManagementWriter {
  public:
   explicit ManagementWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {}
@@ -42,7 +44,8 @@ class ManagementWriter {
 
  private:
   void length(std::size_t size) {
-    for (unsigned byte = 0; byte < 4; ++byte) bytes_.push_back(static_cast<std::byte>(size >> 8 * byte & 0xff));
+    for (unsigned byte = 0; byte < 4; ++byte)
+      bytes_.push_back(static_cast<std::byte>(size >> 8 * byte & 0xff));
   }
   void big_endian(std::uint64_t value, unsigned size) {
     while (size-- > 0) bytes_.push_back(static_cast<std::byte>(value >> 8 * size & 0xff));
@@ -51,7 +54,8 @@ class ManagementWriter {
   std::vector<std::byte>& bytes_;
 };
 
-/// Reads them one after the other. What is cut short reads as zeros and empty texts, and is no longer `is_whole`.
+/// Reads them one after the other. What is cut short reads as zeros and empty texts, and is no
+/// longer `is_whole`.
 class ManagementReader {
  public:
   explicit ManagementReader(Bytes bytes) : bytes_(bytes) {}
@@ -84,12 +88,14 @@ class ManagementReader {
   Bytes varying() {
     std::size_t size = 0;
     const Bytes word = take(4);
-    for (std::size_t byte = word.size(); byte-- > 0;) size = size << 8 | std::to_integer<std::size_t>(word[byte]);
+    for (std::size_t byte = word.size(); byte-- > 0;)
+      size = size << 8 | std::to_integer<std::size_t>(word[byte]);
     return take(size);
   }
   std::uint64_t big_endian(std::size_t size) {
     std::uint64_t value = 0;
-    for (const std::byte each : take(size)) value = value << 8 | std::to_integer<std::uint64_t>(each);
+    for (const std::byte each : take(size))
+      value = value << 8 | std::to_integer<std::uint64_t>(each);
     return value;
   }
 

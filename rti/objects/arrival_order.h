@@ -10,7 +10,8 @@
 
 namespace rink::rti {
 
-/// Of each object in scope that has best-effort attributes, the order (rti/wire/datagram.h) of the newest value of each. Other objects cost nothing.
+/// Of each object in scope that has best-effort attributes, the order (rti/wire/datagram.h) of the
+/// newest value of each. Other objects cost nothing.
 class ArrivalOrder {
  public:
   explicit ArrivalOrder(const Fom& fom) {
@@ -38,22 +39,29 @@ class ArrivalOrder {
     free_.push_back(*place);
     places_.erase(object);
   }
-  /// Notes that values of `set` were said at `order`, and returns those that are not older than what is known; none of an object that is not in scope.
-  AttributeSet accept(ObjectHandle object, std::uint16_t object_class, AttributeSet set, std::uint64_t order) {
+  /// Notes that values of `set` were said at `order`, and returns those that are not older than
+  /// what is known; none of an object that is not in scope.
+  AttributeSet accept(ObjectHandle object, std::uint16_t object_class, AttributeSet set,
+                      std::uint64_t order) {
     const std::uint32_t* place = places_.find(object);
     if (place == nullptr) return {};
     AttributeSet accepted;
     const AttributeSet best_effort = best_effort_[object_class];
     for (std::uint32_t bits = (set & best_effort).bits; bits != 0; bits &= bits - 1) {
       const auto attribute = static_cast<std::uint32_t>(std::countr_zero(bits));
-      std::uint64_t& newest = newest_[*place * stride_ + static_cast<std::size_t>(std::popcount(best_effort.bits & ((1u << attribute) - 1)))];
+      std::uint64_t& newest =
+          newest_[*place * stride_ + static_cast<std::size_t>(std::popcount(
+                                         best_effort.bits & ((1u << attribute) - 1)))];
       if (order < newest) continue;
       newest = order;
       accepted.insert({attribute});
     }
     return accepted;
   }
-  std::size_t memory_bytes() const { return places_.memory_bytes() + newest_.capacity() * sizeof newest_[0] + free_.capacity() * sizeof free_[0]; }
+  std::size_t memory_bytes() const {
+    return places_.memory_bytes() + newest_.capacity() * sizeof newest_[0] +
+           free_.capacity() * sizeof free_[0];
+  }
 
  private:
   std::uint32_t take_place() {

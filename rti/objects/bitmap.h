@@ -9,7 +9,8 @@
 
 namespace rink::rti {
 
-/// Numbers never inserted cost nothing to ask for. Memory is one bit per number up to the greatest inserted.
+/// Numbers never inserted cost nothing to ask for. Memory is one bit per number up to the greatest
+/// inserted.
 class Bitmap {
  public:
   void insert(std::uint32_t number) {
@@ -41,11 +42,14 @@ class Bitmap {
   template <class Visit>
   void for_each(Visit visit) const {
     for (std::size_t i = 0; i < words_.size(); ++i)
-      for (std::uint64_t bits = words_[i]; bits != 0; bits &= bits - 1) visit(static_cast<std::uint32_t>(i * 64 + static_cast<std::size_t>(std::countr_zero(bits))));
+      for (std::uint64_t bits = words_[i]; bits != 0; bits &= bits - 1)
+        visit(
+            static_cast<std::uint32_t>(i * 64 + static_cast<std::size_t>(std::countr_zero(bits))));
   }
 
-  /// Calls `visit(number)` for each member from `first` on, then for those below it, until it returns false. Returns the number for which it did, 0 if it never did: who
-  /// goes on from there next time starves nobody. `visit` may erase members.
+  /// Calls `visit(number)` for each member from `first` on, then for those below it, until it
+  /// returns false. Returns the number for which it did, 0 if it never did: who goes on from there
+  /// next time starves nobody. `visit` may erase members.
   template <class Visit>
   std::uint32_t visit_from(std::uint32_t first, Visit visit) const {
     std::optional<std::uint32_t> stop;

@@ -11,17 +11,22 @@
 
 namespace rink::rti {
 
-/// An object without a name of its own is called by its handle, "HLAobject 17", which nobody may reserve; so every object has a unique name and most names cost nothing.
+/// An object without a name of its own is called by its handle, "HLAobject 17", which nobody may
+/// reserve; so every object has a unique name and most names cost nothing.
 class NameBook {
  public:
-  static constexpr std::string_view own_prefix = "HLA";  ///< of names that are the RTI's to give (IEEE 1516.1-2010, 6.2)
-  static std::string default_name(ObjectHandle object) { return "HLAobject " + std::to_string(object.value); }
+  static constexpr std::string_view own_prefix =
+      "HLA";  ///< of names that are the RTI's to give (IEEE 1516.1-2010, 6.2)
+  static std::string default_name(ObjectHandle object) {
+    return "HLAobject " + std::to_string(object.value);
+  }
 
   void reserve(std::string_view name) { reserved_.emplace(name, false); }
   void granted(std::string_view name) {
     if (const auto found = reserved_.find(name); found != reserved_.end()) found->second = true;
   }
-  /// A reservation ends: it failed, was released or used. False if there is none, or `is_granted_only` and it is not granted yet.
+  /// A reservation ends: it failed, was released or used. False if there is none, or
+  /// `is_granted_only` and it is not granted yet.
   bool end_reservation(std::string_view name, bool is_granted_only = false) {
     const auto found = reserved_.find(name);
     if (found == reserved_.end() || (is_granted_only && !found->second)) return false;
@@ -48,7 +53,8 @@ class NameBook {
     const std::string* name = names_.find(object);
     return name != nullptr ? *name : default_name(object);
   }
-  /// Of a name of its own, or of one that follows from its handle; whether there is such an object is the caller's to know.
+  /// Of a name of its own, or of one that follows from its handle; whether there is such an object
+  /// is the caller's to know.
   std::optional<ObjectHandle> find(std::string_view name) const {
     if (const auto found = objects_.find(name); found != objects_.end()) return found->second;
     const std::string_view start = "HLAobject ";
@@ -60,15 +66,18 @@ class NameBook {
       number = 10 * number + static_cast<std::uint64_t>(digit - '0');
     }
     object.value = static_cast<std::uint32_t>(number);
-    if (number > 0xffffffffu || default_name(object) != name || names_.find(object) != nullptr) return std::nullopt;
+    if (number > 0xffffffffu || default_name(object) != name || names_.find(object) != nullptr)
+      return std::nullopt;
     return object;
   }
-  std::size_t memory_bytes() const { return names_.memory_bytes() + objects_.size() * (sizeof(std::string) + 64); }
+  std::size_t memory_bytes() const {
+    return names_.memory_bytes() + objects_.size() * (sizeof(std::string) + 64);
+  }
 
  private:
-  std::map<std::string, bool, std::less<>> reserved_;           ///< by name: granted, or only asked for
+  std::map<std::string, bool, std::less<>> reserved_;  ///< by name: granted, or only asked for
   ObjectMap<std::string> names_;
-  std::map<std::string, ObjectHandle, std::less<>> objects_;    ///< those with a name of their own
+  std::map<std::string, ObjectHandle, std::less<>> objects_;  ///< those with a name of their own
 };
 
 }  // namespace rink::rti

@@ -1,4 +1,5 @@
-// A map from object handles to small values whose memory follows what is in it, not the greatest handle.
+// A map from object handles to small values whose memory follows what is in it, not the greatest
+// handle.
 #pragma once
 
 #include <cassert>
@@ -11,8 +12,9 @@
 
 namespace rink::rti {
 
-/// Open addressing with linear probing, at most three quarters full; what is erased leaves no trace, so look-ups never slow down. A federate that sees 100 of
-/// 100,000 objects keeps 1 to 2 kB where a table over all handles takes 800 kB, and a look-up stays within its processor's cache.
+/// Open addressing with linear probing, at most three quarters full; what is erased leaves no
+/// trace, so look-ups never slow down. A federate that sees 100 of 100,000 objects keeps 1 to 2 kB
+/// where a table over all handles takes 800 kB, and a look-up stays within its processor's cache.
 template <class Value>
 class ObjectMap {
  public:
@@ -24,7 +26,9 @@ class ObjectMap {
     const std::size_t at = place_of(object.value);
     return slots_[at].key == object.value ? &slots_[at].value : nullptr;
   }
-  const Value* find(ObjectHandle object) const { return const_cast<ObjectMap*>(this)->find(object); }
+  const Value* find(ObjectHandle object) const {
+    return const_cast<ObjectMap*>(this)->find(object);
+  }
 
   /// The value of `object`, which is inserted if it is not there.
   Value& operator[](ObjectHandle object) {
@@ -41,9 +45,11 @@ class ObjectMap {
   void erase(ObjectHandle object) {
     if (find(object) == nullptr) return;
     std::size_t hole = place_of(object.value);
-    // Whatever would no longer be found because the probe from its home ends at the hole moves into it (Knuth, volume 3, 6.4, algorithm R).
+    // Whatever would no longer be found because the probe from its home ends at the hole moves into
+    // it (Knuth, volume 3, 6.4, algorithm R).
     for (std::size_t at = next(hole); slots_[at].key != nobody; at = next(at)) {
-      const std::size_t from_home = (at - home_of(slots_[at].key)) & mask(), from_hole = (at - hole) & mask();
+      const std::size_t from_home = (at - home_of(slots_[at].key)) & mask(),
+                        from_hole = (at - hole) & mask();
       if (from_home < from_hole) continue;
       slots_[hole] = std::move(slots_[at]);
       hole = at;
@@ -70,8 +76,11 @@ class ObjectMap {
 
   std::size_t mask() const { return slots_.size() - 1; }
   std::size_t next(std::size_t at) const { return (at + 1) & mask(); }
-  /// Handles of neighbours in the world may be neighbours in number: the golden ratio scatters them (Knuth, volume 3, 6.4).
-  std::size_t home_of(std::uint32_t key) const { return (key * std::uint64_t{0x9E3779B97F4A7C15} >> 32) & mask(); }
+  /// Handles of neighbours in the world may be neighbours in number: the golden ratio scatters them
+  /// (Knuth, volume 3, 6.4).
+  std::size_t home_of(std::uint32_t key) const {
+    return (key * std::uint64_t{0x9E3779B97F4A7C15} >> 32) & mask();
+  }
   /// Where `key` is, or the empty slot where it would go.
   std::size_t place_of(std::uint32_t key) const {
     std::size_t at = home_of(key);

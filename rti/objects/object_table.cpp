@@ -27,7 +27,8 @@ ObjectTable::ObjectTable(const Fom& fom) : fom_(fom) {
   }
 }
 
-ObjectSlot ObjectTable::insert(ObjectHandle handle, std::uint32_t owner, std::uint16_t object_class, std::string_view name) {
+ObjectSlot ObjectTable::insert(ObjectHandle handle, std::uint32_t owner, std::uint16_t object_class,
+                               std::string_view name) {
   assert(!was_registered(handle));
   ObjectSlot slot = slot_count();
   if (free_.empty()) {
@@ -43,7 +44,8 @@ ObjectSlot ObjectTable::insert(ObjectHandle handle, std::uint32_t owner, std::ui
   object.is_alive = true;
   object.name = name;
   object.fixed.resize(layouts_[object_class].fixed_size);
-  if (layouts_[object_class].has_varying) object.varying.resize(layouts_[object_class].offsets.size());
+  if (layouts_[object_class].has_varying)
+    object.varying.resize(layouts_[object_class].offsets.size());
   const std::uint32_t number = handle.value % object_block;
   Block& block = block_of(handle);
   if (number >= block.slots.size()) block.slots.resize(number + 1, no_object);
@@ -71,7 +73,9 @@ ObjectTable::Block& ObjectTable::block_of(ObjectHandle handle) {
   return blocks_[block];
 }
 
-void ObjectTable::pass_over(ObjectHandle handle) { block_of(handle).registered = handle.value % object_block + 1; }
+void ObjectTable::pass_over(ObjectHandle handle) {
+  block_of(handle).registered = handle.value % object_block + 1;
+}
 
 void ObjectTable::close_block(std::uint32_t block) {
   if (block >= blocks_.size()) return;
@@ -87,7 +91,9 @@ void ObjectTable::recycle() {
 
 ObjectSlot ObjectTable::find(ObjectHandle handle) const {
   const std::uint32_t block = handle.value / object_block, number = handle.value % object_block;
-  return block < blocks_.size() && number < blocks_[block].slots.size() ? blocks_[block].slots[number] : no_object;
+  return block < blocks_.size() && number < blocks_[block].slots.size()
+             ? blocks_[block].slots[number]
+             : no_object;
 }
 
 bool ObjectTable::was_registered(ObjectHandle handle) const {
@@ -108,8 +114,11 @@ void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes coded) {
       if (size != 0) std::memcpy(object.fixed.data() + layout.offsets[index], coded.data(), size);
     } else {
       const AttributeSet one(1u << index);
-      size = bits == one.bits ? coded.size() : coded_size(object_class, one, coded).value_or(0);  // the last one takes the rest
-      object.varying[index].assign(coded.begin(), coded.begin() + static_cast<std::ptrdiff_t>(size));
+      size = bits == one.bits
+                 ? coded.size()
+                 : coded_size(object_class, one, coded).value_or(0);  // the last one takes the rest
+      object.varying[index].assign(coded.begin(),
+                                   coded.begin() + static_cast<std::ptrdiff_t>(size));
     }
     coded = coded.subspan(size);
   }
@@ -134,7 +143,9 @@ void ObjectTable::append(ObjectSlot slot, AttributeSet set, std::vector<std::byt
   for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
     const auto index = static_cast<std::size_t>(std::countr_zero(bits));
     const Attribute& attribute = object_class.attributes[index];
-    const Bytes value = is_fixed(attribute) ? Bytes(object.fixed).subspan(layout.offsets[index], *attribute.size) : Bytes(object.varying[index]);
+    const Bytes value = is_fixed(attribute)
+                            ? Bytes(object.fixed).subspan(layout.offsets[index], *attribute.size)
+                            : Bytes(object.varying[index]);
     bytes.insert(bytes.end(), value.begin(), value.end());
   }
 }

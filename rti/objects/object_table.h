@@ -14,29 +14,35 @@ namespace rink::rti {
 /// Index into the table; used again some time after the object is gone.
 using ObjectSlot = std::uint32_t;
 inline constexpr ObjectSlot no_object = 0xffffffffu;
-inline constexpr std::uint32_t no_federate = 0xffffffffu;  ///< where a federate's slot may stand for nobody
+inline constexpr std::uint32_t no_federate =
+    0xffffffffu;  ///< where a federate's slot may stand for nobody
 
 struct Object {
   ObjectHandle handle;
   static constexpr std::uint32_t no_negotiation = 0xffffffffu;
-  std::uint32_t owner = 0;  ///< slot of the federate that owns every attribute; no_federate if several do or some are unowned (rti/ownership)
+  std::uint32_t owner = 0;  ///< slot of the federate that owns every attribute; no_federate if
+                            ///< several do or some are unowned (rti/ownership)
   std::uint32_t negotiation = no_negotiation;  ///< the ownership's record, if it has one
   std::uint16_t object_class = 0;
   bool is_alive = false;
-  bool is_leaving = false;           ///< deleted at a logical time that some have not reached: nobody discovers it any more
-  AttributeSet valued;               ///< attributes that have a value
+  bool is_leaving = false;  ///< deleted at a logical time that some have not reached: nobody
+                            ///< discovers it any more
+  AttributeSet valued;      ///< attributes that have a value
   std::string name;
-  std::vector<std::byte> fixed;      ///< coded values of fixed size, at the class's offsets
+  std::vector<std::byte> fixed;  ///< coded values of fixed size, at the class's offsets
   std::vector<std::vector<std::byte>> varying;  ///< coded values of varying size, by attribute
 };
 
-/// Latest values serve late joiners and those who come into scope; storing one touches one object only.
+/// Latest values serve late joiners and those who come into scope; storing one touches one object
+/// only.
 class ObjectTable {
  public:
   explicit ObjectTable(const Fom& fom);
 
-  ObjectSlot insert(ObjectHandle handle, std::uint32_t owner, std::uint16_t object_class, std::string_view name);
-  /// The slot is kept until `recycle`, so that what was said of the object this tick can still be told from what a new one says.
+  ObjectSlot insert(ObjectHandle handle, std::uint32_t owner, std::uint16_t object_class,
+                    std::string_view name);
+  /// The slot is kept until `recycle`, so that what was said of the object this tick can still be
+  /// told from what a new one says.
   void erase(ObjectSlot slot);
   void recycle();
 
@@ -50,7 +56,9 @@ class ObjectTable {
   /// The handle is used up without an object.
   void pass_over(ObjectHandle handle);
   /// Living objects whose handles are in `block`.
-  std::uint32_t alive_in(std::uint32_t block) const { return block < blocks_.size() ? blocks_[block].alive : 0; }
+  std::uint32_t alive_in(std::uint32_t block) const {
+    return block < blocks_.size() ? blocks_[block].alive : 0;
+  }
   /// No more objects come in `block`: its memory goes with the last of them.
   void close_block(std::uint32_t block);
   /// Calls `visit(slot)` for each living object whose handle is in `block`.

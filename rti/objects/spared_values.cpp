@@ -6,7 +6,8 @@
 
 namespace rink::rti {
 
-SparedValues::Spared& SparedValues::keep(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes values, double time) {
+SparedValues::Spared& SparedValues::keep(ObjectHandle object, ObjectClassHandle object_class,
+                                         AttributeSet attributes, Bytes values, double time) {
   Spared& spared = objects_[object];
   const std::size_t count = fom_.at(object_class).attributes.size();
   if (spared.values.empty()) {
@@ -37,10 +38,13 @@ void SparedValues::forget(ObjectHandle object, AttributeSet attributes) {
   objects_.erase(object);
 }
 
-std::vector<ObjectHandle> SparedValues::list(ObjectClassHandle object_class, AttributeSet attributes) const {
+std::vector<ObjectHandle> SparedValues::list(ObjectClassHandle object_class,
+                                             AttributeSet attributes) const {
   std::vector<ObjectHandle> found;
   objects_.for_each([&](ObjectHandle object, const Spared& spared) {
-    if ((!object_class || spared.object_class == object_class) && !(spared.attributes & attributes).is_empty()) found.push_back(object);
+    if ((!object_class || spared.object_class == object_class) &&
+        !(spared.attributes & attributes).is_empty())
+      found.push_back(object);
   });
   std::ranges::sort(found, {}, &ObjectHandle::value);
   return found;
@@ -49,7 +53,8 @@ std::vector<ObjectHandle> SparedValues::list(ObjectClassHandle object_class, Att
 std::size_t SparedValues::memory_bytes() const {
   std::size_t bytes = objects_.memory_bytes() + in_class_.capacity() * sizeof in_class_[0];
   objects_.for_each([&](ObjectHandle, const Spared& spared) {
-    bytes += spared.values.capacity() * sizeof spared.values[0] + spared.times.capacity() * sizeof(double);
+    bytes += spared.values.capacity() * sizeof spared.values[0] +
+             spared.times.capacity() * sizeof(double);
     for (const auto& value : spared.values) bytes += value.capacity();
   });
   return bytes;

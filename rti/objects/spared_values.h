@@ -1,4 +1,5 @@
-// The newest values of own objects that nobody hears: kept back here instead of being sent, until somebody does.
+// The newest values of own objects that nobody hears: kept back here instead of being sent, until
+// somebody does.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +10,32 @@
 
 namespace rink::rti {
 
-/// Per object the newest value of each attribute that was kept back, so that a late listener gets the state as if every update had been sent. Values are as the federate gave
-/// them; they are coded when they are sent, each by the time at which it was said. Nothing is allocated for a value that is replaced by one no longer.
+/// Per object the newest value of each attribute that was kept back, so that a late listener gets
+/// the state as if every update had been sent. Values are as the federate gave them; they are coded
+/// when they are sent, each by the time at which it was said. Nothing is allocated for a value that
+/// is replaced by one no longer.
 class SparedValues {
  public:
   explicit SparedValues(const Fom& fom) : fom_(fom), in_class_(fom.object_classes().size()) {}
 
-  /// Attributes of the class that some object may have values of here: the bit test before each update.
-  AttributeSet in_class(ObjectClassHandle object_class) const { return in_class_[object_class.value].attributes; }
+  /// Attributes of the class that some object may have values of here: the bit test before each
+  /// update.
+  AttributeSet in_class(ObjectClassHandle object_class) const {
+    return in_class_[object_class.value].attributes;
+  }
   bool is_empty() const { return objects_.size() == 0; }
 
   struct Spared {
     ObjectClassHandle object_class;
-    AttributeSet attributes;                       ///< that have a value here
-    AttributeSet announced;                        ///< of those: the RTI knows that it has no newer one
-    std::vector<std::vector<std::byte>> values;    ///< by attribute
-    std::vector<double> times;                     ///< likewise: when it was said [s]
+    AttributeSet attributes;  ///< that have a value here
+    AttributeSet announced;   ///< of those: the RTI knows that it has no newer one
+    std::vector<std::vector<std::byte>> values;  ///< by attribute
+    std::vector<double> times;                   ///< likewise: when it was said [s]
   };
-  /// Keeps the values of `attributes`. Returns the object's entry, for the caller to note what it announced.
-  Spared& keep(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes values, double time);
+  /// Keeps the values of `attributes`. Returns the object's entry, for the caller to note what it
+  /// announced.
+  Spared& keep(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes,
+               Bytes values, double time);
   /// Values of `attributes` were sent by other ways, or are no longer wanted.
   void forget(ObjectHandle object, AttributeSet attributes = AttributeSet(~0u));
   const Spared* find(ObjectHandle object) const { return objects_.find(object); }

@@ -7,27 +7,31 @@
 
 namespace rink::rti {
 
-/// What becomes of what a federate owns when it leaves (IEEE 1516.1-2010, 4.10 and 10.4); the numbers are those on the wire.
+/// What becomes of what a federate owns when it leaves (IEEE 1516.1-2010, 4.10 and 10.4); the
+/// numbers are those on the wire.
 enum class ResignAction : std::uint8_t {
   unconditionally_divest_attributes,
-  delete_objects,                        ///< those whose deletion it may order
+  delete_objects,  ///< those whose deletion it may order
   cancel_pending_ownership_acquisitions,
   delete_objects_then_divest,
-  cancel_then_delete_then_divest,        ///< the default, also for a federate that is lost
+  cancel_then_delete_then_divest,  ///< the default, also for a federate that is lost
   no_action,
 };
 /// True if what a federate owns whole ends with it.
 constexpr bool deletes(ResignAction action) {
-  return action == ResignAction::delete_objects || action == ResignAction::delete_objects_then_divest || action == ResignAction::cancel_then_delete_then_divest;
+  return action == ResignAction::delete_objects ||
+         action == ResignAction::delete_objects_then_divest ||
+         action == ResignAction::cancel_then_delete_then_divest;
 }
 
-/// Kept only while a federate owns some but not all of an object, or negotiates about it. What it gave up by its own word it holds no longer, whatever the RTI answers;
-/// should nobody have taken it after all, the RTI gives it back.
+/// Kept only while a federate owns some but not all of an object, or negotiates about it. What it
+/// gave up by its own word it holds no longer, whatever the RTI answers; should nobody have taken
+/// it after all, the RTI gives it back.
 struct Holding {
   AttributeSet owned;
-  AttributeSet offered;               ///< negotiated divestiture under way
-  AttributeSet confirmable;           ///< of those: the RTI asked for the confirmation
-  AttributeSet acquiring;             ///< by attribute ownership acquisition
+  AttributeSet offered;      ///< negotiated divestiture under way
+  AttributeSet confirmable;  ///< of those: the RTI asked for the confirmation
+  AttributeSet acquiring;    ///< by attribute ownership acquisition
   AttributeSet acquiring_if_available;
   AttributeSet pending() const { return acquiring | acquiring_if_available; }
 

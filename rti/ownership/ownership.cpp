@@ -20,7 +20,8 @@ AttributeSet union_of(const Parts& parts) {
 }  // namespace
 
 AttributeSet Ownership::all(ObjectSlot object) const {
-  return fom_.attributes(ObjectClassHandle{objects_[object].object_class}) | AttributeSet{privilege_to_delete_object};
+  return fom_.attributes(ObjectClassHandle{objects_[object].object_class}) |
+         AttributeSet{privilege_to_delete_object};
 }
 
 const Ownership::Record* Ownership::find(ObjectSlot object) const {
@@ -29,7 +30,8 @@ const Ownership::Record* Ownership::find(ObjectSlot object) const {
 }
 
 AttributeSet Ownership::owned_by(std::uint32_t federate, ObjectSlot object) const {
-  if (objects_[object].owner != no_federate) return objects_[object].owner == federate ? all(object) : AttributeSet();
+  if (objects_[object].owner != no_federate)
+    return objects_[object].owner == federate ? all(object) : AttributeSet();
   for (const Share& each : find(object)->shares)
     if (each.federate == federate) return each.attributes;
   return {};
@@ -87,13 +89,15 @@ Ownership::Record& Ownership::open(ObjectSlot object) {
   free_.pop_back();
   Record& record = records_[opened.negotiation];
   record.object = object;
-  record.shares.push_back({opened.owner, all(object)});  // without a record there is one owner of all
+  record.shares.push_back(
+      {opened.owner, all(object)});  // without a record there is one owner of all
   return record;
 }
 
 void Ownership::close_if_settled(Record& record) {
   Object& object = objects_[record.object];
-  const bool is_whole = record.shares.size() == 1 && record.shares.front().attributes == all(record.object);
+  const bool is_whole =
+      record.shares.size() == 1 && record.shares.front().attributes == all(record.object);
   object.owner = is_whole ? record.shares.front().federate : no_federate;
   if (!is_whole || !record.offered.is_empty() || !record.claims.empty()) return;
   forget(record.object);
@@ -120,14 +124,16 @@ void Ownership::tell_owners(Kind kind, const Record& record, AttributeSet attrib
   for (const Share& each : record.shares) tell(kind, each.federate, each.attributes & attributes);
 }
 
-/// Takes them from whoever owns them and gives them to `to`, if that is anybody. Who still wants them now asks the new owner.
+/// Takes them from whoever owns them and gives them to `to`, if that is anybody. Who still wants
+/// them now asks the new owner.
 void Ownership::transfer(Record& record, AttributeSet attributes, std::uint32_t to) {
   for (Share& each : record.shares) each.attributes = each.attributes.without(attributes);
   std::erase_if(record.shares, [](const Share& each) { return each.attributes.is_empty(); });
   record.offered = record.offered.without(attributes);
   record.confirming = record.confirming.without(attributes);
   if (to == no_federate) return;
-  const auto share = std::find_if(record.shares.begin(), record.shares.end(), [to](const Share& each) { return each.federate == to; });
+  const auto share = std::find_if(record.shares.begin(), record.shares.end(),
+                                  [to](const Share& each) { return each.federate == to; });
   if (share == record.shares.end()) record.shares.push_back({to, attributes});
   else share->attributes = share->attributes | attributes;
   for (Claim& each : record.claims)
@@ -177,7 +183,8 @@ Ownership::Events Ownership::divest(std::uint32_t, ObjectSlot object, AttributeS
   return events_;
 }
 
-Ownership::Events Ownership::offer(std::uint32_t federate, ObjectSlot object, AttributeSet attributes, Bytes tag) {
+Ownership::Events Ownership::offer(std::uint32_t federate, ObjectSlot object,
+                                   AttributeSet attributes, Bytes tag) {
   Record& record = open(object);
   record.offered = record.offered | attributes;
   record.tag.assign(tag.begin(), tag.end());
@@ -189,7 +196,8 @@ Ownership::Events Ownership::offer(std::uint32_t federate, ObjectSlot object, At
   return events_;
 }
 
-Ownership::Events Ownership::withdraw_offer(std::uint32_t federate, ObjectSlot object, AttributeSet attributes) {
+Ownership::Events Ownership::withdraw_offer(std::uint32_t federate, ObjectSlot object,
+                                            AttributeSet attributes) {
   Record& record = open(object);
   record.offered = record.offered.without(attributes);
   end_claims(record, attributes, false);
@@ -199,7 +207,8 @@ Ownership::Events Ownership::withdraw_offer(std::uint32_t federate, ObjectSlot o
   return events_;
 }
 
-Ownership::Events Ownership::deny_release(std::uint32_t, ObjectSlot object, AttributeSet attributes) {
+Ownership::Events Ownership::deny_release(std::uint32_t, ObjectSlot object,
+                                          AttributeSet attributes) {
   Record& record = open(object);
   end_claims(record, attributes, true);
   close_if_settled(record);
@@ -213,7 +222,8 @@ Ownership::Events Ownership::give(std::uint32_t, ObjectSlot object, AttributeSet
   return events_;
 }
 
-Ownership::Events Ownership::acquire(std::uint32_t federate, ObjectSlot object, AttributeSet attributes) {
+Ownership::Events Ownership::acquire(std::uint32_t federate, ObjectSlot object,
+                                     AttributeSet attributes) {
   Record& record = open(object);
   attributes = attributes.without(owned_by(federate, object));
   for (Claim& each : record.claims) {
@@ -234,7 +244,8 @@ Ownership::Events Ownership::acquire(std::uint32_t federate, ObjectSlot object, 
   return events_;
 }
 
-Ownership::Events Ownership::acquire_if_available(std::uint32_t federate, ObjectSlot object, AttributeSet attributes) {
+Ownership::Events Ownership::acquire_if_available(std::uint32_t federate, ObjectSlot object,
+                                                  AttributeSet attributes) {
   Record& record = open(object);
   attributes = attributes.without(owned_by(federate, object)).without(sought_by(federate, object));
   const AttributeSet free = attributes & unowned(object), waiting = attributes & record.offered;
@@ -248,7 +259,8 @@ Ownership::Events Ownership::acquire_if_available(std::uint32_t federate, Object
   return events_;
 }
 
-Ownership::Events Ownership::cancel(std::uint32_t federate, ObjectSlot object, AttributeSet attributes) {
+Ownership::Events Ownership::cancel(std::uint32_t federate, ObjectSlot object,
+                                    AttributeSet attributes) {
   Record& record = open(object);
   for (Claim& each : record.claims) {
     if (each.federate != federate || each.is_if_available) continue;
@@ -264,7 +276,8 @@ void Ownership::forget_claims(std::uint32_t federate) {
   events_.clear();
   for (Record& record : records_) {
     if (record.object == no_object) continue;
-    std::erase_if(record.claims, [federate](const Claim& each) { return each.federate == federate; });
+    std::erase_if(record.claims,
+                  [federate](const Claim& each) { return each.federate == federate; });
     drop_empty_claims(record);
     close_if_settled(record);
   }

@@ -1,4 +1,5 @@
-// Who owns which attribute of which object, who gives it up and who wants it: clause 7 of IEEE 1516.1-2010 as one state machine, without messages.
+// Who owns which attribute of which object, who gives it up and who wants it: clause 7 of IEEE
+// 1516.1-2010 as one state machine, without messages.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +19,26 @@ struct OwnershipEvent {
     cancelled,               ///< its wish for these has ended as it asked
     release_requested,       ///< it owns these and somebody wants them
     confirmation_requested,  ///< it offers these and somebody takes them: it may confirm
-    offered,                 ///< these look for an owner; `federate` is no_federate: whoever may own them is to be told
+    offered,  ///< these look for an owner; `federate` is no_federate: whoever may own them is to be
+              ///< told
   };
   Kind kind;
-  std::uint32_t federate;  ///< its slot
-  AttributeSet attributes; ///< never empty
+  std::uint32_t federate;   ///< its slot
+  AttributeSet attributes;  ///< never empty
 };
 
-/// The RTI's ledger. An object whose attributes all belong to one federate and about which nobody negotiates is nothing but `Object::owner`; only the others have a
-/// record, so objects that never change hands cost one comparison. All operations take sets, so that a body of many attributes is handed over at the price of one.
+/// The RTI's ledger. An object whose attributes all belong to one federate and about which nobody
+/// negotiates is nothing but `Object::owner`; only the others have a record, so objects that never
+/// change hands cost one comparison. All operations take sets, so that a body of many attributes is
+/// handed over at the price of one.
 ///
-/// An attribute is unowned, or owned and then possibly *offered* (negotiated divestiture), of which *confirming* (somebody takes it, its owner was asked to confirm).
-/// Each may have any number of claims in the order in which they came: regular ones wait until they are met, denied or cancelled; those *if available* only while the
-/// attribute is offered. Invariants: an unowned attribute is not offered and has no claim; an offered one is confirming if and only if it has one; one that is not
-/// offered has no claim if available. A federate loses an attribute by its own word only.
+/// An attribute is unowned, or owned and then possibly *offered* (negotiated divestiture), of which
+/// *confirming* (somebody takes it, its owner was asked to confirm). Each may have any number of
+/// claims in the order in which they came: regular ones wait until they are met, denied or
+/// cancelled; those *if available* only while the attribute is offered. Invariants: an unowned
+/// attribute is not offered and has no claim; an offered one is confirming if and only if it has
+/// one; one that is not offered has no claim if available. A federate loses an attribute by its own
+/// word only.
 class Ownership {
  public:
   using Events = std::span<const OwnershipEvent>;
@@ -63,7 +70,8 @@ class Ownership {
   Events offer(std::uint32_t federate, ObjectSlot object, AttributeSet attributes, Bytes tag);
   Events withdraw_offer(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
   Events deny_release(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
-  /// Gives those that somebody wants to who asked first; the others stay where they are. Confirmation and divestiture if wanted are both this.
+  /// Gives those that somebody wants to who asked first; the others stay where they are.
+  /// Confirmation and divestiture if wanted are both this.
   Events give(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
 
   /// Operations of one who wants to own; what it owns is left out here.
@@ -76,7 +84,8 @@ class Ownership {
   /// Before the object is erased.
   void forget(ObjectSlot object);
 
-  /// Calls `visit(object)` for each object that is divided or negotiated about. `visit` must not change ownership.
+  /// Calls `visit(object)` for each object that is divided or negotiated about. `visit` must not
+  /// change ownership.
   template <class Visit>
   void for_each_record(Visit visit) const {
     for (const Record& each : records_)

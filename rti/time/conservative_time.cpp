@@ -26,7 +26,8 @@ ConservativeTime::Clock& ConservativeTime::clock(std::uint32_t federate) {
 bool ConservativeTime::enable_regulation(std::uint32_t federate, double lookahead) {
   Clock& mine = clock(federate);
   if (mine.is_regulating || mine.is_advancing || !is_valid_lookahead(lookahead)) return false;
-  // Nothing that it will say may be in anybody's past: its time becomes one from which that holds, at once, so that the others can't run away from it meanwhile.
+  // Nothing that it will say may be in anybody's past: its time becomes one from which that holds,
+  // at once, so that the others can't run away from it meanwhile.
   double past = 0.0, heard = 0.0;
   for (const Clock& other : clocks_) {
     if (&other == &mine || !other.is_constrained) continue;
@@ -36,7 +37,10 @@ bool ConservativeTime::enable_regulation(std::uint32_t federate, double lookahea
   mine.is_regulating = mine.awaits_regulation = true;
   mine.lookahead = lookahead;
   mine.enabling = std::max(mine.time, past - lookahead);
-  if (mine.is_constrained) heard = std::max(heard, mine.heard);  // else somebody could answer it at an instant of which it has heard all
+  if (mine.is_constrained)
+    heard = std::max(
+        heard,
+        mine.heard);  // else somebody could answer it at an instant of which it has heard all
   mine.floor = std::max(heard, mine.enabling + lookahead);
   weigh(federate);
   return true;
@@ -68,27 +72,35 @@ bool ConservativeTime::disable_constrained(std::uint32_t federate) {
 
 bool ConservativeTime::modify_lookahead(std::uint32_t federate, double lookahead) {
   Clock& mine = clock(federate);
-  if (!mine.is_regulating || mine.awaits_regulation || mine.is_advancing || !is_valid_lookahead(lookahead)) return false;
+  if (!mine.is_regulating || mine.awaits_regulation || mine.is_advancing ||
+      !is_valid_lookahead(lookahead))
+    return false;
   mine.lookahead = lookahead;
-  mine.floor = std::max(mine.floor, mine.time + lookahead);  // what was promised stays promised: a shorter lookahead comes about as its time advances
+  mine.floor =
+      std::max(mine.floor, mine.time + lookahead);  // what was promised stays promised: a shorter
+                                                    // lookahead comes about as its time advances
   weigh(federate);
   return true;
 }
 
 bool ConservativeTime::request(std::uint32_t federate, AdvanceKind kind, double time) {
   Clock& mine = clock(federate);
-  if (mine.is_advancing || mine.awaits_regulation || mine.awaits_constraint || !is_valid_time(time) || time < mine.time) return false;
+  if (mine.is_advancing || mine.awaits_regulation || mine.awaits_constraint ||
+      !is_valid_time(time) || time < mine.time)
+    return false;
   mine.is_advancing = true;
   mine.kind = kind;
   mine.asked = time;
-  if (kind == AdvanceKind::time_advance || kind == AdvanceKind::time_advance_available) mine.floor = std::max(mine.floor, earliest_stamp(time, mine.lookahead, kind));
+  if (kind == AdvanceKind::time_advance || kind == AdvanceKind::time_advance_available)
+    mine.floor = std::max(mine.floor, earliest_stamp(time, mine.lookahead, kind));
   weigh(federate);
   return true;
 }
 
 void ConservativeTime::remove(std::uint32_t federate, TimeListener& listener) {
   if (federate >= clocks_.size()) return;
-  while (!clocks_[federate].queue.is_empty()) listener.discard(federate, clocks_[federate].queue.pop());
+  while (!clocks_[federate].queue.is_empty())
+    listener.discard(federate, clocks_[federate].queue.pop());
   clocks_[federate] = {};
   weigh(federate);
 }
@@ -96,7 +108,8 @@ void ConservativeTime::remove(std::uint32_t federate, TimeListener& listener) {
 bool ConservativeTime::may_send(std::uint32_t federate, double time) const {
   const Clock& mine = clock(federate);
   if (!mine.is_regulating || mine.awaits_regulation || !is_valid_time(time)) return false;
-  return time >= mine.floor && (!mine.is_advancing || time >= earliest_stamp(mine.asked, mine.lookahead, mine.kind));
+  return time >= mine.floor &&
+         (!mine.is_advancing || time >= earliest_stamp(mine.asked, mine.lookahead, mine.kind));
 }
 
 double ConservativeTime::earliest(std::uint32_t federate) const {
@@ -104,8 +117,12 @@ double ConservativeTime::earliest(std::uint32_t federate) const {
   return mine.is_regulating ? mine.floor : time_unbounded;
 }
 
-bool ConservativeTime::is_constrained(std::uint32_t federate) const { return clock(federate).is_constrained; }
-bool ConservativeTime::is_regulating(std::uint32_t federate) const { return clock(federate).is_regulating; }
+bool ConservativeTime::is_constrained(std::uint32_t federate) const {
+  return clock(federate).is_constrained;
+}
+bool ConservativeTime::is_regulating(std::uint32_t federate) const {
+  return clock(federate).is_regulating;
+}
 double ConservativeTime::time(std::uint32_t federate) const { return clock(federate).time; }
 
 void ConservativeTime::enqueue(std::uint32_t federate, const TimedEntry& entry) {
@@ -140,7 +157,10 @@ void ConservativeTime::weigh(std::uint32_t federate) {
   const Clock& mine = clocks_[federate];
   const bool may_be_lowered = mine.is_regulating && awaits_message(mine);
   double bound = time_unbounded;
-  if (mine.is_regulating) bound = may_be_lowered ? std::max(mine.floor, earliest_stamp(goal(mine), mine.lookahead, mine.kind)) : mine.floor;
+  if (mine.is_regulating)
+    bound = may_be_lowered
+                ? std::max(mine.floor, earliest_stamp(goal(mine), mine.lookahead, mine.kind))
+                : mine.floor;
   bounds_.set(federate, bound);
   floors_.set(federate, may_be_lowered ? mine.floor : time_unbounded);
   lookaheads_.set(federate, may_be_lowered ? mine.lookahead : time_unbounded);
@@ -153,36 +173,46 @@ double ConservativeTime::galt(std::uint32_t federate) const {
   return least_of_others(federate, bound);
 }
 
-/// The least time stamp that any other federate can use, if the least of all is `bound`, which is `federate`'s own: others may answer it.
+/// The least time stamp that any other federate can use, if the least of all is `bound`, which is
+/// `federate`'s own: others may answer it.
 double ConservativeTime::least_of_others(std::uint32_t federate, double bound) const {
   double least = time_unbounded;
   std::size_t open[2 * 64] = {1};  // the nodes still to look at: at most two on each level
   for (std::size_t count = 1; count != 0;) {
     const std::size_t node = open[--count];
-    if (std::min(bounds_.node(node), std::max(floors_.node(node), bound + lookaheads_.node(node))) >= least) continue;
+    if (std::min(bounds_.node(node),
+                 std::max(floors_.node(node), bound + lookaheads_.node(node))) >= least)
+      continue;
     if (node < bounds_.width()) {
       open[count++] = 2 * node + 1;
       open[count++] = 2 * node;
     } else if (node - bounds_.width() != federate) {
       const Clock& other = clocks_[node - bounds_.width()];
-      const double answer = awaits_message(other) ? std::max(other.floor, earliest_stamp(bound, other.lookahead, other.kind)) : time_unbounded;
+      const double answer =
+          awaits_message(other)
+              ? std::max(other.floor, earliest_stamp(bound, other.lookahead, other.kind))
+              : time_unbounded;
       least = std::min({least, bounds_.node(node), answer});
     }
   }
   return least;
 }
 
-double ConservativeTime::lits(std::uint32_t federate) const { return std::min(galt(federate), clock(federate).queue.next_time()); }
+double ConservativeTime::lits(std::uint32_t federate) const {
+  return std::min(galt(federate), clock(federate).queue.next_time());
+}
 
 bool ConservativeTime::can_serve(std::uint32_t federate) const {
   const double least = needs_[federate];
   return least < time_unbounded && least <= galt(federate);
 }
 
-/// All but the federate with the least bound have that bound as their GALT, so only that one and the one with the least need have to be looked at.
+/// All but the federate with the least bound have that bound as their GALT, so only that one and
+/// the one with the least need have to be looked at.
 void ConservativeTime::settle(TimeListener& listener) {
   for (;;) {
-    const auto first = static_cast<std::uint32_t>(needs_.where()), slowest = static_cast<std::uint32_t>(bounds_.where());
+    const auto first = static_cast<std::uint32_t>(needs_.where()),
+               slowest = static_cast<std::uint32_t>(bounds_.where());
     if (can_serve(first)) serve(first, listener);
     else if (slowest != first && can_serve(slowest)) serve(slowest, listener);
     else return;
@@ -213,13 +243,16 @@ void ConservativeTime::serve(std::uint32_t federate, TimeListener& listener) {
 void ConservativeTime::advance(std::uint32_t federate, double galt, TimeListener& listener) {
   Clock& mine = clocks_[federate];
   double granted = goal(mine);
-  if (mine.is_constrained && mine.kind == AdvanceKind::flush_queue) granted = std::max(mine.time, std::min({mine.asked, mine.queue.next_time(), galt}));
-  else if (mine.is_constrained && (is_complete(mine.kind) ? granted >= galt : granted > galt)) return;
+  if (mine.is_constrained && mine.kind == AdvanceKind::flush_queue)
+    granted = std::max(mine.time, std::min({mine.asked, mine.queue.next_time(), galt}));
+  else if (mine.is_constrained && (is_complete(mine.kind) ? granted >= galt : granted > galt))
+    return;
   deliver(federate, mine.kind == AdvanceKind::flush_queue ? time_unbounded : granted, listener);
   mine.is_advancing = false;
   mine.time = granted;
   mine.heard = std::max(mine.heard, is_complete(mine.kind) ? just_after(granted) : granted);
-  if (mine.is_regulating) mine.floor = std::max(mine.floor, earliest_stamp(granted, mine.lookahead, mine.kind));
+  if (mine.is_regulating)
+    mine.floor = std::max(mine.floor, earliest_stamp(granted, mine.lookahead, mine.kind));
   listener.grant(federate, granted);
 }
 

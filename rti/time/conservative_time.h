@@ -1,4 +1,5 @@
-// Conservative time management: nobody is granted a time before which somebody could still send to him.
+// Conservative time management: nobody is granted a time before which somebody could still send to
+// him.
 #pragma once
 
 #include <vector>
@@ -9,8 +10,10 @@
 
 namespace rink::rti {
 
-/// The lower bound on time stamps of Fujimoto 1998, with federates that wait for their next message solved in closed form instead of by rounds of null messages (Chandy and
-/// Misra 1979): docs/rti.md, "Time management", has the algorithm and why it is right. A request, a message or a grant costs a logarithm of the number of federates.
+/// The lower bound on time stamps of Fujimoto 1998, with federates that wait for their next message
+/// solved in closed form instead of by rounds of null messages (Chandy and Misra 1979):
+/// docs/rti.md, "Time management", has the algorithm and why it is right. A request, a message or a
+/// grant costs a logarithm of the number of federates.
 class ConservativeTime final : public TimeManagement {
  public:
   bool enable_regulation(std::uint32_t federate, double lookahead) override;
@@ -34,19 +37,23 @@ class ConservativeTime final : public TimeManagement {
  private:
   struct Clock {
     bool is_regulating = false, is_constrained = false;
-    bool awaits_regulation = false, awaits_constraint = false, is_advancing = false;  ///< asked for and not yet told
+    bool awaits_regulation = false, awaits_constraint = false,
+         is_advancing = false;                     ///< asked for and not yet told
     AdvanceKind kind = AdvanceKind::time_advance;  ///< of the request at hand
-    double asked = 0.0;      ///< the time asked for, while advancing
-    double enabling = 0.0;   ///< the time that regulation begins at, while awaited
-    double time = 0.0;       ///< logical time
+    double asked = 0.0;                            ///< the time asked for, while advancing
+    double enabling = 0.0;  ///< the time that regulation begins at, while awaited
+    double time = 0.0;      ///< logical time
     double lookahead = 0.0;
-    double floor = 0.0;      ///< regulating: the least time stamp it may use, or may use once its request is granted; never decreases
-    double heard = 0.0;      ///< the least time stamp that may still reach it without being in its past
+    double floor = 0.0;  ///< regulating: the least time stamp it may use, or may use once its
+                         ///< request is granted; never decreases
+    double heard = 0.0;  ///< the least time stamp that may still reach it without being in its past
     TimeQueue queue;
   };
   const Clock& clock(std::uint32_t federate) const;
   Clock& clock(std::uint32_t federate);
-  bool awaits_message(const Clock& clock) const { return clock.is_advancing && clock.is_constrained && is_next_message(clock.kind); }
+  bool awaits_message(const Clock& clock) const {
+    return clock.is_advancing && clock.is_constrained && is_next_message(clock.kind);
+  }
   static double goal(const Clock& clock);
   double need(const Clock& clock) const;
   void weigh(std::uint32_t federate);
@@ -57,9 +64,11 @@ class ConservativeTime final : public TimeManagement {
   void deliver(std::uint32_t federate, double until, TimeListener& listener);
 
   std::vector<Clock> clocks_;  ///< by federate
-  /// By federate, infinite where there is nothing. Bounds: the least time stamp that a regulating federate can still use if nobody sends to it.
+  /// By federate, infinite where there is nothing. Bounds: the least time stamp that a regulating
+  /// federate can still use if nobody sends to it.
   LeastTree bounds_;
-  /// Of those who wait for their next message: what an earlier message can lower their bound to is the later of their floor and the message's time + lookahead.
+  /// Of those who wait for their next message: what an earlier message can lower their bound to is
+  /// the later of their floor and the message's time + lookahead.
   LeastTree floors_, lookaheads_;
   /// The GALT at which something that a federate asked for can be done.
   LeastTree needs_;

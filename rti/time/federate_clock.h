@@ -1,4 +1,5 @@
-// A federate's own view of its logical time: what it may ask for and say now, judged before anything is sent.
+// A federate's own view of its logical time: what it may ask for and say now, judged before
+// anything is sent.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +8,13 @@
 
 namespace rink::rti {
 
-/// Follows the services and the callbacks of time management. The `ask_…` functions throw `RtiException` by the name that IEEE 1516.1-2010 gives the error, and else take
-/// note; the others hear what the RTI answers and return false where it answers what nobody asked for.
+/// Follows the services and the callbacks of time management. The `ask_…` functions throw
+/// `RtiException` by the name that IEEE 1516.1-2010 gives the error, and else take note; the others
+/// hear what the RTI answers and return false where it answers what nobody asked for.
 class FederateClock {
  public:
-  /// 8.2: InvalidLookahead, InTimeAdvancingState, RequestForTimeRegulationPending, TimeRegulationAlreadyEnabled.
+  /// 8.2: InvalidLookahead, InTimeAdvancingState, RequestForTimeRegulationPending,
+  /// TimeRegulationAlreadyEnabled.
   void ask_regulation(double lookahead);
   /// 8.4: TimeRegulationIsNotEnabled.
   void ask_no_regulation();
@@ -19,7 +22,8 @@ class FederateClock {
   void ask_constrained();
   /// 8.7: TimeConstrainedIsNotEnabled.
   void ask_no_constrained();
-  /// 8.8 to 8.12: LogicalTimeAlreadyPassed, InvalidLogicalTime, InTimeAdvancingState, RequestForTimeRegulationPending, RequestForTimeConstrainedPending.
+  /// 8.8 to 8.12: LogicalTimeAlreadyPassed, InvalidLogicalTime, InTimeAdvancingState,
+  /// RequestForTimeRegulationPending, RequestForTimeConstrainedPending.
   void ask_advance(AdvanceKind kind, double time);
   /// 8.19: InvalidLookahead, InTimeAdvancingState, TimeRegulationIsNotEnabled.
   void ask_lookahead(double lookahead);
@@ -29,7 +33,8 @@ class FederateClock {
   void check_send(double time) const;
   /// The same, and the number of the message. Must be regulating.
   std::uint64_t ask_send(double time);
-  /// 8.21: TimeRegulationIsNotEnabled, InvalidMessageRetractionHandle, MessageCanNoLongerBeRetracted.
+  /// 8.21: TimeRegulationIsNotEnabled, InvalidMessageRetractionHandle,
+  /// MessageCanNoLongerBeRetracted.
   void ask_retraction(const RetractionHandle& handle, FederateHandle self) const;
 
   bool regulation_enabled(double time, double earliest);
@@ -41,22 +46,29 @@ class FederateClock {
   bool is_advancing() const { return is_advancing_; }
   bool is_asynchronous() const { return is_asynchronous_; }
   double time() const { return time_; }
-  /// 8.20: TimeRegulationIsNotEnabled. The actual one: a shorter one comes about only as time advances.
+  /// 8.20: TimeRegulationIsNotEnabled. The actual one: a shorter one comes about only as time
+  /// advances.
   double lookahead() const;
   /// The least time stamp that it may use now.
   double earliest() const;
   /// The least that it may use now or after a grant that comes before the time asked for.
   double earliest_ever() const { return floor_; }
-  /// True while messages in receive order have to wait: a constrained federate gets them while it advances, unless it asked to get them always (8.14).
-  bool holds_receive_order() const { return is_constrained() && !is_advancing_ && !is_asynchronous_; }
+  /// True while messages in receive order have to wait: a constrained federate gets them while it
+  /// advances, unless it asked to get them always (8.14).
+  bool holds_receive_order() const {
+    return is_constrained() && !is_advancing_ && !is_asynchronous_;
+  }
 
  private:
-  bool is_regulating_ = false, is_constrained_ = false, awaits_regulation_ = false, awaits_constraint_ = false, is_advancing_ = false, is_asynchronous_ = false;
+  bool is_regulating_ = false, is_constrained_ = false, awaits_regulation_ = false,
+       awaits_constraint_ = false, is_advancing_ = false, is_asynchronous_ = false;
   AdvanceKind kind_ = AdvanceKind::time_advance;
   double time_ = 0.0, asked_ = 0.0, lookahead_ = 0.0;
-  double floor_ = 0.0;           ///< the least time stamp that it may use; never decreases while it regulates
+  double floor_ =
+      0.0;  ///< the least time stamp that it may use; never decreases while it regulates
   std::uint64_t sent_count_ = 0;
-  std::uint64_t final_count_ = 0;  ///< of these, those of a regulation that was disabled: they can't be retracted any more
+  std::uint64_t final_count_ =
+      0;  ///< of these, those of a regulation that was disabled: they can't be retracted any more
 };
 
 }  // namespace rink::rti

@@ -8,14 +8,17 @@
 
 namespace rink::rti {
 
-/// A tournament: each inner node holds the lesser of its two children, so a change costs as many steps as the tree is high, and the least is at the root. Absent numbers are
-/// infinite. (A binary heap would have to be told where each number lies; a sorted tree allocates.)
+/// A tournament: each inner node holds the lesser of its two children, so a change costs as many
+/// steps as the tree is high, and the least is at the root. Absent numbers are infinite. (A binary
+/// heap would have to be told where each number lies; a sorted tree allocates.)
 class LeastTree {
  public:
   static constexpr double none = std::numeric_limits<double>::infinity();
 
   double least() const { return nodes_[1]; }
-  double operator[](std::size_t index) const { return index < width() ? nodes_[width() + index] : none; }
+  double operator[](std::size_t index) const {
+    return index < width() ? nodes_[width() + index] : none;
+  }
   /// The leftmost index that holds the least; 0 if all are infinite.
   std::size_t where() const {
     if (least() == none) return 0;
@@ -29,17 +32,20 @@ class LeastTree {
     if (nodes_[node] == value) return;
     nodes_[node] = value;
     for (node /= 2; node != 0; node /= 2) {
-      const double least = nodes_[2 * node] < nodes_[2 * node + 1] ? nodes_[2 * node] : nodes_[2 * node + 1];
+      const double least =
+          nodes_[2 * node] < nodes_[2 * node + 1] ? nodes_[2 * node] : nodes_[2 * node + 1];
       if (nodes_[node] == least) return;
       nodes_[node] = least;
     }
   }
-  /// For a walk from the root, node 1: node k has the children 2k and 2k + 1, and the leaf of index i is node `width() + i`. Nodes of trees of one width correspond.
+  /// For a walk from the root, node 1: node k has the children 2k and 2k + 1, and the leaf of index
+  /// i is node `width() + i`. Nodes of trees of one width correspond.
   double node(std::size_t node) const { return nodes_[node]; }
   std::size_t width() const { return nodes_.size() / 2; }
   void widen(std::size_t count) {
     if (count <= width()) return;
-    const std::vector<double> leaves(nodes_.begin() + static_cast<std::ptrdiff_t>(width()), nodes_.end());
+    const std::vector<double> leaves(nodes_.begin() + static_cast<std::ptrdiff_t>(width()),
+                                     nodes_.end());
     nodes_.assign(2 * std::bit_ceil(count), none);
     for (std::size_t i = 0; i < leaves.size(); ++i) set(i, leaves[i]);
   }

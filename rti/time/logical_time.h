@@ -11,8 +11,9 @@
 
 namespace rink::rti {
 
-/// An instant of logical time [s], of its own type so that a time-stamped service can't be taken for the one that only carries a stamp. From 0 to below the greatest
-/// double: every instant has one just above it.
+/// An instant of logical time [s], of its own type so that a time-stamped service can't be taken
+/// for the one that only carries a stamp. From 0 to below the greatest double: every instant has
+/// one just above it.
 struct LogicalTime {
   double value;
   explicit LogicalTime(double seconds) : value(seconds) {}
@@ -20,32 +21,45 @@ struct LogicalTime {
 };
 /// What HLA calls infinity: no message can come any more, or nobody sets a bound.
 inline constexpr double time_unbounded = std::numeric_limits<double>::infinity();
-inline bool is_valid_time(double time) { return time >= 0.0 && time < std::numeric_limits<double>::max(); }
-inline bool is_valid_lookahead(double lookahead) { return lookahead >= 0.0 && lookahead < std::numeric_limits<double>::max(); }
+inline bool is_valid_time(double time) {
+  return time >= 0.0 && time < std::numeric_limits<double>::max();
+}
+inline bool is_valid_lookahead(double lookahead) {
+  return lookahead >= 0.0 && lookahead < std::numeric_limits<double>::max();
+}
 /// The least instant after `time`.
 inline double just_after(double time) { return std::nextafter(time, time_unbounded); }
 
 /// The five requests of IEEE 1516.1-2010, 8.8 to 8.12; the numbers are those on the wire.
 enum class AdvanceKind : std::uint8_t {
-  time_advance,             ///< to the time asked for, with every message up to and at it
-  time_advance_available,   ///< the same, but more may come at that very time
-  next_message,             ///< to the next message or the time asked for, whichever is earlier, with every message at it
-  next_message_available,   ///< the same, but more may come at that very time
-  flush_queue,              ///< all that waits at once, whatever its time
+  time_advance,            ///< to the time asked for, with every message up to and at it
+  time_advance_available,  ///< the same, but more may come at that very time
+  next_message,  ///< to the next message or the time asked for, whichever is earlier, with every
+                 ///< message at it
+  next_message_available,  ///< the same, but more may come at that very time
+  flush_queue,             ///< all that waits at once, whatever its time
 };
-inline constexpr std::uint8_t advance_kind_max = static_cast<std::uint8_t>(AdvanceKind::flush_queue);
-inline bool is_next_message(AdvanceKind kind) { return kind == AdvanceKind::next_message || kind == AdvanceKind::next_message_available; }
+inline constexpr std::uint8_t advance_kind_max =
+    static_cast<std::uint8_t>(AdvanceKind::flush_queue);
+inline bool is_next_message(AdvanceKind kind) {
+  return kind == AdvanceKind::next_message || kind == AdvanceKind::next_message_available;
+}
 /// True if a federate so granted to t has heard all that will be said at t.
-inline bool is_complete(AdvanceKind kind) { return kind == AdvanceKind::time_advance || kind == AdvanceKind::next_message; }
+inline bool is_complete(AdvanceKind kind) {
+  return kind == AdvanceKind::time_advance || kind == AdvanceKind::next_message;
+}
 
-/// The least time stamp that a federate may use which is, or asks to be, at `time` by a request of `kind`. Who heard all of an instant may not speak at it any more, which
-/// matters when its lookahead is zero, or so small that the sum is rounded to the time. Both ends compute it so: they must agree to the last bit.
+/// The least time stamp that a federate may use which is, or asks to be, at `time` by a request of
+/// `kind`. Who heard all of an instant may not speak at it any more, which matters when its
+/// lookahead is zero, or so small that the sum is rounded to the time. Both ends compute it so:
+/// they must agree to the last bit.
 inline double earliest_stamp(double time, double lookahead, AdvanceKind kind) {
   const double sum = time + lookahead;
   return is_complete(kind) ? std::max(sum, just_after(time)) : sum;
 }
 
-/// Names a message that was sent in time-stamp order, to its sender and to those who receive it. Empty if it went in receive order.
+/// Names a message that was sent in time-stamp order, to its sender and to those who receive it.
+/// Empty if it went in receive order.
 struct RetractionHandle {
   FederateHandle sender;
   std::uint64_t number = 0;  ///< the sender's count

@@ -1,4 +1,5 @@
-// The part of the RTI that decides when a federate may advance and which time-stamped messages it has by then.
+// The part of the RTI that decides when a federate may advance and which time-stamped messages it
+// has by then.
 #pragma once
 
 #include <compare>
@@ -8,8 +9,8 @@
 
 namespace rink::rti {
 
-/// A message that waits for its receiver's time. Ordered as it is delivered: by time stamp, ties by sender and the sender's count, so that the order does not depend on
-/// who was faster.
+/// A message that waits for its receiver's time. Ordered as it is delivered: by time stamp, ties by
+/// sender and the sender's count, so that the order does not depend on who was faster.
 struct TimedEntry {
   double time = 0.0;
   std::uint32_t sender = 0;
@@ -23,7 +24,8 @@ struct TimedEntry {
 class TimeListener {
  public:
   virtual ~TimeListener() = default;
-  /// In time-stamp order, before the grant that it belongs to; once per entry that was not withdrawn.
+  /// In time-stamp order, before the grant that it belongs to; once per entry that was not
+  /// withdrawn.
   virtual void deliver(std::uint32_t federate, const TimedEntry& entry) = 0;
   /// Its receiver is gone.
   virtual void discard(std::uint32_t federate, const TimedEntry& entry) = 0;
@@ -33,11 +35,15 @@ class TimeListener {
   virtual void grant(std::uint32_t federate, double time) = 0;
 };
 
-/// Federates are small dense numbers, as the federation execution counts them. One that never asked for anything is at time 0, neither regulating nor constrained, and
-/// costs nothing. Services return false, and change nothing, where the federate may not ask for that now. A replacement must keep these promises, with every message that
-/// was sent in time-stamp order being known here before its sender's next request:
-///   - a constrained federate is delivered messages in order, all up to its grant before that (flush queue: all), and none before a time that it was granted;
-///   - a grant goes to the time asked for, or less as the kind of request says, never back, and comes as soon as no regulating federate can send it anything earlier.
+/// Federates are small dense numbers, as the federation execution counts them. One that never asked
+/// for anything is at time 0, neither regulating nor constrained, and costs nothing. Services
+/// return false, and change nothing, where the federate may not ask for that now. A replacement
+/// must keep these promises, with every message that was sent in time-stamp order being known here
+/// before its sender's next request:
+///   - a constrained federate is delivered messages in order, all up to its grant before that
+///   (flush queue: all), and none before a time that it was granted;
+///   - a grant goes to the time asked for, or less as the kind of request says, never back, and
+///   comes as soon as no regulating federate can send it anything earlier.
 class TimeManagement {
  public:
   virtual ~TimeManagement() = default;
@@ -66,8 +72,10 @@ class TimeManagement {
   /// Tells all that can be told by now.
   virtual void settle(TimeListener& listener) = 0;
 
-  /// Greatest available logical time: nothing earlier can be sent to `federate` any more. Infinite if no other federate regulates. A time advance request to t is granted at
-  /// once if t < GALT, the "available" one if t <= GALT; so one that excludes its own instant is the next double above it.
+  /// Greatest available logical time: nothing earlier can be sent to `federate` any more. Infinite
+  /// if no other federate regulates. A time advance request to t is granted at once if t < GALT,
+  /// the "available" one if t <= GALT; so one that excludes its own instant is the next double
+  /// above it.
   virtual double galt(std::uint32_t federate) const = 0;
   /// Least incoming time stamp: the earliest that `federate` can still receive.
   virtual double lits(std::uint32_t federate) const = 0;

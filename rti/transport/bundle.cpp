@@ -24,13 +24,15 @@ BundledTransport::Trunk& BundledTransport::trunk(ConnectionId id) {
 }
 
 BundledTransport::Channel* BundledTransport::find(ConnectionId connection) {
-  return connection < channels_.size() && !channels_[connection].is_closed ? &channels_[connection] : nullptr;
+  return connection < channels_.size() && !channels_[connection].is_closed ? &channels_[connection]
+                                                                           : nullptr;
 }
 
 ConnectionId BundledTransport::add(ConnectionId trunk_id) {
   Trunk& carrying = trunk(trunk_id);
   const auto connection = static_cast<ConnectionId>(channels_.size());
-  channels_.push_back({.trunk = trunk_id, .number = static_cast<std::uint32_t>(carrying.channels.size())});
+  channels_.push_back(
+      {.trunk = trunk_id, .number = static_cast<std::uint32_t>(carrying.channels.size())});
   carrying.channels.push_back(connection);
   return connection;
 }
@@ -48,7 +50,8 @@ ConnectionId BundledTransport::connect(ConnectionId trunk_id) {
   return connection;
 }
 
-void BundledTransport::write_header(ConnectionId trunk_id, std::uint32_t number, std::uint32_t size) {
+void BundledTransport::write_header(ConnectionId trunk_id, std::uint32_t number,
+                                    std::uint32_t size) {
   std::vector<std::byte>& gathered = trunks_[trunk_id].gathered;
   if (gathered.empty()) full_.push_back(trunk_id);
   const std::uint32_t words[] = {number, size};
@@ -112,7 +115,8 @@ void BundledTransport::poll(std::chrono::nanoseconds longest_wait, TransportList
   listener_ = &listener;
   push();
   report();
-  carrier_.poll(telling_.empty() && news_.empty() ? longest_wait : std::chrono::nanoseconds(0), *this);
+  carrier_.poll(telling_.empty() && news_.empty() ? longest_wait : std::chrono::nanoseconds(0),
+                *this);
   report();
   telling_.clear();
   listener_ = nullptr;
@@ -163,7 +167,8 @@ void BundledTransport::on_bytes(ConnectionId trunk_id, Bytes bytes) {
     bytes = bytes.subspan(part.size());
     heard.left -= static_cast<std::uint32_t>(part.size());
     const ConnectionId connection = heard.channels[heard.number];
-    if (Channel* channel = find(connection)) {  // else it was closed by us, and the peer has not heard yet
+    if (Channel* channel =
+            find(connection)) {  // else it was closed by us, and the peer has not heard yet
       channel->counters.bytes_received += part.size();
       listener_->on_bytes(connection, part);
     }
@@ -183,7 +188,8 @@ bool BundledTransport::take_header(ConnectionId trunk_id) {
   }
   if (number >= heard.channels.size()) return false;
   if (size == closes) {
-    if (find(heard.channels[number]) != nullptr) end(heard.channels[number], CloseReason::closed_by_peer, "closed by peer");
+    if (find(heard.channels[number]) != nullptr)
+      end(heard.channels[number], CloseReason::closed_by_peer, "closed by peer");
     return report(), true;
   }
   heard.number = number;
@@ -191,7 +197,8 @@ bool BundledTransport::take_header(ConnectionId trunk_id) {
   return true;
 }
 
-void BundledTransport::on_close(ConnectionId trunk_id, CloseReason reason, const std::string& detail) {
+void BundledTransport::on_close(ConnectionId trunk_id, CloseReason reason,
+                                const std::string& detail) {
   Trunk& closed = trunk(trunk_id);
   if (std::exchange(closed.is_closed, true)) return;
   std::erase(full_, trunk_id);

@@ -1,4 +1,5 @@
-// Many connections over one of another transport: the federates of a process share its socket, and one system call serves them all.
+// Many connections over one of another transport: the federates of a process share its socket, and
+// one system call serves them all.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +9,24 @@
 
 namespace rink::rti {
 
-/// A transport over a transport; both ends must have one. What is sent is gathered for each trunk until the next `push` or `poll`, then goes as one write, so the peer gets a
-/// process's federates with one read: a lockstep of n federates costs two system calls at either end instead of 4 n. What they share is the trunk's queue and its end: one
-/// process that does not read is one slow reader. Bytes on a trunk are records: channel u32, size u32, then so many bytes; a size of `opens` or `closes` is all of its record.
-/// A peer that sends anything else loses its trunk.
+/// A transport over a transport; both ends must have one. What is sent is gathered for each trunk
+/// until the next `push` or `poll`, then goes as one write, so the peer gets a process's federates
+/// with one read: a lockstep of n federates costs two system calls at either end instead of 4 n.
+/// What they share is the trunk's queue and its end: one process that does not read is one slow
+/// reader. Bytes on a trunk are records: channel u32, size u32, then so many bytes; a size of
+/// `opens` or `closes` is all of its record. A peer that sends anything else loses its trunk.
 class BundledTransport final : public Transport, private TransportListener {
  public:
   static constexpr std::uint32_t opens = 0xffffffff, closes = 0xfffffffe;
-  static constexpr std::size_t channel_max = 65'536;    ///< that a peer may open on one trunk
-  static constexpr std::size_t gathered_max = 1u << 16; ///< bytes gathered before they are sent anyway
+  static constexpr std::size_t channel_max = 65'536;  ///< that a peer may open on one trunk
+  static constexpr std::size_t gathered_max =
+      1u << 16;  ///< bytes gathered before they are sent anyway
 
   /// `carrier` must outlive it, and is polled by it alone.
   explicit BundledTransport(Transport& carrier) : carrier_(carrier) {}
 
-  /// A connection over `trunk`, one of the carrier's, which may still be opening; `on_open` follows in a poll, or `on_close` with the trunk's reason.
+  /// A connection over `trunk`, one of the carrier's, which may still be opening; `on_open` follows
+  /// in a poll, or `on_close` with the trunk's reason.
   ConnectionId connect(ConnectionId trunk);
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
@@ -40,7 +45,8 @@ class BundledTransport final : public Transport, private TransportListener {
     TransportCounters counters{};
   };
   struct Trunk {
-    bool is_open = false, is_closed = false, is_ours = false;  ///< we connected it: channels are numbered and opened by us
+    bool is_open = false, is_closed = false,
+         is_ours = false;  ///< we connected it: channels are numbered and opened by us
     std::vector<ConnectionId> channels;  ///< by number
     std::vector<std::byte> gathered;
     std::byte header[8] = {};
@@ -69,9 +75,9 @@ class BundledTransport final : public Transport, private TransportListener {
   void report();
 
   Transport& carrier_;
-  std::vector<Trunk> trunks_;      ///< by the carrier's connection
-  std::vector<Channel> channels_;  ///< by connection
-  std::vector<ConnectionId> full_; ///< trunks with something gathered
+  std::vector<Trunk> trunks_;       ///< by the carrier's connection
+  std::vector<Channel> channels_;   ///< by connection
+  std::vector<ConnectionId> full_;  ///< trunks with something gathered
   std::vector<News> news_, telling_;
   TransportListener* listener_ = nullptr;  ///< while polling
 };

@@ -62,7 +62,8 @@ void FederateLinks::on_bytes(ConnectionId connection, Bytes bytes) {
   if (FederateLink* link = find(connection)) link->received(bytes);
 }
 
-void FederateLinks::on_close(ConnectionId connection, CloseReason reason, const std::string& detail) {
+void FederateLinks::on_close(ConnectionId connection, CloseReason reason,
+                             const std::string& detail) {
   if (FederateLink* link = find(connection)) link->closed(reason, detail);
 }
 

@@ -8,7 +8,8 @@
 
 namespace rink::rti {
 
-/// Sends what waits of the ambassador: its bytes as one write, its datagram if there is a way for it.
+/// Sends what waits of the ambassador: its bytes as one write, its datagram if there is a way for
+/// it.
 void send_waiting(Ambassador& ambassador, Transport& transport, ConnectionId connection);
 
 /// One ambassador on one connection. Many links may share one transport through a `FederateLinks`.
@@ -19,11 +20,14 @@ class FederateLink {
 
   ConnectionId connection() const { return connection_; }
   Ambassador& ambassador() { return ambassador_; }
-  bool is_open() const { return is_open_; }        ///< connected and not yet closed
-  bool is_finished() const { return is_finished_; }  ///< closed, or never opened; nothing more will happen
+  bool is_open() const { return is_open_; }  ///< connected and not yet closed
+  bool is_finished() const {
+    return is_finished_;
+  }  ///< closed, or never opened; nothing more will happen
   CloseReason close_reason() const { return close_reason_; }
 
-  /// What the transport says of our connection. Bytes that the ambassador rejects close the connection.
+  /// What the transport says of our connection. Bytes that the ambassador rejects close the
+  /// connection.
   void opened() { is_open_ = true; }
   void received(Bytes bytes);
   void received_datagram(Bytes datagram) { ambassador_.receive_datagram(datagram); }
@@ -56,7 +60,9 @@ class FederateLinks final : public TransportListener {
   void flush(double now);
 
  private:
-  FederateLink* find(ConnectionId connection) { return connection < links_.size() ? links_[connection] : nullptr; }
+  FederateLink* find(ConnectionId connection) {
+    return connection < links_.size() ? links_[connection] : nullptr;
+  }
   std::vector<FederateLink*> links_;  ///< by connection
 };
 

@@ -80,7 +80,9 @@ class FederationHost::HostOutlet final : public Outlet {
 FederationHost::FederationHost(CentralComponent& core) : core_(core) {}
 FederationHost::~FederationHost() = default;
 
-void FederationHost::add(Transport& transport) { ports_.push_back(std::make_unique<Port>(*this, transport)); }
+void FederationHost::add(Transport& transport) {
+  ports_.push_back(std::make_unique<Port>(*this, transport));
+}
 
 ConnectionId FederationHost::admit(Port& port, ConnectionId connection) {
   ConnectionId number = static_cast<ConnectionId>(routes_.size());

@@ -1,4 +1,5 @@
-// Runs a federation execution, or a directory of them, on any number of transports at once: the server's own federate in process, its clients by TCP.
+// Runs a federation execution, or a directory of them, on any number of transports at once: the
+// server's own federate in process, its clients by TCP.
 #pragma once
 
 #include <chrono>
@@ -20,9 +21,11 @@ class FederationHost {
   /// The transport must outlive the host. Its listening and connecting is its owner's business.
   void add(Transport& transport);
 
-  /// Takes in what came, from each transport in the order added; only the last one waits, up to `longest_wait`, if nothing came before.
+  /// Takes in what came, from each transport in the order added; only the last one waits, up to
+  /// `longest_wait`, if nothing came before.
   void poll(std::chrono::nanoseconds longest_wait);
-  /// The same from one transport alone, without waiting: what a federate beside us has answered needs no question to the kernel.
+  /// The same from one transport alone, without waiting: what a federate beside us has answered
+  /// needs no question to the kernel.
   void poll(Transport& transport);
   void advance_clock(double now) { core_.advance_clock(now); }
   void match() { core_.match(); }

@@ -1,4 +1,5 @@
-// Lets nobody through to the RTI, or to a federate, who has not proven that they have the shared key.
+// Lets nobody through to the RTI, or to a federate, who has not proven that they have the shared
+// key.
 #pragma once
 
 #include <functional>
@@ -12,13 +13,16 @@
 namespace rink::rti {
 
 struct GuardSettings {
-  Role role = Role::rti;      ///< of this end
+  Role role = Role::rti;  ///< of this end
   std::string federation = "rink";
-  double patience_s = 3.0;    ///< for a stranger to prove itself; it costs a file and less than 2 kB meanwhile
+  double patience_s =
+      3.0;  ///< for a stranger to prove itself; it costs a file and less than 2 kB meanwhile
 };
 
-/// Any transport behind a handshake for each of its connections (rti/admission/handshake.h). The listener hears of a connection once both ends have proven
-/// themselves; a stranger who doesn't is closed, is never heard of at the RTI's end, and closes with `failed` and a reason at the federate's. Afterwards bytes pass as they are.
+/// Any transport behind a handshake for each of its connections (rti/admission/handshake.h). The
+/// listener hears of a connection once both ends have proven themselves; a stranger who doesn't is
+/// closed, is never heard of at the RTI's end, and closes with `failed` and a reason at the
+/// federate's. Afterwards bytes pass as they are.
 class GuardedTransport final : public Transport {
  public:
   using Clock = std::function<double()>;  ///< [s]
@@ -29,10 +33,16 @@ class GuardedTransport final : public Transport {
   /// What is sent before the proof waits for it.
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override { inner_.close(connection); }
-  std::size_t queued_bytes(ConnectionId connection) const override { return inner_.queued_bytes(connection); }
-  TransportCounters counters(ConnectionId connection) const override { return inner_.counters(connection); }
+  std::size_t queued_bytes(ConnectionId connection) const override {
+    return inner_.queued_bytes(connection);
+  }
+  TransportCounters counters(ConnectionId connection) const override {
+    return inner_.counters(connection);
+  }
   /// Datagrams pass, both ways, once both ends are proven.
-  std::size_t datagram_max(ConnectionId connection) const override { return is_known(connection) ? inner_.datagram_max(connection) : 0; }
+  std::size_t datagram_max(ConnectionId connection) const override {
+    return is_known(connection) ? inner_.datagram_max(connection) : 0;
+  }
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override {
     if (is_known(connection)) inner_.send_datagrams(connection, datagrams);
   }
@@ -50,7 +60,9 @@ class GuardedTransport final : public Transport {
     std::vector<std::byte> pending;  ///< to be sent to it once it is none
     bool is_open = false, is_refused = false;
   };
-  bool is_known(ConnectionId connection) const { return connection < is_known_.size() && is_known_[connection]; }
+  bool is_known(ConnectionId connection) const {
+    return connection < is_known_.size() && is_known_[connection];
+  }
   Stranger* find(ConnectionId connection);
   Stranger& meet(ConnectionId connection);
   void forget(ConnectionId connection);

@@ -10,7 +10,8 @@ InProcessEndpoint::~InProcessEndpoint() {
 
 void InProcessEndpoint::listen(const std::string& name) {
   if (!network_.listeners_.emplace(name, this).second)
-    throw TransportError(TransportError::Kind::in_use, "in-process address '" + name + "' is in use");
+    throw TransportError(TransportError::Kind::in_use,
+                         "in-process address '" + name + "' is in use");
   name_ = name;
 }
 
@@ -23,7 +24,8 @@ ConnectionId InProcessEndpoint::connect(const std::string& name) {
   const auto found = network_.listeners_.find(name);
   if (found == network_.listeners_.end()) {
     const ConnectionId refused = add_line(nullptr);
-    events_.push_back({EventKind::close, refused, CloseReason::refused, "nobody listens at in-process address '" + name + "'"});
+    events_.push_back({EventKind::close, refused, CloseReason::refused,
+                       "nobody listens at in-process address '" + name + "'"});
     return refused;
   }
   InProcessEndpoint& peer = *found->second;
@@ -43,7 +45,8 @@ void InProcessEndpoint::poll(std::chrono::nanoseconds, TransportListener& listen
 
 void InProcessEndpoint::report(const Event& event, TransportListener& listener) {
   if (event.kind == EventKind::open) return listener.on_open(event.connection);
-  if (event.kind == EventKind::close) return listener.on_close(event.connection, event.reason, event.detail);
+  if (event.kind == EventKind::close)
+    return listener.on_close(event.connection, event.reason, event.detail);
   delivering_.swap(lines_[event.connection].incoming);
   lines_[event.connection].counters.bytes_received += delivering_.size();
   if (!delivering_.empty()) listener.on_bytes(event.connection, delivering_);
@@ -58,8 +61,11 @@ void InProcessEndpoint::send(ConnectionId connection, std::span<const Bytes> par
   std::size_t size = 0;
   for (const Bytes part : parts) size += part.size();
   if (size == 0) return;
-  if (there.incoming.size() + size > network_.queue_max_) return part(connection, CloseReason::queue_full, CloseReason::closed_by_peer, "the peer did not read");
-  for (const Bytes part : parts) there.incoming.insert(there.incoming.end(), part.begin(), part.end());
+  if (there.incoming.size() + size > network_.queue_max_)
+    return part(connection, CloseReason::queue_full, CloseReason::closed_by_peer,
+                "the peer did not read");
+  for (const Bytes part : parts)
+    there.incoming.insert(there.incoming.end(), part.begin(), part.end());
   if (was_empty) line.peer->events_.push_back({EventKind::bytes, line.peer_connection, {}, {}});
   line.counters.bytes_sent += size;
   line.counters.segments_sent += (size + 1447) / 1448;
@@ -67,10 +73,12 @@ void InProcessEndpoint::send(ConnectionId connection, std::span<const Bytes> par
 }
 
 void InProcessEndpoint::close(ConnectionId connection) {
-  if (connection < lines_.size() && lines_[connection].peer != nullptr) part(connection, CloseReason::closed_by_us, CloseReason::closed_by_peer, "");
+  if (connection < lines_.size() && lines_[connection].peer != nullptr)
+    part(connection, CloseReason::closed_by_us, CloseReason::closed_by_peer, "");
 }
 
-void InProcessEndpoint::part(ConnectionId connection, CloseReason ours, CloseReason theirs, const std::string& detail) {
+void InProcessEndpoint::part(ConnectionId connection, CloseReason ours, CloseReason theirs,
+                             const std::string& detail) {
   Line& line = lines_[connection];
   Line& there = line.peer->lines_[line.peer_connection];
   line.peer->events_.push_back({EventKind::close, line.peer_connection, theirs, detail});

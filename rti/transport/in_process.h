@@ -1,4 +1,5 @@
-// Endpoints in one process that reach each other by name: no sockets, one thread, the same order in every run.
+// Endpoints in one process that reach each other by name: no sockets, one thread, the same order in
+// every run.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,8 @@ namespace rink::rti {
 
 class InProcessEndpoint;
 
-/// The air between endpoints; must outlive them. Bytes sent are there at the receiver's next poll. One thread for all.
+/// The air between endpoints; must outlive them. Bytes sent are there at the receiver's next poll.
+/// One thread for all.
 class InProcessNetwork {
  public:
   /// `queue_max` [bytes]: what a receiver may leave unread per connection before it is closed.
@@ -54,12 +56,13 @@ class InProcessEndpoint final : public Transport {
   struct Line {
     InProcessEndpoint* peer = nullptr;  ///< null once closed
     ConnectionId peer_connection = 0;
-    std::vector<std::byte> incoming;    ///< sent by the peer, not yet polled
+    std::vector<std::byte> incoming;  ///< sent by the peer, not yet polled
     TransportCounters counters;
   };
   ConnectionId add_line(InProcessEndpoint* peer);
   void report(const Event& event, TransportListener& listener);
-  void part(ConnectionId connection, CloseReason ours, CloseReason theirs, const std::string& detail);
+  void part(ConnectionId connection, CloseReason ours, CloseReason theirs,
+            const std::string& detail);
 
   InProcessNetwork& network_;
   std::string name_;

@@ -13,7 +13,8 @@ namespace rink::rti {
 namespace {
 
 std::uint32_t interest(bool wants_bytes, bool wants_room) {
-  return (wants_bytes ? static_cast<std::uint32_t>(EPOLLIN) : 0u) | (wants_room ? static_cast<std::uint32_t>(EPOLLOUT) : 0u);
+  return (wants_bytes ? static_cast<std::uint32_t>(EPOLLIN) : 0u) |
+         (wants_room ? static_cast<std::uint32_t>(EPOLLOUT) : 0u);
 }
 
 }  // namespace
@@ -49,7 +50,8 @@ void Readiness::change(int file, std::uint64_t number, bool wants_bytes, bool wa
 
 void Readiness::ask_now() {
   taken_ = 0;
-  count_ = static_cast<std::size_t>(std::max(0, ::epoll_wait(epoll_.number(), told_.data(), static_cast<int>(told_.size()), 0)));
+  count_ = static_cast<std::size_t>(
+      std::max(0, ::epoll_wait(epoll_.number(), told_.data(), static_cast<int>(told_.size()), 0)));
 }
 
 void Readiness::ask(std::chrono::nanoseconds longest_wait, std::chrono::nanoseconds spin) {
@@ -66,14 +68,17 @@ void Readiness::ask(std::chrono::nanoseconds longest_wait, std::chrono::nanoseco
   if (longest_wait.count() > 0) sleep(longest_wait);
 }
 
-/// Sleeping and asking are one system call where the kernel has epoll_pwait2 (Linux 5.11), three where it has not: epoll_wait counts whole milliseconds, but ppoll on
-/// the epoll itself is exact everywhere.
+/// Sleeping and asking are one system call where the kernel has epoll_pwait2 (Linux 5.11), three
+/// where it has not: epoll_wait counts whole milliseconds, but ppoll on the epoll itself is exact
+/// everywhere.
 void Readiness::sleep(std::chrono::nanoseconds longest_wait) {
   const auto seconds = std::chrono::floor<std::chrono::seconds>(longest_wait);
-  const timespec timeout{.tv_sec = static_cast<std::time_t>(seconds.count()), .tv_nsec = static_cast<long>((longest_wait - seconds).count())};
+  const timespec timeout{.tv_sec = static_cast<std::time_t>(seconds.count()),
+                         .tv_nsec = static_cast<long>((longest_wait - seconds).count())};
   if (has_exact_sleep_) {
     taken_ = 0;
-    const int count = ::epoll_pwait2(epoll_.number(), told_.data(), static_cast<int>(told_.size()), &timeout, nullptr);
+    const int count = ::epoll_pwait2(epoll_.number(), told_.data(), static_cast<int>(told_.size()),
+                                     &timeout, nullptr);
     count_ = static_cast<std::size_t>(std::max(0, count));
     if (count >= 0 || errno == EINTR) return;
     has_exact_sleep_ = false;  // an older kernel, or a sandbox that has not heard of it
@@ -88,7 +93,9 @@ std::optional<Readiness::Event> Readiness::next() {
   if (taken_ == count_) return std::nullopt;
   const epoll_event& event = told_[taken_++];
   const bool is_over = (event.events & (EPOLLERR | EPOLLHUP)) != 0;
-  return Event{.number = event.data.u64, .is_writable = is_over || (event.events & EPOLLOUT) != 0, .is_readable = is_over || (event.events & EPOLLIN) != 0};
+  return Event{.number = event.data.u64,
+               .is_writable = is_over || (event.events & EPOLLOUT) != 0,
+               .is_readable = is_over || (event.events & EPOLLIN) != 0};
 }
 
 }  // namespace rink::rti

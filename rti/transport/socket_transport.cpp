@@ -42,19 +42,22 @@ Transport& SocketTransport::get() {
 }
 
 std::uint16_t SocketTransport::listen(const std::string& address, std::uint16_t port) {
-  if (auto* shared = std::get_if<SharedMemoryTransport>(&transport_)) return listen_at(*shared, port);
+  if (auto* shared = std::get_if<SharedMemoryTransport>(&transport_))
+    return listen_at(*shared, port);
   if (auto* udp = std::get_if<UdpTransport>(&transport_)) return udp->listen(address, port);
   return std::get<TcpTransport>(transport_).listen(address, port);
 }
 
 ConnectionId SocketTransport::connect(const std::string& address, std::uint16_t port) {
-  if (auto* shared = std::get_if<SharedMemoryTransport>(&transport_)) return shared->connect(shared_name(port));
+  if (auto* shared = std::get_if<SharedMemoryTransport>(&transport_))
+    return shared->connect(shared_name(port));
   if (auto* udp = std::get_if<UdpTransport>(&transport_)) return udp->connect(address, port);
   return std::get<TcpTransport>(transport_).connect(address, port);
 }
 
 TransportCounters SocketTransport::totals() const {
-  return with_datagrams(std::visit([](const auto& transport) { return transport.totals(); }, transport_));
+  return with_datagrams(
+      std::visit([](const auto& transport) { return transport.totals(); }, transport_));
 }
 
 TransportCounters with_datagrams(TransportCounters counters) {
@@ -63,7 +66,8 @@ TransportCounters with_datagrams(TransportCounters counters) {
   counters.segments_sent += counters.datagrams_sent;
   if (counters.kernel_segments_sent) *counters.kernel_segments_sent += counters.datagrams_sent;
   if (counters.kernel_bytes_sent) *counters.kernel_bytes_sent += counters.datagram_bytes_sent;
-  if (counters.kernel_bytes_received) *counters.kernel_bytes_received += counters.datagram_bytes_received;
+  if (counters.kernel_bytes_received)
+    *counters.kernel_bytes_received += counters.datagram_bytes_received;
   return counters;
 }
 

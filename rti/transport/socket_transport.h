@@ -1,4 +1,5 @@
-// The transports between processes behind one way of listening and connecting, for commands that let their user choose.
+// The transports between processes behind one way of listening and connecting, for commands that
+// let their user choose.
 #pragma once
 
 #include <array>
@@ -15,7 +16,8 @@ namespace rink::rti {
 
 inline constexpr std::array<const char*, 3> socket_transport_names{"tcp", "udp", "shm"};
 
-/// TCP, UDP beside TCP, or shared memory, by name. With shared memory the address says nothing: a port is one of this machine's.
+/// TCP, UDP beside TCP, or shared memory, by name. With shared memory the address says nothing: a
+/// port is one of this machine's.
 class SocketTransport {
  public:
   /// `name` must be one of `socket_transport_names`.
@@ -25,7 +27,8 @@ class SocketTransport {
   /// The port; 0 takes any free one. Throws TransportError.
   std::uint16_t listen(const std::string& address, std::uint16_t port);
   ConnectionId connect(const std::string& address, std::uint16_t port);
-  /// Of all connections that ever were; datagrams are in the bytes too, sent and received, ours and the kernel's.
+  /// Of all connections that ever were; datagrams are in the bytes too, sent and received, ours and
+  /// the kernel's.
   TransportCounters totals() const;
 
  private:

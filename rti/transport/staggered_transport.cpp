@@ -11,8 +11,10 @@ void StaggeredTransport::poll(std::chrono::nanoseconds longest_wait, TransportLi
   release(now);
   if (slots_taken_ > 0) {
     const auto next = std::ranges::find_if(slots_, [](const auto& slot) { return !slot.empty(); });
-    const double wait_s = std::max(0.0, due_s(static_cast<std::size_t>(next - slots_.begin())) - now);
-    longest_wait = std::min(longest_wait, std::chrono::nanoseconds(static_cast<std::int64_t>(wait_s * 1e9)));
+    const double wait_s =
+        std::max(0.0, due_s(static_cast<std::size_t>(next - slots_.begin())) - now);
+    longest_wait =
+        std::min(longest_wait, std::chrono::nanoseconds(static_cast<std::int64_t>(wait_s * 1e9)));
   }
   inner_.poll(longest_wait, listener);
   if (slots_taken_ > 0) release(now_s_());
@@ -24,7 +26,8 @@ void StaggeredTransport::send(ConnectionId connection, std::span<const Bytes> pa
   if (size == 0) return;
   const double now = now_s_();
   if (window_s_ <= 0.0) return give(connection, parts, size, now);
-  if (connection >= waiting_.size()) waiting_.resize(connection + 1), joined_writes_.resize(connection + 1);
+  if (connection >= waiting_.size())
+    waiting_.resize(connection + 1), joined_writes_.resize(connection + 1);
   std::vector<std::byte>& waiting = waiting_[connection];
   if (!waiting.empty()) {
     ++joined_writes_[connection];
@@ -62,7 +65,8 @@ void StaggeredTransport::give_waiting(ConnectionId connection, double now) {
   waiting_[connection].clear();
 }
 
-void StaggeredTransport::give(ConnectionId connection, std::span<const Bytes> parts, std::size_t size, double now) {
+void StaggeredTransport::give(ConnectionId connection, std::span<const Bytes> parts,
+                              std::size_t size, double now) {
   if (now - burst_begun_s_ >= burst_s) {
     burst_begun_s_ = now;
     burst_bytes_ = 0;
@@ -84,7 +88,8 @@ TransportCounters StaggeredTransport::counters(ConnectionId connection) const {
 }
 
 std::size_t StaggeredTransport::queued_bytes(ConnectionId connection) const {
-  return inner_.queued_bytes(connection) + (connection < waiting_.size() ? waiting_[connection].size() : 0);
+  return inner_.queued_bytes(connection) +
+         (connection < waiting_.size() ? waiting_[connection].size() : 0);
 }
 
 void StaggeredTransport::push() {

@@ -5,12 +5,18 @@ namespace rink::rti {
 
 const char* to_string(CloseReason reason) {
   switch (reason) {
-    case CloseReason::closed_by_peer: return "closed by peer";
-    case CloseReason::closed_by_us: return "closed by us";
-    case CloseReason::queue_full: return "queue full";
-    case CloseReason::refused: return "refused";
-    case CloseReason::failed: return "failed";
-    case CloseReason::too_fast: return "sent faster than allowed";
+    case CloseReason::closed_by_peer:
+      return "closed by peer";
+    case CloseReason::closed_by_us:
+      return "closed by us";
+    case CloseReason::queue_full:
+      return "queue full";
+    case CloseReason::refused:
+      return "refused";
+    case CloseReason::failed:
+      return "failed";
+    case CloseReason::too_fast:
+      return "sent faster than allowed";
   }
   return "unknown reason";
 }

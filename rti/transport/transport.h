@@ -14,12 +14,12 @@
 namespace rink::rti {
 
 enum class CloseReason : std::uint8_t {
-  closed_by_peer,   ///< orderly or not, the peer is gone
+  closed_by_peer,  ///< orderly or not, the peer is gone
   closed_by_us,
-  queue_full,       ///< the peer did not read and its queue reached the limit
-  refused,          ///< nobody listens there
-  failed,           ///< any other error of the operating system
-  too_fast,         ///< the peer sent more than its rate limit allows
+  queue_full,  ///< the peer did not read and its queue reached the limit
+  refused,     ///< nobody listens there
+  failed,      ///< any other error of the operating system
+  too_fast,    ///< the peer sent more than its rate limit allows
 };
 const char* to_string(CloseReason reason);
 
@@ -42,55 +42,72 @@ class TransportListener {
   /// Bytes as the peer sent them, in order, cut anywhere. Valid during the call.
   virtual void on_bytes(ConnectionId connection, Bytes bytes) = 0;
   virtual void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) = 0;
-  /// One whole datagram of the connection's peer, sooner or later than what was sent before or after it, or twice. Valid during the call.
+  /// One whole datagram of the connection's peer, sooner or later than what was sent before or
+  /// after it, or twice. Valid during the call.
   virtual void on_datagram(ConnectionId /*connection*/, Bytes /*datagram*/) {}
 };
 
-/// Payload as counted here, and what the kernel says of the same connection where it can (`TCP_INFO`).
+/// Payload as counted here, and what the kernel says of the same connection where it can
+/// (`TCP_INFO`).
 struct TransportCounters {
-  std::uint64_t bytes_sent = 0, bytes_received = 0;      ///< handed to / taken from the operating system
-  std::uint64_t writes = 0;                              ///< calls of `send` that had bytes
-  std::uint64_t segments_sent = 0;                       ///< sum over writes of ceil(bytes / 1448): what Ethernet would carry
-  std::size_t queued_bytes = 0;                          ///< accepted by `send`, not yet taken by the operating system
-  std::optional<std::uint64_t> kernel_bytes_sent;        ///< acknowledged by the peer's kernel
+  std::uint64_t bytes_sent = 0,
+                bytes_received = 0;  ///< handed to / taken from the operating system
+  std::uint64_t writes = 0;          ///< calls of `send` that had bytes
+  std::uint64_t segments_sent =
+      0;  ///< sum over writes of ceil(bytes / 1448): what Ethernet would carry
+  std::size_t queued_bytes = 0;  ///< accepted by `send`, not yet taken by the operating system
+  std::optional<std::uint64_t> kernel_bytes_sent;  ///< acknowledged by the peer's kernel
   std::optional<std::uint64_t> kernel_bytes_received;
-  std::optional<std::uint64_t> kernel_segments_sent;     ///< with data: on loopback fewer and larger ones than `segments_sent`
-  /// Segments without data that this end sent: by the kernel, those of the handshake included; where it carries nothing by the model of DelayedAcknowledgements,
-  /// and none in the transports that have no clock.
+  std::optional<std::uint64_t>
+      kernel_segments_sent;  ///< with data: on loopback fewer and larger ones than `segments_sent`
+  /// Segments without data that this end sent: by the kernel, those of the handshake included;
+  /// where it carries nothing by the model of DelayedAcknowledgements, and none in the transports
+  /// that have no clock.
   std::uint64_t acknowledgements_sent = 0;
-  /// Apart from the bytes above: datagrams given to and taken from the operating system, and their payload.
-  std::uint64_t datagrams_sent = 0, datagrams_received = 0, datagram_bytes_sent = 0, datagram_bytes_received = 0;
+  /// Apart from the bytes above: datagrams given to and taken from the operating system, and their
+  /// payload.
+  std::uint64_t datagrams_sent = 0, datagrams_received = 0, datagram_bytes_sent = 0,
+                datagram_bytes_received = 0;
 };
 
-/// Carries bytes, reliably and in order, between this endpoint and its peers. Not thread safe: one thread owns it. Transports that can also lose what may be
-/// lost, and are faster for it, override the last three members; all others leave them alone.
+/// Carries bytes, reliably and in order, between this endpoint and its peers. Not thread safe: one
+/// thread owns it. Transports that can also lose what may be lost, and are faster for it, override
+/// the last three members; all others leave them alone.
 class Transport {
  public:
   virtual ~Transport() = default;
 
-  /// Reports all that happened to `listener`; if nothing has, waits for the first event up to `longest_wait`.
+  /// Reports all that happened to `listener`; if nothing has, waits for the first event up to
+  /// `longest_wait`.
   virtual void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) = 0;
 
-  /// Sends the parts, one after the other, as one write. What the operating system does not take now is queued (a copy), up to the transport's
-  /// limit; beyond it the connection is closed with `queue_full`, reported by the next `poll`. Unknown connections are ignored.
+  /// Sends the parts, one after the other, as one write. What the operating system does not take
+  /// now is queued (a copy), up to the transport's limit; beyond it the connection is closed with
+  /// `queue_full`, reported by the next `poll`. Unknown connections are ignored.
   virtual void send(ConnectionId connection, std::span<const Bytes> parts) = 0;
 
-  /// Sends what is queued if the peer takes it at once, then closes; `on_close` follows in the next `poll`.
+  /// Sends what is queued if the peer takes it at once, then closes; `on_close` follows in the next
+  /// `poll`.
   virtual void close(ConnectionId connection) = 0;
 
-  /// What `counters` says as `queued_bytes`, without asking the kernel: asked of each destination before each send. 0 from a transport that doesn't know, whose
-  /// readers then get all updates however late.
+  /// What `counters` says as `queued_bytes`, without asking the kernel: asked of each destination
+  /// before each send. 0 from a transport that doesn't know, whose readers then get all updates
+  /// however late.
   virtual std::size_t queued_bytes(ConnectionId) const { return 0; }
 
-  /// Counters of an open connection, or the last ones of a closed one; all zero for one that never was.
+  /// Counters of an open connection, or the last ones of a closed one; all zero for one that never
+  /// was.
   virtual TransportCounters counters(ConnectionId connection) const = 0;
 
-  /// The most bytes that a datagram over this connection may have now [bytes]; 0 while there is no way for datagrams, when none may be sent.
+  /// The most bytes that a datagram over this connection may have now [bytes]; 0 while there is no
+  /// way for datagrams, when none may be sent.
   virtual std::size_t datagram_max(ConnectionId /*connection*/) const { return 0; }
-  /// Sends each as one datagram, or loses it; never queues it for long, never closes the connection. The bytes are valid during the call,
-  /// bodies that say so until the next `push`.
-  virtual void send_datagrams(ConnectionId /*connection*/, std::span<const Datagram> /*datagrams*/) {}
-  /// Gives datagrams that were gathered, so that many go in one system call, to the operating system.
+  /// Sends each as one datagram, or loses it; never queues it for long, never closes the
+  /// connection. The bytes are valid during the call, bodies that say so until the next `push`.
+  virtual void send_datagrams(ConnectionId /*connection*/,
+                              std::span<const Datagram> /*datagrams*/) {}
+  /// Gives datagrams that were gathered, so that many go in one system call, to the operating
+  /// system.
   virtual void push() {}
 };
 

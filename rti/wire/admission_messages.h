@@ -1,4 +1,5 @@
-// The messages by which both ends prove that they have the same key, before anything else is said (docs/wire.md).
+// The messages by which both ends prove that they have the same key, before anything else is said
+// (docs/wire.md).
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// The messages by which federate and RTI agree on baselines of periodic state (docs/wire.md, "Baselines").
+// The messages by which federate and RTI agree on baselines of periodic state (docs/wire.md,
+// "Baselines").
 #pragma once
 
 #include "rti/wire/message.h"

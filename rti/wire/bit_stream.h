@@ -1,4 +1,5 @@
-// The three bit streams that one `exchange` function serves: writing, reading and measuring fields that end between bytes.
+// The three bit streams that one `exchange` function serves: writing, reading and measuring fields
+// that end between bytes.
 #pragma once
 
 #include <bit>
@@ -13,18 +14,24 @@
 namespace rink::rti {
 
 /// Numbers of any sign as numbers that are small near zero: 0, -1, 1, -2, 2 become 0, 1, 2, 3, 4.
-inline std::uint64_t zigzag(std::int64_t value) { return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63); }
-inline std::int64_t from_zigzag(std::uint64_t value) { return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1); }
+inline std::uint64_t zigzag(std::int64_t value) {
+  return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
+}
+inline std::int64_t from_zigzag(std::uint64_t value) {
+  return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
+}
 
-/// Exponential Golomb codes (Teuhola 1978): what is below 2^order takes order + 1 bits; each doubling of (value + 2^order) takes two bits more.
+/// Exponential Golomb codes (Teuhola 1978): what is below 2^order takes order + 1 bits; each
+/// doubling of (value + 2^order) takes two bits more.
 inline constexpr std::uint64_t golomb_max = (std::uint64_t{1} << 56) - 1;
 inline constexpr unsigned golomb_order_max = 31;
 inline unsigned golomb_size(std::uint64_t value, unsigned order) {
   return 2 * static_cast<unsigned>(std::bit_width((value >> order) + 1)) - 1 + order;
 }
 
-/// Appends bits to a buffer, least significant first, from its end on. Asserts the ranges. The last byte is filled up with zeros by `finish`, which the destructor calls;
-/// the buffer must not be touched before.
+/// Appends bits to a buffer, least significant first, from its end on. Asserts the ranges. The last
+/// byte is filled up with zeros by `finish`, which the destructor calls; the buffer must not be
+/// touched before.
 class BitWriter {
  public:
   static constexpr bool is_reading = false;
@@ -55,14 +62,17 @@ class BitWriter {
   bool ranged(const std::int64_t& value, std::int64_t low, std::int64_t high) {
     assert(low <= value && value <= high);
     const std::uint64_t span = static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low);
-    return bits(static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(low), static_cast<unsigned>(std::bit_width(span)));
+    return bits(static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(low),
+                static_cast<unsigned>(std::bit_width(span)));
   }
   bool quantised(const double& value, const Quantisation& grid) {
     assert(grid.contains(value));
     return bits(grid.count(value), grid.bits);
   }
   /// A number from `low` to `high` that may be rounded by `error`; the grid must exist.
-  bool quantised(const double& value, double low, double high, double error) { return quantised(value, *Quantisation::of(low, high, error)); }
+  bool quantised(const double& value, double low, double high, double error) {
+    return quantised(value, *Quantisation::of(low, high, error));
+  }
   /// Every bit of a double.
   bool full(const double& value) { return bits(std::bit_cast<std::uint64_t>(value), 64); }
   /// A number of at most `golomb_max`, the shorter the smaller.
@@ -133,7 +143,9 @@ class BitReader {
     value = grid.value(count);
     return true;
   }
-  bool quantised(double& value, double low, double high, double error) { return quantised(value, *Quantisation::of(low, high, error)); }
+  bool quantised(double& value, double low, double high, double error) {
+    return quantised(value, *Quantisation::of(low, high, error));
+  }
   bool full(double& value) {
     std::uint64_t word = 0;
     if (!bits(word, 64)) return false;
@@ -146,7 +158,8 @@ class BitReader {
     if (ahead == 0) return false;
     const auto length = static_cast<unsigned>(std::countr_zero(ahead));
     std::uint64_t head = 0, tail = 0;
-    if (const unsigned size = 2 * length + 1 + order; size <= there && order < 64) {  // nearly always: the whole code has been read
+    if (const unsigned size = 2 * length + 1 + order;
+        size <= there && order < 64) {  // nearly always: the whole code has been read
       head = ahead >> length >> 1 & low_bits(length);
       tail = ahead >> (size - order) & low_bits(order);
       at_ += size;
@@ -177,7 +190,8 @@ class BitReader {
     if (size == 0) return 0;
     const std::size_t from = at_ / 8, shift = at_ % 8, there = bytes_.size() - from;
     std::uint64_t word = 0;
-    if (there >= 8) std::memcpy(&word, bytes_.data() + from, 8);  // of a size that is known it is a single load
+    if (there >= 8)
+      std::memcpy(&word, bytes_.data() + from, 8);  // of a size that is known it is a single load
     else std::memcpy(&word, bytes_.data() + from, there);
     word >>= shift;
     if (shift + size > 64) word |= static_cast<std::uint64_t>(bytes_[from + 8]) << (64 - shift);
@@ -213,12 +227,17 @@ class BitMeasurer {
   }
   bool flag(const bool&) { return bits(0, 1); }
   bool ranged(const std::int64_t& value, std::int64_t low, std::int64_t high) {
-    return bits(value, static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low))));
+    return bits(value, static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(high) -
+                                                            static_cast<std::uint64_t>(low))));
   }
   bool quantised(const double& value, const Quantisation& grid) { return bits(value, grid.bits); }
-  bool quantised(const double& value, double low, double high, double error) { return quantised(value, *Quantisation::of(low, high, error)); }
+  bool quantised(const double& value, double low, double high, double error) {
+    return quantised(value, *Quantisation::of(low, high, error));
+  }
   bool full(const double& value) { return bits(value, 64); }
-  bool golomb(const std::uint64_t& value, unsigned order) { return bits(value, golomb_size(value, order)); }
+  bool golomb(const std::uint64_t& value, unsigned order) {
+    return bits(value, golomb_size(value, order));
+  }
 
  private:
   std::size_t size_ = 0;

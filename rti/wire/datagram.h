@@ -1,4 +1,5 @@
-// Datagrams of best-effort updates: their head, their acknowledgement, and the order between them and the frames of the stream (docs/wire.md, "Datagrams").
+// Datagrams of best-effort updates: their head, their acknowledgement, and the order between them
+// and the frames of the stream (docs/wire.md, "Datagrams").
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,8 @@ namespace rink::rti {
 /// What every datagram begins with.
 struct DatagramHead {
   static constexpr std::size_t size = 8;
-  std::uint32_t number = 0;  ///< counts from 1 in each direction of a connection; 0: nothing in it is to be acknowledged
+  std::uint32_t number = 0;  ///< counts from 1 in each direction of a connection; 0: nothing in it
+                             ///< is to be acknowledged
   std::uint32_t frames = 0;  ///< of the stream, sent to the same receiver before it
 };
 template <class Stream>
@@ -21,7 +23,8 @@ bool exchange(Stream& stream, DatagramHead& head) {
   return stream.number(head.number) && stream.number(head.frames);
 }
 
-/// Ends the messages of a datagram; what follows is padding, so that many datagrams of one size can be sent at once.
+/// Ends the messages of a datagram; what follows is padding, so that many datagrams of one size can
+/// be sent at once.
 inline constexpr std::uint8_t datagram_end = 0;
 
 /// Bit k of `before` tells that datagram `newest` - 1 - k has arrived.
@@ -45,8 +48,11 @@ using AcknowledgeDatagramsMessage = AcknowledgeMessage<MessageKind::acknowledge_
 /// Which datagrams have arrived.
 class DatagramReceipts {
  public:
-  static constexpr std::uint32_t per_acknowledgement = 32;  ///< half a window, so that each is told twice
-  static constexpr double longest_delay_s = 0.1;            ///< before what arrived is acknowledged [s], unless one is missing: reading an acknowledgement costs a fourth of what sending a tick does
+  static constexpr std::uint32_t per_acknowledgement =
+      32;  ///< half a window, so that each is told twice
+  static constexpr double longest_delay_s =
+      0.1;  ///< before what arrived is acknowledged [s], unless one is missing: reading an
+            ///< acknowledgement costs a fourth of what sending a tick does
 
   /// False if it has been noted before, or is too old to tell.
   bool note(std::uint32_t number) {
@@ -58,14 +64,18 @@ class DatagramReceipts {
     } else {
       const std::uint32_t step = number - state.newest;
       // Of datagram 0, which never was, nothing is told.
-      state.before = step > state.window ? 0 : (step == state.window ? 0 : state.before << step) | (state.newest == 0 ? 0 : std::uint64_t{1} << (step - 1));
+      state.before = step > state.window
+                         ? 0
+                         : (step == state.window ? 0 : state.before << step) |
+                               (state.newest == 0 ? 0 : std::uint64_t{1} << (step - 1));
       has_gap_ |= step > 1;
       state.newest = number;
     }
     ++due_;
     return true;
   }
-  /// True if the sender should be told now: many are due, or one is missing and may have to be sent again.
+  /// True if the sender should be told now: many are due, or one is missing and may have to be sent
+  /// again.
   bool is_urgent() const { return due_ >= per_acknowledgement || (has_gap_ && due_ > 0); }
   bool is_due() const { return due_ > 0; }
   /// The acknowledgement of all that was noted.
@@ -81,16 +91,22 @@ class DatagramReceipts {
   bool has_gap_ = false;
 };
 
-/// Orders datagrams and frames of one direction by when they were sent: a datagram after the frames that it counts, one of a higher number after one of a lower.
-inline std::uint64_t order_of_datagram(const DatagramHead& head) { return std::uint64_t{head.frames} << 32 | head.number; }
+/// Orders datagrams and frames of one direction by when they were sent: a datagram after the frames
+/// that it counts, one of a higher number after one of a lower.
+inline std::uint64_t order_of_datagram(const DatagramHead& head) {
+  return std::uint64_t{head.frames} << 32 | head.number;
+}
 /// `frame` counts from 1.
 inline std::uint64_t order_of_frame(std::uint32_t frame) { return std::uint64_t{frame} << 32; }
 
-/// Attributes of a class that travel by datagram where there is a way: best-effort and in receive order, for time-stamp order waits for all that was said before.
+/// Attributes of a class that travel by datagram where there is a way: best-effort and in receive
+/// order, for time-stamp order waits for all that was said before.
 inline AttributeSet best_effort_attributes(const ObjectClass& object_class) {
   AttributeSet set;
   for (std::uint32_t i = 0; i < object_class.attributes.size(); ++i)
-    if (object_class.attributes[i].transportation == Transportation::best_effort && object_class.attributes[i].order == Order::receive) set.insert({i});
+    if (object_class.attributes[i].transportation == Transportation::best_effort &&
+        object_class.attributes[i].order == Order::receive)
+      set.insert({i});
   return set;
 }
 

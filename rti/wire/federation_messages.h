@@ -1,11 +1,13 @@
-// The messages of federation management: synchronisation points, and what may be asked of a host before a federate has joined.
+// The messages of federation management: synchronisation points, and what may be asked of a host
+// before a federate has joined.
 #pragma once
 
 #include "rti/wire/message.h"
 
 namespace rink::rti {
 
-inline constexpr std::size_t synchronization_tag_max = 1024;  ///< longest user-supplied tag of a synchronisation point [bytes]
+inline constexpr std::size_t synchronization_tag_max =
+    1024;  ///< longest user-supplied tag of a synchronisation point [bytes]
 
 /// Federate handles as they travel: how many, then each as a u32.
 struct HandleList {
@@ -15,7 +17,8 @@ struct HandleList {
 };
 template <class Stream>
 bool exchange(Stream& stream, HandleList& list) {
-  return stream.range(list.count, HandleList::count_max) && stream.rest(list.records, list.count * sizeof(std::uint32_t));
+  return stream.range(list.count, HandleList::count_max) &&
+         stream.rest(list.records, list.count * sizeof(std::uint32_t));
 }
 /// The list of `handles`, whose bytes stay where they are.
 inline HandleList list_of(std::span<const FederateHandle> handles) {
@@ -25,7 +28,8 @@ inline HandleList list_of(std::span<const FederateHandle> handles) {
 }
 inline std::vector<FederateHandle> handles_of(const HandleList& list) {
   std::vector<FederateHandle> handles(list.count);
-  if (list.count > 0) std::memcpy(static_cast<void*>(handles.data()), list.records.data(), list.records.size());
+  if (list.count > 0)
+    std::memcpy(static_cast<void*>(handles.data()), list.records.data(), list.records.size());
   return handles;
 }
 
@@ -47,7 +51,9 @@ struct RegisterSynchronizationPointMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, RegisterSynchronizationPointMessage& message) {
-  return stream.text(message.label, text_max) && stream.template bytes<std::uint16_t>(message.tag, synchronization_tag_max) && exchange(stream, message.members);
+  return stream.text(message.label, text_max) &&
+         stream.template bytes<std::uint16_t>(message.tag, synchronization_tag_max) &&
+         exchange(stream, message.members);
 }
 
 struct SynchronizationPointAchievedMessage {
@@ -67,7 +73,9 @@ struct SynchronizationPointRegisteredMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, SynchronizationPointRegisteredMessage& message) {
-  return stream.text(message.label, text_max) && stream.range(message.failure, static_cast<std::uint64_t>(SynchronizationFailure::over_limit));
+  return stream.text(message.label, text_max) &&
+         stream.range(message.failure,
+                      static_cast<std::uint64_t>(SynchronizationFailure::over_limit));
 }
 
 struct AnnounceSynchronizationPointMessage {
@@ -77,7 +85,8 @@ struct AnnounceSynchronizationPointMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, AnnounceSynchronizationPointMessage& message) {
-  return stream.text(message.label, text_max) && stream.template bytes<std::uint16_t>(message.tag, synchronization_tag_max);
+  return stream.text(message.label, text_max) &&
+         stream.template bytes<std::uint16_t>(message.tag, synchronization_tag_max);
 }
 
 struct FederationSynchronizedMessage {
@@ -90,7 +99,8 @@ bool exchange(Stream& stream, FederationSynchronizedMessage& message) {
   return stream.text(message.label, text_max) && exchange(stream, message.failed);
 }
 
-/// Asks a host to make or to remove a federation execution. The model is named by its hash: the host must have it.
+/// Asks a host to make or to remove a federation execution. The model is named by its hash: the
+/// host must have it.
 struct CreateFederationExecutionMessage {
   static constexpr MessageKind kind = MessageKind::create_federation_execution;
   std::string_view federation;
@@ -121,12 +131,16 @@ struct FederationOutcomeMessage {
 };
 template <class Stream, MessageKind k>
 bool exchange(Stream& stream, FederationOutcomeMessage<k>& message) {
-  return stream.text(message.federation, text_max) && stream.range(message.error, static_cast<std::uint64_t>(HlaError::rti_internal_error));
+  return stream.text(message.federation, text_max) &&
+         stream.range(message.error, static_cast<std::uint64_t>(HlaError::rti_internal_error));
 }
-using FederationExecutionCreatedMessage = FederationOutcomeMessage<MessageKind::federation_execution_created>;
-using FederationExecutionDestroyedMessage = FederationOutcomeMessage<MessageKind::federation_execution_destroyed>;
+using FederationExecutionCreatedMessage =
+    FederationOutcomeMessage<MessageKind::federation_execution_created>;
+using FederationExecutionDestroyedMessage =
+    FederationOutcomeMessage<MessageKind::federation_execution_destroyed>;
 
-/// One federation execution in the list that answers; the last one says so, and an empty host says only that.
+/// One federation execution in the list that answers; the last one says so, and an empty host says
+/// only that.
 struct FederationExecutionMessage {
   static constexpr MessageKind kind = MessageKind::federation_execution;
   std::uint8_t is_end = 0;  ///< 1: the list is complete, and nothing but this byte is said
@@ -136,7 +150,9 @@ struct FederationExecutionMessage {
 template <class Stream>
 bool exchange(Stream& stream, FederationExecutionMessage& message) {
   if (!stream.range(message.is_end, 1)) return false;
-  return message.is_end == 1 || (stream.text(message.federation, text_max) && stream.text(message.model, text_max) && stream.number(message.federates));
+  return message.is_end == 1 ||
+         (stream.text(message.federation, text_max) && stream.text(message.model, text_max) &&
+          stream.number(message.federates));
 }
 
 }  // namespace rink::rti

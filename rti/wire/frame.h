@@ -10,10 +10,12 @@
 
 namespace rink::rti {
 
-inline constexpr std::size_t frame_header_size = 4;              ///< the payload's length, u32
-inline constexpr std::size_t frame_max_to_rti = 64 * 1024;       ///< longest payload that a joined federate may send [bytes]
-inline constexpr std::size_t frame_max_to_join = 1024;           ///< and one that has not joined
-inline constexpr std::size_t frame_max_to_federate = 64u << 20;  ///< longest payload that the RTI sends
+inline constexpr std::size_t frame_header_size = 4;  ///< the payload's length, u32
+inline constexpr std::size_t frame_max_to_rti =
+    64 * 1024;  ///< longest payload that a joined federate may send [bytes]
+inline constexpr std::size_t frame_max_to_join = 1024;  ///< and one that has not joined
+inline constexpr std::size_t frame_max_to_federate = 64u
+                                                     << 20;  ///< longest payload that the RTI sends
 
 /// Collects messages in frames; a frame is closed when the next message would not fit.
 class FrameWriter {
@@ -26,7 +28,9 @@ class FrameWriter {
     return bytes_;
   }
   /// True if the frame at the end takes `size` more bytes.
-  bool has_room(std::size_t size) const { return is_open_ && payload_size() + size <= payload_max_; }
+  bool has_room(std::size_t size) const {
+    return is_open_ && payload_size() + size <= payload_max_;
+  }
   bool is_open() const { return is_open_; }
   std::vector<std::byte>& buffer() { return bytes_; }
   /// The frame's length becomes true again.
@@ -60,7 +64,8 @@ class FrameWriter {
   std::uint64_t frame_count_ = 0;
 };
 
-/// What became of bytes handed to a `FrameReader`. Whatever is not `sound` ends the stream: what was not read is lost.
+/// What became of bytes handed to a `FrameReader`. Whatever is not `sound` ends the stream: what
+/// was not read is lost.
 enum class Framing : std::uint8_t {
   sound,      ///< all of it is read, or kept until its frame is whole
   stopped,    ///< the taker of a frame wants no more
@@ -68,11 +73,14 @@ enum class Framing : std::uint8_t {
   oversized,  ///< a frame longer than allowed
 };
 
-/// Finds whole frames in a stream that may be cut anywhere. Keeps at most one frame's bytes and never believes a length before they are there.
+/// Finds whole frames in a stream that may be cut anywhere. Keeps at most one frame's bytes and
+/// never believes a length before they are there.
 class FrameReader {
  public:
-  /// Gives each payload to `take`, a callable `bool(Bytes)`; stops as soon as it returns false, or at a length of 0 or beyond the limit. `limit()` is asked before each
-  /// frame, since it may change with what was said. Nothing is copied of frames that arrive whole. The caller must end the connection unless all was sound.
+  /// Gives each payload to `take`, a callable `bool(Bytes)`; stops as soon as it returns false, or
+  /// at a length of 0 or beyond the limit. `limit()` is asked before each frame, since it may
+  /// change with what was said. Nothing is copied of frames that arrive whole. The caller must end
+  /// the connection unless all was sound.
   template <class Limit, class Take>
   [[nodiscard]] Framing receive(Bytes bytes, Limit limit, Take take) {
     while (!bytes.empty()) {

@@ -1,4 +1,5 @@
-// The messages of the management service: a question, and an answer of one message for each federation execution and each of its federates.
+// The messages of the management service: a question, and an answer of one message for each
+// federation execution and each of its federates.
 #pragma once
 
 #include "rti/management/federation_report.h"
@@ -18,7 +19,9 @@ struct FederationReportMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, FederationReportMessage& message) {
-  if (!stream.text(message.federation, text_max) || !stream.text(message.model, text_max) || !stream.text(message.filter, text_max) || !stream.varint(message.objects)) return false;
+  if (!stream.text(message.federation, text_max) || !stream.text(message.model, text_max) ||
+      !stream.text(message.filter, text_max) || !stream.varint(message.objects))
+    return false;
   for (std::uint64_t& drops : message.drops)
     if (!stream.varint(drops)) return false;
   return true;
@@ -33,14 +36,18 @@ struct FederateReportMessage {
 template <class Stream>
 bool exchange(Stream& stream, FederateReportMessage& message) {
   FederateCounts& counts = message.counts;
-  if (!stream.number(message.federate) || !stream.text(message.name, text_max) || !stream.text(message.type, text_max)) return false;
-  for (std::uint64_t* count : {&counts.updates_sent, &counts.reflections_received, &counts.interactions_sent, &counts.interactions_received, &counts.bytes_sent,
-                               &counts.bytes_received, &counts.queue_bytes})
+  if (!stream.number(message.federate) || !stream.text(message.name, text_max) ||
+      !stream.text(message.type, text_max))
+    return false;
+  for (std::uint64_t* count : {&counts.updates_sent, &counts.reflections_received,
+                               &counts.interactions_sent, &counts.interactions_received,
+                               &counts.bytes_sent, &counts.bytes_received, &counts.queue_bytes})
     if (!stream.varint(*count)) return false;
   for (std::uint32_t* count : {&counts.objects_owned, &counts.objects_in_scope, &counts.regions})
     if (!stream.varint(*count)) return false;
-  return stream.range(counts.is_time_regulating, 1) && stream.range(counts.is_time_constrained, 1) && stream.number(counts.logical_time) && stream.number(counts.earliest_stamp) &&
-         stream.finite(counts.silence_s);
+  return stream.range(counts.is_time_regulating, 1) &&
+         stream.range(counts.is_time_constrained, 1) && stream.number(counts.logical_time) &&
+         stream.number(counts.earliest_stamp) && stream.finite(counts.silence_s);
 }
 
 /// The answer is complete.
@@ -49,8 +56,10 @@ using ReportEndMessage = BareMessage<MessageKind::report_end>;
 /// Calls `say(message)` for every message of one report; the end is not among them.
 template <class Say>
 void for_each_message(const FederationReport& report, Say say) {
-  say(FederationReportMessage{report.federation, report.model, report.filter, report.objects, report.drops});
-  for (const FederateReport& each : report.federates) say(FederateReportMessage{each.federate.value, each.name, each.type, each.counts});
+  say(FederationReportMessage{report.federation, report.model, report.filter, report.objects,
+                              report.drops});
+  for (const FederateReport& each : report.federates)
+    say(FederateReportMessage{each.federate.value, each.name, each.type, each.counts});
 }
 
 }  // namespace rink::rti

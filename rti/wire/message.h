@@ -8,65 +8,134 @@
 #include <vector>
 
 #include "im/filter.h"
-#include "rti/fom/attribute_set.h"
 #include "rti/federate_ambassador.h"
-#include "rti/hla_error.h"
-#include "rti/wire/frame.h"
+#include "rti/fom/attribute_set.h"
 #include "rti/handles.h"
+#include "rti/hla_error.h"
 #include "rti/membership.h"
+#include "rti/wire/frame.h"
 #include "rti/wire/stream.h"
 
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
 inline constexpr std::uint16_t protocol_version = 8;
-inline constexpr std::size_t text_max = 255;                 ///< longest name or label [bytes]
-inline constexpr std::size_t parameters_max = 32 * 1024;     ///< longest parameters of one interaction [bytes]
-inline constexpr std::size_t values_max = 32 * 1024;         ///< longest values of one update as they travel [bytes]
-inline constexpr std::uint32_t region_max = 1u << 18;        ///< regions of one federate
-/// An object handle is the block that the RTI gave its owner, times `object_block`, plus the owner's own count.
-/// A federate that has used half of its block is given a further one, so that only what it has at once is limited.
+inline constexpr std::size_t text_max = 255;  ///< longest name or label [bytes]
+inline constexpr std::size_t parameters_max =
+    32 * 1024;  ///< longest parameters of one interaction [bytes]
+inline constexpr std::size_t values_max =
+    32 * 1024;  ///< longest values of one update as they travel [bytes]
+inline constexpr std::uint32_t region_max = 1u << 18;  ///< regions of one federate
+/// An object handle is the block that the RTI gave its owner, times `object_block`, plus the
+/// owner's own count. A federate that has used half of its block is given a further one, so that
+/// only what it has at once is limited.
 inline constexpr std::uint32_t object_block = 1u << 18;
 inline constexpr std::uint32_t object_block_max = 1u << 14;
 
 /// The first byte of each message.
 enum class MessageKind : std::uint8_t {
   // federate to RTI
-  join = 1, resign, heartbeat, register_synchronization_point, synchronization_point_achieved, watch_federates,
-  publish_object_class, subscribe_object_class, publish_interaction_class, subscribe_interaction_class,
-  register_object, delete_object, updates, interaction, create_region, modify_regions, associate_region, delete_region,
+  join = 1,
+  resign,
+  heartbeat,
+  register_synchronization_point,
+  synchronization_point_achieved,
+  watch_federates,
+  publish_object_class,
+  subscribe_object_class,
+  publish_interaction_class,
+  subscribe_interaction_class,
+  register_object,
+  delete_object,
+  updates,
+  interaction,
+  create_region,
+  modify_regions,
+  associate_region,
+  delete_region,
   stamp,
-  enable_time_regulation = 28, time_switch = 29, modify_lookahead = 30, advance_request = 31, timed_send = 32, retract = 33, query_time_bounds = 34,
-  ownership_request = 36, query_ownership = 37, resign_directive = 38,
-  create_region_over = 52, modify_ranges = 53, regional_class = 54, regional_interaction = 55, associate_regions = 56, interaction_within = 57,
+  enable_time_regulation = 28,
+  time_switch = 29,
+  modify_lookahead = 30,
+  advance_request = 31,
+  timed_send = 32,
+  retract = 33,
+  query_time_bounds = 34,
+  ownership_request = 36,
+  query_ownership = 37,
+  resign_directive = 38,
+  create_region_over = 52,
+  modify_ranges = 53,
+  regional_class = 54,
+  regional_interaction = 55,
+  associate_regions = 56,
+  interaction_within = 57,
   // federation management
-  create_federation_execution = 20, destroy_federation_execution = 21, list_federation_executions = 22, query_management = 23,
+  create_federation_execution = 20,
+  destroy_federation_execution = 21,
+  list_federation_executions = 22,
+  query_management = 23,
   // objects and declarations
-  request_update = 39, change_transportation = 40, query_transportation = 41, instance_names = 46, spare_update = 47, local_delete = 48, advisory_switch = 49,
+  request_update = 39,
+  change_transportation = 40,
+  query_transportation = 41,
+  instance_names = 46,
+  spare_update = 47,
+  local_delete = 48,
+  advisory_switch = 49,
   // free: 24 to 27 federation management, 35 time, 42 to 45 ownership, 60 to 62 the connection
   // baselines
-  acknowledge_keyframe = 50, refuse_keyframe = 51,
+  acknowledge_keyframe = 50,
+  refuse_keyframe = 51,
   acknowledge_datagrams = 63,  // in datagrams only, both ways (rti/wire/datagram.h)
   // admission, where a key is shared: before anything else
-  hello = 58, proof = 59,
+  hello = 58,
+  proof = 59,
   // RTI to federate
-  joined = 64, refused, announce_synchronization_point, federation_synchronized, federate_joined, federate_resigned,
-  discover_object, remove_object, in_scope, out_of_scope,
-  time_regulation_enabled = 82, time_constrained_enabled = 83, time_advance_grant = 84, timed_delivery = 85, request_retraction = 86, time_bounds = 87,
-  fom_digest = 112, provide_update = 113,
+  joined = 64,
+  refused,
+  announce_synchronization_point,
+  federation_synchronized,
+  federate_joined,
+  federate_resigned,
+  discover_object,
+  remove_object,
+  in_scope,
+  out_of_scope,
+  time_regulation_enabled = 82,
+  time_constrained_enabled = 83,
+  time_advance_grant = 84,
+  timed_delivery = 85,
+  request_retraction = 86,
+  time_bounds = 87,
+  fom_digest = 112,
+  provide_update = 113,
   // federation management
-  synchronization_point_registered = 74, federation_execution_created = 75, federation_execution_destroyed = 76, federation_execution = 77,
-  federation_report = 78, federate_report = 79, report_end = 80,
+  synchronization_point_registered = 74,
+  federation_execution_created = 75,
+  federation_execution_destroyed = 76,
+  federation_execution = 77,
+  federation_report = 78,
+  federate_report = 79,
+  report_end = 80,
   // baselines
-  begin_keyframe = 110, deltas = 111,
-  ownership_notice = 92, inform_ownership = 93,
+  begin_keyframe = 110,
+  deltas = 111,
+  ownership_notice = 92,
+  inform_ownership = 93,
   // admission
-  challenge = 118, admitted = 119,
+  challenge = 118,
+  admitted = 119,
   // the connection
-  expelled = 120, further_block = 121,
+  expelled = 120,
+  further_block = 121,
   // objects and declarations
-  instance_names_answer = 104, class_relevance = 105, object_relevance = 106, transportation = 107,
-  // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and declarations, 114 to 117 regions, 122 to 127 the connection
+  instance_names_answer = 104,
+  class_relevance = 105,
+  object_relevance = 106,
+  transportation = 107,
+  // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and
+  // declarations, 114 to 117 regions, 122 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.
@@ -83,14 +152,15 @@ struct JoinMessage {
   std::uint64_t fom_hash = 0;
   std::string_view federation, name, type;
 };
-/// What follows the version belongs to that version: a reader stops there when it speaks another one.
+/// What follows the version belongs to that version: a reader stops there when it speaks another
+/// one.
 template <class Stream>
 bool exchange(Stream& stream, JoinMessage& message) {
   if (!stream.number(message.magic) || !stream.number(message.version)) return false;
   if (message.magic != protocol_magic) return false;
   if (message.version != protocol_version) return true;
-  return stream.number(message.fom_hash) && stream.text(message.federation, text_max) && stream.text(message.name, text_max) &&
-         stream.text(message.type, text_max);
+  return stream.number(message.fom_hash) && stream.text(message.federation, text_max) &&
+         stream.text(message.name, text_max) && stream.text(message.type, text_max);
 }
 
 /// A message that is its kind and nothing else.
@@ -127,7 +197,8 @@ struct SubscribeObjectClassMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, SubscribeObjectClassMessage& message) {
-  return stream.number(message.object_class) && stream.number(message.attributes) && stream.number(message.region) && stream.range(message.is_passive, 1);
+  return stream.number(message.object_class) && stream.number(message.attributes) &&
+         stream.number(message.region) && stream.range(message.is_passive, 1);
 }
 
 template <MessageKind k>
@@ -138,10 +209,13 @@ struct InteractionClassMessage {
 };
 template <class Stream, MessageKind k>
 bool exchange(Stream& stream, InteractionClassMessage<k>& message) {
-  return stream.number(message.interaction_class) && stream.range(message.is_declared, k == MessageKind::subscribe_interaction_class ? 2 : 1);
+  return stream.number(message.interaction_class) &&
+         stream.range(message.is_declared, k == MessageKind::subscribe_interaction_class ? 2 : 1);
 }
-using PublishInteractionClassMessage = InteractionClassMessage<MessageKind::publish_interaction_class>;
-using SubscribeInteractionClassMessage = InteractionClassMessage<MessageKind::subscribe_interaction_class>;
+using PublishInteractionClassMessage =
+    InteractionClassMessage<MessageKind::publish_interaction_class>;
+using SubscribeInteractionClassMessage =
+    InteractionClassMessage<MessageKind::subscribe_interaction_class>;
 
 /// An object appears: registered by its owner, or discovered by others.
 template <MessageKind k>
@@ -153,7 +227,8 @@ struct ObjectMessage {
 };
 template <class Stream, MessageKind k>
 bool exchange(Stream& stream, ObjectMessage<k>& message) {
-  return stream.varint(message.object) && stream.varint(message.object_class) && stream.text(message.name, text_max);
+  return stream.varint(message.object) && stream.varint(message.object_class) &&
+         stream.text(message.name, text_max);
 }
 using RegisterObjectMessage = ObjectMessage<MessageKind::register_object>;
 using DiscoverObjectMessage = ObjectMessage<MessageKind::discover_object>;
@@ -172,12 +247,14 @@ using RemoveObjectMessage = ObjectHandleMessage<MessageKind::remove_object>;
 using InScopeMessage = ObjectHandleMessage<MessageKind::in_scope>;
 using OutOfScopeMessage = ObjectHandleMessage<MessageKind::out_of_scope>;
 
-/// First how many bytes of time and tag follow, four bits each, then these: the highest of the time, for an instant on a binary grid ends in zeros, and the lowest of
-/// the tag. An instant of a match on a grid of 1/1024 s takes 4 of 8 bytes, and a tag that nobody needs none.
+/// First how many bytes of time and tag follow, four bits each, then these: the highest of the
+/// time, for an instant on a binary grid ends in zeros, and the lowest of the tag. An instant of a
+/// match on a grid of 1/1024 s takes 4 of 8 bytes, and a tag that nobody needs none.
 template <class Stream>
 bool exchange(Stream& stream, Stamp& stamp) {
   std::uint64_t time = std::bit_cast<std::uint64_t>(stamp.time);
-  auto time_size = static_cast<std::size_t>(time == 0 ? 0 : 8 - std::countr_zero(time) / 8), tag_size = static_cast<std::size_t>((std::bit_width(stamp.tag) + 7) / 8);
+  auto time_size = static_cast<std::size_t>(time == 0 ? 0 : 8 - std::countr_zero(time) / 8),
+       tag_size = static_cast<std::size_t>((std::bit_width(stamp.tag) + 7) / 8);
   auto sizes = static_cast<std::uint8_t>(time_size | tag_size << 4);
   if (!stream.number(sizes)) return false;
   time_size = sizes & 15u, tag_size = sizes >> 4;
@@ -199,7 +276,8 @@ bool exchange(Stream& stream, StampMessage& message) {
   return exchange(stream, message.stamp);
 }
 
-/// Begins a block of updates of one class and attribute set, in both directions; its records follow until a zero (rti/wire/update_block.h).
+/// Begins a block of updates of one class and attribute set, in both directions; its records follow
+/// until a zero (rti/wire/update_block.h).
 struct UpdatesMessage {
   static constexpr MessageKind kind = MessageKind::updates;
   std::uint16_t object_class = 0;
@@ -210,7 +288,8 @@ bool exchange(Stream& stream, UpdatesMessage& message) {
   return stream.varint(message.object_class) && stream.varint(message.attributes);
 }
 
-/// Upwards `federate` is the only receiver, or all ones for every subscriber; downwards it is the sender.
+/// Upwards `federate` is the only receiver, or all ones for every subscriber; downwards it is the
+/// sender.
 struct InteractionMessage {
   static constexpr MessageKind kind = MessageKind::interaction;
   std::uint16_t interaction_class = 0;
@@ -220,7 +299,8 @@ struct InteractionMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, InteractionMessage& message) {
-  return stream.number(message.interaction_class) && stream.number(message.federate) && exchange(stream, message.stamp) &&
+  return stream.number(message.interaction_class) && stream.number(message.federate) &&
+         exchange(stream, message.stamp) &&
          stream.template bytes<std::uint16_t>(message.parameters, parameters_max);
 }
 
@@ -232,11 +312,14 @@ struct RegionBounds {
 template <class Stream>
 bool exchange(Stream& stream, RegionBounds& record) {
   im::Region& bounds = record.bounds;
-  return stream.number(record.region.value) && stream.finite(bounds.low_x) && stream.finite(bounds.low_y) && stream.finite(bounds.high_x) &&
-         stream.finite(bounds.high_y) && bounds.low_x <= bounds.high_x && bounds.low_y <= bounds.high_y;
+  return stream.number(record.region.value) && stream.finite(bounds.low_x) &&
+         stream.finite(bounds.low_y) && stream.finite(bounds.high_x) &&
+         stream.finite(bounds.high_y) && bounds.low_x <= bounds.high_x &&
+         bounds.low_y <= bounds.high_y;
 }
 
-/// `records` are, `count` times, a region handle (u32) and its bounds: low x, low y, high x, high y (f64 each).
+/// `records` are, `count` times, a region handle (u32) and its bounds: low x, low y, high x, high y
+/// (f64 each).
 struct ModifyRegionsMessage {
   static constexpr MessageKind kind = MessageKind::modify_regions;
   static constexpr std::size_t record_size = 4 + 4 * 8;
@@ -246,7 +329,8 @@ struct ModifyRegionsMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, ModifyRegionsMessage& message) {
-  return stream.range(message.count, ModifyRegionsMessage::count_max) && stream.rest(message.records, message.count * ModifyRegionsMessage::record_size);
+  return stream.range(message.count, ModifyRegionsMessage::count_max) &&
+         stream.rest(message.records, message.count * ModifyRegionsMessage::record_size);
 }
 
 struct AssociateRegionMessage {
@@ -279,7 +363,8 @@ struct JoinedMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, JoinedMessage& message) {
-  return stream.number(message.federate) && stream.range(message.object_block, object_block_max - 1);
+  return stream.number(message.federate) &&
+         stream.range(message.object_block, object_block_max - 1);
 }
 
 /// The block for the federate's objects once the present one is used up.
@@ -320,7 +405,8 @@ struct FederateJoinedMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, FederateJoinedMessage& message) {
-  return stream.number(message.federate) && stream.text(message.name, text_max) && stream.text(message.type, text_max);
+  return stream.number(message.federate) && stream.text(message.name, text_max) &&
+         stream.text(message.type, text_max);
 }
 
 struct FederateResignedMessage {
@@ -331,7 +417,8 @@ struct FederateResignedMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, FederateResignedMessage& message) {
-  return stream.number(message.federate) && stream.range(message.reason, static_cast<std::uint64_t>(ResignReason::misbehaved)) &&
+  return stream.number(message.federate) &&
+         stream.range(message.reason, static_cast<std::uint64_t>(ResignReason::misbehaved)) &&
          stream.text(message.name, text_max) && stream.text(message.type, text_max);
 }
 

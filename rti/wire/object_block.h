@@ -1,4 +1,5 @@
-// Blocks of objects on the wire: what is said of many objects in the same words is said once (docs/wire.md).
+// Blocks of objects on the wire: what is said of many objects in the same words is said once
+// (docs/wire.md).
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,9 @@ namespace rink::rti {
 /// Most bytes that an object adds to a block, its end included.
 inline constexpr std::size_t object_record_max = 5 + 1;
 
-/// Writes blocks: a header, then the step to each object, then a zero. An object joins the block before it if that stands at the end of the buffer and has an equal
-/// header, so that handing over a thousand bodies takes a thousand bytes and callers need no bulk form.
+/// Writes blocks: a header, then the step to each object, then a zero. An object joins the block
+/// before it if that stands at the end of the buffer and has an equal header, so that handing over
+/// a thousand bodies takes a thousand bytes and callers need no bulk form.
 class ObjectBlockWriter {
  public:
   template <class Header>
@@ -42,7 +44,8 @@ class ObjectBlockWriter {
   std::uint32_t previous_ = 0;
 };
 
-/// Calls `take(object)` for each object of the block whose header was read; `take` returns false to stop. False if the block is malformed or was stopped.
+/// Calls `take(object)` for each object of the block whose header was read; `take` returns false to
+/// stop. False if the block is malformed or was stopped.
 template <class Take>
 bool read_objects(Reader& reader, Take take) {
   HandleReader handles;

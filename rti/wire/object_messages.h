@@ -1,14 +1,18 @@
-// The messages of object management beyond updates: names, local deletion, transportation, requests for updates.
+// The messages of object management beyond updates: names, local deletion, transportation, requests
+// for updates.
 #pragma once
 
 #include "rti/wire/message.h"
 
 namespace rink::rti {
 
-inline constexpr std::size_t names_size_max = 32 * 1024;  ///< of a set of names as it travels [bytes]
-inline constexpr std::size_t request_tag_max = 1024;      ///< longest user-supplied tag of a request for updates [bytes]
+inline constexpr std::size_t names_size_max =
+    32 * 1024;  ///< of a set of names as it travels [bytes]
+inline constexpr std::size_t request_tag_max =
+    1024;  ///< longest user-supplied tag of a request for updates [bytes]
 
-/// Names as they travel: texts one after the other. Calls `visit(name)` for each; false if they are cut short, if one is empty, or if there is none.
+/// Names as they travel: texts one after the other. Calls `visit(name)` for each; false if they are
+/// cut short, if one is empty, or if there is none.
 template <class Visit>
 bool for_each_name(Bytes names, Visit visit) {
   Reader reader(names);
@@ -23,8 +27,15 @@ bool for_each_name(Bytes names, Visit visit) {
 
 /// What is asked of names; a set is granted or refused as one.
 enum class NameRequest : std::uint8_t { reserve, reserve_set, release };
-/// What became of it. The last answers a registration by a name that was not free: the object goes by its default name.
-enum class NameAnswer : std::uint8_t { granted, set_granted, refused, set_refused, registration_refused };
+/// What became of it. The last answers a registration by a name that was not free: the object goes
+/// by its default name.
+enum class NameAnswer : std::uint8_t {
+  granted,
+  set_granted,
+  refused,
+  set_refused,
+  registration_refused
+};
 
 template <MessageKind k, std::uint8_t word_max>
 struct NamesMessage {
@@ -34,7 +45,8 @@ struct NamesMessage {
 };
 template <class Stream, MessageKind k, std::uint8_t word_max>
 bool exchange(Stream& stream, NamesMessage<k, word_max>& message) {
-  return stream.range(message.word, word_max) && stream.template bytes<std::uint16_t>(message.names, names_size_max);
+  return stream.range(message.word, word_max) &&
+         stream.template bytes<std::uint16_t>(message.names, names_size_max);
 }
 using InstanceNamesMessage = NamesMessage<MessageKind::instance_names, 2>;
 using InstanceNamesAnswerMessage = NamesMessage<MessageKind::instance_names_answer, 4>;
@@ -51,10 +63,13 @@ struct RequestUpdateMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, RequestUpdateMessage& message) {
-  return stream.range(message.is_class, 1) && stream.varint(message.number) && stream.varint(message.attributes) && stream.template bytes<std::uint16_t>(message.tag, request_tag_max);
+  return stream.range(message.is_class, 1) && stream.varint(message.number) &&
+         stream.varint(message.attributes) &&
+         stream.template bytes<std::uint16_t>(message.tag, request_tag_max);
 }
 
-/// Asks to change the transportation of attributes of an own object, or of the interactions that its sender sends of a class.
+/// Asks to change the transportation of attributes of an own object, or of the interactions that
+/// its sender sends of a class.
 struct ChangeTransportationMessage {
   static constexpr MessageKind kind = MessageKind::change_transportation;
   std::uint8_t is_interaction = 0;
@@ -64,19 +79,21 @@ struct ChangeTransportationMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, ChangeTransportationMessage& message) {
-  return stream.range(message.is_interaction, 1) && stream.varint(message.number) && stream.varint(message.attributes) && stream.range(message.transportation, 1);
+  return stream.range(message.is_interaction, 1) && stream.varint(message.number) &&
+         stream.varint(message.attributes) && stream.range(message.transportation, 1);
 }
 
 /// Asks how an attribute travels, or the interactions that a federate sends of a class.
 struct QueryTransportationMessage {
   static constexpr MessageKind kind = MessageKind::query_transportation;
   std::uint8_t is_interaction = 0;
-  std::uint32_t number = 0;                       ///< the object's handle, or the class
-  std::uint32_t which = 0;                        ///< the attribute, or the federate
+  std::uint32_t number = 0;  ///< the object's handle, or the class
+  std::uint32_t which = 0;   ///< the attribute, or the federate
 };
 template <class Stream>
 bool exchange(Stream& stream, QueryTransportationMessage& message) {
-  return stream.range(message.is_interaction, 1) && stream.varint(message.number) && stream.varint(message.which);
+  return stream.range(message.is_interaction, 1) && stream.varint(message.number) &&
+         stream.varint(message.which);
 }
 
 /// Confirms a change, or answers a query.
@@ -84,12 +101,14 @@ struct TransportationMessage {
   static constexpr MessageKind kind = MessageKind::transportation;
   std::uint8_t is_interaction = 0, is_confirmation = 0;
   std::uint32_t number = 0;
-  std::uint32_t which = 0;  ///< of a confirmation the attributes, of an answer the attribute or the federate
+  std::uint32_t which =
+      0;  ///< of a confirmation the attributes, of an answer the attribute or the federate
   std::uint8_t transportation = 0;
 };
 template <class Stream>
 bool exchange(Stream& stream, TransportationMessage& message) {
-  return stream.range(message.is_interaction, 1) && stream.range(message.is_confirmation, 1) && stream.varint(message.number) && stream.varint(message.which) &&
+  return stream.range(message.is_interaction, 1) && stream.range(message.is_confirmation, 1) &&
+         stream.varint(message.number) && stream.varint(message.which) &&
          stream.range(message.transportation, 1);
 }
 

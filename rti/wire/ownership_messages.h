@@ -6,20 +6,35 @@
 
 namespace rink::rti {
 
-inline constexpr std::size_t ownership_tag_max = 1024;  ///< longest user-supplied tag of an ownership service [bytes]
+inline constexpr std::size_t ownership_tag_max =
+    1024;  ///< longest user-supplied tag of an ownership service [bytes]
 
 /// What a federate asks; the numbers are those on the wire.
 enum class OwnershipRequest : std::uint8_t {
-  divest, offer, confirm, deny_release, give_if_wanted, withdraw_offer,  // of what it owns
-  acquire, acquire_if_available, cancel_acquisition,                      // of what it does not own
+  divest,
+  offer,
+  confirm,
+  deny_release,
+  give_if_wanted,
+  withdraw_offer,  // of what it owns
+  acquire,
+  acquire_if_available,
+  cancel_acquisition,  // of what it does not own
 };
 inline constexpr std::uint8_t ownership_request_max = 8;
 
 /// What it is told; the numbers are those on the wire.
 enum class OwnershipNotice : std::uint8_t {
-  assumption_requested, confirmation_requested, acquired, unavailable, release_requested, acquisition_cancelled,
-  divested,            ///< answers a divestiture if wanted: these have gone
-  kept, kept_offered,  ///< answers a divestiture if wanted, or a confirmation that came too late: these are yours still, and on offer still
+  assumption_requested,
+  confirmation_requested,
+  acquired,
+  unavailable,
+  release_requested,
+  acquisition_cancelled,
+  divested,  ///< answers a divestiture if wanted: these have gone
+  kept,
+  kept_offered,  ///< answers a divestiture if wanted, or a confirmation that came too late: these
+                 ///< are yours still, and on offer still
 };
 inline constexpr std::uint8_t ownership_notice_max = 8;
 
@@ -33,11 +48,14 @@ struct OwnershipMessage {
 };
 template <class Stream, MessageKind k, std::uint8_t word_max>
 bool exchange(Stream& stream, OwnershipMessage<k, word_max>& message) {
-  return stream.range(message.word, word_max) && stream.varint(message.attributes) && message.attributes != 0 &&
+  return stream.range(message.word, word_max) && stream.varint(message.attributes) &&
+         message.attributes != 0 &&
          stream.template bytes<std::uint16_t>(message.tag, ownership_tag_max);
 }
-using OwnershipRequestMessage = OwnershipMessage<MessageKind::ownership_request, ownership_request_max>;
-using OwnershipNoticeMessage = OwnershipMessage<MessageKind::ownership_notice, ownership_notice_max>;
+using OwnershipRequestMessage =
+    OwnershipMessage<MessageKind::ownership_request, ownership_request_max>;
+using OwnershipNoticeMessage =
+    OwnershipMessage<MessageKind::ownership_notice, ownership_notice_max>;
 
 struct QueryOwnershipMessage {
   static constexpr MessageKind kind = MessageKind::query_ownership;
@@ -58,7 +76,8 @@ struct InformOwnershipMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, InformOwnershipMessage& message) {
-  return stream.varint(message.object) && stream.range(message.attribute, attribute_max - 1) && stream.number(message.federate);
+  return stream.varint(message.object) && stream.range(message.attribute, attribute_max - 1) &&
+         stream.number(message.federate);
 }
 
 /// What becomes of its sender's objects when it leaves, in whatever way.

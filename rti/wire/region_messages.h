@@ -19,7 +19,8 @@ struct CreateRegionOverMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, CreateRegionOverMessage& message) {
-  return stream.range(message.region, region_max - 1) && stream.number(message.dimensions) && message.dimensions != 0;
+  return stream.range(message.region, region_max - 1) && stream.number(message.dimensions) &&
+         message.dimensions != 0;
 }
 
 template <class Stream>
@@ -27,8 +28,9 @@ bool exchange(Stream& stream, Range& range) {
   return stream.finite(range.low) && stream.finite(range.high) && range.low <= range.high;
 }
 
-/// Commits a region: `ranges` are low and high (f64 each) for each of its dimensions in ascending order, both ends included; [lower, upper) of a dimension with an upper bound travels
-/// as lower and upper - 1, which overlaps the same ranges.
+/// Commits a region: `ranges` are low and high (f64 each) for each of its dimensions in ascending
+/// order, both ends included; [lower, upper) of a dimension with an upper bound travels as lower
+/// and upper - 1, which overlaps the same ranges.
 struct ModifyRangesMessage {
   static constexpr MessageKind kind = MessageKind::modify_ranges;
   static constexpr std::size_t range_size = 2 * 8;
@@ -38,7 +40,9 @@ struct ModifyRangesMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, ModifyRangesMessage& message) {
-  return stream.range(message.region, region_max - 1) && stream.range(message.count, dimension_max) && stream.rest(message.ranges, message.count * ModifyRangesMessage::range_size);
+  return stream.range(message.region, region_max - 1) &&
+         stream.range(message.count, dimension_max) &&
+         stream.rest(message.ranges, message.count * ModifyRangesMessage::range_size);
 }
 
 /// Attributes and a region that they are published or wanted in.
@@ -62,8 +66,10 @@ struct RegionalClassMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, RegionalClassMessage& message) {
-  return stream.number(message.object_class) && stream.range(message.action, static_cast<std::uint64_t>(RegionAction::add_passively)) &&
-         stream.range(message.count, regions_per_message_max) && stream.rest(message.pairs, message.count * RegionalClassMessage::pair_size);
+  return stream.number(message.object_class) &&
+         stream.range(message.action, static_cast<std::uint64_t>(RegionAction::add_passively)) &&
+         stream.range(message.count, regions_per_message_max) &&
+         stream.rest(message.pairs, message.count * RegionalClassMessage::pair_size);
 }
 
 /// Subscribes to an interaction class within each of the regions (u32 each), or no longer.
@@ -76,7 +82,8 @@ struct RegionalInteractionMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, RegionalInteractionMessage& message) {
-  return stream.number(message.interaction_class) && stream.range(message.is_subscribed, 2) && stream.range(message.count, regions_per_message_max) &&
+  return stream.number(message.interaction_class) && stream.range(message.is_subscribed, 2) &&
+         stream.range(message.count, regions_per_message_max) &&
          stream.rest(message.regions, message.count * sizeof(std::uint32_t));
 }
 
@@ -90,7 +97,8 @@ struct AssociateRegionsMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, AssociateRegionsMessage& message) {
-  return stream.number(message.object) && stream.range(message.is_associated, 1) && stream.range(message.count, regions_per_message_max) &&
+  return stream.number(message.object) && stream.range(message.is_associated, 1) &&
+         stream.range(message.count, regions_per_message_max) &&
          stream.rest(message.pairs, message.count * RegionalClassMessage::pair_size);
 }
 
@@ -103,10 +111,12 @@ struct ProvideUpdateMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, ProvideUpdateMessage& message) {
-  return stream.varint(message.object) && stream.varint(message.attributes) && stream.template bytes<std::uint16_t>(message.tag, 1024);
+  return stream.varint(message.object) && stream.varint(message.attributes) &&
+         stream.template bytes<std::uint16_t>(message.tag, 1024);
 }
 
-/// An interaction for those who subscribe without a region, or with one that overlaps one of `regions` (u32 each).
+/// An interaction for those who subscribe without a region, or with one that overlaps one of
+/// `regions` (u32 each).
 struct InteractionWithinMessage {
   static constexpr MessageKind kind = MessageKind::interaction_within;
   std::uint16_t interaction_class = 0;
@@ -117,8 +127,10 @@ struct InteractionWithinMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, InteractionWithinMessage& message) {
-  return stream.number(message.interaction_class) && exchange(stream, message.stamp) && stream.range(message.count, regions_per_message_max) &&
-         stream.rest(message.regions, message.count * sizeof(std::uint32_t)) && stream.template bytes<std::uint16_t>(message.parameters, parameters_max);
+  return stream.number(message.interaction_class) && exchange(stream, message.stamp) &&
+         stream.range(message.count, regions_per_message_max) &&
+         stream.rest(message.regions, message.count * sizeof(std::uint32_t)) &&
+         stream.template bytes<std::uint16_t>(message.parameters, parameters_max);
 }
 
 }  // namespace rink::rti

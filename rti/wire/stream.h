@@ -1,4 +1,5 @@
-// The three streams that one `exchange` function per message serves: writing, reading and measuring.
+// The three streams that one `exchange` function per message serves: writing, reading and
+// measuring.
 #pragma once
 
 #include <bit>
@@ -13,16 +14,20 @@
 
 namespace rink::rti {
 
-static_assert(std::endian::native == std::endian::little, "the wire is little-endian and values are copied as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "the wire is little-endian and values are copied as they lie in memory");
 
-/// Numbers whose small values are short: seven bits a byte, least significant first, the top bit set in all but the last.
+/// Numbers whose small values are short: seven bits a byte, least significant first, the top bit
+/// set in all but the last.
 inline constexpr std::size_t varint_size_max = 10;
 inline std::byte* put_varint(std::byte* at, std::uint64_t value) {
   for (; value >= 0x80; value >>= 7) *at++ = static_cast<std::byte>(value | 0x80);
   *at++ = static_cast<std::byte>(value);
   return at;
 }
-inline std::size_t varint_size(std::uint64_t value) { return (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7; }
+inline std::size_t varint_size(std::uint64_t value) {
+  return (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7;
+}
 
 /// Appends to a buffer; asserts the ranges, for what we write is ours.
 class Writer {
@@ -82,7 +87,8 @@ class Writer {
   std::vector<std::byte>& bytes_;
 };
 
-/// Takes from a view and checks: false as soon as anything is missing or out of range. Texts and bytes are views into what is read.
+/// Takes from a view and checks: false as soon as anything is missing or out of range. Texts and
+/// bytes are views into what is read.
 class Reader {
  public:
   static constexpr bool is_reading = true;
@@ -115,7 +121,8 @@ class Reader {
   bool part(std::uint64_t& value, std::size_t size) {
     if (size > sizeof value || bytes_.size() < size) return false;
     value = 0;
-    for (std::size_t byte = 0; byte < size; ++byte) value |= static_cast<std::uint64_t>(bytes_[byte]) << (8 * byte);
+    for (std::size_t byte = 0; byte < size; ++byte)
+      value |= static_cast<std::uint64_t>(bytes_[byte]) << (8 * byte);
     bytes_ = bytes_.subspan(size);
     return true;
   }

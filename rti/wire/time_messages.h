@@ -1,4 +1,5 @@
-// The messages of time management, in both directions; docs/wire.md specifies the same bytes in words.
+// The messages of time management, in both directions; docs/wire.md specifies the same bytes in
+// words.
 #pragma once
 
 #include "rti/time/logical_time.h"
@@ -8,10 +9,12 @@ namespace rink::rti {
 
 /// What carries values in receive order: a constrained federate may have to wait for it.
 inline bool is_receive_ordered(MessageKind kind) {
-  return kind == MessageKind::updates || kind == MessageKind::interaction || kind == MessageKind::remove_object;
+  return kind == MessageKind::updates || kind == MessageKind::interaction ||
+         kind == MessageKind::remove_object;
 }
 
-/// The longest message that may travel inside a `TimedMessage`: the longest values or parameters with what stands before them.
+/// The longest message that may travel inside a `TimedMessage`: the longest values or parameters
+/// with what stands before them.
 inline constexpr std::size_t content_max = values_max + 64;
 
 template <MessageKind k>
@@ -23,14 +26,20 @@ template <class Stream, MessageKind k>
 bool exchange(Stream& stream, SecondsMessage<k>& message) {
   return stream.finite(message.seconds) && message.seconds >= 0.0;
 }
-using EnableTimeRegulationMessage = SecondsMessage<MessageKind::enable_time_regulation>;  ///< the lookahead
+using EnableTimeRegulationMessage =
+    SecondsMessage<MessageKind::enable_time_regulation>;  ///< the lookahead
 using ModifyLookaheadMessage = SecondsMessage<MessageKind::modify_lookahead>;
 using TimeConstrainedEnabledMessage = SecondsMessage<MessageKind::time_constrained_enabled>;
 using TimeAdvanceGrantMessage = SecondsMessage<MessageKind::time_advance_grant>;
 
 /// What a federate can switch without a number.
-enum class TimeSwitch : std::uint8_t { enable_constrained, disable_constrained, disable_regulation };
-inline constexpr std::uint8_t time_switch_max = static_cast<std::uint8_t>(TimeSwitch::disable_regulation);
+enum class TimeSwitch : std::uint8_t {
+  enable_constrained,
+  disable_constrained,
+  disable_regulation
+};
+inline constexpr std::uint8_t time_switch_max =
+    static_cast<std::uint8_t>(TimeSwitch::disable_regulation);
 struct TimeSwitchMessage {
   static constexpr MessageKind kind = MessageKind::time_switch;
   std::uint8_t which = 0;  ///< a `TimeSwitch`
@@ -50,21 +59,26 @@ bool exchange(Stream& stream, AdvanceRequestMessage& message) {
   return stream.range(message.advance, advance_kind_max) && stream.finite(message.time);
 }
 
-/// A message that was sent in time-stamp order. `content` is one whole message: an update block of one record, an interaction (whose own stamp is all zero, for this one
-/// holds) or a deletion. Upwards `sender` is left out: it is known.
+/// A message that was sent in time-stamp order. `content` is one whole message: an update block of
+/// one record, an interaction (whose own stamp is all zero, for this one holds) or a deletion.
+/// Upwards `sender` is left out: it is known.
 template <MessageKind k>
 struct TimedMessage {
   static constexpr MessageKind kind = k;
   std::uint32_t sender = FederateHandle::none;
-  std::uint8_t is_in_order = 0;  ///< downwards: 1 for one who is constrained, else the message came as it was sent
-  std::uint64_t number = 0;      ///< the sender's count
+  std::uint8_t is_in_order =
+      0;  ///< downwards: 1 for one who is constrained, else the message came as it was sent
+  std::uint64_t number = 0;  ///< the sender's count
   Stamp stamp;
   Bytes content;
 };
 template <class Stream, MessageKind k>
 bool exchange(Stream& stream, TimedMessage<k>& message) {
-  if (k == MessageKind::timed_delivery && (!stream.varint(message.sender) || !stream.range(message.is_in_order, 1))) return false;
-  return stream.varint(message.number) && exchange(stream, message.stamp) && stream.template bytes<std::uint16_t>(message.content, content_max);
+  if (k == MessageKind::timed_delivery &&
+      (!stream.varint(message.sender) || !stream.range(message.is_in_order, 1)))
+    return false;
+  return stream.varint(message.number) && exchange(stream, message.stamp) &&
+         stream.template bytes<std::uint16_t>(message.content, content_max);
 }
 using TimedSendMessage = TimedMessage<MessageKind::timed_send>;
 using TimedDeliveryMessage = TimedMessage<MessageKind::timed_delivery>;
@@ -86,7 +100,8 @@ struct RequestRetractionMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, RequestRetractionMessage& message) {
-  return stream.varint(message.sender) && stream.varint(message.number) && stream.finite(message.time);
+  return stream.varint(message.sender) && stream.varint(message.number) &&
+         stream.finite(message.time);
 }
 
 struct TimeRegulationEnabledMessage {
@@ -107,7 +122,8 @@ struct TimeBoundsMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, TimeBoundsMessage& message) {
-  return stream.number(message.galt) && stream.number(message.lits) && message.galt >= 0.0 && message.lits >= 0.0;
+  return stream.number(message.galt) && stream.number(message.lits) && message.galt >= 0.0 &&
+         message.lits >= 0.0;
 }
 
 }  // namespace rink::rti

@@ -1,4 +1,5 @@
-// Blocks of updates on the wire: records that follow a header until a zero, each with the step from the handle before (docs/wire.md).
+// Blocks of updates on the wire: records that follow a header until a zero, each with the step from
+// the handle before (docs/wire.md).
 #pragma once
 
 #include <algorithm>
@@ -12,10 +13,13 @@
 
 namespace rink::rti {
 
-/// The step from one handle to the next as it is sent: small for near handles in either direction, and never 0, which ends the block.
+/// The step from one handle to the next as it is sent: small for near handles in either direction,
+/// and never 0, which ends the block.
 inline std::uint64_t handle_step(std::uint32_t from, std::uint32_t to) {
   const std::int64_t difference = std::int64_t{to} - std::int64_t{from};
-  return ((static_cast<std::uint64_t>(difference) << 1) ^ static_cast<std::uint64_t>(difference >> 63)) + 1;
+  return ((static_cast<std::uint64_t>(difference) << 1) ^
+          static_cast<std::uint64_t>(difference >> 63)) +
+         1;
 }
 
 /// Reads the handles of one block.
@@ -27,7 +31,8 @@ class HandleReader {
     if (!reader.varint(step)) return Next::malformed;
     if (step-- == 0) return Next::end;
     if (step >> 34 != 0) return Next::malformed;
-    const std::int64_t difference = static_cast<std::int64_t>(step >> 1) ^ -static_cast<std::int64_t>(step & 1);
+    const std::int64_t difference =
+        static_cast<std::int64_t>(step >> 1) ^ -static_cast<std::int64_t>(step & 1);
     const std::int64_t value = std::int64_t{previous_} + difference;
     if (value < 0 || value > 0xffffffffll) return Next::malformed;
     previous_ = handle = static_cast<std::uint32_t>(value);
@@ -38,7 +43,8 @@ class HandleReader {
   std::uint32_t previous_ = 0;
 };
 
-/// Appends records to `bytes`, gathered in small parts since a vector grows slowly byte by byte. Its end closes the block.
+/// Appends records to `bytes`, gathered in small parts since a vector grows slowly byte by byte.
+/// Its end closes the block.
 class RecordWriter {
  public:
   explicit RecordWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {}
@@ -51,7 +57,8 @@ class RecordWriter {
 
   void add(std::uint32_t handle, Bytes values) {
     if (used_ + varint_size_max + 1 > part_.size()) flush();
-    used_ = static_cast<std::size_t>(put_varint(part_.data() + used_, handle_step(previous_, handle)) - part_.data());
+    used_ = static_cast<std::size_t>(
+        put_varint(part_.data() + used_, handle_step(previous_, handle)) - part_.data());
     previous_ = handle;
     if (used_ + values.size() + 1 > part_.size()) flush();
     if (values.size() + 1 > part_.size()) {
@@ -73,7 +80,8 @@ class RecordWriter {
   std::uint32_t previous_ = 0;
 };
 
-/// Reads one record after the other: `take(handle, coded values)` returns false to stop. Returns false if the block is malformed or `take` returned false.
+/// Reads one record after the other: `take(handle, coded values)` returns false to stop. Returns
+/// false if the block is malformed or `take` returned false.
 template <class Take>
 bool read_records(Reader& reader, const ObjectClass& object_class, AttributeSet set, Take take) {
   const std::optional<std::uint32_t> fixed_size = coded_size(object_class, set);
@@ -82,9 +90,12 @@ bool read_records(Reader& reader, const ObjectClass& object_class, AttributeSet 
     std::uint32_t handle = 0;
     const HandleReader::Next next = handles.next(reader, handle);
     if (next != HandleReader::Next::handle) return next == HandleReader::Next::end;
-    const std::optional<std::size_t> size = fixed_size ? std::optional<std::size_t>(*fixed_size) : coded_size(object_class, set, reader.rest());
+    const std::optional<std::size_t> size = fixed_size
+                                                ? std::optional<std::size_t>(*fixed_size)
+                                                : coded_size(object_class, set, reader.rest());
     Bytes values;
-    if (!size || *size > values_max || !reader.rest(values, *size) || !take(handle, values)) return false;
+    if (!size || *size > values_max || !reader.rest(values, *size) || !take(handle, values))
+      return false;
   }
 }
 

@@ -9,7 +9,8 @@
 
 namespace rink::rti {
 
-/// A block of updates whose values are written in place; completed by its destructor, nothing if it stayed empty.
+/// A block of updates whose values are written in place; completed by its destructor, nothing if it
+/// stayed empty.
 class UpdatesBlock {
  public:
   explicit UpdatesBlock(std::vector<std::byte>& bytes) : bytes_(bytes) {}
@@ -20,7 +21,8 @@ class UpdatesBlock {
   /// Appends what `put` appends as the coded values of one object.
   template <class Put>
   void append(std::uint16_t object_class, AttributeSet attributes, ObjectHandle object, Put put) {
-    if (!is_open_ || object_class != header_.object_class || attributes.bits != header_.attributes) begin(object_class, attributes);
+    if (!is_open_ || object_class != header_.object_class || attributes.bits != header_.attributes)
+      begin(object_class, attributes);
     std::uint64_t step = handle_step(previous_, object.value);
     Writer(bytes_).varint(step);
     previous_ = object.value;

@@ -20,7 +20,9 @@ using physics::BodyId;
 using physics::Vector2;
 using physics::World;
 
-inline Scene scene_named(const std::string& name) { return game::load_scene(test::source_folder() + "/scenes/accuracy/" + name + ".toml"); }
+inline Scene scene_named(const std::string& name) {
+  return game::load_scene(test::source_folder() + "/scenes/accuracy/" + name + ".toml");
+}
 
 /// Sanitizers look for other mistakes than drift, and take up to thirty times as long.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -40,7 +42,8 @@ inline BodyId body_named(const Scene& scene, const std::string& name) {
   return {static_cast<std::uint32_t>(place - names.begin())};
 }
 
-/// Prints what was measured beside what is expected (docs/accuracy-suite.md quotes it), and expects it to be at most that.
+/// Prints what was measured beside what is expected (docs/accuracy-suite.md quotes it), and expects
+/// it to be at most that.
 inline void expect_at_most(const char* what, double measured, double limit) {
   std::printf("    %-52s %.3g (at most %.3g)\n", what, measured, limit);
   EXPECT_LE(measured, limit) << what;
@@ -48,11 +51,15 @@ inline void expect_at_most(const char* what, double measured, double limit) {
 
 /// Likewise of a relative deviation from a formula.
 inline void expect_within(const char* what, double measured, double expected, double part) {
-  std::printf("    %-52s %.9g (%.9g within %.3g %%): %+.2g %%\n", what, measured, expected, 100.0 * part, 100.0 * (measured / expected - 1.0));
-  EXPECT_LE(std::abs(measured / expected - 1.0), part) << what << ": " << measured << " instead of " << expected;
+  std::printf("    %-52s %.9g (%.9g within %.3g %%): %+.2g %%\n", what, measured, expected,
+              100.0 * part, 100.0 * (measured / expected - 1.0));
+  EXPECT_LE(std::abs(measured / expected - 1.0), part)
+      << what << ": " << measured << " instead of " << expected;
 }
 
-inline double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
+inline double largest(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
 
 inline double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -1,4 +1,5 @@
-// Coulomb friction with the table: where and when pucks come to rest. Impacts under it are in pair_test.cpp.
+// Coulomb friction with the table: where and when pucks come to rest. Impacts under it are in
+// pair_test.cpp.
 #include <cmath>
 
 #include "tests/accuracy/accuracy_scene.h"
@@ -6,7 +7,8 @@
 namespace rink::accuracy {
 namespace {
 
-/// Coulomb (1785): a puck slows by mu g, so it rests after v/(mu g), v^2/(2 mu g) further on, and keeps its direction.
+/// Coulomb (1785): a puck slows by mu g, so it rests after v/(mu g), v^2/(2 mu g) further on, and
+/// keeps its direction.
 TEST(PuckUnderCoulombFriction, StopsWhereAndWhenTheClosedFormSays) {
   const Scene scene = scene_named("friction-stop");
   const double deceleration = scene.world.puck_friction, length = scene.world.field.length;
@@ -26,31 +28,43 @@ TEST(PuckUnderCoulombFriction, StopsWhereAndWhenTheClosedFormSays) {
     game.advance(100.0);
     EXPECT_LE((game.position({k}) - expected).norm() / length, 1e-13);
   }
-  expect_at_most("largest error of a resting place / length of the field", largest(position_errors), 1e-13);
-  // A billionth of the time before the end a billionth of the speed is left; 53 bits know that difference to 4e-7.
-  expect_at_most("largest relative error of the last billionth of speed", largest(early_speeds), 1e-6);
+  expect_at_most("largest error of a resting place / length of the field", largest(position_errors),
+                 1e-13);
+  // A billionth of the time before the end a billionth of the speed is left; 53 bits know that
+  // difference to 4e-7.
+  expect_at_most("largest relative error of the last billionth of speed", largest(early_speeds),
+                 1e-6);
 }
 
-/// Bat M and pucks of mass m in all: (M + m) dv/dt = M (a - g v) - m k, from rest; a bat whose thrust is below m k/M stands.
+/// Bat M and pucks of mass m in all: (M + m) dv/dt = M (a - g v) - m k, from rest; a bat whose
+/// thrust is below m k/M stands.
 TEST(PucksPushedUnderFriction, MoveAsOneByTheClosedFormOrStandAndCostNoEvents) {
   const Scene scene = scene_named("pushed-friction");
   Game game(scene);
   const physics::BatSpec& bat = scene.bodies.bats[0].body;
-  const double pucks = 1.0, total = bat.mass + pucks, drag = bat.mass * scene.world.bat_drag / total;
-  const double driving = (bat.mass * scene.bodies.bats[0].thrust - pucks * scene.world.puck_friction) / total, time = 1.25;
+  const double pucks = 1.0, total = bat.mass + pucks,
+               drag = bat.mass * scene.world.bat_drag / total;
+  const double driving =
+                   (bat.mass * scene.bodies.bats[0].thrust - pucks * scene.world.puck_friction) /
+                   total,
+               time = 1.25;
   game.advance(time);
-  const double faded = -std::expm1(-drag * time), speed = driving / drag * faded, way = driving / drag * (time - faded / drag);
+  const double faded = -std::expm1(-drag * time), speed = driving / drag * faded,
+               way = driving / drag * (time - faded / drag);
   double error = 0.0, speed_error = 0.0;
   for (const char* name : {"strong", "near", "far"}) {
     const BodyId body = body_named(scene, name);
-    error = std::max(error, std::abs(game.position(body).x() - Game(scene).position(body).x() - way) / scene.world.field.length);
+    error =
+        std::max(error, std::abs(game.position(body).x() - Game(scene).position(body).x() - way) /
+                            scene.world.field.length);
     speed_error = std::max(speed_error, std::abs(game.velocity(body).x() / speed - 1.0));
   }
   expect_at_most("largest error of a place / length of the field", error, 1e-13);
   expect_at_most("largest relative error of a speed", speed_error, 1e-13);
   EXPECT_EQ(game.position(body_named(scene, "weak")), scene.bodies.bats[1].body.position);
   EXPECT_EQ(game.position(body_named(scene, "borne")), scene.bodies.pucks[2].body.position);
-  expect_at_most("events, the two keys among them", static_cast<double>(game.world().counters().events()), 10.0);
+  expect_at_most("events, the two keys among them",
+                 static_cast<double>(game.world().counters().events()), 10.0);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ using test::text_of;
 
 std::vector<std::filesystem::path> all_scenes() {
   std::vector<std::filesystem::path> scenes;
-  for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() + "/scenes/accuracy"))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(test::source_folder() + "/scenes/accuracy"))
     if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
   std::sort(scenes.begin(), scenes.end());
   return scenes;
@@ -25,25 +26,30 @@ std::vector<std::filesystem::path> all_scenes() {
 std::string summary_of(const std::filesystem::path& scene, const std::string& until) {
   const test::TemporaryFolder folder("accuracy");
   const std::string summary = (folder / "summary.json").string();
-  const std::string command = test::binary_folder() + "/bin/rink-simulate " + scene.string() + " --until " + until + " --summary " + summary + " >" + summary + ".out 2>&1";
+  const std::string command = test::binary_folder() + "/bin/rink-simulate " + scene.string() +
+                              " --until " + until + " --summary " + summary + " >" + summary +
+                              ".out 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << command << ": " << text_of(summary + ".out");
   return text_of(summary);
 }
 
 TEST(EveryAccuracyScene, RunsUnderRinkSimulate) {
-  for (const auto& scene : all_scenes()) EXPECT_THAT(summary_of(scene, "0.001"), testing::HasSubstr("\"collisions\"")) << scene;
+  for (const auto& scene : all_scenes())
+    EXPECT_THAT(summary_of(scene, "0.001"), testing::HasSubstr("\"collisions\"")) << scene;
 }
 
 TEST(EveryAccuracyScene, IsListedInTheDocuments) {
   const std::string document = text_of(test::source_folder() + "/docs/accuracy-suite.md");
   std::vector<std::string> missing;
   for (const auto& scene : all_scenes())
-    if (document.find("`" + scene.stem().string() + "`") == std::string::npos) missing.push_back(scene.stem().string());
+    if (document.find("`" + scene.stem().string() + "`") == std::string::npos)
+      missing.push_back(scene.stem().string());
   EXPECT_THAT(missing, testing::IsEmpty());
 }
 
 TEST(RinkSimulate, CountsTheDigitsOfPi) {
-  EXPECT_THAT(summary_of(test::source_folder() + "/scenes/accuracy/pi-chain-4.toml", "15"), testing::HasSubstr("\"collisions\": 31415,"));
+  EXPECT_THAT(summary_of(test::source_folder() + "/scenes/accuracy/pi-chain-4.toml", "15"),
+              testing::HasSubstr("\"collisions\": 31415,"));
 }
 
 }  // namespace

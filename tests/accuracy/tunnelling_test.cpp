@@ -1,4 +1,5 @@
-// What the paper's figure 5 shows: without dynamic tests a fast puck passes through an obstacle; with them, and without frames, it bounces where it must.
+// What the paper's figure 5 shows: without dynamic tests a fast puck passes through an obstacle;
+// with them, and without frames, it bounces where it must.
 #include "tests/accuracy/accuracy_scene.h"
 
 namespace rink::accuracy {
@@ -11,7 +12,8 @@ std::pair<double, std::uint64_t> flown(const std::string& engine) {
   return {game.position({1}).x(), game.simulator().counters().impacts()};
 }
 
-TEST(PuckThatIsFasterThanTheFrames, BouncesUnderTheExactAndThePapersEngineAndTunnelsUnderTheNaiveOne) {
+TEST(PuckThatIsFasterThanTheFrames,
+     BouncesUnderTheExactAndThePapersEngineAndTunnelsUnderTheNaiveOne) {
   const double contact = 1.6 - 0.07, back = contact - (12.0 * 0.2 - (contact - 0.5));
   for (const char* engine : {"exact", "paper"}) {
     const auto [place, impacts] = flown(engine);

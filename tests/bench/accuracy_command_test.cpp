@@ -31,12 +31,14 @@ TEST_F(AccuracyCommand, WritesTableFilesAndReport) {
   const std::string html = content("out/report.html");
   EXPECT_THAT(html, HasSubstr("<svg"));
   EXPECT_THAT(html, HasSubstr("Provenance"));
-  for (const char* remote : {"src=", "href=\"http", "@import", "url("}) EXPECT_EQ(html.find(remote), std::string::npos) << "the page must not need a network";
+  for (const char* remote : {"src=", "href=\"http", "@import", "url("})
+    EXPECT_EQ(html.find(remote), std::string::npos) << "the page must not need a network";
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out/plots/pressed.csv"));
 }
 
 TEST_F(AccuracyCommand, StabilityWritesWhoSurvived) {
-  ASSERT_EQ(accuracy("--stability --quick --scenes cradle,post --engines exact --out " + out()), 0) << said_;
+  ASSERT_EQ(accuracy("--stability --quick --scenes cradle,post --engines exact --out " + out()), 0)
+      << said_;
   EXPECT_THAT(printed_, HasSubstr("cradle: "));
   EXPECT_THAT(content("out/stability.csv"), HasSubstr("\ncradle,exact,,0,yes,"));
   EXPECT_THAT(content("out/report.html"), HasSubstr("Stability"));
@@ -48,7 +50,9 @@ TEST_F(AccuracyCommand, NeverOverwrites) {
   EXPECT_EQ(accuracy("--quick --scenes pairs --engines exact --out " + out()), 5);
   EXPECT_THAT(said_, HasSubstr("already there"));
   EXPECT_EQ(content("out/mine"), "kept");
-  EXPECT_EQ(accuracy("--quick --scenes pairs --engines exact --out " + (folder_ / "out/mine/below").string()), 5);
+  EXPECT_EQ(accuracy("--quick --scenes pairs --engines exact --out " +
+                     (folder_ / "out/mine/below").string()),
+            5);
 }
 
 TEST_F(AccuracyCommand, RefusesWrongNamesWithThoseThatAreRight) {
@@ -68,7 +72,9 @@ TEST_F(AccuracyCommand, RefusesWrongNamesWithThoseThatAreRight) {
 }
 
 TEST_F(AccuracyCommand, KeepsWhatWasMeasuredWhenInterrupted) {
-  const std::string shell = "cd " + folder_.path().string() + " && (" + test::binary_folder() + "/bin/rink-accuracy --full --out out >said 2>&1 & pid=$!; sleep 2; kill -TERM $pid; wait $pid; echo $? >status)";
+  const std::string shell = "cd " + folder_.path().string() + " && (" + test::binary_folder() +
+                            "/bin/rink-accuracy --full --out out >said 2>&1 & pid=$!; sleep 2; "
+                            "kill -TERM $pid; wait $pid; echo $? >status)";
   ASSERT_EQ(std::system(shell.c_str()), 0);
   EXPECT_EQ(content("status"), "130\n");
   EXPECT_THAT(content("out/points.csv"), HasSubstr("\npairs,exact,"));

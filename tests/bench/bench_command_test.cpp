@@ -37,9 +37,12 @@ TEST_F(BenchCommand, RunsWhatTheFilterChoosesAndWritesItAsJson) {
 }
 
 TEST_F(BenchCommand, SetsTheCountersThatAreAskedForInColumns) {
-  const std::string chosen = "--filter '^physics/collision/does_disc_overlap_box/' --benchmark_min_time=0.001 --columns ";
+  const std::string chosen =
+      "--filter '^physics/collision/does_disc_overlap_box/' --benchmark_min_time=0.001 --columns ";
   ASSERT_EQ(bench(chosen + "time,error"), 0) << said_;
-  EXPECT_THAT(printed_, testing::MatchesRegex("benchmark +time +error\nphysics/collision/does_disc_overlap_box +[0-9.e+]+ ns +[0-9.e-]+\n"));
+  EXPECT_THAT(printed_, testing::MatchesRegex(
+                            "benchmark +time +error\nphysics/collision/does_disc_overlap_box "
+                            "+[0-9.e+]+ ns +[0-9.e-]+\n"));
   EXPECT_EQ(bench(chosen + "error,harbours"), 2);
   EXPECT_THAT(said_, HasSubstr("--columns: none of these benchmarks counts harbours"));
 }

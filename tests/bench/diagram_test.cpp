@@ -6,8 +6,8 @@
 #include "bench/accuracy/diagram.h"
 #include "bench/accuracy/guarded.h"
 #include "bench/accuracy/stability.h"
-#include "bench/trials/stability_trials.h"
 #include "bench/accuracy/tables.h"
+#include "bench/trials/stability_trials.h"
 
 namespace rink::accuracy {
 namespace {
@@ -18,7 +18,9 @@ DiagramTrial trial_named(const std::string& name) {
   return {};
 }
 
-Point point_at(double dt, double run_s, double error) { return {.dt = dt, .run_s = run_s, .error = {.p90 = error, .max = error}}; }
+Point point_at(double dt, double run_s, double error) {
+  return {.dt = dt, .run_s = run_s, .error = {.p90 = error, .max = error}};
+}
 
 TEST(PositionError, IsTheNearestRankAndTheLargestDistance) {
   std::vector<Vector2> truth(10, Vector2(1.0, 1.0)), places;
@@ -33,24 +35,30 @@ TEST(PositionError, IsTheNearestRankAndTheLargestDistance) {
 
 TEST(Truth, OfPairsIsClosedFormAndEqualsTheExtendedEngine) {
   const DiagramTrial pairs = trial_named("pairs");
-  const auto closed = places_of_pairs(pairs.trial), extended = places_in_extended_precision(pairs.trial);
+  const auto closed = places_of_pairs(pairs.trial),
+             extended = places_in_extended_precision(pairs.trial);
   EXPECT_LT(position_error(extended, closed).max, 1e-14);  // a rounding of a place at 32 m is 4e-15
 }
 
 TEST(Truth, OfDragByWarpedTimeEqualsTheExtendedEngineWithDrag) {
   const DiagramTrial drag = trial_named("drag");
-  const auto warped = places_by_warped_time(drag.trial), extended = places_in_extended_precision(drag.trial);
+  const auto warped = places_by_warped_time(drag.trial),
+             extended = places_in_extended_precision(drag.trial);
   EXPECT_LT(position_error(extended, warped).max, 1e-13);
 }
 
 TEST(Truth, OfPressedPucksIsWhereTheExactEngineLeavesThem) {
   const DiagramTrial pressed = trial_named("pressed");
-  EXPECT_LT(position_error(places_in_extended_precision(pressed.trial), places_of_pressed(pressed.trial)).max, 1e-9);
+  EXPECT_LT(
+      position_error(places_in_extended_precision(pressed.trial), places_of_pressed(pressed.trial))
+          .max,
+      1e-9);
 }
 
 TEST(Diagram, ExactEngineIsRightToRoundingInEveryScene) {
   for (const DiagramTrial& trial : diagram_trials()) {
-    const Point point = measure(trial, trial.true_places(trial.trial), {"exact"}, frame, {.repeats = 1});
+    const Point point =
+        measure(trial, trial.true_places(trial.trial), {"exact"}, frame, {.repeats = 1});
     EXPECT_LT(point.error.p90, trial.trial.name == "pressed" ? 1e-9 : 1e-11) << trial.trial.name;
     EXPECT_LT(point.error.max, 1e-6) << trial.trial.name;
     EXPECT_EQ(point.escapes, 0u) << trial.trial.name;
@@ -59,7 +67,8 @@ TEST(Diagram, ExactEngineIsRightToRoundingInEveryScene) {
 }
 
 TEST(Diagram, TimeAtAnErrorLiesOnTheLineBetweenTheTwoPointsAround) {
-  const std::vector<Point> points{point_at(0.1, 1.0, 1e-1), point_at(0.05, 10.0, 1e-2), point_at(0.025, 100.0, 1e-4)};
+  const std::vector<Point> points{point_at(0.1, 1.0, 1e-1), point_at(0.05, 10.0, 1e-2),
+                                  point_at(0.025, 100.0, 1e-4)};
   const auto met = time_at_error(points, 1e-3);
   ASSERT_TRUE(met);
   EXPECT_EQ(met->kind, TimeAtError::Kind::met);
@@ -71,7 +80,8 @@ TEST(Diagram, TimeAtAnErrorLiesOnTheLineBetweenTheTwoPointsAround) {
 }
 
 TEST(Diagram, AStepThatIsRightByChanceIsNoAnswer) {
-  const std::vector<Point> points{point_at(0.1, 1.0, 1e-4), point_at(0.05, 2.0, 1e-1), point_at(0.025, 4.0, 1e-2)};
+  const std::vector<Point> points{point_at(0.1, 1.0, 1e-4), point_at(0.05, 2.0, 1e-1),
+                                  point_at(0.025, 4.0, 1e-2)};
   EXPECT_EQ(time_at_error(points, 1e-3)->kind, TimeAtError::Kind::never);
 }
 
@@ -84,11 +94,14 @@ TEST(Diagram, OrderIsTheSlopeOfErrorOverStep) {
 
 TEST(Diagram, StandingIsRelativeToTheExactEngineOfTheSamePanel) {
   Panel panel{{.trial = {.name = "gas"}}};
-  panel.series = {{{"exact"}, {point_at(0.0, 1e-3, 1e-15)}}, {{"chipmunk"}, {point_at(0.1, 0.1, 1e-2), point_at(0.05, 0.4, 1e-4)}}, {{"box2d"}, {point_at(0.1, 0.5, 1e-2)}}};
+  panel.series = {{{"exact"}, {point_at(0.0, 1e-3, 1e-15)}},
+                  {{"chipmunk"}, {point_at(0.1, 0.1, 1e-2), point_at(0.05, 0.4, 1e-4)}},
+                  {{"box2d"}, {point_at(0.1, 0.5, 1e-2)}}};
   EXPECT_NEAR(standing_of(panel, panel.series[1]).least_ratio.value(), 200.0, 1e-9);
   EXPECT_TRUE(standing_of(panel, panel.series[2]).is_bound);
   EXPECT_EQ(standing_of(panel, panel.series[2]).ratio, "> 500");
-  EXPECT_NE(headline_of(panel).find("chipmunk 200, box2d > 500"), std::string::npos) << headline_of(panel);
+  EXPECT_NE(headline_of(panel).find("chipmunk 200, box2d > 500"), std::string::npos)
+      << headline_of(panel);
 }
 
 TEST(Guarded, WorkHandsBackItsBytes) {
@@ -98,7 +111,8 @@ TEST(Guarded, WorkHandsBackItsBytes) {
 }
 
 TEST(Guarded, ACrashAndAHangAreResults) {
-  EXPECT_NE(guarded([]() -> std::string { std::abort(); }, 5.0).why_not.find("signal 6"), std::string::npos);
+  EXPECT_NE(guarded([]() -> std::string { std::abort(); }, 5.0).why_not.find("signal 6"),
+            std::string::npos);
   const Outcome hung = guarded(
       []() -> std::string {
         for (volatile bool always = true; always;) {
@@ -117,22 +131,28 @@ TEST(Stability, ExactEngineSurvivesWhatIsQuickToTry) {
     if (trial.name == "dense" || trial.name == "crowd" || trial.name == "collapse") continue;
     const Wear wear = endure(trial, {"exact"}, frame);
     EXPECT_TRUE(wear.has_survived()) << trial.name;
-    EXPECT_TRUE(wear.overlap < 1e-9 || trial.world.allow_overlap) << trial.name << ": " << wear.overlap;
+    EXPECT_TRUE(wear.overlap < 1e-9 || trial.world.allow_overlap)
+        << trial.name << ": " << wear.overlap;
     EXPECT_LT(wear.energy_error, trial.is_conservative() ? 1e-12 : 1e-6) << trial.name;
   }
 }
 
 TEST(Stability, VerdictNamesTheReason) {
   EXPECT_EQ((Survival{.contender = {"exact"}, .is_done = true}.verdict()), "yes");
-  EXPECT_EQ((Survival{.contender = {"exact"}, .why_not = "signal 6 (Aborted)"}.verdict()), "no: signal 6 (Aborted)");
-  EXPECT_EQ((Survival{.contender = {"exact"}, .is_done = true, .wear = {.escapes = 3}}.verdict()), "no: 3 escaped");
-  EXPECT_EQ((Survival{.contender = {"exact"}, .is_done = true, .wear = {.is_finite = false}}.verdict()), "no: not numbers");
+  EXPECT_EQ((Survival{.contender = {"exact"}, .why_not = "signal 6 (Aborted)"}.verdict()),
+            "no: signal 6 (Aborted)");
+  EXPECT_EQ((Survival{.contender = {"exact"}, .is_done = true, .wear = {.escapes = 3}}.verdict()),
+            "no: 3 escaped");
+  EXPECT_EQ(
+      (Survival{.contender = {"exact"}, .is_done = true, .wear = {.is_finite = false}}.verdict()),
+      "no: not numbers");
 }
 
 TEST(Contenders, AreAllEnginesWithTheirIntegratorsAndThePeersThatAreThere) {
   const auto all = contenders({}, {});
   EXPECT_EQ(all.front().name(), "exact");
-  for (const Contender& contender : all) EXPECT_NE(make_world(Trial(), contender, frame), nullptr) << contender.name();
+  for (const Contender& contender : all)
+    EXPECT_NE(make_world(Trial(), contender, frame), nullptr) << contender.name();
   EXPECT_EQ(contenders({"exact"}, {"rk4"}).size(), 1u);
   EXPECT_TRUE(absences({"exact"}).empty());
 }

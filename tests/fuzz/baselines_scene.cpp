@@ -9,8 +9,8 @@
 #include "rti/wire/federation_messages.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/service_scene.h"
-#include "tests/rti/scenes/fjord.h"
 #include "tests/rti/rig.h"
+#include "tests/rti/scenes/fjord.h"
 
 namespace rink::fuzz {
 
@@ -26,15 +26,18 @@ struct Lookout : FederateAmbassador {
   };
   std::map<std::uint32_t, Seen> seen;
   bool is_lost = false;
-  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp& stamp) override {
+  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values,
+                                const Stamp& stamp) override {
     if (!set.contains(rti::testing::track)) return;
-    const Bytes value = rti::testing::fjord().value(rti::testing::boat, set, rti::testing::track, values);
+    const Bytes value =
+        rti::testing::fjord().value(rti::testing::boat, set, rti::testing::track, values);
     seen[object.value] = {{value.begin(), value.end()}, stamp.time};
   }
   void connection_lost(std::string_view) override { is_lost = true; }
 };
 
-/// An owner of boats (0), who watches them (1), and one who hears what the watch hears, changed on its way.
+/// An owner of boats (0), who watches them (1), and one who hears what the watch hears, changed on
+/// its way.
 class Sound final : public Outlet {
  public:
   Sound() {
@@ -52,12 +55,13 @@ class Sound final : public Outlet {
   std::array<ObjectHandle, 3> boats;
   std::deque<std::vector<std::byte>> said;  ///< by the watch, on its way
   bool holds = false;
-  unsigned changes = 0, change_at = 0;      ///< of the frame that the third one hears
+  unsigned changes = 0, change_at = 0;  ///< of the frame that the third one hears
 
   void tick() {
     execution_.receive(0, owner.outgoing());
     owner.clear_outgoing();
-    if (const Bytes bytes = watch.outgoing(); !bytes.empty()) said.emplace_back(bytes.begin(), bytes.end());
+    if (const Bytes bytes = watch.outgoing(); !bytes.empty())
+      said.emplace_back(bytes.begin(), bytes.end());
     watch.clear_outgoing();
     for (; !holds && !said.empty(); said.pop_front()) execution_.receive(1, said.front());
     execution_.match();
@@ -82,11 +86,14 @@ class Sound final : public Outlet {
       victim_->join("rink", "victim", "tester");
       victim_->receive(framed(JoinedMessage{7, 99}));
       for (const ObjectHandle each : boats) {
-        victim_->receive(framed(DiscoverObjectMessage{each.value, static_cast<std::uint16_t>(rti::testing::boat.value), "boat"}));
+        victim_->receive(framed(DiscoverObjectMessage{
+            each.value, static_cast<std::uint16_t>(rti::testing::boat.value), "boat"}));
         victim_->receive(framed(InScopeMessage{each.value}));
       }
     }
-    if (changes != 0 && frame.size() > frame_header_size) frame[frame_header_size + change_at % (frame.size() - frame_header_size)] ^= static_cast<std::byte>(changes);
+    if (changes != 0 && frame.size() > frame_header_size)
+      frame[frame_header_size + change_at % (frame.size() - frame_header_size)] ^=
+          static_cast<std::byte>(changes);
     victim_->receive(frame);
     victim_->clear_outgoing();
   }
@@ -105,7 +112,8 @@ std::vector<std::byte> track_of(double x, double y, float speed_x, float speed_y
 }
 
 std::vector<std::byte> rounded(const std::vector<std::byte>& value) {
-  const AttributeCodec& codec = *rti::testing::fjord().at(rti::testing::boat).attributes[rti::testing::track.value].codec;
+  const AttributeCodec& codec =
+      *rti::testing::fjord().at(rti::testing::boat).attributes[rti::testing::track.value].codec;
   std::vector<std::byte> coded, decoded;
   codec.encode(value, 0.0, coded);
   require(codec.decode(coded, 0.0, decoded), "what was coded is decoded");
@@ -120,10 +128,13 @@ void refuse_baselines(Bytes bytes) {
     Sound sound;
     Input input(bytes);
     for (int i = 0; i < 3; ++i) {
-      sound.owner.update_attribute_values(sound.boats[0], AttributeSet{rti::testing::track}, track_of(input.byte(), input.byte(), 1.0f, 2.0f), {0.1 * i, 0});
+      sound.owner.update_attribute_values(sound.boats[0], AttributeSet{rti::testing::track},
+                                          track_of(input.byte(), input.byte(), 1.0f, 2.0f),
+                                          {0.1 * i, 0});
       sound.tick();
     }
-    std::vector<std::byte> said = framed(AcknowledgeKeyframeMessage{static_cast<std::uint16_t>(input.byte())});
+    std::vector<std::byte> said =
+        framed(AcknowledgeKeyframeMessage{static_cast<std::uint16_t>(input.byte())});
     if (is_cut) said.pop_back();
     else said.push_back(std::byte{255});
     said[0] = static_cast<std::byte>(said.size() - frame_header_size);
@@ -144,14 +155,17 @@ void drive_baselines(Bytes bytes) {
     std::array<std::vector<std::byte>, 3> said;
     for (std::size_t i = 0; i < said.size(); ++i) {
       if ((what >> i & 1u) == 0) continue;
-      const double x = 4.0 * input.byte(), y = 0.5 * input.byte() - 600.0;  // out of the range at times
+      const double x = 4.0 * input.byte(),
+                   y = 0.5 * input.byte() - 600.0;  // out of the range at times
       const float speed = static_cast<float>(input.byte()) / 4.0f - 31.0f;
       said[i] = track_of(x, y, speed, -speed);
-      sound.owner.update_attribute_values(sound.boats[i], AttributeSet{rti::testing::track}, said[i], {now, 0});
+      sound.owner.update_attribute_values(sound.boats[i], AttributeSet{rti::testing::track},
+                                          said[i], {now, 0});
     }
     if (fate == 1) {  // made up
       const auto number = static_cast<std::uint16_t>(input.byte());
-      sound.said.push_back(input.byte() % 2 == 0 ? framed(AcknowledgeKeyframeMessage{number}) : framed(RefuseKeyframeMessage{number}));
+      sound.said.push_back(input.byte() % 2 == 0 ? framed(AcknowledgeKeyframeMessage{number})
+                                                 : framed(RefuseKeyframeMessage{number}));
     }
     sound.holds = fate == 2;
     if (fate == 3) sound.watch.clear_outgoing();  // forgotten
@@ -163,7 +177,9 @@ void drive_baselines(Bytes bytes) {
     for (std::size_t i = 0; i < said.size(); ++i) {
       if (said[i].empty()) continue;
       const auto seen = sound.heard.seen.find(sound.boats[i].value);
-      require(seen != sound.heard.seen.end() && seen->second.time == now && seen->second.track == rounded(said[i]), "what is heard is the quantised truth");
+      require(seen != sound.heard.seen.end() && seen->second.time == now &&
+                  seen->second.track == rounded(said[i]),
+              "what is heard is the quantised truth");
     }
   }
 }

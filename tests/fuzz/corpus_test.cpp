@@ -1,4 +1,5 @@
-// Every harness over its kept corpus, over each of its inputs cut short, and over random changes to them: what was found once stays found.
+// Every harness over its kept corpus, over each of its inputs cut short, and over random changes to
+// them: what was found once stays found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,19 +16,23 @@ namespace {
 
 std::vector<Harness> all_harnesses() {
   std::vector<Harness> all;
-  for (const auto& list : {rti_harnesses(), game_harnesses(), im_harnesses()}) all.insert(all.end(), list.begin(), list.end());
+  for (const auto& list : {rti_harnesses(), game_harnesses(), im_harnesses()})
+    all.insert(all.end(), list.begin(), list.end());
   return all;
 }
 
 /// In the order of their names, so that random changes are the same everywhere.
 std::vector<std::vector<std::byte>> corpus_of(const std::string& name) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(test::source_folder()) / "tests/fuzz/corpus" / name)) files.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(test::source_folder()) / "tests/fuzz/corpus" / name))
+    files.push_back(entry.path());
   std::ranges::sort(files);
   std::vector<std::vector<std::byte>> corpus;
   for (const auto& file : files) {
     std::ifstream stream(file, std::ios::binary);
-    std::vector<char> content((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    std::vector<char> content((std::istreambuf_iterator<char>(stream)),
+                              std::istreambuf_iterator<char>());
     const auto* first = reinterpret_cast<const std::byte*>(content.data());
     corpus.emplace_back(first, first + content.size());
   }
@@ -38,9 +43,14 @@ void change(std::vector<std::byte>& input, std::mt19937_64& random) {
   const std::size_t at = random() % input.size();
   const auto value = static_cast<std::byte>(random() % 256);
   switch (random() % 3) {
-    case 0: input[at] = value; break;
-    case 1: input.insert(input.begin() + static_cast<std::ptrdiff_t>(at), value); break;
-    default: input.erase(input.begin() + static_cast<std::ptrdiff_t>(at));
+    case 0:
+      input[at] = value;
+      break;
+    case 1:
+      input.insert(input.begin() + static_cast<std::ptrdiff_t>(at), value);
+      break;
+    default:
+      input.erase(input.begin() + static_cast<std::ptrdiff_t>(at));
   }
 }
 
@@ -59,7 +69,8 @@ TEST_P(Corpus, IsTakenWithoutHarmAlsoWhenChangedAtRandom) {
   for (const auto& original : corpus_of(GetParam().name))
     for (int variant = 0; variant < 10; ++variant, ++changed) {
       std::vector<std::byte> input = original;
-      for (std::uint64_t changes = 1 + random() % 8; changes > 0 && !input.empty(); --changes) change(input, random);
+      for (std::uint64_t changes = 1 + random() % 8; changes > 0 && !input.empty(); --changes)
+        change(input, random);
       if (variant % 3 == 0 && !input.empty()) input.resize(random() % input.size());
       GetParam().run(input);
     }
@@ -71,7 +82,8 @@ TEST_P(Corpus, ThenWhatIsMalformedIsRefused) {
   GetParam().refuse({});
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Corpus, ::testing::ValuesIn(all_harnesses()), [](const auto& harness) { return std::string(harness.param.name); });
+INSTANTIATE_TEST_SUITE_P(Of, Corpus, ::testing::ValuesIn(all_harnesses()),
+                         [](const auto& harness) { return std::string(harness.param.name); });
 
 }  // namespace
 }  // namespace rink::fuzz

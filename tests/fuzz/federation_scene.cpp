@@ -30,14 +30,25 @@ void frame(std::vector<std::byte>& into, Bytes payload) {
 
 class Scene final : public Outlet {
  public:
-  Scene() : execution_(harbour(), {.federation = "rink", .filter = "region", .filter_settings = {}, .federate_max = 8, .object_max = 64, .objects_per_federate_max = 16, .patience = {}}) {
+  Scene()
+      : execution_(harbour(), {.federation = "rink",
+                               .filter = "region",
+                               .filter_settings = {},
+                               .federate_max = 8,
+                               .object_max = 64,
+                               .objects_per_federate_max = 16,
+                               .patience = {}}) {
     execution_.connect(0);
     witness_.join("rink", "witness", "tester");
     tick();
     witness_.watch_federates();
     for (const ObjectClassHandle each : {rti::testing::vessel, rti::testing::ferry}) {
       witness_.publish_object_class_attributes(each, all);
-      witness_.subscribe_object_class_attributes(each, each == rti::testing::ferry ? AttributeSet{rti::testing::position, rti::testing::speed, rti::testing::destination} : all);
+      witness_.subscribe_object_class_attributes(
+          each,
+          each == rti::testing::ferry
+              ? AttributeSet{rti::testing::position, rti::testing::speed, rti::testing::destination}
+              : all);
     }
     witness_.subscribe_interaction_class(rti::testing::hail);
     own_ = witness_.register_object_instance(rti::testing::vessel, "own");
@@ -67,15 +78,24 @@ class Scene final : public Outlet {
     const unsigned first = input.byte();
     const ConnectionId who = 1 + first % strangers;
     switch (first / strangers % 8) {
-      case 0: case 1: case 2: case 3: return say_frame(who, input);
-      case 4: return say(who, input.part(input.byte()));
-      case 5: return enter(who, input.byte());
-      case 6: return leave(who);
-      default: return pass(input.byte());
+      case 0:
+      case 1:
+      case 2:
+      case 3:
+        return say_frame(who, input);
+      case 4:
+        return say(who, input.part(input.byte()));
+      case 5:
+        return enter(who, input.byte());
+      case 6:
+        return leave(who);
+      default:
+        return pass(input.byte());
     }
   }
 
-  /// Strangers in whatever state they are, and then in each state that there is, send what is malformed.
+  /// Strangers in whatever state they are, and then in each state that there is, send what is
+  /// malformed.
   void refuse() {
     static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_header_size);
     for (ConnectionId who = 1; who <= strangers; ++who)
@@ -85,7 +105,8 @@ class Scene final : public Outlet {
       for (const unsigned value : values) all.push_back(static_cast<std::byte>(value));
       return all;
     };
-    const std::array malformed{bytes({0, 0, 0, 0}), bytes({1, 0, 0, 0, 255}), bytes({255, 255, 255, 255, 3}), bytes({2, 0, 0, 0, 1, 0x52})};
+    const std::array malformed{bytes({0, 0, 0, 0}), bytes({1, 0, 0, 0, 255}),
+                               bytes({255, 255, 255, 255, 3}), bytes({2, 0, 0, 0, 1, 0x52})};
     for (const bool is_joined : {false, true})
       for (const std::vector<std::byte>& each : malformed) {
         if (is_joined) enter(1, 0);
@@ -102,7 +123,8 @@ class Scene final : public Outlet {
     tick();
     require(execution_.federate_count() == 1, "the strangers are gone");
     require(may_leave_objects_ || execution_.object_count() <= 1, "so are their objects");
-    for (const auto& [handle, known] : heard_.objects) require(may_leave_objects_ || handle == own_.value, "of which the witness has been told");
+    for (const auto& [handle, known] : heard_.objects)
+      require(may_leave_objects_ || handle == own_.value, "of which the witness has been told");
     require(heard_.out_of_scope_updates == 0, "updates come in scope");
   }
 
@@ -117,7 +139,9 @@ class Scene final : public Outlet {
     require(!is_connected_[who], "what is malformed is the last that its sender says");
   }
   void say(ConnectionId who, Bytes bytes) {
-    may_leave_objects_ |= std::ranges::find(bytes, static_cast<std::byte>(MessageKind::resign_directive)) != bytes.end();
+    may_leave_objects_ |=
+        std::ranges::find(bytes, static_cast<std::byte>(MessageKind::resign_directive)) !=
+        bytes.end();
     if (has(who)) execution_.receive(who, bytes);
   }
   void say_frame(ConnectionId who, Input& input) {
@@ -157,7 +181,8 @@ class Scene final : public Outlet {
   Ambassador witness_{harbour(), heard_};
   ObjectHandle own_;
   std::array<bool, strangers + 1> is_connected_{};
-  bool may_leave_objects_ = false;  ///< somebody may have said that his objects outlive him, owned by nobody
+  bool may_leave_objects_ =
+      false;  ///< somebody may have said that his objects outlive him, owned by nobody
   std::vector<std::byte> spoken_;
   double now_ = 0.0;
 };
@@ -165,20 +190,30 @@ class Scene final : public Outlet {
 /// A federate that is told what cannot be stops here: the recorder knows what it knows.
 class Suspicious : public Recorder {
  public:
-  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class, std::string_view name) override {
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class,
+                                std::string_view name) override {
     require(!objects.contains(object.value), "an object is discovered once");
     require(object_class.value < harbour().object_classes().size(), "its class exists");
     Recorder::discover_object_instance(object, object_class, name);
   }
-  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp& stamp) override {
+  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values,
+                                const Stamp& stamp) override {
     require(objects.contains(object.value), "a reflected object is known");
-    require(harbour().values_fit(objects.at(object.value).object_class, set, values), "and its values fit");
+    require(harbour().values_fit(objects.at(object.value).object_class, set, values),
+            "and its values fit");
     Recorder::reflect_attribute_values(object, set, values, stamp);
   }
-  void attributes_in_scope(ObjectHandle object) override { require(objects.contains(object.value), "what comes into scope is known"); }
-  void attributes_out_of_scope(ObjectHandle object) override { require(objects.contains(object.value), "what leaves scope is known"); }
-  void remove_object_instance(ObjectHandle object) override { require(objects.erase(object.value) == 1, "what is removed was known"); }
-  void receive_interaction(InteractionClassHandle interaction_class, Bytes, FederateHandle, const Stamp&) override {
+  void attributes_in_scope(ObjectHandle object) override {
+    require(objects.contains(object.value), "what comes into scope is known");
+  }
+  void attributes_out_of_scope(ObjectHandle object) override {
+    require(objects.contains(object.value), "what leaves scope is known");
+  }
+  void remove_object_instance(ObjectHandle object) override {
+    require(objects.erase(object.value) == 1, "what is removed was known");
+  }
+  void receive_interaction(InteractionClassHandle interaction_class, Bytes, FederateHandle,
+                           const Stamp&) override {
     require(interaction_class.value < harbour().interaction_classes().size(), "its class exists");
   }
 };
@@ -189,7 +224,8 @@ void act(Ambassador& ambassador, unsigned what, std::vector<ObjectHandle>& own) 
     ambassador.publish_object_class_attributes(rti::testing::vessel, all);
     own.push_back(ambassador.register_object_instance(rti::testing::vessel));
   } else if (what % 4 == 1 && !own.empty() && own.back()) {
-    ambassador.update_attribute_values(own.back(), all, rti::testing::values_of(1.0f, 2.0f, 3.0f), {0.5, 0});
+    ambassador.update_attribute_values(own.back(), all, rti::testing::values_of(1.0f, 2.0f, 3.0f),
+                                       {0.5, 0});
   } else if (what % 4 == 2 && !own.empty() && own.back()) {
     ambassador.delete_object_instance(own.back());
     own.pop_back();
@@ -198,7 +234,8 @@ void act(Ambassador& ambassador, unsigned what, std::vector<ObjectHandle>& own) 
   }
 }
 
-/// A gauge that tells its level by datagrams, and one who watches it; the air between them does what it is told.
+/// A gauge that tells its level by datagrams, and one who watches it; the air between them does
+/// what it is told.
 class Air final : public Outlet {
  public:
   Air() {
@@ -213,14 +250,20 @@ class Air final : public Outlet {
     for (int i = 0; i < 3; ++i) tick();
   }
   void send(ConnectionId connection, std::span<const Bytes> parts) override {
-    for (const Bytes part : parts) require(ambassadors_[connection].receive(part), "the stream is understood");
+    for (const Bytes part : parts)
+      require(ambassadors_[connection].receive(part), "the stream is understood");
   }
-  void drop(ConnectionId, std::string_view) override { require(false, "datagrams cost nobody the connection"); }
-  std::size_t datagram_max(ConnectionId connection) const override { return connection == 1 ? 300 : 0; }
+  void drop(ConnectionId, std::string_view) override {
+    require(false, "datagrams cost nobody the connection");
+  }
+  std::size_t datagram_max(ConnectionId connection) const override {
+    return connection == 1 ? 300 : 0;
+  }
   void send_datagrams(ConnectionId, std::span<const Datagram> datagrams) override {
     for (const Datagram& each : datagrams) {
       std::vector<std::byte>& whole = flying_.emplace_back(each.head.begin(), each.head.end());
-      require(each.head.size() + each.body.size() <= 300, "no datagram is longer than its way carries");
+      require(each.head.size() + each.body.size() <= 300,
+              "no datagram is longer than its way carries");
       whole.insert(whole.end(), each.body.begin(), each.body.end());
     }
   }
@@ -232,7 +275,8 @@ class Air final : public Outlet {
       execution_.receive(who, ambassador.outgoing());
       ambassador.clear_outgoing();
       ambassador.expect_datagrams(1191);
-      for (const Datagram& each : ambassador.outgoing_datagrams()) execution_.receive_datagram(who, each.head);
+      for (const Datagram& each : ambassador.outgoing_datagrams())
+        execution_.receive_datagram(who, each.head);
       ambassador.clear_outgoing_datagrams();
     }
     execution_.advance_clock(now_);
@@ -242,20 +286,34 @@ class Air final : public Outlet {
   void turn(Input& input) {
     const unsigned what = input.byte();
     switch (what % 8) {
-      case 0: ambassadors_[0].update_attribute_values(object_, level_, rti::testing::values_of(now_), {now_, 0}); return;
-      case 1: return tick();
-      case 2: return arrive(what / 8, true);
-      case 3: return arrive(what / 8, false);
-      case 4: if (!flying_.empty()) flying_.pop_front(); return;
-      case 5: if (std::byte* at = somewhere(input.byte()); at != nullptr) *at ^= static_cast<std::byte>(input.byte()); return;
-      case 6: return ambassadors_[1].receive_datagram(input.part(input.byte()));
-      default: return execution_.receive_datagram(what / 8 % 4, input.part(input.byte()));
+      case 0:
+        ambassadors_[0].update_attribute_values(object_, level_, rti::testing::values_of(now_),
+                                                {now_, 0});
+        return;
+      case 1:
+        return tick();
+      case 2:
+        return arrive(what / 8, true);
+      case 3:
+        return arrive(what / 8, false);
+      case 4:
+        if (!flying_.empty()) flying_.pop_front();
+        return;
+      case 5:
+        if (std::byte* at = somewhere(input.byte()); at != nullptr)
+          *at ^= static_cast<std::byte>(input.byte());
+        return;
+      case 6:
+        return ambassadors_[1].receive_datagram(input.part(input.byte()));
+      default:
+        return execution_.receive_datagram(what / 8 % 4, input.part(input.byte()));
     }
   }
   /// The first bytes of a datagram are none, and neither is noise.
   void refuse() {
     flying_.clear();
-    ambassadors_[0].update_attribute_values(object_, level_, rti::testing::values_of(now_), {now_, 0});
+    ambassadors_[0].update_attribute_values(object_, level_, rti::testing::values_of(now_),
+                                            {now_, 0});
     tick();
     if (flying_.empty()) return;  // as long as none of the lost ones are acknowledged
     // A head of no number and after no frame, so that what follows is judged at once and each time.
@@ -266,14 +324,18 @@ class Air final : public Outlet {
       const auto before = ambassadors_[1].counters();
       ambassadors_[1].receive_datagram(datagram);
       const auto after = ambassadors_[1].counters();
-      require(after.updates_reflected == before.updates_reflected, "nothing is reflected of what is malformed");
+      require(after.updates_reflected == before.updates_reflected,
+              "nothing is reflected of what is malformed");
       return after.datagrams_ignored - before.datagrams_ignored;
     };
     require(hear(noise) == 1, "noise is ignored and counted");
-    for (std::size_t size = 0; size < DatagramHead::size; ++size) require(hear(Bytes(whole).first(size)) == 1, "half a head is ignored and counted");
-    require(hear(Bytes(whole).first(DatagramHead::size + 1)) == 1, "a message without its content is ignored and counted");
+    for (std::size_t size = 0; size < DatagramHead::size; ++size)
+      require(hear(Bytes(whole).first(size)) == 1, "half a head is ignored and counted");
+    require(hear(Bytes(whole).first(DatagramHead::size + 1)) == 1,
+            "a message without its content is ignored and counted");
     // A cut behind a whole message leaves a shorter datagram in order.
-    for (std::size_t size = DatagramHead::size + 2; size < whole.size(); ++size) hear(Bytes(whole).first(size));
+    for (std::size_t size = DatagramHead::size + 2; size < whole.size(); ++size)
+      hear(Bytes(whole).first(size));
   }
   void end() {
     tick();
@@ -287,7 +349,11 @@ class Air final : public Outlet {
     ambassadors_[1].receive_datagram(flying_[at]);
     if (is_once) flying_.erase(flying_.begin() + static_cast<std::ptrdiff_t>(at));
   }
-  std::byte* somewhere(unsigned at) { return flying_.empty() || flying_.front().empty() ? nullptr : &flying_.front()[at % flying_.front().size()]; }
+  std::byte* somewhere(unsigned at) {
+    return flying_.empty() || flying_.front().empty()
+               ? nullptr
+               : &flying_.front()[at % flying_.front().size()];
+  }
 
   const ObjectClassHandle tide_ = *harbour().object_class("Tide");
   const AttributeSet level_ = harbour().attributes(tide_);
@@ -324,7 +390,8 @@ void refuse_federation(Bytes bytes) {
 }
 
 void refuse_federate(Bytes bytes) {
-  const std::vector<std::byte> unknown{std::byte{255}}, cut{static_cast<std::byte>(MessageKind::discover_object), std::byte{7}};
+  const std::vector<std::byte> unknown{std::byte{255}},
+      cut{static_cast<std::byte>(MessageKind::discover_object), std::byte{7}};
   std::vector<std::byte> empty, of_nothing, broken, oversized(frame_header_size, std::byte{255});
   frame(empty, {});
   frame(of_nothing, unknown);
@@ -334,11 +401,13 @@ void refuse_federate(Bytes bytes) {
     Ambassador ambassador(harbour(), heard);
     ambassador.join("rink", "fuzzed", "tester");
     std::vector<std::byte> spoken, payload;
-    JoinedMessage joined{.federate = 1, .object_block = bytes.empty() ? 0u : static_cast<unsigned>(bytes.front())};
+    JoinedMessage joined{.federate = 1,
+                         .object_block = bytes.empty() ? 0u : static_cast<unsigned>(bytes.front())};
     write(payload, joined);
     frame(spoken, payload);
     require(ambassador.receive(spoken), "a join is understood");
-    require(!ambassador.receive(each) && !heard.lost.empty(), "a federate does not go on after what the RTI cannot have sent, and says why");
+    require(!ambassador.receive(each) && !heard.lost.empty(),
+            "a federate does not go on after what the RTI cannot have sent, and says why");
   }
 }
 
@@ -374,7 +443,8 @@ void drive_federate(Bytes bytes) {
     } else {
       frame(spoken, input.part(what + 1));
     }
-    if (!ambassador.receive(spoken)) return require(!heard.lost.empty(), "who does not understand says why");
+    if (!ambassador.receive(spoken))
+      return require(!heard.lost.empty(), "who does not understand says why");
     ambassador.clear_outgoing();
   }
 }

@@ -36,7 +36,9 @@ void refuse_key_logs(rti::Bytes bytes) {
   log.is_sealed = true;
   log.scene = "crowd";
   log.until = 10.0;
-  for (int i = 0; i < 4; ++i) log.events.push_back({static_cast<double>(i), input.byte() % 2, game::InputKind::key_down, game::Key::left});
+  for (int i = 0; i < 4; ++i)
+    log.events.push_back(
+        {static_cast<double>(i), input.byte() % 2, game::InputKind::key_down, game::Key::left});
   std::ostringstream written;
   game::write_key_log(written, log);
   const auto is_refused = [](const std::string& text) {
@@ -65,14 +67,17 @@ void interest(rti::Bytes bytes) {
   game::InterestSeen again;
   require(exchange(writer, seen), "what was read can be written");
   rti::Reader second(written);
-  require(exchange(second, again) && again.heard == seen.heard && again.views.size() == seen.views.size(), "and is read as the same");
+  require(exchange(second, again) && again.heard == seen.heard &&
+              again.views.size() == seen.views.size(),
+          "and is read as the same");
 }
 
 /// An answer to a watcher whose end is missing.
 void refuse_interest(rti::Bytes bytes) {
   Input input(bytes);
   game::InterestSeen seen;
-  for (unsigned count = 1 + input.byte() % 8; count > 0; --count) seen.views.push_back({.bat = input.byte(), .hears = count % 2 == 0});
+  for (unsigned count = 1 + input.byte() % 8; count > 0; --count)
+    seen.views.push_back({.bat = input.byte(), .hears = count % 2 == 0});
   std::vector<std::byte> written;
   rti::Writer writer(written);
   require(exchange(writer, seen), "an answer can be written");
@@ -92,7 +97,8 @@ void refuse_trajectories(rti::Bytes bytes) {
   const auto size = codec.size(whole);
   if (!size || !codec.decode(whole.first(*size), time, value)) return;
   codec.encode(value, time, coded);
-  for (std::size_t cut = 0; cut < coded.size(); ++cut) require(!codec.size(rti::Bytes(coded).first(cut)), "a value that is cut off has no size");
+  for (std::size_t cut = 0; cut < coded.size(); ++cut)
+    require(!codec.size(rti::Bytes(coded).first(cut)), "a value that is cut off has no size");
 }
 
 void trajectories(rti::Bytes bytes) {
@@ -133,9 +139,9 @@ void refuse_scenes(rti::Bytes bytes) {
 
 std::span<const Harness> game_harnesses() {
   static constexpr std::array<Harness, 4> list{{{"key_log", key_logs, refuse_key_logs},
-                                               {"interest", interest, refuse_interest},
-                                               {"trajectory", trajectories, refuse_trajectories},
-                                               {"scene", scenes, refuse_scenes}}};
+                                                {"interest", interest, refuse_interest},
+                                                {"trajectory", trajectories, refuse_trajectories},
+                                                {"scene", scenes, refuse_scenes}}};
   return list;
 }
 

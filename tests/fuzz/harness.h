@@ -1,4 +1,5 @@
-// What is fuzzed: one function for each reader of bytes from elsewhere, run by libFuzzer and, over the kept corpus, by a test.
+// What is fuzzed: one function for each reader of bytes from elsewhere, run by libFuzzer and, over
+// the kept corpus, by a test.
 #pragma once
 
 #include <cstdio>
@@ -10,13 +11,15 @@
 
 namespace rink::fuzz {
 
-/// What every reader of bytes from elsewhere owes: it takes any bytes at all, and refuses what is malformed.
+/// What every reader of bytes from elsewhere owes: it takes any bytes at all, and refuses what is
+/// malformed.
 struct Harness {
   const char* name;
   /// Returns if the reader did with `input` what it promises, aborts or trips a sanitizer if not.
   void (*run)(rti::Bytes input);
-  /// Hands the reader `input` and then what is malformed whatever came before it, in each way that the reader knows. Returns if all of that was refused: a connection dropped,
-  /// a value or file turned away, nothing of it taken.
+  /// Hands the reader `input` and then what is malformed whatever came before it, in each way that
+  /// the reader knows. Returns if all of that was refused: a connection dropped, a value or file
+  /// turned away, nothing of it taken.
   void (*refuse)(rti::Bytes input);
 };
 
@@ -54,6 +57,8 @@ class Input {
   rti::Bytes bytes_;
 };
 
-inline std::string text_of(rti::Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+inline std::string text_of(rti::Bytes bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
 }  // namespace rink::fuzz

@@ -1,4 +1,5 @@
-// The readers of the RTI: whole federations, frames, blocks of updates, bits, object models and federation files.
+// The readers of the RTI: whole federations, frames, blocks of updates, bits, object models and
+// federation files.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -13,8 +14,8 @@
 #include "tests/fuzz/federation_scene.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/service_scene.h"
-#include "tests/rti/scenes/fjord.h"
 #include "tests/rti/rig.h"
+#include "tests/rti/scenes/fjord.h"
 
 namespace rink::fuzz {
 namespace {
@@ -29,12 +30,14 @@ void frames(Bytes bytes) {
     bool is_sound = true;
     for (std::size_t at = 0; at < stream.size() && is_sound; at += step) {
       const Bytes piece = stream.subspan(at, std::min(step, stream.size() - at));
-      const Framing framing = reader.receive(piece, [] { return std::size_t{1000}; }, [&heard](Bytes frame) {
-        require(!frame.empty() && frame.size() <= 1000, "frames have their size");
-        heard.insert(heard.end(), frame.begin(), frame.end());
-        heard.push_back(std::byte{'|'});
-        return true;
-      });
+      const Framing framing = reader.receive(
+          piece, [] { return std::size_t{1000}; },
+          [&heard](Bytes frame) {
+            require(!frame.empty() && frame.size() <= 1000, "frames have their size");
+            heard.insert(heard.end(), frame.begin(), frame.end());
+            heard.push_back(std::byte{'|'});
+            return true;
+          });
       is_sound = framing == Framing::sound;
       require(reader.waiting_bytes() <= 1004, "no more than a frame is kept");
     }
@@ -50,21 +53,26 @@ void frames(Bytes bytes) {
 void refuse_frames(Bytes bytes) {
   for (const unsigned value : {0x00u, 0xffu}) {
     FrameReader reader;
-    const auto receive = [&reader](Bytes part) { return reader.receive(part, [] { return std::size_t{1000}; }, [](Bytes) { return true; }); };
+    const auto receive = [&reader](Bytes part) {
+      return reader.receive(
+          part, [] { return std::size_t{1000}; }, [](Bytes) { return true; });
+    };
     if (receive(bytes) != Framing::sound) continue;
     const std::vector<std::byte> noise(1000 + 2 * frame_header_size, static_cast<std::byte>(value));
     require(receive(noise) != Framing::sound, "a stream of frames that cannot be is refused");
   }
 }
 
-/// A stranger may send in full what would be rounded, so a value may change when it is coded, but not when it is coded again.
+/// A stranger may send in full what would be rounded, so a value may change when it is coded, but
+/// not when it is coded again.
 void require_stable(const ObjectClass& object_class, AttributeSet set, Bytes values) {
   std::vector<std::byte> coded, rounded, again, stable;
   encode(object_class, set, values, 0.0, coded);
   require(coded_size(object_class, set, coded) == coded.size(), "a coded value ends by itself");
   require(decode(object_class, set, coded, 0.0, rounded), "what was coded is decoded");
   encode(object_class, set, rounded, 0.0, again);
-  require(decode(object_class, set, again, 0.0, stable) && stable == rounded, "what was rounded keeps its value");
+  require(decode(object_class, set, again, 0.0, stable) && stable == rounded,
+          "what was rounded keeps its value");
 }
 
 /// What a block gives, written again, is read as the same.
@@ -87,7 +95,8 @@ void update_blocks(Bytes bytes) {
       std::memcpy(&handle, &object, sizeof handle);
       records.push_back({handle, {values.begin(), values.end()}});
       std::vector<std::byte> decoded;
-      if (decode(object_class, set, values, 0.0, decoded)) require_stable(object_class, set, decoded);
+      if (decode(object_class, set, values, 0.0, decoded))
+        require_stable(object_class, set, decoded);
       return true;
     });
   };
@@ -98,7 +107,8 @@ void update_blocks(Bytes bytes) {
     RecordWriter writer(block);
     for (const Record& record : records) writer.add(record.object, record.values);
   }
-  require(records_of(block, again) && again == records, "a block that is written again is the same");
+  require(records_of(block, again) && again == records,
+          "a block that is written again is the same");
 }
 
 /// The first bytes of a block are no block.
@@ -113,7 +123,9 @@ void refuse_update_blocks(Bytes bytes) {
   }
   for (std::size_t size = 0; size < block.size(); ++size) {
     Reader reader(Bytes(block).first(size));
-    require(!read_records(reader, object_class, AttributeSet{rti::testing::speed}, [](auto, Bytes) { return true; }), "a block that is cut off is refused");
+    require(!read_records(reader, object_class, AttributeSet{rti::testing::speed},
+                          [](auto, Bytes) { return true; }),
+            "a block that is cut off is refused");
   }
 }
 
@@ -130,12 +142,14 @@ bool is_turned_away(const Parse& parse, const std::string& text) {
 
 void refuse_object_models(Bytes bytes) {
   const auto parse = [](const std::string& text) { Fom::parse(text, "fuzzed.xml"); };
-  require(is_turned_away<FileError>(parse, text_of(bytes) + "<"), "a model that breaks off is refused");
+  require(is_turned_away<FileError>(parse, text_of(bytes) + "<"),
+          "a model that breaks off is refused");
 }
 
 void refuse_federation_files(Bytes bytes) {
   const auto parse = [](const std::string& text) { parse_federation_file(text, "fuzzed.toml"); };
-  require(is_turned_away<FileError>(parse, text_of(bytes) + "\n]=[\n"), "what is no TOML is refused");
+  require(is_turned_away<FileError>(parse, text_of(bytes) + "\n]=[\n"),
+          "what is no TOML is refused");
 }
 
 void object_models(Bytes bytes) {
@@ -151,8 +165,10 @@ void federation_files(Bytes bytes) {
   try {
     const FederationFile file = parse_federation_file(text_of(bytes), "fuzzed.toml");
     require(!file.nodes.empty(), "a federation has a node");
-    require(file.nodes.front().port > 0 && !file.nodes.front().address.empty(), "the node that is asked has an address and a port");
-    for (const Node& node : file.nodes) require((node.port > 0) == !node.address.empty(), "a node that asks has both or neither");
+    require(file.nodes.front().port > 0 && !file.nodes.front().address.empty(),
+            "the node that is asked has an address and a port");
+    for (const Node& node : file.nodes)
+      require((node.port > 0) == !node.address.empty(), "a node that asks has both or neither");
   } catch (const FileError& error) {
     require(std::strncmp(error.what(), "fuzzed.toml", 11) == 0, "a complaint names the file");
   }
@@ -161,13 +177,16 @@ void federation_files(Bytes bytes) {
 /// Says nothing, and notes who is dropped.
 struct Silent final : Outlet {
   void send(ConnectionId, std::span<const Bytes>) override {}
-  void drop(ConnectionId connection, std::string_view) override { is_connected[connection] = false; }
+  void drop(ConnectionId connection, std::string_view) override {
+    is_connected[connection] = false;
+  }
   std::array<bool, 4> is_connected{};
 };
 
 void converse(FederationDirectory& directory, Silent& outlet, Bytes bytes) {
   directory.offer(rti::testing::harbour());
-  require(directory.create("rink", rti::testing::harbour().hash()) == HlaError::none, "the first name is free");
+  require(directory.create("rink", rti::testing::harbour().hash()) == HlaError::none,
+          "the first name is free");
   Input input(bytes);
   while (!input.is_empty()) {
     const unsigned what = input.byte();
@@ -188,10 +207,12 @@ void directories(Bytes bytes) {
   FederationDirectory directory;
   Silent outlet;
   converse(directory, outlet, bytes);
-  require(directory.find("rink") != nullptr || directory.list().size() <= 1024, "no more executions than allowed");
+  require(directory.find("rink") != nullptr || directory.list().size() <= 1024,
+          "no more executions than allowed");
 }
 
-/// More zeros than the longest frame has bytes: whatever frame was begun is complete, and an empty one follows it.
+/// More zeros than the longest frame has bytes: whatever frame was begun is complete, and an empty
+/// one follows it.
 const std::vector<std::byte>& endless_zeros() {
   static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_header_size);
   return zeros;
@@ -219,7 +240,8 @@ void refuse_handshakes(Bytes bytes) {
     handshake.receive(left);
     left = endless_zeros();
     handshake.receive(left);
-    require(handshake.state() == Handshake::State::failed, "a handshake of frames without messages fails");
+    require(handshake.state() == Handshake::State::failed,
+            "a handshake of frames without messages fails");
   }
 }
 
@@ -247,19 +269,20 @@ void handshakes(Bytes bytes) {
 }  // namespace
 
 std::span<const Harness> rti_harnesses() {
-  static constexpr std::array<Harness, 13> list{{{"federation", drive_federation, refuse_federation},
-                                                {"federate", drive_federate, refuse_federate},
-                                                {"datagrams", drive_datagrams, refuse_datagrams},
-                                                {"time", drive_time, refuse_time},
-                                                {"ownership", drive_ownership, refuse_ownership},
-                                                {"regions", drive_regions, refuse_regions},
-                                                {"baselines", drive_baselines, refuse_baselines},
-                                                {"handshake", handshakes, refuse_handshakes},
-                                                {"directory", directories, refuse_directories},
-                                                {"frames", frames, refuse_frames},
-                                                {"update_block", update_blocks, refuse_update_blocks},
-                                                {"object_model", object_models, refuse_object_models},
-                                                {"federation_file", federation_files, refuse_federation_files}}};
+  static constexpr std::array<Harness, 13> list{
+      {{"federation", drive_federation, refuse_federation},
+       {"federate", drive_federate, refuse_federate},
+       {"datagrams", drive_datagrams, refuse_datagrams},
+       {"time", drive_time, refuse_time},
+       {"ownership", drive_ownership, refuse_ownership},
+       {"regions", drive_regions, refuse_regions},
+       {"baselines", drive_baselines, refuse_baselines},
+       {"handshake", handshakes, refuse_handshakes},
+       {"directory", directories, refuse_directories},
+       {"frames", frames, refuse_frames},
+       {"update_block", update_blocks, refuse_update_blocks},
+       {"object_model", object_models, refuse_object_models},
+       {"federation_file", federation_files, refuse_federation_files}}};
   return list;
 }
 

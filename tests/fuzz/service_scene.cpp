@@ -29,7 +29,8 @@ struct Shape {
 /// Makes messages from a fuzzer's bytes.
 class Scribe {
  public:
-  Scribe(Input& input, const std::vector<std::uint32_t>& objects) : input_(input), objects_(objects) {}
+  Scribe(Input& input, const std::vector<std::uint32_t>& objects)
+      : input_(input), objects_(objects) {}
   std::vector<std::byte> message(const Shape& shape) {
     bytes_.assign(1, static_cast<std::byte>(shape.kind));
     for (const char letter : shape.fields) field(letter);
@@ -73,13 +74,15 @@ class Scribe {
     outer.swap(bytes_);
     const unsigned what = input_.byte() % 3;
     if (what == 0) {
-      UpdatesMessage message{static_cast<std::uint16_t>(rti::testing::vessel.value), AttributeSet{rti::testing::speed}.bits};
+      UpdatesMessage message{static_cast<std::uint16_t>(rti::testing::vessel.value),
+                             AttributeSet{rti::testing::speed}.bits};
       write(bytes_, message);
       varint(handle_step(0, object()));
       put(1.0f);
       bytes_.push_back(std::byte{0});
     } else if (what == 1) {
-      InteractionMessage message{static_cast<std::uint16_t>(rti::testing::hail.value), FederateHandle::none, {}, {}};
+      InteractionMessage message{
+          static_cast<std::uint16_t>(rti::testing::hail.value), FederateHandle::none, {}, {}};
       write(bytes_, message);
     } else {
       DeleteObjectMessage message{object()};
@@ -91,21 +94,36 @@ class Scribe {
   }
   void field(char letter) {
     switch (letter) {
-      case 'b': return put(static_cast<std::uint8_t>(input_.byte() % 10));
-      case 'w': return put(static_cast<std::uint16_t>(input_.byte() % 8));
-      case 'd': return put(time());
-      case 'q': return put(std::uint64_t{input_.byte() % 4});
-      case 'v': return varint(input_.byte());
-      case 'a': return put(std::uint32_t{input_.byte() % 8});
-      case 'A': return varint(1 + input_.byte() % 7);
-      case 'o': return varint(object());
-      case 'u': return put(object());
-      case 'r': return put(region());
-      case 's': return stamp(time());
-      case 't': return raw();
-      case 'c': return content();
-      case 'p': return regions(true);
-      case 'l': return regions(false);
+      case 'b':
+        return put(static_cast<std::uint8_t>(input_.byte() % 10));
+      case 'w':
+        return put(static_cast<std::uint16_t>(input_.byte() % 8));
+      case 'd':
+        return put(time());
+      case 'q':
+        return put(std::uint64_t{input_.byte() % 4});
+      case 'v':
+        return varint(input_.byte());
+      case 'a':
+        return put(std::uint32_t{input_.byte() % 8});
+      case 'A':
+        return varint(1 + input_.byte() % 7);
+      case 'o':
+        return varint(object());
+      case 'u':
+        return put(object());
+      case 'r':
+        return put(region());
+      case 's':
+        return stamp(time());
+      case 't':
+        return raw();
+      case 'c':
+        return content();
+      case 'p':
+        return regions(true);
+      case 'l':
+        return regions(false);
       case 'O': {
         std::uint32_t last = 0;
         for (unsigned left = 1 + input_.byte() % 3; left > 0; --left) {
@@ -125,7 +143,8 @@ class Scribe {
         }
         return;
       }
-      default: require(false, "a field's letter is known");
+      default:
+        require(false, "a field's letter is known");
     }
   }
 
@@ -142,13 +161,18 @@ struct Witness : Recorder {
     require(now.value >= time, "time does not go back");
     time = now.value;
   }
-  void receive_interaction_with_time(InteractionClassHandle, Bytes, FederateHandle, const TimedStamp& timed) override {
-    require(!timed.is_in_order || timed.stamp.time >= time, "nothing comes in order that is older than one's time");
+  void receive_interaction_with_time(InteractionClassHandle, Bytes, FederateHandle,
+                                     const TimedStamp& timed) override {
+    require(!timed.is_in_order || timed.stamp.time >= time,
+            "nothing comes in order that is older than one's time");
   }
-  void reflect_attribute_values_with_time(ObjectHandle, AttributeSet, Bytes, const TimedStamp& timed) override {
-    require(!timed.is_in_order || timed.stamp.time >= time, "no value comes in order that is older than one's time");
+  void reflect_attribute_values_with_time(ObjectHandle, AttributeSet, Bytes,
+                                          const TimedStamp& timed) override {
+    require(!timed.is_in_order || timed.stamp.time >= time,
+            "no value comes in order that is older than one's time");
   }
-  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class, std::string_view name) override {
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class,
+                                std::string_view name) override {
     require(!objects.contains(object.value), "an object is discovered once");
     Recorder::discover_object_instance(object, object_class, name);
   }
@@ -157,7 +181,14 @@ struct Witness : Recorder {
 class Quay final : public Outlet {
  public:
   static constexpr ConnectionId stranger_count = 2;
-  Quay() : execution_(harbour(), {.federation = "rink", .filter = "region", .filter_settings = {}, .federate_max = 4, .object_max = 64, .objects_per_federate_max = 64, .patience = {}}) {
+  Quay()
+      : execution_(harbour(), {.federation = "rink",
+                               .filter = "region",
+                               .filter_settings = {},
+                               .federate_max = 4,
+                               .object_max = 64,
+                               .objects_per_federate_max = 64,
+                               .patience = {}}) {
     execution_.connect(0);
     witness.join("rink", "witness", "tester");
     tick();
@@ -172,7 +203,8 @@ class Quay final : public Outlet {
   ObjectHandle own;
   FederationExecution& execution() { return execution_; }
 
-  /// Strangers send each message of the group without its last byte, and frames without a message, and are dropped.
+  /// Strangers send each message of the group without its last byte, and frames without a message,
+  /// and are dropped.
   void refuse(std::span<const Shape> shapes) {
     static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_header_size);
     const auto must_drop = [this](const auto& speak) {
@@ -236,7 +268,8 @@ class Quay final : public Outlet {
     ambassador.subscribe_interaction_class(rti::testing::hail);
   }
   static Bytes heartbeat() {
-    static const std::array<std::byte, 5> frame{std::byte{1}, std::byte{}, std::byte{}, std::byte{}, static_cast<std::byte>(MessageKind::heartbeat)};
+    static const std::array<std::byte, 5> frame{std::byte{1}, std::byte{}, std::byte{}, std::byte{},
+                                                static_cast<std::byte>(MessageKind::heartbeat)};
     return frame;
   }
   /// Joins by rule, with an object of its own, which no fuzzer would find.
@@ -253,7 +286,8 @@ class Quay final : public Outlet {
     };
     stranger.entering->join("rink", "stranger " + std::to_string(who), "stranger");
     speak();
-    if (!stranger.is_here || !stranger.entering->is_joined()) return void(stranger.entering.reset());
+    if (!stranger.is_here || !stranger.entering->is_joined())
+      return void(stranger.entering.reset());
     set_up(*stranger.entering);
     const ObjectHandle object = stranger.entering->register_object_instance(rti::testing::vessel);
     if (objects_.size() < 64) objects_.push_back(object.value);
@@ -275,18 +309,28 @@ class Quay final : public Outlet {
   double now_ = 0.0;
 };
 
-constexpr std::array time_shapes{Shape{MessageKind::enable_time_regulation, "d"}, Shape{MessageKind::time_switch, "b"},   Shape{MessageKind::modify_lookahead, "d"},
-                                Shape{MessageKind::advance_request, "bd"},       Shape{MessageKind::timed_send, "vsc"}, Shape{MessageKind::retract, "v"},
-                                Shape{MessageKind::query_time_bounds, ""},       Shape{MessageKind::timed_send, "vsc"}};
+constexpr std::array time_shapes{
+    Shape{MessageKind::enable_time_regulation, "d"}, Shape{MessageKind::time_switch, "b"},
+    Shape{MessageKind::modify_lookahead, "d"},       Shape{MessageKind::advance_request, "bd"},
+    Shape{MessageKind::timed_send, "vsc"},           Shape{MessageKind::retract, "v"},
+    Shape{MessageKind::query_time_bounds, ""},       Shape{MessageKind::timed_send, "vsc"}};
 
-constexpr std::array ownership_shapes{Shape{MessageKind::ownership_request, "bAtO"}, Shape{MessageKind::query_ownership, "ob"}, Shape{MessageKind::resign_directive, "b"},
-                                Shape{MessageKind::publish_object_class, "wa"}, Shape{MessageKind::delete_object, "o"},    Shape{MessageKind::ownership_request, "bAtO"},
-                                Shape{MessageKind::local_delete, "o"}};
+constexpr std::array ownership_shapes{
+    Shape{MessageKind::ownership_request, "bAtO"}, Shape{MessageKind::query_ownership, "ob"},
+    Shape{MessageKind::resign_directive, "b"},     Shape{MessageKind::publish_object_class, "wa"},
+    Shape{MessageKind::delete_object, "o"},        Shape{MessageKind::ownership_request, "bAtO"},
+    Shape{MessageKind::local_delete, "o"}};
 
-constexpr std::array regions_shapes{Shape{MessageKind::create_region, "r"},       Shape{MessageKind::create_region_over, "rq"}, Shape{MessageKind::modify_ranges, "rg"},
-                                Shape{MessageKind::regional_class, "wbp"},    Shape{MessageKind::regional_interaction, "wbl"}, Shape{MessageKind::associate_regions, "ubp"},
-                                Shape{MessageKind::interaction_within, "wslt"}, Shape{MessageKind::associate_region, "ur"},  Shape{MessageKind::delete_region, "r"},
-                                Shape{MessageKind::subscribe_object_class, "war"}};
+constexpr std::array regions_shapes{Shape{MessageKind::create_region, "r"},
+                                    Shape{MessageKind::create_region_over, "rq"},
+                                    Shape{MessageKind::modify_ranges, "rg"},
+                                    Shape{MessageKind::regional_class, "wbp"},
+                                    Shape{MessageKind::regional_interaction, "wbl"},
+                                    Shape{MessageKind::associate_regions, "ubp"},
+                                    Shape{MessageKind::interaction_within, "wslt"},
+                                    Shape{MessageKind::associate_region, "ur"},
+                                    Shape{MessageKind::delete_region, "r"},
+                                    Shape{MessageKind::subscribe_object_class, "war"}};
 
 }  // namespace
 
@@ -320,14 +364,17 @@ void drive_ownership(Bytes bytes) {
   Quay quay;
   while (!input.is_empty()) {
     quay.turn(input, ownership_shapes);
-    for (const AttributeHandle each : {rti::testing::position, rti::testing::speed}) require(quay.witness.is_attribute_owned_by_federate(quay.own, each), "what one owns is lost by one's own word only");
+    for (const AttributeHandle each : {rti::testing::position, rti::testing::speed})
+      require(quay.witness.is_attribute_owned_by_federate(quay.own, each),
+              "what one owns is lost by one's own word only");
   }
   quay.tick();
   quay.witness.query_attribute_ownership(quay.own, rti::testing::speed);
   quay.tick();
   quay.tick();
   const auto owner = quay.heard.owners.find({quay.own.value, rti::testing::speed.value});
-  require(owner != quay.heard.owners.end() && owner->second == quay.witness.federate().value, "and the RTI knows it");
+  require(owner != quay.heard.owners.end() && owner->second == quay.witness.federate().value,
+          "and the RTI knows it");
 }
 
 void refuse_ownership(Bytes bytes) {
@@ -353,7 +400,9 @@ void drive_regions(Bytes bytes) {
   quay.tick();
   quay.tick();
   for (const auto& [object, known] : quay.heard.objects)
-    if (object != quay.own.value) require(known.is_in_scope == quay.execution().is_in_scope(quay.witness.federate(), {object}), "the witness knows its scope");
+    if (object != quay.own.value)
+      require(known.is_in_scope == quay.execution().is_in_scope(quay.witness.federate(), {object}),
+              "the witness knows its scope");
 }
 
 void refuse_regions(Bytes bytes) {

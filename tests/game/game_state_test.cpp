@@ -25,8 +25,10 @@ struct Halves {
   Game whole, second;
 };
 
-/// The game of `keys` in one go, and saved at `saved_s` with the keys up to then, restored, and played on with the others.
-Halves played(const Scene& scene, const std::vector<InputEvent>& keys, double saved_s, double until_s) {
+/// The game of `keys` in one go, and saved at `saved_s` with the keys up to then, restored, and
+/// played on with the others.
+Halves played(const Scene& scene, const std::vector<InputEvent>& keys, double saved_s,
+              double until_s) {
   Game whole(scene), first(scene);
   for (const InputEvent& event : keys) {
     whole.submit(event);
@@ -47,7 +49,8 @@ void expect_same(const Halves& halves) {
   EXPECT_EQ(halves.second.hash(), halves.whole.hash());
   EXPECT_EQ(halves.second.score(), halves.whole.score());
   ASSERT_EQ(halves.second.entities().size(), halves.whole.entities().size());
-  for (const Entity& entity : halves.whole.entities()) EXPECT_EQ(halves.second.position(entity.id), halves.whole.position(entity.id));
+  for (const Entity& entity : halves.whole.entities())
+    EXPECT_EQ(halves.second.position(entity.id), halves.whole.position(entity.id));
   for (std::uint32_t player = 0; player < halves.whole.player_count(); ++player) {
     EXPECT_EQ(halves.second.keys_held(player), halves.whole.keys_held(player));
     EXPECT_EQ(halves.second.input_count(player), halves.whole.input_count(player));
@@ -62,25 +65,37 @@ TEST(GameState, CrowdSavedAtTwentySecondsGoesOnAsTheOneThatWasNeverSaved) {
 TEST(GameState, PucksUnderFrictionAndDragAndThoseAtRestGoOn) {
   const Scene scene = small_scene(
       "[drag]\nbats = 3.0\npucks = 0.2\n[friction]\npucks = 0.8\n"
-      "[[puck]]\nradius = 0.04\nmass = 1.0\nposition = [1.0, 1.0]\nvelocity = [2.0, 0.5]\n[[puck]]\nradius = 0.04\nmass = 1.0\nposition = [2.0, 1.0]\n[[puck]]\nradius = 0.04\nmass = 1.0\nposition = [3.0, 1.5]\nvelocity = [-1.0, 0.3]\n"
-      "[[bat]]\nposition = [0.5, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam = \"left\"\n[[bat]]\nposition = [3.5, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam = \"right\"\n");
+      "[[puck]]\nradius = 0.04\nmass = 1.0\nposition = [1.0, 1.0]\nvelocity = [2.0, "
+      "0.5]\n[[puck]]\nradius = 0.04\nmass = 1.0\nposition = [2.0, 1.0]\n[[puck]]\nradius = "
+      "0.04\nmass = 1.0\nposition = [3.0, 1.5]\nvelocity = [-1.0, 0.3]\n"
+      "[[bat]]\nposition = [0.5, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam "
+      "= \"left\"\n[[bat]]\nposition = [3.5, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust "
+      "= 8.0\nteam = \"right\"\n");
   const Halves halves = played(scene, random_plan(5, 2, 9.0), 6.0, 9.0);
   expect_same(halves);
 }
 
 /// A bat that a held key presses against the wall rests there, by a hold and not by having stopped.
 TEST(GameState, BatPressedToTheWallStaysThereAndLeavesWhenItsKeyIsReleased) {
-  const Scene scene = small_scene("[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam = \"left\"\n");
-  const std::vector<InputEvent> keys{{.time = 0.1, .player = 0, .kind = InputKind::key_down, .key = Key::up}, {.time = 5.0, .player = 0, .kind = InputKind::key_up, .key = Key::up},
-                                     {.time = 5.1, .player = 0, .kind = InputKind::key_down, .key = Key::down}};
+  const Scene scene = small_scene(
+      "[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam "
+      "= \"left\"\n");
+  const std::vector<InputEvent> keys{
+      {.time = 0.1, .player = 0, .kind = InputKind::key_down, .key = Key::up},
+      {.time = 5.0, .player = 0, .kind = InputKind::key_up, .key = Key::up},
+      {.time = 5.1, .player = 0, .kind = InputKind::key_down, .key = Key::down}};
   const Halves halves = played(scene, keys, 4.0, 5.5);
   expect_same(halves);
   EXPECT_LT(halves.second.position(*halves.second.bat(0)).y(), 1.9);
 }
 
-/// A puck that went into the goal at x = 0 before the save comes back after it: left conceded, so its face-off is a quarter of the field from x = 0.
+/// A puck that went into the goal at x = 0 before the save comes back after it: left conceded, so
+/// its face-off is a quarter of the field from x = 0.
 TEST(GameState, FaceOffThatIsPendingComesAtItsTime) {
-  const Scene scene = small_scene("[match]\nface_off_delay = 1.0\n[[puck]]\nradius = 0.04\nmass = 1.0\nposition = [1.0, 1.0]\nvelocity = [-2.0, 0.0]\n[[bat]]\nposition = [3.0, 0.5]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam = \"right\"\n");
+  const Scene scene = small_scene(
+      "[match]\nface_off_delay = 1.0\n[[puck]]\nradius = 0.04\nmass = 1.0\nposition = [1.0, "
+      "1.0]\nvelocity = [-2.0, 0.0]\n[[bat]]\nposition = [3.0, 0.5]\nhalf_extent = [0.05, "
+      "0.05]\nmass = 1.0\nthrust = 8.0\nteam = \"right\"\n");
   const Halves halves = played(scene, {}, 1.0, 2.0);
   expect_same(halves);
   EXPECT_EQ(halves.second.score().right, 1u);
@@ -88,10 +103,17 @@ TEST(GameState, FaceOffThatIsPendingComesAtItsTime) {
 }
 
 TEST(GameState, QueuedKeysAndBatsThatLeftAreSaved) {
-  const Scene scene = small_scene("[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam = \"left\"\n[[bat]]\nposition = [3.0, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam = \"right\"\n");
+  const Scene scene = small_scene(
+      "[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam "
+      "= \"left\"\n[[bat]]\nposition = [3.0, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust "
+      "= 8.0\nteam = \"right\"\n");
   Game game(scene);
   game.submit({.time = 0.5, .player = 0, .kind = InputKind::leave});
-  for (const double time : {1.5, 1.2, 1.7}) game.submit({.time = time, .player = 1, .kind = time == 1.7 ? InputKind::key_up : InputKind::key_down, .key = Key::left});
+  for (const double time : {1.5, 1.2, 1.7})
+    game.submit({.time = time,
+                 .player = 1,
+                 .kind = time == 1.7 ? InputKind::key_up : InputKind::key_down,
+                 .key = Key::left});
   game.submit({.time = 2.0, .player = 0, .kind = InputKind::enter});
   game.advance(1.0);
   Game again = game_in_state(GameState::save(game, scene), scene, "saved");
@@ -104,7 +126,9 @@ TEST(GameState, QueuedKeysAndBatsThatLeftAreSaved) {
 
 /// The instant of the last keys is over: another key of it comes at the next.
 TEST(GameState, KeyOfTheInstantOfTheSaveComesRightAfterIt) {
-  const Scene scene = small_scene("[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam = \"left\"\n");
+  const Scene scene = small_scene(
+      "[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.05, 0.05]\nmass = 1.0\nthrust = 8.0\nteam "
+      "= \"left\"\n");
   const InputEvent key{.time = 1.0, .player = 0, .kind = InputKind::key_down, .key = Key::left};
   Game game(scene);
   game.submit(key);
@@ -123,18 +147,24 @@ TEST(GameState, FileOfAnotherSceneVersionOrDamagedIsRefusedByName) {
   };
   const std::vector<std::uint8_t> state = GameState::save(Game(scene), scene);
   EXPECT_EQ(refusal(state, scene), "(accepted)");
-  EXPECT_THAT(refusal(state, small_crowd(5, 4)), AllOf(StartsWith(file.string()), HasSubstr("another scene")));
+  EXPECT_THAT(refusal(state, small_crowd(5, 4)),
+              AllOf(StartsWith(file.string()), HasSubstr("another scene")));
   std::vector<std::uint8_t> other = state;
   other[state.size() / 2] ^= 1;
   EXPECT_THAT(refusal(other, scene), AllOf(StartsWith(file.string()), HasSubstr("damaged")));
-  EXPECT_THAT(refusal(std::vector<std::uint8_t>(state.begin(), state.end() - 9), scene), HasSubstr("damaged"));
-  EXPECT_THAT(refusal({'k', 'e', 'y', 's', '1', '2', '3', '4', '5'}, scene), HasSubstr("no saved game"));
+  EXPECT_THAT(refusal(std::vector<std::uint8_t>(state.begin(), state.end() - 9), scene),
+              HasSubstr("damaged"));
+  EXPECT_THAT(refusal({'k', 'e', 'y', 's', '1', '2', '3', '4', '5'}, scene),
+              HasSubstr("no saved game"));
   other = state;
   other[8] = 2;  // the version follows the format's name
   std::uint64_t sum = physics::checksum(std::span(other).first(other.size() - 8));
-  for (std::size_t byte = 0; byte < 8; ++byte) other[other.size() - 8 + byte] = static_cast<std::uint8_t>(sum >> (8 * byte));
-  EXPECT_THAT(refusal(other, scene), AllOf(StartsWith(file.string()), HasSubstr("version 2"), HasSubstr("expected version 1")));
-  EXPECT_THAT(refusal_of([&] { read_game_state(folder.path() / "none.state"); }), HasSubstr("none.state: cannot be read"));
+  for (std::size_t byte = 0; byte < 8; ++byte)
+    other[other.size() - 8 + byte] = static_cast<std::uint8_t>(sum >> (8 * byte));
+  EXPECT_THAT(refusal(other, scene), AllOf(StartsWith(file.string()), HasSubstr("version 2"),
+                                           HasSubstr("expected version 1")));
+  EXPECT_THAT(refusal_of([&] { read_game_state(folder.path() / "none.state"); }),
+              HasSubstr("none.state: cannot be read"));
 }
 
 }  // namespace

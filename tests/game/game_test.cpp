@@ -1,4 +1,5 @@
-// The game as players know it: keys move bats, goals count, pucks come back, and nothing depends on how often anybody looks.
+// The game as players know it: keys move bats, goals count, pucks come back, and nothing depends on
+// how often anybody looks.
 #include "game/control/game.h"
 
 #include <gtest/gtest.h>
@@ -15,13 +16,18 @@
 namespace rink::game {
 namespace {
 
-/// Keys of all players of `scene` at random instants until `duration` [s], about four per second and player.
+/// Keys of all players of `scene` at random instants until `duration` [s], about four per second
+/// and player.
 std::vector<InputEvent> random_keys(const Scene& scene, std::uint64_t seed, double duration) {
   RandomStream random(seed);
   const auto players = static_cast<std::uint32_t>(scene.bodies.bats.size());
   std::vector<InputEvent> keys(static_cast<std::size_t>(4.0 * duration * players));
-  for (InputEvent& event : keys) event = {random.uniform(0.0, duration), random.below(players), random.below(2) == 0 ? InputKind::key_down : InputKind::key_up, static_cast<Key>(random.below(4))};
-  std::sort(keys.begin(), keys.end(), [](const InputEvent& a, const InputEvent& b) { return a.time < b.time; });
+  for (InputEvent& event : keys)
+    event = {random.uniform(0.0, duration), random.below(players),
+             random.below(2) == 0 ? InputKind::key_down : InputKind::key_up,
+             static_cast<Key>(random.below(4))};
+  std::sort(keys.begin(), keys.end(),
+            [](const InputEvent& a, const InputEvent& b) { return a.time < b.time; });
   return keys;
 }
 
@@ -42,8 +48,11 @@ velocity = [-2.0, 0.0]
 )";
 
 TEST(Game, MovesABatUnderAKeyAsTheClosedFormSays) {
-  // From rest under thrust a and drag g: v = (a/g)(1 - e), x = (a/g)(t - (1 - e)/g) with e = exp(-g t).
-  const Scene scene = small_scene("[drag]\nbats = 1.5\n[[bat]]\nname = \"b\"\nposition = [1.0, 1.0]\nhalf_extent = [0.05, 0.1]\nthrust = 2.0\n");
+  // From rest under thrust a and drag g: v = (a/g)(1 - e), x = (a/g)(t - (1 - e)/g) with e = exp(-g
+  // t).
+  const Scene scene = small_scene(
+      "[drag]\nbats = 1.5\n[[bat]]\nname = \"b\"\nposition = [1.0, 1.0]\nhalf_extent = [0.05, "
+      "0.1]\nthrust = 2.0\n");
   Game game(scene);
   game.submit({0.25, 0, InputKind::key_down, Key::right});
   game.advance(1.25);
@@ -104,7 +113,8 @@ TEST(Game, PlaysARecordedLogToTheSameHash) {
   log.events = random_keys(scene, 6, 3.0);
   std::stringstream file;
   write_key_log(file, log);
-  EXPECT_EQ(hash_after(scene, read_key_log(file, "log").events, 3.0), hash_after(scene, log.events, 3.0));
+  EXPECT_EQ(hash_after(scene, read_key_log(file, "log").events, 3.0),
+            hash_after(scene, log.events, 3.0));
 }
 
 TEST(Game, LetsTwoGamesRunInOneProcess) {
@@ -122,8 +132,12 @@ TEST(Game, LetsTwoGamesRunInOneProcess) {
 TEST(Game, AppliesTheInputsOfOneInstantByPlayerThenBySubmission) {
   const Scene scene = small_crowd(3, 1);
   Game game(scene), shuffled(scene);
-  submit_all(game, {{1.0, 0, InputKind::key_down, Key::up}, {1.0, 1, InputKind::key_down, Key::left}, {1.0, 1, InputKind::key_up, Key::left}});
-  submit_all(shuffled, {{1.0, 1, InputKind::key_down, Key::left}, {1.0, 1, InputKind::key_up, Key::left}, {1.0, 0, InputKind::key_down, Key::up}});
+  submit_all(game, {{1.0, 0, InputKind::key_down, Key::up},
+                    {1.0, 1, InputKind::key_down, Key::left},
+                    {1.0, 1, InputKind::key_up, Key::left}});
+  submit_all(shuffled, {{1.0, 1, InputKind::key_down, Key::left},
+                        {1.0, 1, InputKind::key_up, Key::left},
+                        {1.0, 0, InputKind::key_down, Key::up}});
   game.advance(2.0);
   shuffled.advance(2.0);
   EXPECT_FALSE(game.keys_held(1).is_down(Key::left));
@@ -153,7 +167,8 @@ TEST(Match, CountsAGoalAtTheInstantThePuckCrossesTheLine) {
 }
 
 TEST(Match, PutsThePuckBackOnTheConcedingSidesSpotAfterTheDelay) {
-  Game game(small_scene(std::string("[match]\nface_off_delay = 0.75\nface_off_distance = 0.25\n") + puck_into_left_goal));
+  Game game(small_scene(std::string("[match]\nface_off_delay = 0.75\nface_off_distance = 0.25\n") +
+                        puck_into_left_goal));
   const EntityId puck = game.entities().front().id;
   game.advance(1.24);
   EXPECT_FALSE(game.world().is_in_play(puck));
@@ -164,19 +179,26 @@ TEST(Match, PutsThePuckBackOnTheConcedingSidesSpotAfterTheDelay) {
 }
 
 TEST(Match, PutsThePuckBesideASpotThatIsTaken) {
-  Game game(small_scene(std::string(puck_into_left_goal) + "[[post]]\nposition = [1.0, 1.3]\nradius = 0.1\n[[bat]]\nposition = [1.0, 0.5]\nhalf_extent = [0.2, 0.05]\nthrust = 4.0\n"));
+  Game game(small_scene(std::string(puck_into_left_goal) +
+                        "[[post]]\nposition = [1.0, 1.3]\nradius = 0.1\n[[bat]]\nposition = [1.0, "
+                        "0.5]\nhalf_extent = [0.2, 0.05]\nthrust = 4.0\n"));
   const EntityId puck = game.entities().back().id;
   game.submit({0.6, 0, InputKind::key_down, Key::up});
-  game.submit({1.1, 0, InputKind::key_up, Key::up});  // by the face-off at 1.5 s the bat has gone from 0.5 to 0.5 + 0.5 + 0.8 m and lies over neither spot nor post
+  game.submit({1.1, 0, InputKind::key_up,
+               Key::up});  // by the face-off at 1.5 s the bat has gone from 0.5 to 0.5 + 0.5 + 0.8
+                           // m and lies over neither spot nor post
   game.advance(1.5);
   EXPECT_TRUE(game.world().is_in_play(puck));
   EXPECT_EQ(game.world().max_overlap(), 0.0);
   EXPECT_LT((game.position(puck) - Vector2(1.0, 1.0)).norm(), 0.6);
 }
 
-/// One puck that starts between the ends and is shot into the left goal again and again by a bat behind the face-off spot.
+/// One puck that starts between the ends and is shot into the left goal again and again by a bat
+/// behind the face-off spot.
 Scene endless_shots(const std::string& rules) {
-  return small_scene(rules + "[[puck]]\nposition = [1.0, 1.0]\nvelocity = [-2.0, 0.0]\n[[bat]]\nposition = [1.5, 1.0]\nhalf_extent = [0.05, 0.2]\nthrust = 4.0\nmass = 1000.0\n");
+  return small_scene(rules +
+                     "[[puck]]\nposition = [1.0, 1.0]\nvelocity = [-2.0, 0.0]\n[[bat]]\nposition = "
+                     "[1.5, 1.0]\nhalf_extent = [0.05, 0.2]\nthrust = 4.0\nmass = 1000.0\n");
 }
 
 TEST(Match, IsOverAtTheFifthGoalAndGoalsCountNoMore) {
@@ -234,8 +256,12 @@ TEST(Game, TakesALeavingBatAwayAndPutsAReturningOneBackAtHome) {
 }
 
 TEST(Game, EntersAtTheNearestFreePlaceWhenHomeIsTaken) {
-  Game game(small_scene("[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\n[[bat]]\nposition = [1.5, 1.0]\nhalf_extent = [0.1, 0.1]\nthrust = 4.0\n"));
-  submit_all(game, {{0.0, 0, InputKind::leave}, {0.0, 1, InputKind::key_down, Key::left}, {0.5, 1, InputKind::leave}});
+  Game game(
+      small_scene("[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\n[[bat]]\nposition = "
+                  "[1.5, 1.0]\nhalf_extent = [0.1, 0.1]\nthrust = 4.0\n"));
+  submit_all(game, {{0.0, 0, InputKind::leave},
+                    {0.0, 1, InputKind::key_down, Key::left},
+                    {0.5, 1, InputKind::leave}});
   game.advance(0.4);
   game.submit({0.45, 0, InputKind::enter});
   game.advance(0.45);
@@ -253,7 +279,8 @@ TEST(Preset, RunsUnderRandomKeysWithoutOverlapOrEscape) {
     submit_all(game, random_keys(scene, 1, 5.0));
     game.advance(5.0);
     EXPECT_LE(game.world().max_overlap(), 1e-9);
-    EXPECT_EQ(game.entities().size(), scene.bodies.pucks.size() + scene.bodies.bats.size() + scene.bodies.posts.size());
+    EXPECT_EQ(game.entities().size(),
+              scene.bodies.pucks.size() + scene.bodies.bats.size() + scene.bodies.posts.size());
   }
 }
 
@@ -283,7 +310,9 @@ TEST(Records, KeepAllThatWasFeltUpToTheirEndAndNothingThatWasNot) {
   const Scene scene = preset("match");
   Game game(scene);
   std::vector<InputEvent> keys;
-  for (const InputEvent& key : {InputEvent{0.25, 0, InputKind::key_down, Key::up}, InputEvent{0.5, 1, InputKind::key_down, Key::left}, InputEvent{0.75, 0, InputKind::key_up, Key::up}})
+  for (const InputEvent& key : {InputEvent{0.25, 0, InputKind::key_down, Key::up},
+                                InputEvent{0.5, 1, InputKind::key_down, Key::left},
+                                InputEvent{0.75, 0, InputKind::key_up, Key::up}})
     keys.push_back(game.submit(key));
   game.advance(0.5);
   const KeyLog log = log_of(game, scene, "text", keys);

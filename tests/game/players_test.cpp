@@ -1,4 +1,5 @@
-// Players: the chaser wins, the mobility models move as their papers say, and what was played can be played again.
+// Players: the chaser wins, the mobility models move as their papers say, and what was played can
+// be played again.
 #include "game/players/player.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,8 @@ namespace {
 Score score_after(const std::vector<std::string>& players, std::uint64_t seed) {
   constexpr double longest_match_s = 120.0;
   Playing playing(preset("match"), players, seed, longest_match_s);
-  while (!playing.game().is_over() && playing.game().now() < longest_match_s) playing.advance(playing.game().now() + 1.0);
+  while (!playing.game().is_over() && playing.game().now() < longest_match_s)
+    playing.advance(playing.game().now() + 1.0);
   return playing.game().score();
 }
 
@@ -46,21 +48,26 @@ TEST(Chaser, BeatsRandomKeysInNineOfTenMatchesFromEitherEnd) {
 }
 
 TEST(Chaser, WhoIsFasterAndAimsBetterWinsMoreMatches) {
-  const Tally expert_left = matches_won("chaser-expert", "chaser-beginner"), expert_right = matches_won("chaser-beginner", "chaser-expert");
+  const Tally expert_left = matches_won("chaser-expert", "chaser-beginner"),
+              expert_right = matches_won("chaser-beginner", "chaser-expert");
   EXPECT_GE(expert_left.left, 7);
   EXPECT_GE(expert_right.right, 7);
 }
 
 /// A resting puck, and a bat that attacks towards larger x.
 Scene puck_and_bat(const std::string& puck, const std::string& bat) {
-  return small_scene("[drag]\nbats = 3.0\n[match]\ngoals_to_win = 1\n[[puck]]\nposition = " + puck + "\nmass = 0.05\n[[bat]]\nposition = " + bat + "\nhalf_extent = [0.03, 0.1]\nteam = \"left\"\n");
+  return small_scene("[drag]\nbats = 3.0\n[match]\ngoals_to_win = 1\n[[puck]]\nposition = " + puck +
+                     "\nmass = 0.05\n[[bat]]\nposition = " + bat +
+                     "\nhalf_extent = [0.03, 0.1]\nteam = \"left\"\n");
 }
 
 TEST(Chaser, GoesRoundAPuckBehindItSoThatItsFirstTouchSendsItForward) {
-  for (const char* place : {"[0.4, 1.0]", "[0.3, 0.8]", "[0.5, 1.15]", "[0.2, 1.7]", "[0.6, 0.1]"}) {
+  for (const char* place :
+       {"[0.4, 1.0]", "[0.3, 0.8]", "[0.5, 1.15]", "[0.2, 1.7]", "[0.6, 0.1]"}) {
     Playing playing(puck_and_bat(place, "[1.5, 1.0]"), {"chaser-expert"}, 1, 10.0);
     const EntityId puck = playing.game().entities().back().id;
-    while (playing.game().now() < 10.0 && playing.game().velocity(puck) == Vector2(0.0, 0.0)) playing.advance(playing.game().now() + 1e-3);
+    while (playing.game().now() < 10.0 && playing.game().velocity(puck) == Vector2(0.0, 0.0))
+      playing.advance(playing.game().now() + 1e-3);
     EXPECT_GT(playing.game().velocity(puck).x(), 0.0) << "puck at " << place;
   }
 }
@@ -92,23 +99,37 @@ TEST(Playing, TheSameSeedGivesTheSameKeysAndAnotherSeedOthers) {
 }
 
 TEST(Playing, WhereItStopsOnTheWayChangesNothing) {
-  Playing once(small_crowd(12, 5), {"chaser"}, 1, 3.0), often(small_crowd(12, 5), {"chaser"}, 1, 3.0);
+  Playing once(small_crowd(12, 5), {"chaser"}, 1, 3.0),
+      often(small_crowd(12, 5), {"chaser"}, 1, 3.0);
   once.advance(3.0);
   for (int step = 1; step <= 90; ++step) often.advance(step / 30.0);
   EXPECT_EQ(once.game().hash(), often.game().hash());
   EXPECT_TRUE(once.keys() == often.keys());
 }
 
-/// A bat alone in the world, moved by a player's keys: what the mobility models promise holds for one who is not in others' way.
+/// A bat alone in the world, moved by a player's keys: what the mobility models promise holds for
+/// one who is not in others' way.
 class LoneBat {
  public:
-  LoneBat(const std::string& kind, const PlayerRules& rules, std::uint32_t number, std::uint64_t seed)
-      : rules_(rules), player_(make_player(kind, rules, {.number = number, .team = Team::none, .half_extent = {0.05, 0.15}}, seed)),
-        motion_{.time = 0.0, .position = {rules.field.length / 2, rules.field.width / 2}, .velocity = {0.0, 0.0}, .acceleration = {0.0, 0.0}, .drag = Vector2::Constant(rules.bat_drag)} {}
+  LoneBat(const std::string& kind, const PlayerRules& rules, std::uint32_t number,
+          std::uint64_t seed)
+      : rules_(rules),
+        player_(make_player(kind, rules,
+                            {.number = number, .team = Team::none, .half_extent = {0.05, 0.15}},
+                            seed)),
+        motion_{.time = 0.0,
+                .position = {rules.field.length / 2, rules.field.width / 2},
+                .velocity = {0.0, 0.0},
+                .acceleration = {0.0, 0.0},
+                .drag = Vector2::Constant(rules.bat_drag)} {}
 
   const Vector2& decide() {
-    const KeysHeld keys = player_->decide({.position = motion_.position, .velocity = motion_.velocity, .pucks = {}}, motion_.time);
-    const auto along = [&](Key plus, Key minus) { return rules_.thrust * (static_cast<double>(keys.is_down(plus)) - static_cast<double>(keys.is_down(minus))); };
+    const KeysHeld keys = player_->decide(
+        {.position = motion_.position, .velocity = motion_.velocity, .pucks = {}}, motion_.time);
+    const auto along = [&](Key plus, Key minus) {
+      return rules_.thrust *
+             (static_cast<double>(keys.is_down(plus)) - static_cast<double>(keys.is_down(minus)));
+    };
     motion_.acceleration = {along(Key::right, Key::left), along(Key::up, Key::down)};
     motion_ = motion_.at(motion_.time + decision_period);
     return motion_.position;
@@ -134,10 +155,14 @@ PlayerRules wide_rules() {
 TEST(PlayerRules, AreThoseOfTheOwnBatAndThePucks) {
   const Scene scene = small_scene(
       "material = \"wall\"\n[materials]\nnames = [\"wall\", \"puck\", \"bat\"]\nrestitution = 0.9\n"
-      "[[materials.pair]]\nbetween = [\"puck\", \"bat\"]\nrestitution = 0.4\n[[materials.pair]]\nbetween = [\"puck\", \"wall\"]\nrestitution = 0.6\n"
-      "[drag]\npucks = 0.25\nbats = 2.0\n[[puck]]\nposition = [2.0, 1.0]\nmass = 0.05\nmaterial = \"puck\"\n"
-      "[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.03, 0.1]\nmass = 3.0\nthrust = 5.0\nteam = \"left\"\nmaterial = \"wall\"\n"
-      "[[bat]]\nposition = [3.0, 1.0]\nhalf_extent = [0.03, 0.1]\nmass = 0.5\nthrust = 8.0\nteam = \"right\"\nmaterial = \"bat\"\n");
+      "[[materials.pair]]\nbetween = [\"puck\", \"bat\"]\nrestitution = "
+      "0.4\n[[materials.pair]]\nbetween = [\"puck\", \"wall\"]\nrestitution = 0.6\n"
+      "[drag]\npucks = 0.25\nbats = 2.0\n[[puck]]\nposition = [2.0, 1.0]\nmass = 0.05\nmaterial = "
+      "\"puck\"\n"
+      "[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.03, 0.1]\nmass = 3.0\nthrust = 5.0\nteam = "
+      "\"left\"\nmaterial = \"wall\"\n"
+      "[[bat]]\nposition = [3.0, 1.0]\nhalf_extent = [0.03, 0.1]\nmass = 0.5\nthrust = 8.0\nteam = "
+      "\"right\"\nmaterial = \"bat\"\n");
   const PlayerRules first = rules_of(scene, 0), second = rules_of(scene, 1);
   EXPECT_EQ(first.restitution, 0.6);
   EXPECT_EQ(second.restitution, 0.4);
@@ -152,7 +177,8 @@ TEST(PlayerRules, AreThoseOfTheOwnBatAndThePucks) {
   }
 }
 
-/// Eight decisions at rest under pressed keys, then six and the one at hand of the same random keys, then the player's own for as long again.
+/// Eight decisions at rest under pressed keys, then six and the one at hand of the same random
+/// keys, then the player's own for as long again.
 TEST(Hands, TryRandomKeysForAWhileWhereTheyAreStuckAndThenThePlayersAgain) {
   Hands hands;
   RandomStream random(7);
@@ -164,7 +190,8 @@ TEST(Hands, TryRandomKeysForAWhileWhereTheyAreStuckAndThenThePlayersAgain) {
     follows.push_back(held == wanted);
     ++(held == wanted ? own : others);
   }
-  // Of nine draws one is the player's own key, one none at all, after which nothing is stuck until a key is held.
+  // Of nine draws one is the player's own key, one none at all, after which nothing is stuck until
+  // a key is held.
   for (std::size_t begin = 0; begin + 1 < follows.size();) {
     std::size_t end = begin;
     while (end < follows.size() && follows[end] == follows[begin]) ++end;
@@ -191,16 +218,23 @@ TEST(Reach, EndsAtTheWallsAndWhereBatsKeepToTheirHalfAtTheHalfwayLine) {
     }
 }
 
-/// Four pucks lie nearest when play begins, and glide to where the bat may not go. A fifth one comes from there.
+/// Four pucks lie nearest when play begins, and glide to where the bat may not go. A fifth one
+/// comes from there.
 TEST(Chaser, LooksForPucksWhereTheyAreNow) {
-  std::string text = "bats_keep_to_half = true\n[materials]\nrestitution = 0.9\n[drag]\nbats = 3.0\npucks = 0.8\n[[bat]]\nposition = [0.3, 1.0]\nhalf_extent = [0.03, 0.1]\nteam = \"left\"\n";
-  for (const char* row : {"0.15", "0.4", "1.6", "1.85"}) text += "[[puck]]\nposition = [0.6, " + std::string(row) + "]\nvelocity = [2.0, 0.0]\n";
+  std::string text =
+      "bats_keep_to_half = true\n[materials]\nrestitution = 0.9\n[drag]\nbats = 3.0\npucks = "
+      "0.8\n[[bat]]\nposition = [0.3, 1.0]\nhalf_extent = [0.03, 0.1]\nteam = \"left\"\n";
+  for (const char* row : {"0.15", "0.4", "1.6", "1.85"})
+    text += "[[puck]]\nposition = [0.6, " + std::string(row) + "]\nvelocity = [2.0, 0.0]\n";
   text += "[[puck]]\nposition = [3.5, 1.3]\nvelocity = [-2.0, 0.0]\n";
   Playing playing(small_scene(text), {"chaser-expert"}, 1, 20.0);
   const std::span<const Entity> entities = playing.game().entities();
-  const auto latest = std::ranges::find_if(entities, [&](const Entity& entity) { return entity.kind == physics::BodyKind::puck && playing.game().position(entity.id).x() > 3.0; });
+  const auto latest = std::ranges::find_if(entities, [&](const Entity& entity) {
+    return entity.kind == physics::BodyKind::puck && playing.game().position(entity.id).x() > 3.0;
+  });
   ASSERT_NE(latest, entities.end());
-  while (playing.game().now() < 20.0 && playing.game().velocity(latest->id).x() <= 0.0) playing.advance(playing.game().now() + 0.01);
+  while (playing.game().now() < 20.0 && playing.game().velocity(latest->id).x() <= 0.0)
+    playing.advance(playing.game().now() + 0.01);
   EXPECT_LT(playing.game().now(), 20.0) << "nobody hit it";
 }
 
@@ -213,7 +247,8 @@ TEST(Chaser, ExpectsPucksWhereDragAndFrictionTakeThem) {
         physics::Motion motion{.velocity = {1.2, -0.5}, .drag = {drag, drag}};
         if (friction > 0.0) motion.slide(friction);
         const physics::Motion truth = motion.at(ahead);
-        const physics::WarpedTime flown = under_friction(physics::warp(ahead, drag), ahead, motion.velocity, rules);
+        const physics::WarpedTime flown =
+            under_friction(physics::warp(ahead, drag), ahead, motion.velocity, rules);
         EXPECT_LT((motion.velocity * flown.s - truth.position).norm(), 1e-15);
         EXPECT_LT((motion.velocity * flown.e - truth.velocity).norm(), 1e-15);
       }
@@ -226,18 +261,21 @@ TEST(Waypoint, ChoosesDestinationsUniformly) {
   std::vector<int> visits(cells, 0);
   for (int k = 0; k < count; ++k) {
     const Vector2 place = anywhere(reach, random);
-    ++visits[static_cast<std::size_t>((place.x() - 1.0) / 1.0) * 4 + static_cast<std::size_t>((place.y() - 2.0) / 0.5)];
+    ++visits[static_cast<std::size_t>((place.x() - 1.0) / 1.0) * 4 +
+             static_cast<std::size_t>((place.y() - 2.0) / 0.5)];
   }
   double chi_square = 0.0;
   for (const int seen : visits) chi_square += std::pow(seen - count / cells, 2) / (count / cells);
   EXPECT_LT(chi_square, 37.7);  // 15 degrees of freedom, p = 0.001
 }
 
-/// Speeds drawn uniformly from [low, high] are held for times inversely proportional to them, so the mean speed over time is (high - low)/ln(high/low) (Yoon, Liu and
-/// Noble 2003, equation 5), from the first minutes on: with low > 0 it does not decay.
+/// Speeds drawn uniformly from [low, high] are held for times inversely proportional to them, so
+/// the mean speed over time is (high - low)/ln(high/low) (Yoon, Liu and Noble 2003, equation 5),
+/// from the first minutes on: with low > 0 it does not decay.
 TEST(Waypoint, MeanSpeedOverTimeIsThatOfTheFormulaAndDoesNotDecay) {
   const PlayerRules rules = wide_rules();
-  const double high = top_speed(rules), low = Traveller::slowest * high, expected = (high - low) / std::log(high / low);
+  const double high = top_speed(rules), low = Traveller::slowest * high,
+               expected = (high - low) / std::log(high / low);
   double length[2] = {0.0, 0.0}, time[2] = {0.0, 0.0};
   for (std::uint32_t number = 0; number < 60; ++number) {
     LoneBat bat("waypoint", rules, number, 11);
@@ -250,7 +288,8 @@ TEST(Waypoint, MeanSpeedOverTimeIsThatOfTheFormulaAndDoesNotDecay) {
     }
   }
   const double early = length[0] / time[0], late = length[1] / time[1];
-  EXPECT_NEAR(early, expected, 0.1 * expected);  // starts, stops and steering by keys take their part
+  EXPECT_NEAR(early, expected,
+              0.1 * expected);  // starts, stops and steering by keys take their part
   EXPECT_NEAR(late, early, 0.03 * early);
 }
 
@@ -267,9 +306,11 @@ TEST(Hotspot, HotPlacesHoldTheShareOfVisitsThatZipfsLawGivesThem) {
   for (int k = 0; k < count; ++k) {
     const Vector2 place = places.point_in(places.choose(random), random);
     double nearest = 1e9;
-    for (const Vector2& centre : places.centres()) nearest = std::min(nearest, std::sqrt((place - centre).squaredNorm()));
+    for (const Vector2& centre : places.centres())
+      nearest = std::min(nearest, std::sqrt((place - centre).squaredNorm()));
     EXPECT_LE(nearest, places.radius());
-    at_first += (place - places.centres()[0]).squaredNorm() <= places.radius() * places.radius() ? 1 : 0;
+    at_first +=
+        (place - places.centres()[0]).squaredNorm() <= places.radius() * places.radius() ? 1 : 0;
   }
   EXPECT_GE(at_first, count / harmonic * 0.95);  // other places may overlap the first
 }
@@ -283,7 +324,13 @@ double time_in_hot_places(const std::string& kind, std::uint64_t seed) {
     LoneBat bat(kind, rules, number, seed);
     for (int step = 0; step < 4'000; ++step, ++all) {
       const Vector2& here = bat.decide();
-      within += std::ranges::any_of(places.centres(), [&](const Vector2& centre) { return (here - centre).squaredNorm() <= places.radius() * places.radius(); }) ? 1 : 0;
+      within += std::ranges::any_of(places.centres(),
+                                    [&](const Vector2& centre) {
+                                      return (here - centre).squaredNorm() <=
+                                             places.radius() * places.radius();
+                                    })
+                    ? 1
+                    : 0;
     }
   }
   return static_cast<double>(within) / all;
@@ -291,18 +338,23 @@ double time_in_hot_places(const std::string& kind, std::uint64_t seed) {
 
 TEST(Hotspot, PlayersAreSeveralTimesDenserInHotPlacesThanElsewhere) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const double hot = time_in_hot_places("hotspot", seed), even = time_in_hot_places("waypoint", seed);
-    EXPECT_GT(hot / (1.0 - hot), 3.0 * even / (1.0 - even)) << "seed " << seed;  // odds: the ratio of densities inside and outside, against that of even players
+    const double hot = time_in_hot_places("hotspot", seed),
+                 even = time_in_hot_places("waypoint", seed);
+    EXPECT_GT(hot / (1.0 - hot), 3.0 * even / (1.0 - even))
+        << "seed "
+        << seed;  // odds: the ratio of densities inside and outside, against that of even players
   }
 }
 
-/// Reference points are uniform in a disc, whose mean distance from the centre is 2/3 of the radius; members stray from them by a fifth of the radius and lag behind.
+/// Reference points are uniform in a disc, whose mean distance from the centre is 2/3 of the
+/// radius; members stray from them by a fifth of the radius and lag behind.
 TEST(Gathering, MembersKeepWithinTheirGroupsDiscWhileTheGroupCrossesTheRink) {
   const PlayerRules rules = wide_rules();
   std::vector<std::unique_ptr<LoneBat>> members, strangers;
   for (std::uint32_t number = 0; number < Gathering::group_size; ++number) {
     members.push_back(std::make_unique<LoneBat>("gathering", rules, number, 21));
-    strangers.push_back(std::make_unique<LoneBat>("gathering", rules, Gathering::group_size * (number + 1), 21));
+    strangers.push_back(
+        std::make_unique<LoneBat>("gathering", rules, Gathering::group_size * (number + 1), 21));
   }
   const double spread = dynamic_cast<const Gathering&>(members[0]->player()).spread();
   double sum = 0.0, sum_of_strangers = 0.0;

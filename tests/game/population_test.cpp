@@ -1,4 +1,5 @@
-// Seeded populations: equal from equal seeds, never overlapping, as dense as discs can be, and scaled at constant density.
+// Seeded populations: equal from equal seeds, never overlapping, as dense as discs can be, and
+// scaled at constant density.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,12 +13,18 @@ namespace rink::game {
 namespace {
 
 /// `count` pucks of radius 0.04 m in a field of 4 m x 2 m.
-std::string pucks(int count, const std::string& more = "") { return "[[population]]\nkind = \"puck\"\ncount = " + std::to_string(count) + "\nradius = 0.04\n" + more; }
+std::string pucks(int count, const std::string& more = "") {
+  return "[[population]]\nkind = \"puck\"\ncount = " + std::to_string(count) + "\nradius = 0.04\n" +
+         more;
+}
 
 void expect_no_overlap(const Scene& scene) {
   const std::vector<Puck>& all = scene.bodies.pucks;
   for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) ASSERT_GE((all[i].body.position - all[j].body.position).norm(), all[i].body.radius + all[j].body.radius) << i << " and " << j;
+    for (std::size_t j = 0; j < i; ++j)
+      ASSERT_GE((all[i].body.position - all[j].body.position).norm(),
+                all[i].body.radius + all[j].body.radius)
+          << i << " and " << j;
   EXPECT_EQ(Game(scene).world().max_overlap(), 0.0);
 }
 
@@ -39,21 +46,30 @@ TEST(Population, NeverOverlapsAtAnyPackingUpToNineTenths) {
 }
 
 TEST(Population, FillsTheRoomThatBatsAndPostsLeave) {
-  const Scene scene = small_scene("[[population]]\nkind = \"bat\"\ncount = 6\nhalf_extent = [0.1, 0.2]\n[[population]]\nkind = \"post\"\ncount = 5\nradius = [0.05, 0.1]\n" + pucks(800));
+  const Scene scene = small_scene(
+      "[[population]]\nkind = \"bat\"\ncount = 6\nhalf_extent = [0.1, 0.2]\n[[population]]\nkind = "
+      "\"post\"\ncount = 5\nradius = [0.05, 0.1]\n" +
+      pucks(800));
   EXPECT_EQ(scene.bodies.pucks.size(), 800u);
   EXPECT_EQ(Game(scene).world().max_overlap(), 0.0);
-  for (const Post& post : scene.bodies.posts) EXPECT_TRUE(post.body.radius >= 0.05 && post.body.radius <= 0.1);
+  for (const Post& post : scene.bodies.posts)
+    EXPECT_TRUE(post.body.radius >= 0.05 && post.body.radius <= 0.1);
 }
 
 TEST(Population, IsCountedByDensityToo) {
-  EXPECT_EQ(small_scene("[[population]]\nkind = \"puck\"\ndensity = 12.5\n").bodies.pucks.size(), 100u);
+  EXPECT_EQ(small_scene("[[population]]\nkind = \"puck\"\ndensity = 12.5\n").bodies.pucks.size(),
+            100u);
 }
 
 /// Mean and mean square of the speeds of 1,000 pucks of mean speed 2 m/s.
 std::pair<double, double> speed_moments(const std::string& speeds) {
   double sum = 0.0, squares = 0.0;
-  const Scene scene = small_scene("[[population]]\nkind = \"puck\"\ncount = 1000\nradius = 0.02\nmean_speed = 2.0\nspeeds = \"" + speeds + "\"\n");
-  for (const Puck& puck : scene.bodies.pucks) sum += puck.body.velocity.norm(), squares += puck.body.velocity.squaredNorm();
+  const Scene scene = small_scene(
+      "[[population]]\nkind = \"puck\"\ncount = 1000\nradius = 0.02\nmean_speed = 2.0\nspeeds = "
+      "\"" +
+      speeds + "\"\n");
+  for (const Puck& puck : scene.bodies.pucks)
+    sum += puck.body.velocity.norm(), squares += puck.body.velocity.squaredNorm();
   return {sum / 1000.0, squares / 1000.0};
 }
 
@@ -61,23 +77,30 @@ TEST(Population, HasTheSpeedsOfItsDistribution) {
   const auto [fixed, fixed_square] = speed_moments("fixed");
   EXPECT_NEAR(fixed, 2.0, 1e-12);
   EXPECT_NEAR(fixed_square, 4.0, 1e-12);
-  // Five standard errors of 1,000 samples: uniform on [0, 4] has variance 4/3, Rayleigh of mean 2 has variance 4 (4/pi - 1).
+  // Five standard errors of 1,000 samples: uniform on [0, 4] has variance 4/3, Rayleigh of mean 2
+  // has variance 4 (4/pi - 1).
   const auto [uniform, uniform_square] = speed_moments("uniform");
   EXPECT_NEAR(uniform, 2.0, 5.0 * std::sqrt(4.0 / 3.0 / 1000.0));
   EXPECT_NEAR(uniform_square, 16.0 / 3.0, 0.8);
   const auto [maxwell, maxwell_square] = speed_moments("maxwell");
   EXPECT_NEAR(maxwell, 2.0, 5.0 * std::sqrt(4.0 * (4.0 / std::numbers::pi - 1.0) / 1000.0));
-  EXPECT_NEAR(maxwell_square, 16.0 / std::numbers::pi, 5.0 * 16.0 / std::numbers::pi / std::sqrt(1000.0));
+  EXPECT_NEAR(maxwell_square, 16.0 / std::numbers::pi,
+              5.0 * 16.0 / std::numbers::pi / std::sqrt(1000.0));
 }
 
 TEST(ScaledScenes, KeepWhatWasPlacedByHandAtTheSamePartOfTheField) {
-  const Scene scene = parse_scene(scene_text("crowd") + "\n[[post]]\nname = \"own\"\nposition = [3.0, 2.0]\nradius = 0.1\n", "more.toml");
+  const Scene scene = parse_scene(
+      scene_text("crowd") + "\n[[post]]\nname = \"own\"\nposition = [3.0, 2.0]\nradius = 0.1\n",
+      "more.toml");
   const Scene scaled = scaled_to_bats(scene, 400);
   const double factor = scaled.world.field.length / scene.world.field.length;
   EXPECT_NEAR(factor, 2.0, 1e-12) << "four times as many";
   const auto own = [](const Post& post) { return post.name == "own"; };
   ASSERT_EQ(std::ranges::count_if(scaled.bodies.posts, own), 1);
-  EXPECT_NEAR((std::ranges::find_if(scaled.bodies.posts, own)->body.position - factor * Vector2(3.0, 2.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(
+      (std::ranges::find_if(scaled.bodies.posts, own)->body.position - factor * Vector2(3.0, 2.0))
+          .norm(),
+      0.0, 1e-12);
 }
 
 TEST(Population, KeepsDensityAndShapeWhenTheCrowdIsScaled) {

@@ -9,9 +9,13 @@
 namespace rink::game {
 
 /// A field of 4 m x 2 m with goals of 0.5 m, everything else as in `more`.
-inline Scene small_scene(const std::string& more) { return parse_scene("[field]\nlength = 4.0\nwidth = 2.0\ngoal_width = 0.5\n" + more, "small.toml"); }
+inline Scene small_scene(const std::string& more) {
+  return parse_scene("[field]\nlength = 4.0\nwidth = 2.0\ngoal_width = 0.5\n" + more, "small.toml");
+}
 
-inline Scene preset(const std::string& name) { return load_scene(test::source_folder() + "/scenes/" + name + ".toml"); }
+inline Scene preset(const std::string& name) {
+  return load_scene(test::source_folder() + "/scenes/" + name + ".toml");
+}
 
 /// The words of the SceneError that `act` throws.
 template <class Act>
@@ -25,6 +29,8 @@ std::string refusal_of(const Act& act) {
 }
 
 /// A crowd of `bats` bats, ten times as many pucks and a fifth as many posts.
-inline Scene small_crowd(std::uint32_t bats, std::uint64_t seed) { return with_seed(scaled_to_bats(preset("crowd"), bats), seed); }
+inline Scene small_crowd(std::uint32_t bats, std::uint64_t seed) {
+  return with_seed(scaled_to_bats(preset("crowd"), bats), seed);
+}
 
 }  // namespace rink::game

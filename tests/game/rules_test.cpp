@@ -1,4 +1,5 @@
-// The rules at their edges: the end of a match, a spot without room, and what two games that differ in nothing else still differ in.
+// The rules at their edges: the end of a match, a spot without room, and what two games that differ
+// in nothing else still differ in.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,9 +50,10 @@ TEST(Match, HasNoFaceOffOnceItIsOver) {
   EXPECT_EQ(endless.score(), (Score{0, 5}));
 }
 
-/// A bat nearly as large as the field leaves 0.16 m on its left, where a puck of 0.06 m lies until it has scored. Then the
-/// bat moves to the middle, by an acceleration a for tau seconds and its opposite for as long, which is a tau^2 = 0.08 m:
-/// what is left on each side, 0.08 m, is no place for the puck.
+/// A bat nearly as large as the field leaves 0.16 m on its left, where a puck of 0.06 m lies until
+/// it has scored. Then the bat moves to the middle, by an acceleration a for tau seconds and its
+/// opposite for as long, which is a tau^2 = 0.08 m: what is left on each side, 0.08 m, is no place
+/// for the puck.
 Scene puck_without_room() {
   return small_scene(
       "[match]\nface_off_delay = 1.0\n"
@@ -100,18 +102,21 @@ TEST(Game, DiffersInItsHashIfAFaceOffIsDueAtAllOrForAnotherPuck) {
     return game;
   };
   // At the end of a match nothing is due any more.
-  const Game won = begun("[match]\ngoals_to_win = 1\nface_off_delay = 1.0\n", 0.26), going_on = begun("[match]\nface_off_delay = 1.0\n", 0.26);
+  const Game won = begun("[match]\ngoals_to_win = 1\nface_off_delay = 1.0\n", 0.26),
+             going_on = begun("[match]\nface_off_delay = 1.0\n", 0.26);
   EXPECT_EQ(won.world().hash(), going_on.world().hash());
   EXPECT_NE(won.hash(), going_on.hash());
 }
 
 /// Each part for itself: what one of them is changed to shows.
 TEST(Game, HasAHashOfEveryPartOfIt) {
-  const Entity puck{.id = EntityId{3}, .player = std::nullopt}, other{.id = EntityId{4}, .player = std::nullopt};
+  const Entity puck{.id = EntityId{3}, .player = std::nullopt},
+      other{.id = EntityId{4}, .player = std::nullopt};
   BatController idle(1.0), holding(1.0), tapped(1.0);
   holding.press(Key::up, true);
   tapped.press(Key::up, true), tapped.press(Key::up, false);
-  const auto hash_of = [](std::uint64_t world, const Entity& entity, const BatController& player, const Score& score) {
+  const auto hash_of = [](std::uint64_t world, const Entity& entity, const BatController& player,
+                          const Score& score) {
     const BatController* players[] = {&player};
     return begun_game_hash(world, std::span(&entity, 1), players, score).value();
   };

@@ -11,8 +11,8 @@
 #include "game/control/key_log.h"
 #include "game/control/simulate_progress.h"
 #include "game/model/report_schema.h"
-#include "tests/game/rink_scenes.h"
 #include "tests/command.h"
+#include "tests/game/rink_scenes.h"
 #include "tests/places.h"
 
 namespace rink::game {
@@ -31,7 +31,10 @@ TEST_F(SimulateCommand, WritesTheStatesAndTheHashOfTheGameThatItPlays) {
   KeyLog log = key_log_for(scene);
   log.events = {{0.1, 0, InputKind::key_down, Key::up}, {0.3, 4, InputKind::key_down, Key::left}};
   write_key_log(std::filesystem::path(file("keys")), log);
-  ASSERT_EQ(simulate("crowd --bats 5 --seed 9 --until 1.5 --keys " + file("keys") + " --states " + file("states.csv") + " --summary " + file("summary.json")), 0) << said_;
+  ASSERT_EQ(simulate("crowd --bats 5 --seed 9 --until 1.5 --keys " + file("keys") + " --states " +
+                     file("states.csv") + " --summary " + file("summary.json")),
+            0)
+      << said_;
 
   Game game(scene);
   for (const InputEvent& event : log.events) game.submit(event);
@@ -41,8 +44,11 @@ TEST_F(SimulateCommand, WritesTheStatesAndTheHashOfTheGameThatItPlays) {
   states << "kind,id,x,y,vx,vy\n";
   for (const Entity& entity : game.entities()) {
     const Vector2 x = game.position(entity.id), v = game.velocity(entity.id);
-    states << (entity.kind == physics::BodyKind::puck ? "puck," : entity.kind == physics::BodyKind::bat ? "bat," : "post,");
-    states << entity.id.index << ',' << x.x() << ',' << x.y() << ',' << v.x() << ',' << v.y() << '\n';
+    states << (entity.kind == physics::BodyKind::puck  ? "puck,"
+               : entity.kind == physics::BodyKind::bat ? "bat,"
+                                                       : "post,");
+    states << entity.id.index << ',' << x.x() << ',' << x.y() << ',' << v.x() << ',' << v.y()
+           << '\n';
   }
   hash << std::hex << game.hash();
   EXPECT_EQ(content("states.csv"), states.str());
@@ -51,8 +57,9 @@ TEST_F(SimulateCommand, WritesTheStatesAndTheHashOfTheGameThatItPlays) {
               testing::StartsWith("{\n  \"schema\": " + std::to_string(report_schema) + ",\n"))
       << "like all JSON reports";
   EXPECT_THAT(summary, HasSubstr(hash.str()));
-  for (const char* key : {"events", "collisions", "events_by_kind", "kinetic_energy", "momentum_x", "momentum_y", "work_of_thrust", "dissipated", "max_overlap", "escapes", "hash", "wall_s", "bodies_touched", "predictions",
-                          "evaluations"})
+  for (const char* key : {"events", "collisions", "events_by_kind", "kinetic_energy", "momentum_x",
+                          "momentum_y", "work_of_thrust", "dissipated", "max_overlap", "escapes",
+                          "hash", "wall_s", "bodies_touched", "predictions", "evaluations"})
     EXPECT_THAT(summary, HasSubstr('"' + std::string(key) + "\":"));
 }
 
@@ -67,24 +74,34 @@ std::vector<std::string> rows_of(const std::string& file) {
 
 TEST_F(SimulateCommand, WritesALineForEveryEventThatTheSummaryCounts) {
   for (const std::string engine : {"exact", "paper", "naive"}) {
-    ASSERT_EQ(simulate("crowd --bats 5 --seed 9 --players chaser --until 4 --engine " + engine + " --events " + file("events.csv")), 0) << said_;
+    ASSERT_EQ(simulate("crowd --bats 5 --seed 9 --players chaser --until 4 --engine " + engine +
+                       " --events " + file("events.csv")),
+              0)
+        << said_;
     const std::vector<std::string> rows = rows_of(file("events.csv"));
     const std::string summary = printed_;
     for (const char* kind : physics::event_kind_names) {
-      const auto count = std::count_if(rows.begin(), rows.end(), [&](const std::string& row) { return row.find(',' + std::string(kind) + ',') != std::string::npos; });
+      const auto count = std::count_if(rows.begin(), rows.end(), [&](const std::string& row) {
+        return row.find(',' + std::string(kind) + ',') != std::string::npos;
+      });
       const std::string heading = '"' + std::string(kind) + "\": ";
       ASSERT_THAT(summary, HasSubstr(heading)) << engine;
-      EXPECT_EQ(std::stol(summary.substr(summary.find(heading) + heading.size())), count) << engine << ' ' << kind;
+      EXPECT_EQ(std::stol(summary.substr(summary.find(heading) + heading.size())), count)
+          << engine << ' ' << kind;
     }
     EXPECT_GT(rows.size(), 50u) << engine;
   }
 }
 
 TEST_F(SimulateCommand, PlaysTheSameKeysOnEveryEngine) {
-  std::ofstream(file("bats.toml")) << "[field]\nlength = 9.0\nwidth = 9.0\n[drag]\nbats = 1.0\n[[bat]]\nname = \"b\"\nposition = [4.0, 4.0]\nhalf_extent = [0.1, 0.1]\n"
-                                      "[[key]]\ntime = 0.1\nbat = \"b\"\nkey = \"up\"\nis_down = true\n[[key]]\ntime = 0.55\nbat = \"b\"\nkey = \"up\"\nis_down = false\n";
+  std::ofstream(file("bats.toml"))
+      << "[field]\nlength = 9.0\nwidth = 9.0\n[drag]\nbats = 1.0\n[[bat]]\nname = \"b\"\nposition "
+         "= [4.0, 4.0]\nhalf_extent = [0.1, 0.1]\n"
+         "[[key]]\ntime = 0.1\nbat = \"b\"\nkey = \"up\"\nis_down = true\n[[key]]\ntime = "
+         "0.55\nbat = \"b\"\nkey = \"up\"\nis_down = false\n";
   const auto height = [&](const std::string& flags) {
-    EXPECT_EQ(simulate(file("bats.toml") + " --until 1 --states " + file("states.csv") + flags), 0) << said_;
+    EXPECT_EQ(simulate(file("bats.toml") + " --until 1 --states " + file("states.csv") + flags), 0)
+        << said_;
     std::istringstream row(rows_of(file("states.csv")).front());
     std::string value;
     for (int column = 0; column < 4; ++column) std::getline(row, value, ',');
@@ -101,7 +118,10 @@ TEST_F(SimulateCommand, NamesTheAllowedEnginesAndIntegratorsAndRefusesEndlessFra
   EXPECT_EQ(simulate("match --until 1 --engine box2d"), 2);
   EXPECT_THAT(said_, HasSubstr("the engine box2d is unknown: expected one of exact, paper, naive"));
   EXPECT_EQ(simulate("match --until 1 --engine paper --integrator rk5"), 2);
-  EXPECT_THAT(said_, HasSubstr("the integrator rk5 is unknown: expected one of euler, semi_implicit, verlet, rk4"));
+  EXPECT_THAT(
+      said_,
+      HasSubstr(
+          "the integrator rk5 is unknown: expected one of euler, semi_implicit, verlet, rk4"));
   for (const std::string dt : {"0", "-0.01", "nan", "inf"}) {
     EXPECT_EQ(simulate("match --until 1 --engine paper --dt " + dt), 2) << dt;
     EXPECT_THAT(said_, HasSubstr("expected a finite length above 0 s")) << dt;
@@ -118,11 +138,13 @@ TEST(SimulateProgress, SaysNothingOfShortRunsALineNowAndThenOtherwiseAndOverwrit
   std::ostringstream file, terminal;
   SimulateProgress to_file(file, false, 100.0), to_terminal(terminal, true, 100.0);
   for (int tenth = 0; tenth < 140; ++tenth)
-    for (SimulateProgress* progress : {&to_file, &to_terminal}) progress->reached(tenth / 10.0, 1000, tenth / 10.0);
+    for (SimulateProgress* progress : {&to_file, &to_terminal})
+      progress->reached(tenth / 10.0, 1000, tenth / 10.0);
   to_terminal.clear();
   const std::string lines = file.str(), line = terminal.str();
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3);
-  EXPECT_THAT(lines, HasSubstr("2 of 100 s simulated (2.0 %), 1000 events, 2 s passed, about 98 s left\n"));
+  EXPECT_THAT(
+      lines, HasSubstr("2 of 100 s simulated (2.0 %), 1000 events, 2 s passed, about 98 s left\n"));
   EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 0);
   EXPECT_EQ(line.substr(line.size() - 4), "\r\033[K");
 }
@@ -130,7 +152,8 @@ TEST(SimulateProgress, SaysNothingOfShortRunsALineNowAndThenOtherwiseAndOverwrit
 TEST_F(SimulateCommand, EndsWithStatus2AndOneLineOnBadInput) {
   std::ofstream(file("bad.toml")) << "[field]\nlength = 4.0\nwidth = -2.0\n";
   EXPECT_EQ(simulate(file("bad.toml") + " --until 1"), 2);
-  EXPECT_EQ(said_, "rink simulate: " + file("bad.toml") + ":3: field.width is -2.0: expected a number from 0.001 to 1e+09\n");
+  EXPECT_EQ(said_, "rink simulate: " + file("bad.toml") +
+                       ":3: field.width is -2.0: expected a number from 0.001 to 1e+09\n");
   EXPECT_EQ(simulate("crowd --until inf"), 2);
   EXPECT_THAT(said_, HasSubstr("neither runs backwards nor for ever"));
   EXPECT_EQ(simulate("crowd --until -1"), 2);
@@ -153,7 +176,8 @@ TEST_F(SimulateCommand, EndsWithStatus2AndOneLineOnBadInput) {
 TEST(SceneDocumentation, ShowsASceneThatLoadsAndPlays) {
   const std::string page = test::text_of(test::source_folder() + "/docs/scenes.md");
   const std::size_t start = page.find("```toml\n") + 8;
-  const Scene scene = parse_scene(page.substr(start, page.find("```", start) - start), "docs/scenes.md");
+  const Scene scene =
+      parse_scene(page.substr(start, page.find("```", start) - start), "docs/scenes.md");
   EXPECT_EQ(scene.name, "duel");
   EXPECT_EQ(scene.keys.size(), 1u);
   Game game(scene);

@@ -106,9 +106,9 @@ class Launcher : public testing::Test {
 TEST_F(Launcher, SaysWhatItKnowsAndDoesNothingElse) {
   for (const char* words : {"", "help", "--help", "-h"}) {
     EXPECT_EQ(run(words), 0) << words;
-    for (const char* command : {"play", "compare", "test", "serve", "peer", "duel", "bots",
-                                "simulate", "replay", "accuracy", "bench", "results", "package",
-                              "setup"})
+    for (const char* command :
+         {"play", "compare", "test", "serve", "peer", "duel", "bots", "simulate", "replay",
+          "accuracy", "bench", "results", "package", "setup"})
       EXPECT_THAT(printed_, HasSubstr("\n  " + std::string(command) + " ")) << words;
     EXPECT_THAT(calls_, IsEmpty()) << words;
   }

@@ -18,7 +18,8 @@ struct Layer {
   Names may_know;
 };
 
-/// The most specific folder stands before those that contain it. bench and tests may include anything.
+/// The most specific folder stands before those that contain it. bench and tests may include
+/// anything.
 const std::vector<Layer> layers{
     {"im/matching", {"im/matching", "im"}},
     {"im/view", {"im/view", "im/schemes", "im", "im/matching"}},
@@ -32,50 +33,76 @@ const std::vector<Layer> layers{
     {"rti", {"rti", "im", "im/stages"}},
     {"game/physics/events", {"game/physics/events", "game/physics"}},
     {"game/physics/flight", {"game/physics/flight", "game/physics"}},
-    {"game/physics/engine", {"game/physics/engine", "game/physics/events", "game/physics/flight", "game/physics"}},
+    {"game/physics/engine",
+     {"game/physics/engine", "game/physics/events", "game/physics/flight", "game/physics"}},
     {"game/physics/collision", {"game/physics/collision", "game/physics/flight", "game/physics"}},
     {"game/physics/paper", {"game/physics/paper", "game/physics/collision", "game/physics"}},
-    {"game/physics", {"game/physics", "game/physics/engine", "game/physics/flight", "game/physics/paper"}},
+    {"game/physics",
+     {"game/physics", "game/physics/engine", "game/physics/flight", "game/physics/paper"}},
     {"game/version", {"game/version"}},
     {"game/model", {"game/model", "game/physics", "game/physics/flight"}},
     {"game/peer", {"game/peer", "game/physics", "game/physics/flight"}},
     {"game/control", {"game/control", "game/players", "game/model", "game/physics"}},
     {"game/match", {"game/match", "game/control", "game/players", "game/model", "game/physics"}},
     {"game/players", {"game/players", "game/model", "game/physics", "game/physics/flight"}},
-    {"game/replication", {"game/replication", "game/control", "game/model", "game/physics", "rti", "im", "game/physics/flight"}},
-    {"game/net/peer", {"game/net/peer", "game/net", "game/match", "game/peer", "game/replication", "game/control", "game/players", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/mpi", "im", "game/physics/flight"}},
-    {"game/net/server", {"game/net/server", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
-    {"game/net/client", {"game/net/client", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
-    {"game/net", {"game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
+    {"game/replication",
+     {"game/replication", "game/control", "game/model", "game/physics", "rti", "im",
+      "game/physics/flight"}},
+    {"game/net/peer",
+     {"game/net/peer", "game/net", "game/match", "game/peer", "game/replication", "game/control",
+      "game/players", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/mpi",
+      "im", "game/physics/flight"}},
+    {"game/net/server",
+     {"game/net/server", "game/net", "game/match", "game/replication", "game/control", "game/model",
+      "game/physics", "rti", "rti/transport"}},
+    {"game/net/client",
+     {"game/net/client", "game/net", "game/match", "game/replication", "game/control", "game/model",
+      "game/physics", "rti", "rti/transport"}},
+    {"game/net",
+     {"game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics",
+      "rti", "rti/transport"}},
     {"game/view/render", {"game/view/render"}},
-    {"game/view", {"game/view", "game/view/render", "game/match", "game/net/client", "game/net", "game/net/peer", "game/replication", "game/control", "game/model", "game/physics", "rti"}},
-    {"loadgen/experiment", {"loadgen/experiment", "game/players", "game/net", "game/net/peer", "game/replication", "game/model", "rti", "rti/transport/modelled"}},
-    {"loadgen/measure", {"loadgen/measure", "loadgen/experiment", "game/net/server", "game/net", "game/control", "game/model", "game/physics", "rti", "game/physics/flight"}},
-    {"loadgen/run", {"loadgen/run", "loadgen/measure", "loadgen/experiment", "game/players", "game/net/server", "game/net/client", "game/net", "game/net/peer", "game/peer", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/modelled"}},
-    {"loadgen/duel", {"loadgen/duel", "loadgen/run", "game/players", "game/net/server", "game/net/client", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/modelled"}},
-    {"loadgen/report", {"loadgen/report", "loadgen/run", "loadgen/measure", "loadgen/experiment", "game/version", "game/model"}},
-    {"loadgen/apps", {"loadgen/experiment", "loadgen/run", "loadgen/measure", "loadgen/report", "loadgen/duel", "game/players", "game/net/server", "game/net/client", "game/net", "game/net/peer", "game/peer", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
+    {"game/view",
+     {"game/view", "game/view/render", "game/match", "game/net/client", "game/net", "game/net/peer",
+      "game/replication", "game/control", "game/model", "game/physics", "rti"}},
+    {"loadgen/experiment",
+     {"loadgen/experiment", "game/players", "game/net", "game/net/peer", "game/replication",
+      "game/model", "rti", "rti/transport/modelled"}},
+    {"loadgen/measure",
+     {"loadgen/measure", "loadgen/experiment", "game/net/server", "game/net", "game/control",
+      "game/model", "game/physics", "rti", "game/physics/flight"}},
+    {"loadgen/run",
+     {"loadgen/run", "loadgen/measure", "loadgen/experiment", "game/players", "game/net/server",
+      "game/net/client", "game/net", "game/net/peer", "game/peer", "game/match", "game/replication",
+      "game/control", "game/model", "game/physics", "rti", "rti/transport",
+      "rti/transport/modelled"}},
+    {"loadgen/duel",
+     {"loadgen/duel", "loadgen/run", "game/players", "game/net/server", "game/net/client",
+      "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics",
+      "rti", "rti/transport", "rti/transport/modelled"}},
+    {"loadgen/report",
+     {"loadgen/report", "loadgen/run", "loadgen/measure", "loadgen/experiment", "game/version",
+      "game/model"}},
+    {"loadgen/apps",
+     {"loadgen/experiment", "loadgen/run", "loadgen/measure", "loadgen/report", "loadgen/duel",
+      "game/players", "game/net/server", "game/net/client", "game/net", "game/net/peer",
+      "game/peer", "game/match", "game/replication", "game/control", "game/model", "game/physics",
+      "rti", "rti/transport"}},
 };
 
-/// Folders that a layer is divided into for whoever looks for a file; those of the RTI but for its transports are all of this kind.
-const Names divisions{"im/matching/index",
-                      "rti/transport/tcp",
-                      "rti/transport/udp",
-                      "rti/transport/shared_memory",
-                      "game/peer/session",
-                      "game/net/peer/meeting",
-                      "game/net/peer/interest",
-                      "game/view/overlays",
-                      "game/view/window",
-                      "loadgen/run/bots",
-                      "loadgen/run/peers",
-                      "loadgen/run/saturation",
-                      "loadgen/measure/statistics",
-                      "loadgen/measure/truth",
-                      "loadgen/report/exhibits",
-                      "loadgen/report/plots"};
+/// Folders that a layer is divided into for whoever looks for a file; those of the RTI but for its
+/// transports are all of this kind.
+const Names divisions{"im/matching/index",          "rti/transport/tcp",
+                      "rti/transport/udp",          "rti/transport/shared_memory",
+                      "game/peer/session",          "game/net/peer/meeting",
+                      "game/net/peer/interest",     "game/view/overlays",
+                      "game/view/window",           "loadgen/run/bots",
+                      "loadgen/run/peers",          "loadgen/run/saturation",
+                      "loadgen/measure/statistics", "loadgen/measure/truth",
+                      "loadgen/report/exhibits",    "loadgen/report/plots"};
 
-const Names network_headers{"asio", "sys/socket.h", "netinet/", "arpa/inet.h", "netdb.h", "sys/epoll.h", "mpi.h"};
+const Names network_headers{"asio",    "sys/socket.h", "netinet/", "arpa/inet.h",
+                            "netdb.h", "sys/epoll.h",  "mpi.h"};
 const Names clock_headers{"chrono", "ctime", "time.h"};
 const Names file_headers{"cstdio", "stdio.h",    "fstream",    "iostream", "ostream", "istream",
                          "ios",    "syncstream", "filesystem", "dirent.h", "fcntl.h", "spdlog"};
@@ -177,7 +204,8 @@ Names circle_in(const Graph& graph) {
 
 bool starts_with_any(const std::string& path, const Names& prefixes) {
   return std::ranges::any_of(prefixes, [&](const std::string& prefix) {
-    return path == prefix || path.starts_with(prefix + ".") || path.starts_with(prefix + "/") || (prefix.ends_with('/') && path.starts_with(prefix));
+    return path == prefix || path.starts_with(prefix + ".") || path.starts_with(prefix + "/") ||
+           (prefix.ends_with('/') && path.starts_with(prefix));
   });
 }
 
@@ -187,7 +215,8 @@ bool is_impure(const std::string& header) {
       [&](const Names* names) { return starts_with_any(header, *names); });
 }
 
-/// What `layer` may include from `source`: commands say which version they are, those of the game choose a transport.
+/// What `layer` may include from `source`: commands say which version they are, those of the game
+/// choose a transport.
 Names allowed(const Layer& layer, const SourceFile& source) {
   Names names = layer.may_know;
   if (source.is_command()) names.push_back("game/version");
@@ -208,15 +237,19 @@ TEST(Layers, EachFolderIncludesOnlyWhatItMayKnow) {
     if (layer == nullptr || !include.is_ours) return;
     const Names names = allowed(*layer, source);
     if (std::ranges::find(names, part_of(include.path)) == names.end())
-      report(source, line, "\"" + include.path + "\" is not for " + layer->folder + ", which may include from: " + joined(names));
+      report(source, line,
+             "\"" + include.path + "\" is not for " + layer->folder +
+                 ", which may include from: " + joined(names));
   });
 }
 
 TEST(Layers, EveryFolderWithCodeHasItsLayer) {
   for (const SourceFile& source : read_sources({"im", "game", "rti", "loadgen"}, code_extensions)) {
     const Layer* layer = layer_of(source);
-    if (layer == nullptr) report(source, 0, "its folder is in no layer; add it to tests/house/layers_test.cpp");
-    else if (part_of(source.path) != layer->folder) report(source, 0, "folders below " + layer->folder + " need a layer of their own");
+    if (layer == nullptr)
+      report(source, 0, "its folder is in no layer; add it to tests/house/layers_test.cpp");
+    else if (part_of(source.path) != layer->folder)
+      report(source, 0, "folders below " + layer->folder + " need a layer of their own");
   }
 }
 
@@ -227,14 +260,19 @@ TEST(Layers, PureFoldersDoNoInputOrOutputAndReadNoClock) {
         known != exceptions.end() && include.path == known->second)
       return;
     if (is_impure(include.path))
-      report(source, line, "<" + include.path + "> in a pure folder: im, game/physics and game/peer are handed time, seeds and bytes, they do no input or output");
+      report(source, line,
+             "<" + include.path +
+                 "> in a pure folder: im, game/physics and game/peer are handed time, seeds and "
+                 "bytes, they do no input or output");
   });
 }
 
 TEST(Layers, OnlyTransportsOwnSockets) {
   for_each_include([](const SourceFile& source, std::size_t line, const Include& include) {
     if (source.is_in("rti/transport") || source.is_in("bench") || source.is_in("tests")) return;
-    if (starts_with_any(include.path, network_headers)) report(source, line, "<" + include.path + "> outside rti/transport, the only code that owns sockets");
+    if (starts_with_any(include.path, network_headers))
+      report(source, line,
+             "<" + include.path + "> outside rti/transport, the only code that owns sockets");
   });
 }
 

@@ -1,4 +1,5 @@
-// The command rink results on pages of its own: bench/results.py beside a launcher that does nothing; and that README.md quotes docs/results.md.
+// The command rink results on pages of its own: bench/results.py beside a launcher that does
+// nothing; and that README.md quotes docs/results.md.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
@@ -21,13 +22,15 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char *begin = "<!-- measured by ./rink results -->", *end = "<!-- end of what is measured -->";
+constexpr const char *begin = "<!-- measured by ./rink results -->",
+                     *end = "<!-- end of what is measured -->";
 
 class Results : public testing::Test {
  protected:
   Results() {
     std::filesystem::create_directory(folder_ / "bench");
-    std::filesystem::copy_file(test::source_folder() + "/bench/results.py", folder_ / "bench/results.py");
+    std::filesystem::copy_file(test::source_folder() + "/bench/results.py",
+                               folder_ / "bench/results.py");
     write("rink", "#!/bin/sh\necho 'rink 1.2.3 (commit abc)'\n");
     std::filesystem::permissions(folder_ / "rink", std::filesystem::perms::owner_all);
     write("README.md", std::string("# Boat\n") + begin + "\nold\n" + end + "\nsails\n");
@@ -40,7 +43,10 @@ class Results : public testing::Test {
   std::string content(const std::string& file) const { return test::text_of(folder_ / file); }
   int run(const std::string& template_text, const std::string& arguments = "") {
     write("bench/results.md", template_text);
-    const int status = std::system(("python3 " + (folder_ / "bench/results.py").string() + " " + arguments + " >" + (folder_ / "out").string() + " 2>" + (folder_ / "err").string()).c_str());
+    const int status =
+        std::system(("python3 " + (folder_ / "bench/results.py").string() + " " + arguments + " >" +
+                     (folder_ / "out").string() + " 2>" + (folder_ / "err").string())
+                        .c_str());
     return WEXITSTATUS(status);
   }
   std::string said() const { return content("err"); }
@@ -60,10 +66,9 @@ class Results : public testing::Test {
         "wire_bytes_per_client_per_s_mean,delivered_recall_mean,displayed_error_mm_rms_mean\n"
         "prompt,none,periodic,0,298000,318000,1,18.7\nprompt,none,periodic,1,298000,318000,1,5.4\n"
         "prompt,region,dead-reckoning-drag,1,3300,6900,0.99999,3.987\n";
-    for (const char* row :
-         {"none,periodic,1,298000,320000", "region,periodic,1,21200,24700",
-          "region,snapshot,1,7870,12600", "region,dead-reckoning,1,5670,9310",
-          "region,on-event,1,3200,6790"})
+    for (const char* row : {"none,periodic,1,298000,320000", "region,periodic,1,21200,24700",
+                            "region,snapshot,1,7870,12600", "region,dead-reckoning,1,5670,9310",
+                            "region,on-event,1,3200,6790"})
       text += std::string("sockets,") + row + ",0.99999,3.987\n";
     return text;
   }
@@ -77,8 +82,10 @@ class Results : public testing::Test {
       text += std::string("region,32,") + at +
               ",4.35,on-event,dead-reckoning-drag,bracketed,not_left,1.238,1.229,1.262,higher,1.09,"
               "0.99,1.11,no significant difference,6,5\nregion,32," +
-              at + ",4.35,on-event,snapshot,bracketed,bracketed,2.45,2.4,2.5,higher,1.73,1.7,1.8,"
-                   "higher," + snapshots_below_ + ",5\n";
+              at +
+              ",4.35,on-event,snapshot,bracketed,bracketed,2.45,2.4,2.5,higher,1.73,1.7,1.8,"
+              "higher," +
+              snapshots_below_ + ",5\n";
     return text;
   }
   /// Two seeds, in which the best rival errs 1.1 and sends 1.04 and 1.01 times as much.
@@ -112,8 +119,15 @@ class Results : public testing::Test {
 };
 
 TEST_F(Results, StandBelowTheirCommands) {
-  ASSERT_EQ(run("# Figures\nprose\n```measured\necho forty-two |\n  sed s/forty/fifty/\n```\n" + report()), 0) << said();
-  EXPECT_THAT(content("docs/results.md"), AllOf(HasSubstr("# Figures\nprose\n```\n$ echo forty-two | sed s/forty/fifty/\nfifty-two\n```\n"), HasSubstr("commit: abc\nprocessor: a slide rule\n"), Not(HasSubstr("as it was"))));
+  ASSERT_EQ(run("# Figures\nprose\n```measured\necho forty-two |\n  sed s/forty/fifty/\n```\n" +
+                report()),
+            0)
+      << said();
+  EXPECT_THAT(
+      content("docs/results.md"),
+      AllOf(HasSubstr(
+                "# Figures\nprose\n```\n$ echo forty-two | sed s/forty/fifty/\nfifty-two\n```\n"),
+            HasSubstr("commit: abc\nprocessor: a slide rule\n"), Not(HasSubstr("as it was"))));
 }
 
 TEST_F(Results, OfTheCrowdStandInTheReadmeToo) {
@@ -134,10 +148,10 @@ TEST_F(Results, AtEqualErrorSayOfWhatCrowdAndRecallAndHaveAnIntervalEach) {
   ASSERT_EQ(run(report()), 0) << said();
   const std::string words = unfolded(content("README.md"));
   EXPECT_THAT(words, HasSubstr("32 clients under `region` in virtual time"));
-  for (const char* at : {"- no delay, recall 0.9866 without a margin: ",
-                         "- no delay, recall 0.9990 by margins: ",
-                         "- 50 ms of delay, recall 0.9588 without a margin: ",
-                         "- 50 ms of delay, recall 0.9990 by margins: "})
+  for (const char* at :
+       {"- no delay, recall 0.9866 without a margin: ", "- no delay, recall 0.9990 by margins: ",
+        "- 50 ms of delay, recall 0.9588 without a margin: ",
+        "- 50 ms of delay, recall 0.9990 by margins: "})
     EXPECT_THAT(words, HasSubstr(std::string(at) +
                                  "`dead-reckoning-drag` 1.24 [1.23, 1.26] and <1.09 [0.99, "
                                  "1.11] ~, "
@@ -162,8 +176,9 @@ TEST_F(Results, SayWhatTheBestRivalSendsAtTheSameRate) {
 }
 
 TEST_F(Results, SayHowFarWhatIsForetoldLiesFromWhatHeld) {
-  write("saturation.csv", "# taken: today\nscheme,held_clients,foretold_clients\nnone,168,\n"
-                          "grid,800,1204\nregion,951,1096\n");
+  write("saturation.csv",
+        "# taken: today\nscheme,held_clients,foretold_clients\nnone,168,\n"
+        "grid,800,1204\nregion,951,1096\n");
   ASSERT_EQ(run(report() + "```saturation\nsaturation.csv\n```\n"), 0) << said();
   EXPECT_THAT(unfolded(content("docs/results.md")),
               HasSubstr("Foretold is 15 to 50 % above what held. Probes of fewer clients were too "
@@ -173,9 +188,10 @@ TEST_F(Results, SayHowFarWhatIsForetoldLiesFromWhatHeld) {
 TEST_F(Results, NameTheFlagsOfTheProgramsThatAreTimed) {
   report();
   write("points.csv", "# compiler: GCC 12, asserts off\n# flags: -O3 -DNDEBUG\na,b\n");
-  const std::string page = "```measured\ncp -r given report-results/default\n```\n"
-                           "```provenance\nreport-results/default points.csv\n```\n"
-                           "```crowd\nreport-results/default\n```\n";
+  const std::string page =
+      "```measured\ncp -r given report-results/default\n```\n"
+      "```provenance\nreport-results/default points.csv\n```\n"
+      "```crowd\nreport-results/default\n```\n";
   ASSERT_EQ(run(page), 0) << said();
   EXPECT_THAT(content("docs/results.md"),
               HasSubstr("accuracy and bench: GCC 12, asserts off, -O3 -DNDEBUG\n"));
@@ -206,8 +222,8 @@ TEST_F(Results, CommandsRunAsTheyArePrinted) {
   ASSERT_EQ(printed.size(), 2u);
   EXPECT_THAT(printed.front(), HasSubstr(" \\\n")) << "it is long enough to be broken";
   write("as_printed.sh", printed.front() + "\n");
-  const std::string shell = "bash " + (folder_ / "as_printed.sh").string() + " >" +
-                            (folder_ / "again").string();
+  const std::string shell =
+      "bash " + (folder_ / "as_printed.sh").string() + " >" + (folder_ / "again").string();
   ASSERT_EQ(std::system(shell.c_str()), 0);
   EXPECT_THAT(content("again"), HasSubstr("[five (six\\|seven)]\n"));
   EXPECT_THAT(page, HasSubstr(printed.front() + "\n" + content("again") + "```\n"));
@@ -260,11 +276,13 @@ TEST_F(Results, CommandsAreListedWithoutBeingRun) {
 
 std::string between(const std::string& text) {
   const std::size_t from = text.find(begin), to = text.find(end);
-  return from == std::string::npos || to == std::string::npos ? std::string() : text.substr(from, to - from);
+  return from == std::string::npos || to == std::string::npos ? std::string()
+                                                              : text.substr(from, to - from);
 }
 
 TEST(Readme, QuotesThePageOfResultsAlone) {
-  const std::string readme = test::text_of(test::source_folder() + "/README.md"), page = test::text_of(test::source_folder() + "/docs/results.md");
+  const std::string readme = test::text_of(test::source_folder() + "/README.md"),
+                    page = test::text_of(test::source_folder() + "/docs/results.md");
   EXPECT_GT(between(page).size(), 500u);
   EXPECT_EQ(between(readme), between(page)) << "./rink results writes both";
 }
@@ -280,7 +298,9 @@ TEST(PageOfResults, HoldsWhatItsTemplateAsksForWithinThreeThousandWords) {
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("```")) is_fenced = !is_fenced;
     const bool is_prose = !is_fenced && !line.starts_with("```");
-    if (is_prose) { EXPECT_THAT(page, HasSubstr(line + "\n")); }
+    if (is_prose) {
+      EXPECT_THAT(page, HasSubstr(line + "\n"));
+    }
   }
 }
 
@@ -291,7 +311,8 @@ TEST(PageOfResults, PrintsTheCommandsOfItsTemplateAndBreaksNoneWithinQuotes) {
   bool is_command = false;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("```measured")) wanted.emplace_back();
-    else if (is_command && line != "```") wanted.back() += (wanted.back().empty() ? "" : " ") + line;
+    else if (is_command && line != "```")
+      wanted.back() += (wanted.back().empty() ? "" : " ") + line;
     is_command = line.starts_with("```measured") || (is_command && line != "```");
   }
   for (const std::string& command : printed_commands(page)) {

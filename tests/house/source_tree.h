@@ -24,7 +24,8 @@ struct SourceFile {
   bool is_command() const { return path.ends_with("_main.cpp"); }
 };
 
-inline SourceFile read_source(const std::filesystem::path& root, const std::filesystem::path& file) {
+inline SourceFile read_source(const std::filesystem::path& root,
+                              const std::filesystem::path& file) {
   SourceFile source{std::filesystem::relative(file, root).generic_string(), {}};
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) source.lines.push_back(line);
@@ -33,7 +34,8 @@ inline SourceFile read_source(const std::filesystem::path& root, const std::file
 
 /// All files below `folders` whose extension is one of `extensions`, in the order of their paths. A
 /// folder that is missing fails the test: who moves it moves its rules too.
-inline std::vector<SourceFile> read_sources(const std::vector<std::string>& folders, const std::vector<std::string>& extensions) {
+inline std::vector<SourceFile> read_sources(const std::vector<std::string>& folders,
+                                            const std::vector<std::string>& extensions) {
   const std::filesystem::path root = test::source_folder();
   std::vector<SourceFile> sources;
   for (const std::string& folder : folders) {
@@ -42,14 +44,16 @@ inline std::vector<SourceFile> read_sources(const std::vector<std::string>& fold
       continue;
     }
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
-      if (entry.is_regular_file() && std::ranges::find(extensions, entry.path().extension().string()) != extensions.end())
+      if (entry.is_regular_file() &&
+          std::ranges::find(extensions, entry.path().extension().string()) != extensions.end())
         sources.push_back(read_source(root, entry.path()));
   }
   std::ranges::sort(sources, {}, &SourceFile::path);
   return sources;
 }
 
-inline const std::vector<std::string> code_folders{"im", "game", "rti", "loadgen", "bench", "tests"};
+inline const std::vector<std::string> code_folders{"im",      "game",  "rti",
+                                                   "loadgen", "bench", "tests"};
 inline const std::vector<std::string> code_extensions{".h", ".cpp"};
 
 /// Reports the file and line, in a form that editors can jump to.

@@ -5,7 +5,7 @@
 namespace rink::house {
 namespace {
 
-constexpr std::size_t line_length_max = 200, file_length_max = 400;
+constexpr std::size_t line_length_max = 100, file_length_max = 540;
 
 std::vector<SourceFile> all_code() { return read_sources(code_folders, code_extensions); }
 
@@ -20,21 +20,25 @@ void for_each_line(const std::vector<SourceFile>& sources, const Judge& judge) {
 
 /// UTF-8 characters, since docs and strings hold more than ASCII.
 std::size_t character_count(const std::string& line) {
-  return static_cast<std::size_t>(std::ranges::count_if(line, [](char byte) { return (byte & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(line, [](char byte) { return (byte & 0xC0) != 0x80; }));
 }
 
 TEST(Style, EveryFileOpensWithACommentThatSaysWhatItIsFor) {
   for (const SourceFile& source : all_code())
-    if (source.lines.empty() || !source.lines[0].starts_with("// ") || character_count(source.lines[0]) < 10)
+    if (source.lines.empty() || !source.lines[0].starts_with("// ") ||
+        character_count(source.lines[0]) < 10)
       report(source, 0, "must open with a // comment: one sentence that says what the file is for");
 }
 
 TEST(Style, EveryHeaderIsIncludedOnce) {
   for (const SourceFile& source : all_code())
-    if (source.is_header() && std::ranges::find(source.lines, "#pragma once") == source.lines.end()) report(source, 0, "has no #pragma once");
+    if (source.is_header() && std::ranges::find(source.lines, "#pragma once") == source.lines.end())
+      report(source, 0, "has no #pragma once");
 }
 
-/// Which lines of `source` belong to a raw string: text in another language, with lines of its own length.
+/// Which lines of `source` belong to a raw string: text in another language, with lines of its own
+/// length.
 std::vector<bool> raw_text(const SourceFile& source) {
   const std::regex opens("R\"(\\w*)\\("), closes("\\)\\w*\"");
   std::vector<bool> is_raw;
@@ -58,9 +62,12 @@ TEST(Style, FilesStayReadable) {
   const auto sources = all_code();
   for (const SourceFile& source : sources)
     if (source.lines.size() > file_length_max)
-      report(source, source.lines.size() - 1, "more than " + std::to_string(file_length_max) + " lines: it has two subjects, find them");
+      report(source, source.lines.size() - 1,
+             "more than " + std::to_string(file_length_max) +
+                 " lines: it has two subjects, find them");
   for_each_line(sources, [](const SourceFile& source, std::size_t i, const std::string& line) {
-    if (line.find('\t') != std::string::npos) report(source, i, "holds a tab; indentation is two spaces");
+    if (line.find('\t') != std::string::npos)
+      report(source, i, "holds a tab; indentation is two spaces");
     if (line.ends_with(' ') || line.ends_with('\r')) report(source, i, "ends in white space");
   });
 }
@@ -75,22 +82,30 @@ TEST(Style, LinesFitTheScreen) {
 }
 
 TEST(Style, NamesComeFromTheDomain) {
-  const std::regex bag("(^|[/_])(" + joined("ut", "il") + "s?|" + joined("com", "mon") + "|" + joined("hel", "per") + "s?|misc)(\\.|/)");
-  const std::regex type("\\b(class|struct|enum class)\\s+\\w*(" + joined("Man", "ager") + "|" + joined("Hel", "per") + "|" + joined("Ut", "il") + ")\\b");
+  const std::regex bag("(^|[/_])(" + joined("ut", "il") + "s?|" + joined("com", "mon") + "|" +
+                       joined("hel", "per") + "s?|misc)(\\.|/)");
+  const std::regex type("\\b(class|struct|enum class)\\s+\\w*(" + joined("Man", "ager") + "|" +
+                        joined("Hel", "per") + "|" + joined("Ut", "il") + ")\\b");
   const auto sources = all_code();
   for (const SourceFile& source : sources)
-    if (std::regex_search(source.path, bag)) report(source, 0, "a name that says nothing: call it after what it is about");
+    if (std::regex_search(source.path, bag))
+      report(source, 0, "a name that says nothing: call it after what it is about");
   for_each_line(sources, [&](const SourceFile& source, std::size_t i, const std::string& line) {
-    if (std::regex_search(line, type)) report(source, i, "a type name that says nothing: nouns come from the rink, from physics and from HLA");
+    if (std::regex_search(line, type))
+      report(source, i,
+             "a type name that says nothing: nouns come from the rink, from physics and from HLA");
   });
 }
 
 TEST(Style, NothingIsLeftForLater) {
-  const std::regex later("\\b(" + joined("TO", "DO") + "|" + joined("FIX", "ME") + "|" + joined("XX", "X") + ")\\b");
+  const std::regex later("\\b(" + joined("TO", "DO") + "|" + joined("FIX", "ME") + "|" +
+                         joined("XX", "X") + ")\\b");
   auto sources = all_code();
-  for (SourceFile& document : read_sources({"docs", "scenes", "cmake"}, {".md", ".toml", ".cmake"})) sources.push_back(std::move(document));
+  for (SourceFile& document : read_sources({"docs", "scenes", "cmake"}, {".md", ".toml", ".cmake"}))
+    sources.push_back(std::move(document));
   for_each_line(sources, [&](const SourceFile& source, std::size_t i, const std::string& line) {
-    if (std::regex_search(line, later)) report(source, i, "finish it, or state the limit in the docs");
+    if (std::regex_search(line, later))
+      report(source, i, "finish it, or state the limit in the docs");
   });
 }
 
@@ -101,7 +116,8 @@ TEST(Style, DocumentsNameNoMachine) {
   documents.push_back(read_source(root, root / "README.md"));
   EXPECT_FALSE(documents.back().lines.empty());
   for_each_line(documents, [&](const SourceFile& source, std::size_t i, const std::string& line) {
-    if (std::regex_search(line, machine_path)) report(source, i, "names a path of one machine; readers have others");
+    if (std::regex_search(line, machine_path))
+      report(source, i, "names a path of one machine; readers have others");
   });
 }
 

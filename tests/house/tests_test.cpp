@@ -20,10 +20,8 @@ std::vector<std::string> names_of_tests() {
     if (!entry.path().filename().string().ends_with("_tests.cmake")) continue;
     std::ifstream stream(entry.path());
     for (std::string line; std::getline(stream, line);)
-      if (std::smatch match; std::regex_search(line, match, addition))
-        names.push_back(match[1]);
-      else if (line.starts_with("add_test"))
-        names.push_back(line);
+      if (std::smatch match; std::regex_search(line, match, addition)) names.push_back(match[1]);
+      else if (line.starts_with("add_test")) names.push_back(line);
   }
   return names;
 }

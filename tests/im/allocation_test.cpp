@@ -1,4 +1,5 @@
-// Proves that a filter in its steady state allocates nothing, by counting every allocation of this executable.
+// Proves that a filter in its steady state allocates nothing, by counting every allocation of this
+// executable.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -31,8 +32,12 @@ std::atomic<std::size_t> allocation_count = 0;  // a second core allocates too
   if (void* memory = std::aligned_alloc(line, (size + line - 1) / line * line)) return memory;
   throw std::bad_alloc();
 }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
 
 namespace rink::im {
 namespace {
@@ -43,14 +48,20 @@ void tick(Filter& filter, int time) {
     const double x = (id * 37u) % 101u + (time % 16) * 0.5, y = (id * 53u) % 97u;
     return Region{x - half, y - half, x + half, y + half};
   };
-  for (Entity entity = 0; entity < 500; ++entity) filter.set_update_region(entity, place(entity, 0.1));
-  for (Subscriber subscriber = 0; subscriber < 50; ++subscriber) filter.set_subscription_region(subscriber, place(subscriber, 10.0));
+  for (Entity entity = 0; entity < 500; ++entity)
+    filter.set_update_region(entity, place(entity, 0.1));
+  for (Subscriber subscriber = 0; subscriber < 50; ++subscriber)
+    filter.set_subscription_region(subscriber, place(subscriber, 10.0));
   filter.match();
 }
 
 TEST(Filter, AllocatesNothingInTheSteadyState) {
   std::vector<std::string> all = filter_names();
-  for (const char* composed : {"aura and not sight", "not (region or cone)", "region with hysteresis(margin=1) with dwell(matches=3)", "aura with swept(horizon=1) with tiers(at=0.3 at=0.6) with priority"}) all.emplace_back(composed);
+  for (const char* composed :
+       {"aura and not sight", "not (region or cone)",
+        "region with hysteresis(margin=1) with dwell(matches=3)",
+        "aura with swept(horizon=1) with tiers(at=0.3 at=0.6) with priority"})
+    all.emplace_back(composed);
   for (const std::string& name : all) {
     const auto filter = make_filter(name, {.world = {0.0, 0.0, 110.0, 100.0}});
     for (int time = 0; time < 32; ++time) tick(*filter, time);

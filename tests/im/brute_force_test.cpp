@@ -1,4 +1,5 @@
-// Every scheme against brute force on long random sequences of moves, arrivals, removals and returns.
+// Every scheme against brute force on long random sequences of moves, arrivals, removals and
+// returns.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,15 +17,18 @@ class EveryScheme : public testing::TestWithParam<std::string> {};
 class EverySchemeLong : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryScheme, ReplaysToTheRecountOnEveryLayout) {
-  for (std::uint64_t seed = 1; seed <= 12 && !HasFatalFailure(); ++seed) play_scheme(GetParam(), seed, 24);
+  for (std::uint64_t seed = 1; seed <= 12 && !HasFatalFailure(); ++seed)
+    play_scheme(GetParam(), seed, 24);
 }
 
 /// Every tenth goes on for long.
 TEST_P(EverySchemeLong, ReplaysToTheRecountOverThousandsOfSeeds) {
-  for (std::uint64_t seed = 1000; seed < 3000 && !HasFatalFailure(); ++seed) play_scheme(GetParam(), seed, seed % 10 == 0 ? 120 : 12);
+  for (std::uint64_t seed = 1000; seed < 3000 && !HasFatalFailure(); ++seed)
+    play_scheme(GetParam(), seed, seed % 10 == 0 ? 120 : 12);
 }
 
-/// Most pairs rest until their two could have come far enough; who rests too long is caught where steps are small.
+/// Most pairs rest until their two could have come far enough; who rests too long is caught where
+/// steps are small.
 TEST_P(EveryScheme, ReplaysToTheRecountWhereAllDriftSlowly) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -32,16 +36,26 @@ TEST_P(EveryScheme, ReplaysToTheRecountWhereAllDriftSlowly) {
     Judged judged(GetParam(), settings_for(seed));
     std::vector<Region> entities, subscribers;
     for (Entity entity = 0; entity < 40; ++entity) entities.push_back(draw_gridded(random, 0.25));
-    for (Subscriber subscriber = 0; subscriber < 10; ++subscriber) subscribers.push_back(draw_gridded(random, 3.0));
+    for (Subscriber subscriber = 0; subscriber < 10; ++subscriber)
+      subscribers.push_back(draw_gridded(random, 3.0));
     std::vector<Heading> steps;
-    const auto step = [&] { return seed % 2 == 0 ? std::round(between(random, -2.0, 2.0)) / 32.0 : between(random, -0.05, 0.05); };
+    const auto step = [&] {
+      return seed % 2 == 0 ? std::round(between(random, -2.0, 2.0)) / 32.0
+                           : between(random, -0.05, 0.05);
+    };
     for (int i = 0; i < 50; ++i) steps.push_back({step(), step()});
     for (int tick = 0; tick < 80; ++tick) {
-      const auto on = [&](Region& region, const Heading& by) { region = {region.low_x + by.x, region.low_y + by.y, region.high_x + by.x, region.high_y + by.y}; };
+      const auto on = [&](Region& region, const Heading& by) {
+        region = {region.low_x + by.x, region.low_y + by.y, region.high_x + by.x,
+                  region.high_y + by.y};
+      };
       for (Entity entity = 0; entity < 40; ++entity)
-        if (on(entities[entity], steps[entity]), tick == 0 || between(random, 0.0, 1.0) < 0.9) judged.move_entity(entity, entities[entity]);
+        if (on(entities[entity], steps[entity]), tick == 0 || between(random, 0.0, 1.0) < 0.9)
+          judged.move_entity(entity, entities[entity]);
       for (Subscriber subscriber = 0; subscriber < 10; ++subscriber) {
-        if (on(subscribers[subscriber], steps[40 + subscriber]), tick == 0 || between(random, 0.0, 1.0) < 0.9) judged.move_subscriber(subscriber, subscribers[subscriber]);
+        if (on(subscribers[subscriber], steps[40 + subscriber]),
+            tick == 0 || between(random, 0.0, 1.0) < 0.9)
+          judged.move_subscriber(subscriber, subscribers[subscriber]);
         if (between(random, 0.0, 1.0) < 0.02) judged.turn(subscriber, draw_heading(random));
       }
       if (tick % 20 == 19) std::shuffle(steps.begin(), steps.end(), random);
@@ -51,19 +65,24 @@ TEST_P(EveryScheme, ReplaysToTheRecountWhereAllDriftSlowly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Im, EveryScheme, testing::ValuesIn(filter_names()), [](const auto& info) { return info.param; });
-INSTANTIATE_TEST_SUITE_P(Im, EverySchemeLong, testing::ValuesIn(filter_names()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Im, EveryScheme, testing::ValuesIn(filter_names()),
+                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Im, EverySchemeLong, testing::ValuesIn(filter_names()),
+                         [](const auto& info) { return info.param; });
 
 TEST(Filter, GivesTheSameChangesForTheSameCallsInAnyOrderWithinATick) {
   Random random(7);
-  const auto forwards = make_filter("region", {.world = {0.0, 0.0, side, side}}), backwards = make_filter("region", {.world = {0.0, 0.0, 1.0, 1.0}});
+  const auto forwards = make_filter("region", {.world = {0.0, 0.0, side, side}}),
+             backwards = make_filter("region", {.world = {0.0, 0.0, 1.0, 1.0}});
   for (int tick = 0; tick < 20; ++tick) {
     std::vector<Region> regions;
     for (int i = 0; i < 200; ++i) regions.push_back(draw_random(random, 2.0));
     for (std::uint32_t i = 0; i < 200; ++i) {
       const std::uint32_t j = 199 - i;
-      i < 180 ? forwards->set_update_region(i, regions[i]) : forwards->set_subscription_region(i, regions[i]);
-      j < 180 ? backwards->set_update_region(j, regions[j]) : backwards->set_subscription_region(j, regions[j]);
+      i < 180 ? forwards->set_update_region(i, regions[i])
+              : forwards->set_subscription_region(i, regions[i]);
+      j < 180 ? backwards->set_update_region(j, regions[j])
+              : backwards->set_subscription_region(j, regions[j]);
     }
     const auto a = forwards->match(), b = backwards->match();
     ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << "tick " << tick;

@@ -1,4 +1,5 @@
-// What the cases that are written out one at a time share: a world, points in it, and a match's changes to keep.
+// What the cases that are written out one at a time share: a world, points in it, and a match's
+// changes to keep.
 #pragma once
 
 #include <vector>

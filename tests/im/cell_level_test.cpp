@@ -1,4 +1,5 @@
-// The cells of a level are numbered without a gap or a number too many, however long and thin a world is.
+// The cells of a level are numbered without a gap or a number too many, however long and thin a
+// world is.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,7 +12,8 @@ namespace {
 /// Single precision tells no whole numbers beyond 2^24 apart, and the last column is one of them.
 TEST(CellLevel, HasNoBoxBeyondItsLastColumn) {
   constexpr Region world{0.0, 0.0, 1e6, 1.0};
-  constexpr std::array boxes{FloatBox{10.0f, 0.0f, 10.1f, 0.1f}, FloatBox{20.0f, 0.0f, 20.1f, 0.1f}};
+  constexpr std::array boxes{FloatBox{10.0f, 0.0f, 10.1f, 0.1f},
+                             FloatBox{20.0f, 0.0f, 20.1f, 0.1f}};
   for (std::uint32_t box_count = 8'388'609; box_count < 8'388'613; ++box_count) {
     SizeLevels sizes;
     for (std::uint32_t i = 0; i < box_count; ++i) sizes.count(0.1f);

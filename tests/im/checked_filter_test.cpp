@@ -13,16 +13,19 @@ namespace {
 
 using testing::IsEmpty;
 
-constexpr double infinite = std::numeric_limits<double>::infinity(), not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity(),
+                 not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr Region low_corner{1.0, 1.0, 2.0, 2.0}, high_corner{8.0, 8.0, 9.0, 9.0};
 
 class Strangers : public testing::TestWithParam<std::string> {
  protected:
-  CheckedFilter filter_{make_filter(GetParam(), {.world = {0.0, 0.0, 10.0, 10.0}, .cell_size = 1.0}), 100};
+  CheckedFilter filter_{
+      make_filter(GetParam(), {.world = {0.0, 0.0, 10.0, 10.0}, .cell_size = 1.0}), 100};
 
   /// For schemes that go by roles: everybody belongs together.
   void befriend(Entity entity, Subscriber subscriber) {
-    EXPECT_FALSE(filter_.set_entity_role(entity, {.team = 1, .owner = 1, .is_always_relevant = true}));
+    EXPECT_FALSE(
+        filter_.set_entity_role(entity, {.team = 1, .owner = 1, .is_always_relevant = true}));
     EXPECT_FALSE(filter_.set_subscriber_role(subscriber, {.team = 1, .owner = 1}));
   }
 
@@ -32,34 +35,45 @@ class Strangers : public testing::TestWithParam<std::string> {
   }
 };
 
-std::string words(const std::optional<Rejection>& rejection) { return rejection ? describe(*rejection) : ""; }
+std::string words(const std::optional<Rejection>& rejection) {
+  return rejection ? describe(*rejection) : "";
+}
 
 TEST_P(Strangers, AreToldWhatWasWrongAndWhoseItWas) {
-  EXPECT_EQ(words(filter_.add_entity(7, {2.0, 1.0, 1.0, 2.0})), "update region 7 is inverted: its low exceeds its high");
-  EXPECT_EQ(words(filter_.add_entity(7, {not_a_number, 1.0, 1.0, 2.0})), "update region 7 is not finite: a coordinate is infinite or not a number");
+  EXPECT_EQ(words(filter_.add_entity(7, {2.0, 1.0, 1.0, 2.0})),
+            "update region 7 is inverted: its low exceeds its high");
+  EXPECT_EQ(words(filter_.add_entity(7, {not_a_number, 1.0, 1.0, 2.0})),
+            "update region 7 is not finite: a coordinate is infinite or not a number");
   EXPECT_EQ(words(filter_.move_entity(7, low_corner)), "update region 7 is not known");
   EXPECT_EQ(words(filter_.remove_entity(7)), "update region 7 is not known");
-  EXPECT_EQ(words(filter_.add_entity(100, low_corner)), "update region 100 has an id that is too large");
+  EXPECT_EQ(words(filter_.add_entity(100, low_corner)),
+            "update region 100 has an id that is too large");
   EXPECT_EQ(words(filter_.add_entity(7, low_corner)), "");
   EXPECT_EQ(words(filter_.add_entity(7, high_corner)), "update region 7 is there already");
   EXPECT_EQ(words(filter_.add_subscriber(3, low_corner)), "");
   EXPECT_EQ(words(filter_.add_subscriber(3, low_corner)), "subscription region 3 is there already");
-  EXPECT_EQ(words(filter_.move_subscriber(3, {0.0, 0.0, infinite, 1.0})), "subscription region 3 is not finite: a coordinate is infinite or not a number");
+  EXPECT_EQ(words(filter_.move_subscriber(3, {0.0, 0.0, infinite, 1.0})),
+            "subscription region 3 is not finite: a coordinate is infinite or not a number");
   EXPECT_EQ(words(filter_.remove_subscriber(4)), "subscription region 4 is not known");
   befriend(7, 3);
-  EXPECT_EQ(words(filter_.turn(3, {infinite, 0.0})), "the heading of subscriber 3 is not finite: a coordinate is infinite or not a number");
+  EXPECT_EQ(words(filter_.turn(3, {infinite, 0.0})),
+            "the heading of subscriber 3 is not finite: a coordinate is infinite or not a number");
   EXPECT_EQ(words(filter_.turn(4, {1.0, 0.0})), "subscription region 4 is not known");
   EXPECT_EQ(words(filter_.set_entity_role(3, {})), "update region 3 is not known");
   EXPECT_EQ(words(filter_.set_subscriber_role(7, {})), "subscription region 7 is not known");
-  EXPECT_EQ(words(filter_.fly_entity(7, {.velocity_x = not_a_number})), "the flight of entity 7 is not finite: a coordinate is infinite or not a number");
-  EXPECT_EQ(words(filter_.fly_entity(7, {.velocity_x = 1e200})), "the flight of entity 7 goes beyond 1e150, where its places have no numbers");
-  EXPECT_EQ(words(filter_.fly_subscriber(3, {.time = infinite})), "the flight of subscriber 3 is not finite: a coordinate is infinite or not a number");
+  EXPECT_EQ(words(filter_.fly_entity(7, {.velocity_x = not_a_number})),
+            "the flight of entity 7 is not finite: a coordinate is infinite or not a number");
+  EXPECT_EQ(words(filter_.fly_entity(7, {.velocity_x = 1e200})),
+            "the flight of entity 7 goes beyond 1e150, where its places have no numbers");
+  EXPECT_EQ(words(filter_.fly_subscriber(3, {.time = infinite})),
+            "the flight of subscriber 3 is not finite: a coordinate is infinite or not a number");
   EXPECT_EQ(words(filter_.fly_entity(3, {})), "update region 3 is not known");
   EXPECT_EQ(words(filter_.set_time(0.0)), "") << "which it is to begin with";
   EXPECT_EQ(words(filter_.set_time(2.0)), "");
   EXPECT_EQ(words(filter_.set_time(2.0)), "") << "time may stand still";
   EXPECT_EQ(words(filter_.set_time(1.0)), "the time is before the one before");
-  EXPECT_EQ(words(filter_.set_time(not_a_number)), "the time is not finite: a coordinate is infinite or not a number");
+  EXPECT_EQ(words(filter_.set_time(not_a_number)),
+            "the time is not finite: a coordinate is infinite or not a number");
   const auto changes = match();
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(std::pair(changes[0].subscriber, changes[0].entity), std::pair(3u, 7u));
@@ -85,8 +99,10 @@ TEST_P(Strangers, ChangeNothingByAMistake) {
 /// Every scheme by itself, and every stage, behind combinations too.
 std::vector<std::string> all_kinds() {
   std::vector<std::string> kinds = filter_names();
-  for (const char* stage : {"hysteresis(margin=0.5)", "dwell(matches=1)", "tiers(at=0.5)", "swept(horizon=1)", "priority"})
-    for (const char* scheme : {"region", "(aura or cone) and not (team and grid) or always"}) kinds.push_back(std::string(scheme) + " with " + stage);
+  for (const char* stage : {"hysteresis(margin=0.5)", "dwell(matches=1)", "tiers(at=0.5)",
+                            "swept(horizon=1)", "priority"})
+    for (const char* scheme : {"region", "(aura or cone) and not (team and grid) or always"})
+      kinds.push_back(std::string(scheme) + " with " + stage);
   return kinds;
 }
 
@@ -96,9 +112,13 @@ INSTANTIATE_TEST_SUITE_P(Filter, Strangers, testing::ValuesIn(all_kinds()),
 TEST(FilterSettings, NeedAWorldWithAnAreaAndCellsWithASize) {
   const Region world{0.0, 0.0, 10.0, 10.0};
   EXPECT_FALSE(check({.world = world, .cell_size = 1.0}));
-  EXPECT_EQ(words(check({.world = {0.0, 0.0, 0.0, 10.0}, .cell_size = 1.0})), "the world has no area");
-  EXPECT_EQ(words(check({.world = {0.0, 5.0, 1.0, 1.0}, .cell_size = 1.0})), "the world is inverted: its low exceeds its high");
-  for (const double bad : {0.0, -1.0, infinite, not_a_number}) EXPECT_EQ(words(check({.world = world, .cell_size = bad})), "the cell size is not a positive finite number");
+  EXPECT_EQ(words(check({.world = {0.0, 0.0, 0.0, 10.0}, .cell_size = 1.0})),
+            "the world has no area");
+  EXPECT_EQ(words(check({.world = {0.0, 5.0, 1.0, 1.0}, .cell_size = 1.0})),
+            "the world is inverted: its low exceeds its high");
+  for (const double bad : {0.0, -1.0, infinite, not_a_number})
+    EXPECT_EQ(words(check({.world = world, .cell_size = bad})),
+              "the cell size is not a positive finite number");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The cell that `grid` remembers of each entity: what it skips must be what stays in its cell, and nothing else.
+// The cell that `grid` remembers of each entity: what it skips must be what stays in its cell, and
+// nothing else.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,16 +8,19 @@
 #include <set>
 #include <vector>
 
-#include "im/schemes/cells.h"
 #include "im/filter.h"
+#include "im/schemes/cells.h"
 
 namespace rink::im {
 namespace {
 
 TEST(Floored, IsTheLibrarysFloor) {
   std::mt19937_64 random(3);
-  const auto expect = [](double number) { EXPECT_EQ(floored(number), std::floor(number)) << number; };
-  for (const double edge : {0.0, -0.0, 0.5, -0.5, 1.0, -1.0, 0x1p31, -0x1p31, 0x1p52, -0x1p52, 0x1p53 + 2.0, 1e300, -1e300, 5e-324, -5e-324}) {
+  const auto expect = [](double number) {
+    EXPECT_EQ(floored(number), std::floor(number)) << number;
+  };
+  for (const double edge : {0.0, -0.0, 0.5, -0.5, 1.0, -1.0, 0x1p31, -0x1p31, 0x1p52, -0x1p52,
+                            0x1p53 + 2.0, 1e300, -1e300, 5e-324, -5e-324}) {
     expect(edge);
     expect(std::nextafter(edge, 1e308)), expect(std::nextafter(edge, -1e308));
   }
@@ -36,7 +40,8 @@ TEST(Grid, WhatItSkipsHasStayedInItsCell) {
   std::vector<Region> entities(count), views(count);
   std::vector<bool> is_there(count, false);
   std::set<std::pair<Subscriber, Entity>> held;
-  // Steps of a quarter of a cell, so that many centres lie on a cell's edge; some are farther away than 32 bits count, or than any cell has a number of its own.
+  // Steps of a quarter of a cell, so that many centres lie on a cell's edge; some are farther away
+  // than 32 bits count, or than any cell has a number of its own.
   const auto coordinate = [&random](double origin) {
     const int kind = std::uniform_int_distribution<int>(0, 40)(random);
     if (kind == 0) return 1e10;
@@ -78,14 +83,18 @@ TEST(Grid, WhatItSkipsHasStayedInItsCell) {
     }
     EXPECT_EQ(filter->counters().regions_moved - moved_before, crossed) << step;
     for (const Change& change : filter->match()) {
-      if (change.transition == Transition::entered) EXPECT_TRUE(held.insert({change.subscriber, change.entity}).second);
+      if (change.transition == Transition::entered)
+        EXPECT_TRUE(held.insert({change.subscriber, change.entity}).second);
       else EXPECT_EQ(held.erase({change.subscriber, change.entity}), 1u);
     }
     std::set<std::pair<Subscriber, Entity>> expected;
     for (std::uint32_t s = 0; s < count; ++s)
       for (std::uint32_t e = 0; e < count; ++e) {
-        const Region touched = cells_of(views[s], world, size), cell = cells_of(centre_of(entities[e]), world, size);
-        if (is_there[e] && touched.low_x <= cell.low_x && cell.low_x <= touched.high_x && touched.low_y <= cell.low_y && cell.low_y <= touched.high_y) expected.insert({s, e});
+        const Region touched = cells_of(views[s], world, size),
+                     cell = cells_of(centre_of(entities[e]), world, size);
+        if (is_there[e] && touched.low_x <= cell.low_x && cell.low_x <= touched.high_x &&
+            touched.low_y <= cell.low_y && cell.low_y <= touched.high_y)
+          expected.insert({s, e});
       }
     ASSERT_EQ(held, expected) << step;
   }

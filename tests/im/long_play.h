@@ -21,7 +21,9 @@ inline Heading draw_heading(Random& random) {
 inline Role draw_role(Random& random) {
   const auto number = [&random] {
     const double drawn = std::floor(between(random, 0.0, 5.0));
-    return drawn == 0.0 ? Role::none : drawn == 1.0 ? Role::none - 1u : static_cast<std::uint32_t>(drawn);
+    return drawn == 0.0   ? Role::none
+           : drawn == 1.0 ? Role::none - 1u
+                          : static_cast<std::uint32_t>(drawn);
   };
   Role role{.team = number(), .owner = 0, .is_always_relevant = false};
   role.owner = number();
@@ -29,7 +31,8 @@ inline Role draw_role(Random& random) {
   return role;
 }
 
-/// A round of what may happen between two matches; `activity` is the share of ids that something happens to.
+/// A round of what may happen between two matches; `activity` is the share of ids that something
+/// happens to.
 inline void disturb(Judged& judged, Random& random, const Layout& layout, double activity) {
   constexpr std::uint32_t entity_max = 60, subscriber_max = 15;
   constexpr double entity_half = 0.5, subscriber_half = 3.0;
@@ -38,7 +41,8 @@ inline void disturb(Judged& judged, Random& random, const Layout& layout, double
     if (!happens(activity)) continue;
     if (happens(0.1)) judged.remove_entity(entity);
     const auto found = judged.entities().find(entity);
-    if (found != judged.entities().end()) judged.move_entity(entity, moved(random, found->second, layout, entity_half));
+    if (found != judged.entities().end())
+      judged.move_entity(entity, moved(random, found->second, layout, entity_half));
     else if (happens(0.5)) judged.move_entity(entity, layout.draw(random, entity_half));
     if (happens(0.2)) judged.take_role(entity, draw_role(random));
   }
@@ -46,7 +50,8 @@ inline void disturb(Judged& judged, Random& random, const Layout& layout, double
     if (!happens(activity)) continue;
     if (happens(0.1)) judged.remove_subscriber(subscriber);
     const auto found = judged.subscribers().find(subscriber);
-    if (found != judged.subscribers().end()) judged.move_subscriber(subscriber, moved(random, found->second, layout, subscriber_half));
+    if (found != judged.subscribers().end())
+      judged.move_subscriber(subscriber, moved(random, found->second, layout, subscriber_half));
     else if (happens(0.5)) judged.move_subscriber(subscriber, layout.draw(random, subscriber_half));
     if (happens(0.2)) judged.join(subscriber, draw_role(random));
     if (happens(0.2)) judged.turn(subscriber, draw_heading(random));
@@ -56,8 +61,11 @@ inline void disturb(Judged& judged, Random& random, const Layout& layout, double
 /// Angles and posts that touch a lattice, and others.
 inline FilterSettings settings_for(std::uint64_t seed) {
   constexpr std::array half_angles{45.0, 60.0, 90.0, 135.0, 17.0, 180.0, 0.0, 120.0, 100.0, 179.5};
-  FilterSettings settings{.world = {0.0, 0.0, side, side}, .cell_size = seed % 2 == 0 ? 1.0 : 0.7, .half_angle_deg = half_angles[seed % half_angles.size()]};
-  settings.posts = {{2.0, 2.0, 1.0}, {4.0, 4.0, 0.5}, {8.0, 8.25, 1.5}, {12.0, 3.0, 0.25}, {5.0, 12.0, 2.0}, {1.0, 0.5, 0.0}};
+  FilterSettings settings{.world = {0.0, 0.0, side, side},
+                          .cell_size = seed % 2 == 0 ? 1.0 : 0.7,
+                          .half_angle_deg = half_angles[seed % half_angles.size()]};
+  settings.posts = {{2.0, 2.0, 1.0},   {4.0, 4.0, 0.5},  {8.0, 8.25, 1.5},
+                    {12.0, 3.0, 0.25}, {5.0, 12.0, 2.0}, {1.0, 0.5, 0.0}};
   Random random(seed);
   for (int i = 0; i < 4; ++i) {
     const double x = between(random, 0.0, side), y = between(random, 0.0, side);

@@ -1,4 +1,5 @@
-// Interest by brute force: every pair looked at anew, written apart from the filters that it judges.
+// Interest by brute force: every pair looked at anew, written apart from the filters that it
+// judges.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,91 +23,138 @@
 namespace rink::im {
 
 using Pairs = std::set<std::pair<Subscriber, Entity>>;
-using Relevant = std::function<bool(const Observer& subscription, const Body& update)>;  // rules that know no headings fit as well
+using Relevant = std::function<bool(
+    const Observer& subscription, const Body& update)>;  // rules that know no headings fit as well
 
-/// The nearest point of `update` is in the closed disc that `subscription` holds. Wide enough that only rounding of a 64th bit could matter.
+/// The nearest point of `update` is in the closed disc that `subscription` holds. Wide enough that
+/// only rounding of a 64th bit could matter.
 inline bool disc_touches(const Region& subscription, const Region& update) {
-  const auto offset = [](long double low, long double high, long double update_low, long double update_high) {
+  const auto offset = [](long double low, long double high, long double update_low,
+                         long double update_high) {
     const long double middle = (low + high) / 2.0L;
     return std::clamp(middle, update_low, update_high) - middle;
   };
-  const long double radius = std::min((subscription.high_x - 0.0L - subscription.low_x) / 2.0L, (subscription.high_y - 0.0L - subscription.low_y) / 2.0L);
-  const long double x = offset(subscription.low_x, subscription.high_x, update.low_x, update.high_x);
-  const long double y = offset(subscription.low_y, subscription.high_y, update.low_y, update.high_y);
+  const long double radius = std::min((subscription.high_x - 0.0L - subscription.low_x) / 2.0L,
+                                      (subscription.high_y - 0.0L - subscription.low_y) / 2.0L);
+  const long double x =
+      offset(subscription.low_x, subscription.high_x, update.low_x, update.high_x);
+  const long double y =
+      offset(subscription.low_y, subscription.high_y, update.low_y, update.high_y);
   return radius * radius >= x * x + y * y;
 }
 
-inline bool overlap_closed(const Region& s, const Region& u) { return !(u.high_x < s.low_x || s.high_x < u.low_x || u.high_y < s.low_y || s.high_y < u.low_y); }
+inline bool overlap_closed(const Region& s, const Region& u) {
+  return !(u.high_x < s.low_x || s.high_x < u.low_x || u.high_y < s.low_y || s.high_y < u.low_y);
+}
 
 inline double middle(double low, double high) { return low / 2.0 + high / 2.0; }
 
 /// The cell of the middle of `update` is one that `subscription` touches.
 inline bool grid_touches(const FilterSettings& settings, const Region& s, const Region& u) {
-  const auto cell = [&](double coordinate, double origin) { return std::floor((coordinate - origin) / settings.cell_size); };
-  const double column = cell(middle(u.low_x, u.high_x), settings.world.low_x), row = cell(middle(u.low_y, u.high_y), settings.world.low_y);
-  return cell(s.low_x, settings.world.low_x) <= column && column <= cell(s.high_x, settings.world.low_x) && cell(s.low_y, settings.world.low_y) <= row &&
-         row <= cell(s.high_y, settings.world.low_y);
+  const auto cell = [&](double coordinate, double origin) {
+    return std::floor((coordinate - origin) / settings.cell_size);
+  };
+  const double column = cell(middle(u.low_x, u.high_x), settings.world.low_x),
+               row = cell(middle(u.low_y, u.high_y), settings.world.low_y);
+  return cell(s.low_x, settings.world.low_x) <= column &&
+         column <= cell(s.high_x, settings.world.low_x) &&
+         cell(s.low_y, settings.world.low_y) <= row && row <= cell(s.high_y, settings.world.low_y);
 }
 
-/// The same, half-open to the last bit, at a side that is the settings' doubled until `update` does not exceed it.
+/// The same, half-open to the last bit, at a side that is the settings' doubled until `update` does
+/// not exceed it.
 inline bool level_touches(const FilterSettings& settings, const Region& s, const Region& u) {
-  const double longer = std::min(std::max(u.high_x - u.low_x, u.high_y - u.low_y), std::numeric_limits<double>::max() / 4.0);
-  const double size = settings.cell_size * static_cast<double>(std::exp2(std::max(0.0L, std::ceil(std::log2(longer / (settings.cell_size + 0.0L))))));
+  const double longer = std::min(std::max(u.high_x - u.low_x, u.high_y - u.low_y),
+                                 std::numeric_limits<double>::max() / 4.0);
+  const double size =
+      settings.cell_size * static_cast<double>(std::exp2(std::max(
+                               0.0L, std::ceil(std::log2(longer / (settings.cell_size + 0.0L))))));
   const auto touches = [size](double origin, double centre, double low, double high) {
-    const double number = std::floor((centre - origin) / size), first = origin + number * size, end = origin + (number + 1.0) * size;
+    const double number = std::floor((centre - origin) / size), first = origin + number * size,
+                 end = origin + (number + 1.0) * size;
     return first <= high && (low < end || (first == end && low == end));
   };
-  return touches(settings.world.low_x, middle(u.low_x, u.high_x), s.low_x, s.high_x) && touches(settings.world.low_y, middle(u.low_y, u.high_y), s.low_y, s.high_y);
+  return touches(settings.world.low_x, middle(u.low_x, u.high_x), s.low_x, s.high_x) &&
+         touches(settings.world.low_y, middle(u.low_y, u.high_y), s.low_y, s.high_y);
 }
 
-/// The hexagon whose middle is nearest to that of `update`, looked for among all around it (of equals the right one), cut with `subscription` along the normals of all sides.
+/// The hexagon whose middle is nearest to that of `update`, looked for among all around it (of
+/// equals the right one), cut with `subscription` along the normals of all sides.
 inline bool hexagon_touches(const FilterSettings& settings, const Region& s, const Region& u) {
-  const double width = settings.cell_size, row_height = width * std::sqrt(3.0) / 2.0, x = middle(u.low_x, u.high_x), y = middle(u.low_y, u.high_y);
-  const double near_row = std::floor((y - settings.world.low_y) / row_height), near_column = std::floor((x - settings.world.low_x) / width);
+  const double width = settings.cell_size, row_height = width * std::sqrt(3.0) / 2.0,
+               x = middle(u.low_x, u.high_x), y = middle(u.low_y, u.high_y);
+  const double near_row = std::floor((y - settings.world.low_y) / row_height),
+               near_column = std::floor((x - settings.world.low_x) / width);
   double best = std::numeric_limits<double>::infinity(), best_x = 0.0, best_y = 0.0;
   for (int around = 0; around < 9; ++around) {
     const double row = near_row + around / 3 - 1, column = near_column + around % 3 - 1;
-    const double middle_x = settings.world.low_x + (column + (std::fmod(row, 2.0) == 0.0 ? 0.0 : 0.5)) * width, middle_y = settings.world.low_y + row * row_height;
+    const double middle_x = settings.world.low_x +
+                            (column + (std::fmod(row, 2.0) == 0.0 ? 0.0 : 0.5)) * width,
+                 middle_y = settings.world.low_y + row * row_height;
     const double distance = std::hypot(x - middle_x, y - middle_y);
     if (distance <= best) best = distance, best_x = middle_x, best_y = middle_y;
   }
   const double half_width = width / 2.0, half_height = width / std::sqrt(3.0);
-  if (!overlap_closed(s, {best_x - half_width, best_y - half_height, best_x + half_width, best_y + half_height})) return false;
+  if (!overlap_closed(s, {best_x - half_width, best_y - half_height, best_x + half_width,
+                          best_y + half_height}))
+    return false;
   for (const double slope : {-std::sqrt(3.0), std::sqrt(3.0)}) {
-    const double corners[] = {s.low_x + slope * s.low_y, s.low_x + slope * s.high_y, s.high_x + slope * s.low_y, s.high_x + slope * s.high_y};
+    const double corners[] = {s.low_x + slope * s.low_y, s.low_x + slope * s.high_y,
+                              s.high_x + slope * s.low_y, s.high_x + slope * s.high_y};
     const auto [low, high] = std::minmax_element(std::begin(corners), std::end(corners));
-    if (*high < best_x + slope * best_y - width || *low > best_x + slope * best_y + width) return false;
+    if (*high < best_x + slope * best_y - width || *low > best_x + slope * best_y + width)
+      return false;
   }
   return true;
 }
 
-/// Steps along the axes from the subscription's middle to the nearest point of `update`, against half its shorter side.
+/// Steps along the axes from the subscription's middle to the nearest point of `update`, against
+/// half its shorter side.
 inline bool diamond_touches(const Region& s, const Region& u) {
   if (!overlap_closed(s, u)) return false;
-  const auto away = [](double at, double low, double high) { return at < low ? low - at : at > high ? at - high : 0.0; };
-  return away(middle(s.low_x, s.high_x), u.low_x, u.high_x) + away(middle(s.low_y, s.high_y), u.low_y, u.high_y) <= std::min(s.high_x - s.low_x, s.high_y - s.low_y) / 2.0;
+  const auto away = [](double at, double low, double high) {
+    return at < low ? low - at : at > high ? at - high : 0.0;
+  };
+  return away(middle(s.low_x, s.high_x), u.low_x, u.high_x) +
+             away(middle(s.low_y, s.high_y), u.low_y, u.high_y) <=
+         std::min(s.high_x - s.low_x, s.high_y - s.low_y) / 2.0;
 }
 
 inline bool strip_touches(const FilterSettings& settings, const Region& s, const Region& u) {
-  const auto strip = [&](double coordinate) { return std::floor((coordinate - settings.world.low_x) / settings.cell_size); };
+  const auto strip = [&](double coordinate) {
+    return std::floor((coordinate - settings.world.low_x) / settings.cell_size);
+  };
   const double own = strip(middle(u.low_x, u.high_x));
   return strip(s.low_x) <= own && own <= strip(s.high_x);
 }
 
 /// What each scheme promises, one pair at a time.
 inline Relevant rule_of(const std::string& scheme, const FilterSettings& settings) {
-  const auto with_settings = [settings](bool (*rule)(const FilterSettings&, const Region&, const Region&)) {
-    return [=](const Region& s, const Region& u) { return rule(settings, s, u); };
-  };
+  const auto with_settings =
+      [settings](bool (*rule)(const FilterSettings&, const Region&, const Region&)) {
+        return [=](const Region& s, const Region& u) { return rule(settings, s, u); };
+      };
   if (scheme == "none") return [](const Region&, const Region&) { return true; };
   if (scheme == "region") return overlap_closed;
   if (scheme == "aura") return disc_touches;
-  if (scheme == "hybrid") return [settings](const Region& s, const Region& u) { return grid_touches(settings, s, u) && overlap_closed(s, u); };
+  if (scheme == "hybrid")
+    return [settings](const Region& s, const Region& u) {
+      return grid_touches(settings, s, u) && overlap_closed(s, u);
+    };
   if (scheme == "hierarchical") return with_settings(level_touches);
-  if (scheme == "always") return [](const Observer&, const Body& u) { return u.role.is_always_relevant; };
-  if (scheme == "owner") return [](const Observer& s, const Body& u) { return u.role.owner != Role::none && u.role.owner == s.role.owner; };
-  if (scheme == "team") return [](const Observer& s, const Body& u) { return u.role.team != Role::none && u.role.team == s.role.team; };
-  if (scheme == "cone") return [settings](const Observer& s, const Region& u) { return sector_touches(settings, s, u); };
+  if (scheme == "always")
+    return [](const Observer&, const Body& u) { return u.role.is_always_relevant; };
+  if (scheme == "owner")
+    return [](const Observer& s, const Body& u) {
+      return u.role.owner != Role::none && u.role.owner == s.role.owner;
+    };
+  if (scheme == "team")
+    return [](const Observer& s, const Body& u) {
+      return u.role.team != Role::none && u.role.team == s.role.team;
+    };
+  if (scheme == "cone")
+    return
+        [settings](const Observer& s, const Region& u) { return sector_touches(settings, s, u); };
   if (scheme == "sight") return with_settings(is_in_sight);
   if (scheme == "diamond") return diamond_touches;
   if (scheme == "strips") return with_settings(strip_touches);
@@ -114,12 +162,15 @@ inline Relevant rule_of(const std::string& scheme, const FilterSettings& setting
   return with_settings(grid_touches);
 }
 
-/// A filter together with all it was told, its reported changes replayed, and the rule it must agree with.
+/// A filter together with all it was told, its reported changes replayed, and the rule it must
+/// agree with.
 class Judged {
  public:
-  Judged(const std::string& scheme, const FilterSettings& settings) : Judged(make_filter(scheme, settings), rule_of(scheme, settings)) {}
+  Judged(const std::string& scheme, const FilterSettings& settings)
+      : Judged(make_filter(scheme, settings), rule_of(scheme, settings)) {}
   /// Who is in goes on being so while `stays` says so.
-  Judged(std::unique_ptr<Filter> filter, Relevant relevant, Relevant stays = nullptr) : filter_(std::move(filter)), relevant_(std::move(relevant)), stays_(std::move(stays)) {}
+  Judged(std::unique_ptr<Filter> filter, Relevant relevant, Relevant stays = nullptr)
+      : filter_(std::move(filter)), relevant_(std::move(relevant)), stays_(std::move(stays)) {}
 
   void move_entity(Entity entity, const Region& region) {
     filter_->set_update_region(entity, region);
@@ -166,13 +217,15 @@ class Judged {
       const Change& change = changes[i];
       const std::pair pair{change.subscriber, change.entity};
       if (i > 0) {
-        ASSERT_LT(std::pair(changes[i - 1].subscriber, changes[i - 1].entity), pair) << "out of order or doubled";
+        ASSERT_LT(std::pair(changes[i - 1].subscriber, changes[i - 1].entity), pair)
+            << "out of order or doubled";
       }
       if (change.transition == Transition::tier_changed) {
         ASSERT_TRUE(known_.contains(pair)) << "another tier of who is not there";
         continue;
       }
-      const bool is_news = change.transition == Transition::entered ? known_.insert(pair).second : known_.erase(pair) == 1;
+      const bool is_news = change.transition == Transition::entered ? known_.insert(pair).second
+                                                                    : known_.erase(pair) == 1;
       ASSERT_TRUE(is_news) << "subscriber " << pair.first << " entity " << pair.second;
     }
     ASSERT_EQ(known_, expected);
@@ -182,7 +235,9 @@ class Judged {
     Pairs pairs;
     for (const auto& [subscriber, subscription] : subscribers_)
       for (const auto& [entity, update] : entities_)
-        if (relevant_(subscription, update) || (stays_ && before.contains({subscriber, entity}) && stays_(subscription, update))) pairs.insert({subscriber, entity});
+        if (relevant_(subscription, update) ||
+            (stays_ && before.contains({subscriber, entity}) && stays_(subscription, update)))
+          pairs.insert({subscriber, entity});
     return pairs;
   }
 
@@ -205,8 +260,8 @@ class Judged {
   Relevant relevant_, stays_;
   std::map<Entity, Body> entities_;
   std::map<Subscriber, Observer> subscribers_;
-  std::set<Subscriber> turned_;                                  // were told where to look
-  std::map<Subscriber, std::pair<double, double>> middles_;      // at the last match
+  std::set<Subscriber> turned_;                              // were told where to look
+  std::map<Subscriber, std::pair<double, double>> middles_;  // at the last match
   Pairs known_;
 };
 

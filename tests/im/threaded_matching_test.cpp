@@ -1,4 +1,5 @@
-// Half of a match on a second core: the same pairs and changes in the same order as alone, and nobody woken for little.
+// Half of a match on a second core: the same pairs and changes in the same order as alone, and
+// nobody woken for little.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "rti/second_core.h"
 #include "im/matching/batch_matcher.h"
 #include "im/schemes/overlap_filter.h"
+#include "rti/second_core.h"
 #include "tests/im/cases.h"
 #include "tests/im/long_play.h"
 
@@ -25,7 +26,8 @@ std::vector<Region> regions(std::size_t count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<Region> all;
   for (std::size_t i = 0; i < count; ++i) {
-    const double x = std::uniform_int_distribution<int>(0, 99)(random), y = std::uniform_int_distribution<int>(0, 99)(random);
+    const double x = std::uniform_int_distribution<int>(0, 99)(random),
+                 y = std::uniform_int_distribution<int>(0, 99)(random);
     const double side = std::uniform_int_distribution<int>(0, 3)(random);
     all.push_back({x, y, x + side, y + side});
   }
@@ -40,10 +42,11 @@ struct Answer {
 
 Answer answer_of(const BatchMatcher& matcher) {
   Answer answer{{}, matcher.pairs_tested()};
-  matcher.for_each_subscription([&](std::uint32_t subscription, std::span<const std::uint32_t> updates) {
-    answer.found.emplace_back(1, subscription);
-    answer.found.back().insert(answer.found.back().end(), updates.begin(), updates.end());
-  });
+  matcher.for_each_subscription(
+      [&](std::uint32_t subscription, std::span<const std::uint32_t> updates) {
+        answer.found.emplace_back(1, subscription);
+        answer.found.back().insert(answer.found.back().end(), updates.begin(), updates.end());
+      });
   return answer;
 }
 
@@ -55,7 +58,8 @@ TEST(ThreadedMatching, ABatchIsTheSameWithASecondCore) {
   shared.share_with(&second_core);
   for (const std::size_t count : {5000u, 4096u, 20'000u, 4097u}) {
     auto updates = regions(count, count), subscriptions = regions(count, count + 1);
-    updates[7].low_x = NAN, subscriptions[3].high_y = -1.0, subscriptions[count - 1].low_x = INFINITY;
+    updates[7].low_x = NAN, subscriptions[3].high_y = -1.0,
+    subscriptions[count - 1].low_x = INFINITY;
     alone.match(updates, subscriptions), shared.match(updates, subscriptions);
     EXPECT_EQ(answer_of(alone), answer_of(shared)) << count;
     ASSERT_EQ(shared.rejections().size(), 3u);
@@ -75,34 +79,44 @@ TEST(ThreadedMatching, ChangesAreTheSameWithASecondCoreWhateverPartMoves) {
     auto entities = regions(12'000, 1), subscribers = regions(subscriber_count, 2);
     for (const double share : {1.0, 1.0, 0.1, 0.14, 0.01, 0.5, 0.0, 1.0}) {
       for (OverlapFilter* filter : {&alone, &shared}) {
-        for (std::uint32_t i = 0; i < entities.size(); ++i) filter->set_update_region(i, entities[i]);
-        for (std::uint32_t i = 0; i < subscribers.size(); ++i) filter->set_subscription_region(i, subscribers[i]);
+        for (std::uint32_t i = 0; i < entities.size(); ++i)
+          filter->set_update_region(i, entities[i]);
+        for (std::uint32_t i = 0; i < subscribers.size(); ++i)
+          filter->set_subscription_region(i, subscribers[i]);
         if (share == 0.5) filter->remove_entity(17), filter->remove_subscriber(5);
       }
       const auto expected = alone.match(), changes = shared.match();
-      EXPECT_EQ(std::vector<Change>(expected.begin(), expected.end()), std::vector<Change>(changes.begin(), changes.end())) << share;
+      EXPECT_EQ(std::vector<Change>(expected.begin(), expected.end()),
+                std::vector<Change>(changes.begin(), changes.end()))
+          << share;
       EXPECT_EQ(alone.counters().pairs_tested, shared.counters().pairs_tested);
       for (std::vector<Region>* side : {&entities, &subscribers})
         for (Region& region : *side) {
           if (std::uniform_real_distribution<double>(0.0, 1.0)(random) >= share) continue;
           const double step = std::uniform_int_distribution<int>(-1, 1)(random);
-          region = {region.low_x + step, region.low_y - step, region.high_x + step, region.high_y - step};
+          region = {region.low_x + step, region.low_y - step, region.high_x + step,
+                    region.high_y - step};
         }
     }
     EXPECT_GE(second_core.task_count(), 4u);
   }
 }
 
-/// A worker that is asked for everything: each scheme, and what stands on top of schemes, on layouts that are small enough for many turns.
+/// A worker that is asked for everything: each scheme, and what stands on top of schemes, on
+/// layouts that are small enough for many turns.
 TEST(ThreadedMatching, EverySchemeIsTheSameWithASecondCore) {
   std::vector<std::string> all = filter_names();
-  for (const char* composed : {"aura and not sight", "region with hysteresis(margin=0.5) with dwell(matches=3)", "aura with tiers(at=0.3 at=0.6)"}) all.emplace_back(composed);
+  for (const char* composed :
+       {"aura and not sight", "region with hysteresis(margin=0.5) with dwell(matches=3)",
+        "aura with tiers(at=0.3 at=0.6)"})
+    all.emplace_back(composed);
   for (const std::string& scheme : all) {
     rti::SecondCore second_core;
     second_core.worth_sharing = {0, 0};
     for (const Layout& layout : layouts) {
       SCOPED_TRACE(scheme + " on " + layout.name);
-      const auto alone = make_filter(scheme, settings_for(3)), shared = make_filter(scheme, settings_for(3));
+      const auto alone = make_filter(scheme, settings_for(3)),
+                 shared = make_filter(scheme, settings_for(3));
       shared->share_with(&second_core);
       Random random(6);
       for (const double share : {1.0, 0.05, 1.0, 0.3, 0.02, 0.0, 1.0}) {
@@ -115,7 +129,8 @@ TEST(ThreadedMatching, EverySchemeIsTheSameWithASecondCore) {
           }
         }
         const auto expected = alone->match(), changes = shared->match();
-        ASSERT_TRUE(std::equal(expected.begin(), expected.end(), changes.begin(), changes.end())) << "a share of " << share;
+        ASSERT_TRUE(std::equal(expected.begin(), expected.end(), changes.begin(), changes.end()))
+            << "a share of " << share;
         ASSERT_EQ(alone->counters().pairs_tested, shared->counters().pairs_tested);
       }
     }
@@ -129,7 +144,9 @@ TEST(ThreadedMatching, NobodyIsWokenForLittle) {
   filter.share_with(&second_core);
   for (int tick = 0; tick < 3; ++tick) {
     const auto entities = regions(2'000, static_cast<std::uint64_t>(tick));
-    for (std::uint32_t i = 0; i < entities.size(); ++i) filter.set_update_region(i, entities[i]), filter.set_subscription_region(i, entities[entities.size() - 1 - i]);
+    for (std::uint32_t i = 0; i < entities.size(); ++i)
+      filter.set_update_region(i, entities[i]),
+          filter.set_subscription_region(i, entities[entities.size() - 1 - i]);
     EXPECT_FALSE(filter.match().empty());
   }
   EXPECT_EQ(second_core.task_count(), 0u);
@@ -139,9 +156,11 @@ TEST(ThreadedMatching, ASecondCoreThatWasNeverNeededEnds) {
   const auto thread_count = [] {
     return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
   };
-  // A thread that has been joined is listed for some microseconds more, and the thread sanitizer starts one of its own beside the first.
+  // A thread that has been joined is listed for some microseconds more, and the thread sanitizer
+  // starts one of its own beside the first.
   const auto comes_to = [&](std::ptrdiff_t count) {
-    for (int waits = 0; waits < 5000 && thread_count() != count; ++waits) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int waits = 0; waits < 5000 && thread_count() != count; ++waits)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return thread_count() == count;
   };
   { const rti::SecondCore first; }
@@ -160,7 +179,8 @@ TEST(ThreadedMatching, EveryTaskHasRunWhenItsWaitReturns) {
   int sum = 0;
   for (int i = 1; i <= 2000; ++i) {
     int own = 0;
-    run_both(&second_core, [&own, i] { own = i; }, [&sum, i] { sum += i; });
+    run_both(
+        &second_core, [&own, i] { own = i; }, [&sum, i] { sum += i; });
     ASSERT_EQ(own, i);
     ASSERT_EQ(sum, i * (i + 1) / 2);
   }

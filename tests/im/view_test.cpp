@@ -1,4 +1,5 @@
-// Fields of view and shadows case by case: closed edges to the last bit, where a subscriber looks, what a post hides, and exact sums.
+// Fields of view and shadows case by case: closed edges to the last bit, where a subscriber looks,
+// what a post hides, and exact sums.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +28,9 @@ std::vector<Entity> entered(Filter& filter) {
 }
 
 TEST(Exact, TellsSumsApartThatDoublesTakeForEqual) {
-  const auto square_less = [](const auto& n) { return (n[0] - n[1]) * (n[0] - n[1]) - n[2] * n[2]; };
+  const auto square_less = [](const auto& n) {
+    return (n[0] - n[1]) * (n[0] - n[1]) - n[2] * n[2];
+  };
   EXPECT_EQ(sign_of(std::array{0x1p60, 0x1p-60, 0x1p60}, square_less), -1);
   EXPECT_EQ(sign_of(std::array{0x1p60, -0x1p-60, 0x1p60}, square_less), 1);
   EXPECT_EQ(sign_of(std::array{0x1p60, 0.0, -0x1p60}, square_less), 0);
@@ -43,7 +46,8 @@ TEST(ConeScheme, IsClosedAtItsEdgesAndItsReachToTheLastBit) {
   filter->set_update_region(1, point(std::nextafter(55.0, 0.0), 55.0));
   filter->set_update_region(2, point(60.0, 50.0));
   filter->set_update_region(3, {std::nextafter(60.0, 61.0), 49.0, 61.0, 51.0});
-  filter->set_update_region(4, {54.0, 55.0, 58.0, 58.0});  // only its corner (58, 55) side is inside, past the edge
+  filter->set_update_region(
+      4, {54.0, 55.0, 58.0, 58.0});  // only its corner (58, 55) side is inside, past the edge
   filter->set_update_region(5, point(50.0, 50.0));         // at the eye
   filter->set_update_region(6, point(45.0, 50.0));         // behind
   filter->set_update_region(7, {40.0, 40.0, 50.0, 50.0});  // behind, but it touches the eye
@@ -57,17 +61,20 @@ TEST(ConeScheme, LooksWhereItWasToldElseWhereItWentElseEverywhere) {
   filter->set_update_region(1, point(45.0, 50.0));
   EXPECT_THAT(entered(*filter), ElementsAre(0, 1)) << "it has not moved yet";
   filter->set_subscription_region(0, {40.5, 40.0, 60.5, 60.0});
-  EXPECT_THAT(match(*filter), ElementsAre(Change{0, 1, Transition::left})) << "it went to the right";
+  EXPECT_THAT(match(*filter), ElementsAre(Change{0, 1, Transition::left}))
+      << "it went to the right";
   EXPECT_THAT(match(*filter), IsEmpty()) << "at rest it goes on looking there";
   filter->set_heading(0, {-1.0, 0.0});
-  EXPECT_THAT(match(*filter), ElementsAre(Change{0, 0, Transition::left}, Change{0, 1, Transition::entered}));
+  EXPECT_THAT(match(*filter),
+              ElementsAre(Change{0, 0, Transition::left}, Change{0, 1, Transition::entered}));
   filter->set_subscription_region(0, viewer);
   filter->set_subscription_region(0, {41.0, 40.0, 61.0, 60.0});
   EXPECT_THAT(match(*filter), IsEmpty()) << "told is told";
   filter->set_heading(0, {});
   EXPECT_THAT(match(*filter), IsEmpty()) << "until it moves";
   filter->set_subscription_region(0, {41.5, 40.0, 61.5, 60.0});
-  EXPECT_THAT(match(*filter), ElementsAre(Change{0, 0, Transition::entered}, Change{0, 1, Transition::left}));
+  EXPECT_THAT(match(*filter),
+              ElementsAre(Change{0, 0, Transition::entered}, Change{0, 1, Transition::left}));
 }
 
 TEST(ConeScheme, LetsANewSubscriberLookEverywhereThoughOneOfItsNumberWentBefore) {
@@ -91,7 +98,8 @@ TEST(ConeScheme, IsNetAndCostsNothingWhereNobodyTurns) {
   const auto filter = make_filter("cone", {.world = arena});
   filter->set_subscription_region(0, viewer);
   filter->set_heading(0, {1.0, 0.0});
-  for (Entity entity = 0; entity < 100; ++entity) filter->set_update_region(entity, point(entity, 50.0));
+  for (Entity entity = 0; entity < 100; ++entity)
+    filter->set_update_region(entity, point(entity, 50.0));
   filter->match();
   const FilterCounters before = filter->counters();
   filter->set_heading(0, {1.0, 0.0});
@@ -105,10 +113,12 @@ TEST(ConeScheme, IsNetAndCostsNothingWhereNobodyTurns) {
   EXPECT_THAT(match(*filter), IsEmpty());
 }
 
-/// Who was told to look along the longest vector there is, then left alone, and then goes another way: what rested in view is out of it.
+/// Who was told to look along the longest vector there is, then left alone, and then goes another
+/// way: what rested in view is out of it.
 TEST(ConeScheme, SeesATurnWhateverTheLengthOfTheHeading) {
   for (const double length : {1e308, 1.0, 1e-160, 5e-324}) {
-    const auto filter = make_filter("cone", {.world = {0.0, 0.0, 1000.0, 1000.0}, .half_angle_deg = 45.0});
+    const auto filter =
+        make_filter("cone", {.world = {0.0, 0.0, 1000.0, 1000.0}, .half_angle_deg = 45.0});
     filter->set_subscription_region(0, {300.0, 300.0, 700.0, 700.0});
     filter->set_heading(0, {length, 0.0});
     filter->set_update_region(0, point(586.6, 450.0));  // 30 degrees to the right
@@ -130,7 +140,8 @@ TEST(ConeScheme, HasTheShareOfTheDiscThatItsAngleHas) {
     const auto filter = make_filter(scheme, {.world = arena, .half_angle_deg = half_angle_deg});
     Random own(6);
     for (Subscriber i = 0; i < 200; ++i) {
-      const double x = between(own, 20.0, 80.0), y = between(own, 20.0, 80.0), angle = between(own, 0.0, 2.0 * std::numbers::pi);
+      const double x = between(own, 20.0, 80.0), y = between(own, 20.0, 80.0),
+                   angle = between(own, 0.0, 2.0 * std::numbers::pi);
       filter->set_subscription_region(i, around(x, y, 15.0));
       filter->set_heading(i, {std::cos(angle), std::sin(angle)});
     }
@@ -138,7 +149,8 @@ TEST(ConeScheme, HasTheShareOfTheDiscThatItsAngleHas) {
     return static_cast<double>(filter->match().size());
   };
   const double disc = count("aura", 60.0);
-  for (const double half_angle : {30.0, 60.0, 90.0, 135.0, 180.0}) EXPECT_NEAR(count("cone", half_angle) / disc / (half_angle / 180.0), 1.0, 0.01) << half_angle;
+  for (const double half_angle : {30.0, 60.0, 90.0, 135.0, 180.0})
+    EXPECT_NEAR(count("cone", half_angle) / disc / (half_angle / 180.0), 1.0, 0.01) << half_angle;
 }
 
 TEST(SightScheme, HidesWhatOnePostCoversAndSeesPastItsRim) {
@@ -149,8 +161,8 @@ TEST(SightScheme, HidesWhatOnePostCoversAndSeesPastItsRim) {
   filter->set_update_region(2, {49.5, 58.0, 50.5, 58.5});  // all of it behind
   filter->set_update_region(3, {49.5, 58.0, 55.0, 58.5});  // one end looks out
   filter->set_update_region(4, point(50.0, 55.0));         // in the post
-  filter->set_update_region(5, point(51.0, 55.0));         // on its rim, away from the eye's tangent
-  filter->set_update_region(6, point(50.0, 54.0));         // on its rim, before it
+  filter->set_update_region(5, point(51.0, 55.0));  // on its rim, away from the eye's tangent
+  filter->set_update_region(6, point(50.0, 54.0));  // on its rim, before it
   EXPECT_THAT(entered(*filter), ElementsAre(1, 3, 6));
 }
 
@@ -179,14 +191,16 @@ TEST(Shadow, IsConvexSoThatFourCornersDecide) {
   Random random(9);
   int hidden = 0;
   for (int i = 0; i < 20'000; ++i) {
-    const double x = between(random, -4.0, 4.0), y = between(random, 1.0, 8.0), radius = between(random, 0.1, 3.0), half = between(random, 0.0, 1.0);
+    const double x = between(random, -4.0, 4.0), y = between(random, 1.0, 8.0),
+                 radius = between(random, 0.1, 3.0), half = between(random, 0.0, 1.0);
     const double box_x = between(random, -6.0, 6.0), box_y = between(random, 2.0, 12.0);
     const Disc post{x, y, radius};
     const Region eye = point(0.0, 0.0), box = around(box_x, box_y, half);
     if (!hides(post, Eye(eye), box)) continue;
     ++hidden;
     for (int k = 0; k < 20; ++k) {
-      const double inner_x = between(random, box.low_x, box.high_x), inner_y = between(random, box.low_y, box.high_y);
+      const double inner_x = between(random, box.low_x, box.high_x),
+                   inner_y = between(random, box.low_y, box.high_y);
       ASSERT_TRUE(is_in_shadow(post, eye, inner_x, inner_y)) << "seed 9, case " << i;
     }
   }

@@ -1,4 +1,5 @@
-// Hosts that are none, or none any more: a player is told what happened, on the screen, within seconds.
+// Hosts that are none, or none any more: a player is told what happened, on the screen, within
+// seconds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,8 +8,8 @@
 #include <utility>
 
 #include "game/net/client/network_match.h"
-#include "rti/wire/message.h"
 #include "rti/transport/tcp/tcp.h"
+#include "rti/wire/message.h"
 #include "tests/match/match_scene.h"
 
 namespace rink::game {
@@ -16,10 +17,13 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Listens on a port of this machine, and answers the first bytes of whoever comes with `answer`, or not at all.
+/// Listens on a port of this machine, and answers the first bytes of whoever comes with `answer`,
+/// or not at all.
 class FalseHost final : public rti::TransportListener {
  public:
-  explicit FalseHost(std::vector<std::byte> answer) : answer_(std::move(answer)) { port_ = tcp_.listen("127.0.0.1", 0); }
+  explicit FalseHost(std::vector<std::byte> answer) : answer_(std::move(answer)) {
+    port_ = tcp_.listen("127.0.0.1", 0);
+  }
   std::uint16_t port() const { return port_; }
   void poll() { tcp_.poll({}, *this); }
 
@@ -57,7 +61,8 @@ struct Outcome {
   double after_s;
 };
 
-/// Joins the host and looks on until the match is lost, at most `patience_s` of a clock that does not wait.
+/// Joins the host and looks on until the match is lost, at most `patience_s` of a clock that does
+/// not wait.
 Outcome joining(FalseHost& host, double patience_s) {
   const ObjectModel model(rink_fom());
   rti::TcpTransport transport;
@@ -73,7 +78,9 @@ Outcome joining(FalseHost& host, double patience_s) {
 }
 
 TEST(AHostThatIsNone, OfAnotherVersionIsNamedSo) {
-  FalseHost host(frame_of(rti::RefusedMessage{static_cast<std::uint8_t>(rti::Refusal::wrong_version), to_string(rti::Refusal::wrong_version)}));
+  FalseHost host(
+      frame_of(rti::RefusedMessage{static_cast<std::uint8_t>(rti::Refusal::wrong_version),
+                                   to_string(rti::Refusal::wrong_version)}));
   const Outcome outcome = joining(host, 3.0);
   EXPECT_EQ(outcome.phase, MatchPhase::lost);
   EXPECT_THAT(outcome.notice, HasSubstr("the host refuses: "));
@@ -97,17 +104,19 @@ TEST(AHostThatIsNone, BecauseItHostsNoMatchSaysThatItCanBeWatched) {
 }
 
 TEST(AHostThatIsNone, ThatTalksNonsenseIsLeft) {
-  const std::vector<std::vector<std::byte>> answers{garbage({0xff, 0xff, 0xff, 0xff, 1, 2, 3}),                  // a frame of 4 GB
-                                                    garbage({3, 0, 0, 0, 200, 1, 2}),                            // a message that is none
-                                                    std::vector<std::byte>(1000),                                // zeros: frames without messages
-                                                    garbage({'H', 'T', 'T', 'P', '/', '1', '.', '1', ' ', '4'}), // somebody else's protocol
-                                                    garbage({2, 0, 0, 0, 64, 1}),                                // half a message
-                                                    frame_of(rti::StampMessage{{1.0, 2}})};                      // before joining
+  const std::vector<std::vector<std::byte>> answers{
+      garbage({0xff, 0xff, 0xff, 0xff, 1, 2, 3}),  // a frame of 4 GB
+      garbage({3, 0, 0, 0, 200, 1, 2}),            // a message that is none
+      std::vector<std::byte>(1000),                // zeros: frames without messages
+      garbage({'H', 'T', 'T', 'P', '/', '1', '.', '1', ' ', '4'}),  // somebody else's protocol
+      garbage({2, 0, 0, 0, 64, 1}),                                 // half a message
+      frame_of(rti::StampMessage{{1.0, 2}})};                       // before joining
   for (const std::vector<std::byte>& answer : answers) {
     FalseHost host(answer);
     const Outcome outcome = joining(host, 20.0);
     EXPECT_EQ(outcome.phase, MatchPhase::lost);
-    EXPECT_THAT(outcome.notice, HasSubstr("no answer from the host: ")) << static_cast<int>(answer[0]);
+    EXPECT_THAT(outcome.notice, HasSubstr("no answer from the host: "))
+        << static_cast<int>(answer[0]);
     EXPECT_LT(outcome.after_s, 5.6);
   }
 }

@@ -22,7 +22,8 @@ void play(MatchSource& match, double& now_s, double seconds) {
 /// A match between two bots, played to its end once for all tests.
 const KeyLog& played_match() {
   static const KeyLog log = [] {
-    LocalMatch match(match_scene(), {.players = {"chaser", "chaser-expert"}, .scene_text = match_text()});
+    LocalMatch match(match_scene(),
+                     {.players = {"chaser", "chaser-expert"}, .scene_text = match_text()});
     double now_s = 100.0;
     while (match.sight().phase != MatchPhase::over && now_s < 1000.0) play(match, now_s, 1.0);
     EXPECT_TRUE(match.sight().winner);
@@ -65,7 +66,14 @@ TEST(ALocalMatch, IsCountedDownPlayedByTwoHandsAndPaused) {
   EXPECT_EQ(match.sight().time, 0.0);
   play(match, now_s, 2.0);
   EXPECT_EQ(match.sight().phase, MatchPhase::playing);
-  const auto right_bat = [&] { return std::ranges::find_if(match.sight().things, [](const Thing& thing) { return thing.kind == physics::BodyKind::bat && thing.team == Team::right; })->position; };
+  const auto right_bat = [&] {
+    return std::ranges::find_if(match.sight().things,
+                                [](const Thing& thing) {
+                                  return thing.kind == physics::BodyKind::bat &&
+                                         thing.team == Team::right;
+                                })
+        ->position;
+  };
   const Vector2 before = right_bat();
   match.press(1, Key::up, true);
   play(match, now_s, 0.2);
@@ -80,7 +88,8 @@ TEST(ALocalMatch, IsCountedDownPlayedByTwoHandsAndPaused) {
 
 TEST(ALocalMatch, IsRecordedInAFewKilobytesAndReplaysToTheSameHash) {
   const KeyLog& log = played_match();
-  EXPECT_LT(text_of(log).size(), 3'000u + 40u * log.events.size()) << "bots press fourteen keys a second between them; people far fewer";
+  EXPECT_LT(text_of(log).size(), 3'000u + 40u * log.events.size())
+      << "bots press fourteen keys a second between them; people far fewer";
   EXPECT_EQ(replay(log, match_scene()), *log.hash);
 }
 
@@ -96,7 +105,8 @@ TEST(ALocalMatch, MakesItsNoises) {
   EXPECT_EQ(heard[static_cast<std::size_t>(Noise::Kind::face_off)], 1);
   EXPECT_GT(heard[static_cast<std::size_t>(Noise::Kind::puck_on_wall)], 5);
   EXPECT_GT(heard[static_cast<std::size_t>(Noise::Kind::puck_on_bat)], 2);
-  EXPECT_EQ(heard[static_cast<std::size_t>(Noise::Kind::goal)], static_cast<int>(match.sight().score.left + match.sight().score.right));
+  EXPECT_EQ(heard[static_cast<std::size_t>(Noise::Kind::goal)],
+            static_cast<int>(match.sight().score.left + match.sight().score.right));
 }
 
 TEST(ARecordedMatch, IsTheSameHoweverOneGetsToAnInstant) {
@@ -130,7 +140,8 @@ TEST(ARecordedMatch, IsWatchedSlowlyStoppedAndSoughtIn) {
   match.pause(true);
   play(match, now_s, 2.0);
   EXPECT_NEAR(match.sight().time, 2.5, 0.03);
-  EXPECT_EQ(match.sight().phase, MatchPhase::playing) << "nothing is laid over what was stopped to be looked at";
+  EXPECT_EQ(match.sight().phase, MatchPhase::playing)
+      << "nothing is laid over what was stopped to be looked at";
   match.pause(false);
   match.seek(1.0);
   match.advance(now_s += 0.01);
@@ -149,7 +160,8 @@ TEST(ARecordedMatch, ThatWasTruncatedAlteredOrIsOfAnotherVersionIsRefusedWithThe
   std::string altered = text;
   altered.replace(altered.find(" 1 down"), 7, " 0 down");
   EXPECT_NE(complaint_about(altered).find("altered"), std::string::npos);
-  EXPECT_NE(complaint_about("rink-keys 9" + text.substr(text.find('\n'))).find("rink-keys 1"), std::string::npos);
+  EXPECT_NE(complaint_about("rink-keys 9" + text.substr(text.find('\n'))).find("rink-keys 1"),
+            std::string::npos);
   EXPECT_NE(complaint_about("").find("expected"), std::string::npos);
 }
 

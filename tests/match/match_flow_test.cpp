@@ -65,7 +65,8 @@ TEST_F(AMatch, GivesWhoLeftThirtySecondsToComeBack) {
   flow.advance(63.0);
   EXPECT_TRUE(flow.runs());
   EXPECT_EQ(flow.state().number, 1u) << "it is the same match";
-  EXPECT_NEAR(simulated_at(flow.state(), 63.0), 7.0 + (63.0 - (59.95 + 3.0)), 1e-12) << "and goes on there";
+  EXPECT_NEAR(simulated_at(flow.state(), 63.0), 7.0 + (63.0 - (59.95 + 3.0)), 1e-12)
+      << "and goes on there";
 }
 
 TEST_F(AMatch, IsWonByWhoStaysIfTheOtherDoesNotComeBack) {
@@ -90,7 +91,8 @@ TEST_F(AMatch, IsFollowedByAnotherOnlyIfBothAsk) {
   EXPECT_EQ(phase(), MatchPhase::countdown);
   EXPECT_EQ(flow.state().number, 2u);
   EXPECT_EQ(simulated_at(flow.state(), 44.0), 0.0);
-  EXPECT_FALSE(flow.state().winner || flow.state().wants_rematch[0] || flow.state().wants_rematch[1]);
+  EXPECT_FALSE(flow.state().winner || flow.state().wants_rematch[0] ||
+               flow.state().wants_rematch[1]);
 }
 
 TEST_F(AMatch, CannotBeRematchedPausedOrResumedWhenThatMeansNothing) {

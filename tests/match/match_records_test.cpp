@@ -20,7 +20,8 @@ using testing::HasSubstr;
 struct RecordsOfMatches : testing::Test {
   /// Two of `player` over a network for `seconds`.
   static KeyLog hosted_match(const std::string& player, double seconds) {
-    loadgen::Duel duel(rink_fom(), match_scene(), match_text(), {.delay_s = 0.02, .players = {player, player}});
+    loadgen::Duel duel(rink_fom(), match_scene(), match_text(),
+                       {.delay_s = 0.02, .players = {player, player}});
     duel.connect(0), duel.connect(1);
     duel.run_until([&] { return duel.server().game().now() >= seconds; }, seconds + 10.0);
     duel.server().finish_record();
@@ -35,7 +36,9 @@ struct RecordsOfMatches : testing::Test {
     match.finish();
     return match.take_finished().at(0);
   }
-  static bool is_replayed(const KeyLog& log) { return replay(log, recorded_scene(log, "match.keys")) == *log.hash; }
+  static bool is_replayed(const KeyLog& log) {
+    return replay(log, recorded_scene(log, "match.keys")) == *log.hash;
+  }
 
   test::TemporaryFolder temporary{"records"};
   const std::filesystem::path folder = temporary / "matches";
@@ -43,11 +46,13 @@ struct RecordsOfMatches : testing::Test {
 
 TEST_F(RecordsOfMatches, OfFortySecondsTakeAFewKilobytesAndReplayToTheSameHash) {
   MatchRecords records(folder);
-  for (const KeyLog& log : {hosted_match("waypoint", 40.0), hosted_match("chaser", 40.0), local_match(40.0)}) {
+  for (const KeyLog& log :
+       {hosted_match("waypoint", 40.0), hosted_match("chaser", 40.0), local_match(40.0)}) {
     const std::filesystem::path file = records.write(log);
     const auto keys = static_cast<double>(log.events.size());
     EXPECT_GT(keys, 100.0) << "or the test shows nothing";
-    EXPECT_LE(static_cast<double>(std::filesystem::file_size(file)), 200.0 + static_cast<double>(log.scene_text.size()) + 4.0 * keys);
+    EXPECT_LE(static_cast<double>(std::filesystem::file_size(file)),
+              200.0 + static_cast<double>(log.scene_text.size()) + 4.0 * keys);
     EXPECT_LE(std::filesystem::file_size(file), 7000u);
     const KeyLog read = read_key_log(file);
     EXPECT_TRUE(is_replayed(read));
@@ -64,7 +69,8 @@ TEST_F(RecordsOfMatches, ThatCannotBeWrittenAreComplainedOfOnceUntilTheyCanAgain
   std::ofstream(folder) << "this is a file";  // where the folder should be
   MatchRecords records(folder);
   const KeyLog log = local_match(1.0);
-  EXPECT_THAT(records.keep(log).value_or(""), HasSubstr(folder.string() + ": this folder for records of matches cannot be made"));
+  EXPECT_THAT(records.keep(log).value_or(""),
+              HasSubstr(folder.string() + ": this folder for records of matches cannot be made"));
   EXPECT_TRUE(records.is_failing());
   EXPECT_FALSE(records.keep(log)) << "it was said";
   EXPECT_TRUE(records.is_failing());
@@ -80,7 +86,9 @@ TEST_F(RecordsOfMatches, ThatCannotBeWrittenAreComplainedOfOnceUntilTheyCanAgain
 TEST_F(RecordsOfMatches, ThatCannotBeWrittenAreMissedOnBothScreensBetweenMatches) {
   loadgen::Duel duel(rink_fom(), match_scene(), match_text(), {.times = {.patience_s = 1.0}});
   duel.connect(0), duel.connect(1);
-  const auto is_shown = [&](MatchPhase phase) { return duel.run_until([&] { return duel.client(0).sight().phase == phase; }, 5.0); };
+  const auto is_shown = [&](MatchPhase phase) {
+    return duel.run_until([&] { return duel.client(0).sight().phase == phase; }, 5.0);
+  };
   ASSERT_TRUE(is_shown(MatchPhase::playing));
   duel.run(1.0);
   EXPECT_EQ(duel.client(0).sight().notice, "");

@@ -15,7 +15,8 @@ using loadgen::Feel;
 struct ANetworkMatch : testing::Test {
   static MatchPhase phase_shown(Duel& duel, std::size_t k) { return duel.client(k).sight().phase; }
   static bool is_shown_to_both(Duel& duel, MatchPhase phase, double patience_s) {
-    return duel.run_until([&] { return phase_shown(duel, 0) == phase && phase_shown(duel, 1) == phase; }, patience_s);
+    return duel.run_until(
+        [&] { return phase_shown(duel, 0) == phase && phase_shown(duel, 1) == phase; }, patience_s);
   }
   static std::unique_ptr<Duel> started(const DuelSettings& settings) {
     auto duel = std::make_unique<Duel>(rink_fom(), match_scene(), match_text(), settings);
@@ -45,9 +46,11 @@ TEST_F(ANetworkMatch, AnswersAKeyInTheSameFrameAtAnyDelay) {
     duel->run(0.5);
     const Vector2 before = duel->client(0).sight().things[0].position;
     duel->client(0).press(0, Key::up, true);
-    duel->run(2.0 / 60.0 + 1e-3);  // one frame to press it in, one to see a bat that has had time to move
+    duel->run(2.0 / 60.0 +
+              1e-3);  // one frame to press it in, one to see a bat that has had time to move
     const double moved = duel->client(0).sight().things[0].position.y() - before.y();
-    EXPECT_NEAR(moved, 0.5 * 8.0 / 3600.0, 0.3 * 0.5 * 8.0 / 3600.0) << "half the thrust times a frame squared; delay " << delay_s << " s";
+    EXPECT_NEAR(moved, 0.5 * 8.0 / 3600.0, 0.3 * 0.5 * 8.0 / 3600.0)
+        << "half the thrust times a frame squared; delay " << delay_s << " s";
   }
 }
 
@@ -73,7 +76,8 @@ TEST_F(ANetworkMatch, WaitsForWhoVanishedAndGoesOnWhenSomebodyTakesTheSeat) {
   duel->client(1).press(0, Key::left, true);
   duel->run(0.5);
   duel->kill(1);
-  ASSERT_TRUE(duel->run_until([&] { return phase_shown(*duel, 0) == MatchPhase::away; }, 10.0)) << "it is noticed";
+  ASSERT_TRUE(duel->run_until([&] { return phase_shown(*duel, 0) == MatchPhase::away; }, 10.0))
+      << "it is noticed";
   duel->run(0.2);
   const double time = duel->server().game().now();
   duel->connect(1);
@@ -102,7 +106,9 @@ TEST_F(ANetworkMatch, IsSeenByAWatcherWhoCanDoNothing) {
 
 TEST_F(ANetworkMatch, GoesOnWithTheSameScoreIfWhoVanishedIsBackWithinHalfAMinute) {
   const auto duel = started({.players = {"chaser-expert", "chaser-beginner"}});
-  const auto goals = [&] { return duel->server().game().score().left + duel->server().game().score().right; };
+  const auto goals = [&] {
+    return duel->server().game().score().left + duel->server().game().score().right;
+  };
   ASSERT_TRUE(duel->run_until([&] { return goals() >= 2; }, 300.0));
   duel->run(0.5);
   duel->kill(1);
@@ -144,7 +150,8 @@ TEST_F(ANetworkMatch, IsWonByWhoStays) {
 }
 
 TEST_F(ANetworkMatch, GoesFromFaceOffToWinToRematchAndIsRecorded) {
-  Duel duel(rink_fom(), match_scene(), match_text(), {.delay_s = 0.05, .players = {"chaser-expert", "chaser-beginner"}});
+  Duel duel(rink_fom(), match_scene(), match_text(),
+            {.delay_s = 0.05, .players = {"chaser-expert", "chaser-beginner"}});
   duel.connect(0), duel.connect(1);
   ASSERT_TRUE(is_shown_to_both(duel, MatchPhase::over, 600.0)) << "first to five";
   const MatchSight& sight = duel.client(0).sight();
@@ -169,42 +176,53 @@ TEST_F(ANetworkMatch, GoesFromFaceOffToWinToRematchAndIsRecorded) {
 
 TEST_F(ANetworkMatch, IsShownAsItIsAtAnyDelay) {
   for (const double delay_s : {0.0, 0.05, 0.1, 0.2}) {
-    const Feel feel = loadgen::feel_of(rink_fom(), match_scene(), match_text(), {.delay_s = delay_s, .players = {"chaser", "chaser"}}, 60.0);
+    const Feel feel = loadgen::feel_of(rink_fom(), match_scene(), match_text(),
+                                       {.delay_s = delay_s, .players = {"chaser", "chaser"}}, 60.0);
     EXPECT_TRUE(feel.is_replayed);
     EXPECT_GT(feel.keys, 50u) << "or the test shows nothing";
     EXPECT_EQ(feel.late_keys, 0u);
-    EXPECT_LE(feel.own.p50, 0.5e-3) << "what is told is rounded, and the keys are felt when their player counted on it";
-    EXPECT_LE(feel.own.p90, delay_s <= 0.1 ? 1e-3 : 0.1) << "the rest is the other's keys of the last round trip, which a shared puck passes on";
+    EXPECT_LE(feel.own.p50, 0.5e-3)
+        << "what is told is rounded, and the keys are felt when their player counted on it";
+    EXPECT_LE(feel.own.p90, delay_s <= 0.1 ? 1e-3 : 0.1)
+        << "the rest is the other's keys of the last round trip, which a shared puck passes on";
     EXPECT_LE(feel.own.p99, delay_s == 0.0 ? 1e-3 : 0.25);
     EXPECT_LE(feel.other.p50, 0.5e-3);
     EXPECT_LE(feel.puck.p50, 0.5e-3);
   }
 }
 
-/// A person presses and releases less than five keys a second over a match, as waypoint bots do; chasers at the puck press more than twice as many.
+/// A person presses and releases less than five keys a second over a match, as waypoint bots do;
+/// chasers at the puck press more than twice as many.
 TEST_F(ANetworkMatch, CostsAPlayerAtMostSixHundredBytesPerSecond) {
   for (const auto& [player, keys_per_s] : {std::pair("waypoint", 3.0), std::pair("chaser", 10.0)}) {
-    const Feel feel = loadgen::feel_of(rink_fom(), match_scene(), match_text(), {.delay_s = 0.05, .players = {player, player}}, 60.0);
+    const Feel feel = loadgen::feel_of(rink_fom(), match_scene(), match_text(),
+                                       {.delay_s = 0.05, .players = {player, player}}, 60.0);
     EXPECT_GT(static_cast<double>(feel.keys) / 2.0 / feel.played_s, keys_per_s) << player;
     EXPECT_LE(feel.payload_bytes_per_s, 600.0) << player;
   }
 }
 
-/// What cannot be known is not shown: a tick, a way there and a way back, and some milliseconds against jitter.
+/// What cannot be known is not shown: a tick, a way there and a way back, and some milliseconds
+/// against jitter.
 TEST_F(ANetworkMatch, ShowsTheOtherNoLaterThanItMust) {
   for (const double rate_hz : {60.0, 30.0})
     for (const double delay_s : {0.0, 0.05}) {
-      const Feel feel = loadgen::feel_of(rink_fom(), match_scene(), match_text(), {.delay_s = delay_s, .rate_hz = rate_hz, .players = {"chaser", "chaser"}}, 30.0);
+      const Feel feel = loadgen::feel_of(
+          rink_fom(), match_scene(), match_text(),
+          {.delay_s = delay_s, .rate_hz = rate_hz, .players = {"chaser", "chaser"}}, 30.0);
       const double least_s = 2.0 * delay_s + 1.0 / rate_hz;
       EXPECT_GE(feel.lead_s, 2.0 * delay_s);
       EXPECT_LE(feel.lead_s, least_s + 0.012) << rate_hz << " Hz, " << delay_s << " s";
-      // Where it was within a tick in which it felt a key is not told, but foreseen from before: half its thrust, 8 m/s^2, times the tick squared.
+      // Where it was within a tick in which it felt a key is not told, but foreseen from before:
+      // half its thrust, 8 m/s^2, times the tick squared.
       EXPECT_LE(feel.other.p99, 0.5e-3 + 4.0 / (rate_hz * rate_hz)) << "and yet it is shown right";
     }
 }
 
 TEST_F(ANetworkMatch, IsShownAsItIsWhereDelaysVary) {
-  const Feel feel = loadgen::feel_of(rink_fom(), match_scene(), match_text(), {.delay_s = 0.05, .jitter_s = 0.01, .players = {"chaser", "chaser"}}, 60.0);
+  const Feel feel =
+      loadgen::feel_of(rink_fom(), match_scene(), match_text(),
+                       {.delay_s = 0.05, .jitter_s = 0.01, .players = {"chaser", "chaser"}}, 60.0);
   EXPECT_LE(static_cast<double>(feel.late_keys), 0.1 * static_cast<double>(feel.keys));
   EXPECT_LE(feel.own.p50, 0.5e-3);
 }

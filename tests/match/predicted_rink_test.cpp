@@ -1,8 +1,9 @@
-// What is foretold against the game itself: told late, in part or wrongly, it must find back, and smoothly.
+// What is foretold against the game itself: told late, in part or wrongly, it must find back, and
+// smoothly.
 #include <gtest/gtest.h>
 
-#include "game/match/predicted_rink.h"
 #include "game/control/game.h"
+#include "game/match/predicted_rink.h"
 #include "tests/match/match_scene.h"
 
 namespace rink::game {
@@ -11,7 +12,10 @@ namespace {
 ToldRink told_by(const Game& game) {
   ToldRink told{.time = game.now(), .bats = {}, .pucks = {}};
   for (const Entity& entity : game.entities()) {
-    ToldBody body{.position = game.position(entity.id), .velocity = game.velocity(entity.id), .held = {}, .is_in_play = game.simulator().is_in_play(entity.id)};
+    ToldBody body{.position = game.position(entity.id),
+                  .velocity = game.velocity(entity.id),
+                  .held = {},
+                  .is_in_play = game.simulator().is_in_play(entity.id)};
     if (entity.player) body.held = game.keys_held(*entity.player);
     if (entity.kind == physics::BodyKind::bat) told.bats.push_back(body);
     if (entity.kind == physics::BodyKind::puck) told.pucks.push_back(body);
@@ -27,7 +31,9 @@ TEST(APredictedRink, ShowsTheOwnBatWhereTheServerWillHaveItThoughNothingIsToldFo
   PredictedRink rink(match_scene(), 0);
   rink.hear(told_by(game));
   rink.advance(0.0, 0.0);
-  const InputEvent events[] = {{0.10, 0, InputKind::key_down, Key::up}, {0.25, 0, InputKind::key_down, Key::right}, {0.4, 0, InputKind::key_up, Key::up}};
+  const InputEvent events[] = {{0.10, 0, InputKind::key_down, Key::up},
+                               {0.25, 0, InputKind::key_down, Key::right},
+                               {0.4, 0, InputKind::key_up, Key::up}};
   for (const InputEvent& event : events) {
     rink.advance(event.time, 0.2);
     rink.press(event.key, event.kind == InputKind::key_down, event.time);
@@ -70,7 +76,8 @@ TEST(APredictedRink, GoesByTheNewestStateWhateverComesAfterIt) {
   EXPECT_EQ(rink.own_corrections().visible_count + rink.other_corrections().visible_count, 0u);
 }
 
-/// Of the keys that were pressed those are pressed again that were not felt yet, however old the word is that says so.
+/// Of the keys that were pressed those are pressed again that were not felt yet, however old the
+/// word is that says so.
 TEST(APredictedRink, ForgetsAKeyThatWasFeltOnceAndForAll) {
   Game game(match_scene());
   PredictedRink rink(match_scene(), 0);
@@ -97,7 +104,8 @@ TEST(APredictedRink, LeavesAWrongPlaceBehindWithinATenthOfASecondWithoutAJump) {
   rink.press(Key::up, true, 0.0);  // which the server never gets
   rink.advance(0.2, 0.05);
   const double wrong = rink.bats()[0].position.y();
-  game.submit({0.1, 0, InputKind::key_down, Key::down}), game.submit({0.1, 0, InputKind::key_up, Key::down});
+  game.submit({0.1, 0, InputKind::key_down, Key::down}),
+      game.submit({0.1, 0, InputKind::key_up, Key::down});
   game.advance(0.2);
   rink.hear(told_by(game));
   rink.advance(0.2, 0.05);
@@ -181,10 +189,12 @@ TEST(APredictedRink, LetsAPucksTimeRunAtMostThreeTimesAndAtLeastThreeTenthsAsFas
     rink.advance(now, delay);
     return (rink.pucks()[0].time - before) / 0.01;
   };
-  for (int step = 0; step < 20; ++step) EXPECT_NEAR(rate_at(0.2), 0.3, 1e-6) << "the delay has grown: " << step;
+  for (int step = 0; step < 20; ++step)
+    EXPECT_NEAR(rate_at(0.2), 0.3, 1e-6) << "the delay has grown: " << step;
   while (now < 1.0) rate_at(0.2);
   EXPECT_NEAR(now - rink.pucks()[0].time, 0.2, 1e-6);
-  for (int step = 0; step < 9; ++step) EXPECT_NEAR(rate_at(0.0), 3.0, 1e-6) << "the delay is gone: " << step;
+  for (int step = 0; step < 9; ++step)
+    EXPECT_NEAR(rate_at(0.0), 3.0, 1e-6) << "the delay is gone: " << step;
 }
 
 TEST(APredictedRink, ShowsAPuckAtEachBatInThatBatsOwnTime) {
@@ -230,7 +240,8 @@ TEST(APredictedRink, HasNothingInTheWayThatIsTooFarAwayToBeKnownAndNoJumpWhenItC
   told.pucks[0].velocity = {-50.0, 0.0};
   rink.hear(told);
   for (const double now : {0.0, 0.05, 0.1}) rink.advance(now, 0.05);
-  EXPECT_EQ(rink.pucks()[0].position, told.pucks[0].position) << "it would have gone through the own bat";
+  EXPECT_EQ(rink.pucks()[0].position, told.pucks[0].position)
+      << "it would have gone through the own bat";
   EXPECT_EQ(rink.bats()[0].position, bat_of(game, 0));
   game.advance(0.1);
   rink.hear(told_by(game));

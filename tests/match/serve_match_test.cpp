@@ -16,7 +16,9 @@ using loadgen::Process;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
-std::filesystem::path command(const std::string& name) { return test::binary_folder() + "/bin/rink-" + name; }
+std::filesystem::path command(const std::string& name) {
+  return test::binary_folder() + "/bin/rink-" + name;
+}
 
 int status_of(Process& process, std::chrono::seconds patience) {
   const auto limit = std::chrono::steady_clock::now() + patience;
@@ -26,8 +28,13 @@ int status_of(Process& process, std::chrono::seconds patience) {
 
 struct AHost : testing::Test {
   AHost() {
-    host = std::make_unique<Process>(command("serve"), std::vector<std::string>{"match", "--port", "0", "--countdown", "0.2", "--record", folder.path().string()}, std::vector<int>{});
-    for (int i = 0; i < 500 && !place; ++i) host->attend(10ms), place = host->line_after("listening on ");
+    host = std::make_unique<Process>(
+        command("serve"),
+        std::vector<std::string>{"match", "--port", "0", "--countdown", "0.2", "--record",
+                                 folder.path().string()},
+        std::vector<int>{});
+    for (int i = 0; i < 500 && !place; ++i)
+      host->attend(10ms), place = host->line_after("listening on ");
   }
 
   test::TemporaryFolder folder{"matches"};
@@ -62,9 +69,11 @@ TEST(ServeMatch, RefusesASceneThatIsNoMatch) {
 }
 
 TEST(ServeMatch, GoesOnWhereNoRecordCanBeWrittenAndSaysItOnce) {
-  Process host(command("serve"), {"match", "--port", "0", "--countdown", "0.2", "--record", "/proc/nowhere"}, {});
+  Process host(command("serve"),
+               {"match", "--port", "0", "--countdown", "0.2", "--record", "/proc/nowhere"}, {});
   std::optional<std::string> place;
-  for (int i = 0; i < 500 && !place; ++i) host.attend(10ms), place = host.line_after("listening on ");
+  for (int i = 0; i < 500 && !place; ++i)
+    host.attend(10ms), place = host.line_after("listening on ");
   ASSERT_TRUE(place) << host.last_words();
   for (int round = 0; round < 2; ++round) {
     Process duel(command("duel"), {"--connect", *place, "--duration", "1"}, {});

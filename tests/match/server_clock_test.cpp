@@ -8,8 +8,10 @@
 namespace rink::game {
 namespace {
 
-/// Asks and answers for `seconds` over ways of `there_s` and `back_s`; the server's clock is ahead by `ahead_s`.
-void converse(ServerClock& clock, double& now_s, double seconds, double there_s, double back_s, double ahead_s) {
+/// Asks and answers for `seconds` over ways of `there_s` and `back_s`; the server's clock is ahead
+/// by `ahead_s`.
+void converse(ServerClock& clock, double& now_s, double seconds, double there_s, double back_s,
+              double ahead_s) {
   for (const double until = now_s + seconds; now_s < until; now_s += 1.0 / 60.0) {
     clock.advance(now_s);
     if (const auto number = clock.ask(now_s)) {
@@ -21,7 +23,8 @@ void converse(ServerClock& clock, double& now_s, double seconds, double there_s,
 }
 
 TEST(AServerClock, TellsWhenWhatIsSentArrivesHoweverTheRoundTripIsShared) {
-  for (const auto& [there_s, back_s] : {std::pair(0.05, 0.05), std::pair(0.09, 0.01), std::pair(0.01, 0.09)}) {
+  for (const auto& [there_s, back_s] :
+       {std::pair(0.05, 0.05), std::pair(0.09, 0.01), std::pair(0.01, 0.09)}) {
     ServerClock clock;
     double now_s = 100.0;
     EXPECT_FALSE(clock.is_set());

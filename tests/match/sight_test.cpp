@@ -48,7 +48,8 @@ Noise noise_of_an_impact(const Vector2& position, double change) {
   MatchSight sight;
   sight.field.length = 4.0, sight.field.width = 2.0;
   sight.phase = MatchPhase::playing;
-  sight.things = {{.position = position, .velocity = {0.0, 0.5 * change}, .half_extent = {0.04, 0.04}}};
+  sight.things = {
+      {.position = position, .velocity = {0.0, 0.5 * change}, .half_extent = {0.04, 0.04}}};
   NoiseDetector ears;
   ears.listen(sight);
   EXPECT_TRUE(sight.noises.empty());
@@ -60,7 +61,8 @@ Noise noise_of_an_impact(const Vector2& position, double change) {
 
 TEST(ANoise, ComesFromWhereAlongTheFieldThePuckIsAndIsAsLoudAsItTurned) {
   for (const double x : {0.0, 1.0, 3.0, 4.0})
-    for (const double y : {0.1, 1.9}) EXPECT_EQ(noise_of_an_impact({x, y}, 2.0).place, x / 4.0) << y;
+    for (const double y : {0.1, 1.9})
+      EXPECT_EQ(noise_of_an_impact({x, y}, 2.0).place, x / 4.0) << y;
   EXPECT_NEAR(noise_of_an_impact({1.0, 1.0}, 1.5).strength, 0.5, 1e-15);
   EXPECT_EQ(noise_of_an_impact({1.0, 1.0}, 6.0).strength, 1.0);
 }
@@ -75,7 +77,8 @@ TEST(ANoise, OfAGoalComesFromTheEndWhereItFell) {
     ears.listen(sight);
     ASSERT_EQ(sight.noises.size(), 1u);
     EXPECT_EQ(sight.noises[0].kind, Noise::Kind::goal);
-    EXPECT_EQ(sight.noises[0].place, is_lefts ? 1.0 : 0.0) << "the left team scores at the right end";
+    EXPECT_EQ(sight.noises[0].place, is_lefts ? 1.0 : 0.0)
+        << "the left team scores at the right end";
   }
 }
 

@@ -1,4 +1,5 @@
-// Commands run from their arguments to their last words, and a client of this process at the server that one of them is.
+// Commands run from their arguments to their last words, and a client of this process at the server
+// that one of them is.
 #pragma once
 
 #include <chrono>
@@ -26,7 +27,8 @@ struct Ended {
 inline Ended run(const std::string& command, const std::vector<std::string>& arguments) {
   loadgen::Process process(test::binary_folder() + "/bin/" + command, arguments, {});
   const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (!process.ending() && std::chrono::steady_clock::now() < limit) process.attend(std::chrono::milliseconds(20));
+  while (!process.ending() && std::chrono::steady_clock::now() < limit)
+    process.attend(std::chrono::milliseconds(20));
   if (!process.ending()) return {};
   return {process.ending()->exit_status, process.last_words()};
 }
@@ -39,13 +41,17 @@ inline Ended serve(std::vector<std::string> arguments) {
 /// Where the server listens, once it says so.
 inline std::optional<std::string> place_of(loadgen::Process& server) {
   std::optional<std::string> place;
-  for (int i = 0; i < 500 && !place; ++i) server.attend(std::chrono::milliseconds(10)), place = server.line_after("listening on ");
+  for (int i = 0; i < 500 && !place; ++i)
+    server.attend(std::chrono::milliseconds(10)), place = server.line_after("listening on ");
   return place;
 }
 
 /// A client of this process at a server of its own.
 struct Guest {
-  Guest(const std::string& place, const ClientSettings& settings) : client(fom, model, settings), link(client.ambassador(), tcp, connect(place)) { links.add(link); }
+  Guest(const std::string& place, const ClientSettings& settings)
+      : client(fom, model, settings), link(client.ambassador(), tcp, connect(place)) {
+    links.add(link);
+  }
   rti::ConnectionId connect(const std::string& place) {
     const auto [address, port] = address_and_port("--connect", place);
     return tcp.connect(address, port);
@@ -60,7 +66,10 @@ struct Guest {
     flush();
     link.close();
   }
-  static double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+  static double now_s() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+  }
 
   const rti::Fom fom = load_rink_fom(fom_file());
   const ObjectModel model{fom};

@@ -30,7 +30,8 @@ bool hears(const Client& client, rti::ObjectHandle object) {
 /// The server's side of a tick, as Serving does it.
 void answer(LockstepRink& rink) {
   for (const Server::Inspecting& each : rink.server().take_inspections())
-    rink.server().tell_interest(each.federate, interest_report(rink.server(), rink.execution(), each.object));
+    rink.server().tell_interest(each.federate,
+                                interest_report(rink.server(), rink.execution(), each.object));
   rink.settle();
 }
 
@@ -41,15 +42,18 @@ TEST(AnInterestReport, IsWhatEveryClientWasTold) {
     rink.start();
     rink.run(1.0);
     for (std::size_t asked = 0; asked < 6; ++asked) {
-      const InterestSeen seen = interest_report(rink.server(), rink.execution(), rink.client(asked).bat()->object);
+      const InterestSeen seen =
+          interest_report(rink.server(), rink.execution(), rink.client(asked).bat()->object);
       EXPECT_EQ(seen.heard, heard_by(rink.client(asked))) << scheme << ", bat " << asked;
       EXPECT_EQ(seen.cell_size > 0.0f, std::string(scheme) == "grid");
       ASSERT_EQ(seen.views.size(), 6u) << "and not who watches";
       EXPECT_EQ(seen.view_count, 6u) << "of twelve bats";
       for (std::size_t k = 0; k < 6; ++k) {
-        const auto view = std::ranges::find(seen.views, rink.client(k).bat()->object.value, &InterestSeen::View::bat);
+        const auto view = std::ranges::find(seen.views, rink.client(k).bat()->object.value,
+                                            &InterestSeen::View::bat);
         ASSERT_NE(view, seen.views.end());
-        EXPECT_EQ(view->hears, hears(rink.client(k), rink.client(asked).bat()->object)) << scheme << ": " << k << " of " << asked;
+        EXPECT_EQ(view->hears, hears(rink.client(k), rink.client(asked).bat()->object))
+            << scheme << ": " << k << " of " << asked;
         EXPECT_EQ(view->low_x, static_cast<float>(rink.client(k).view().low_x));
         EXPECT_EQ(view->high_y, static_cast<float>(rink.client(k).view().high_y));
       }
@@ -69,15 +73,23 @@ TEST(AnInterestReport, IsSentToTheWatcherWhoAsksAndCostsNobodyAnythingElse) {
   watcher.inspect(rink.client(1).bat()->object);
   rink.settle();
   answer(rink);
-  EXPECT_EQ(rink.execution().counters().interactions_sent, before + 3) << "two questions, one answer";
+  EXPECT_EQ(rink.execution().counters().interactions_sent, before + 3)
+      << "two questions, one answer";
   const std::optional<InterestSeen> told = watcher.take_interest();
   ASSERT_TRUE(told);
-  EXPECT_EQ(*told, interest_report(rink.server(), rink.execution(), rink.client(1).bat()->object)) << "the later question counts";
+  EXPECT_EQ(*told, interest_report(rink.server(), rink.execution(), rink.client(1).bat()->object))
+      << "the later question counts";
   EXPECT_FALSE(watcher.take_interest());
 }
 
 TEST(AnInterestReport, ReadsBackAsItWasWritten) {
-  InterestSeen seen{.asked = 5, .cell_size = 1.5f, .view_count = 3, .heard_count = 2, .hearer_count = 1, .views = {{5, true, 0.0f, 1.0f, 2.0f, 3.0f}}, .heard = {7, 1u << 20, 0xfffffffeu}};
+  InterestSeen seen{.asked = 5,
+                    .cell_size = 1.5f,
+                    .view_count = 3,
+                    .heard_count = 2,
+                    .hearer_count = 1,
+                    .views = {{5, true, 0.0f, 1.0f, 2.0f, 3.0f}},
+                    .heard = {7, 1u << 20, 0xfffffffeu}};
   std::vector<std::byte> bytes;
   rti::Writer writer(bytes);
   exchange(writer, seen);
@@ -87,12 +99,17 @@ TEST(AnInterestReport, ReadsBackAsItWasWritten) {
 }
 
 TEST(AnInterestReport, ThatIsCutShortOrFalseIsNotBelieved) {
-  InterestSeen seen{.asked = 5, .view_count = 1, .heard_count = 0, .views = {{5, true, 0.0f, 1.0f, 2.0f, 3.0f}}, .heard = {}};
+  InterestSeen seen{.asked = 5,
+                    .view_count = 1,
+                    .heard_count = 0,
+                    .views = {{5, true, 0.0f, 1.0f, 2.0f, 3.0f}},
+                    .heard = {}};
   std::vector<std::byte> bytes;
   rti::Writer writer(bytes);
   exchange(writer, seen);
   InterestSeen back;
-  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(decode(rti::Bytes(bytes).first(size), back)) << size;
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(decode(rti::Bytes(bytes).first(size), back)) << size;
   for (const int more : {0xff, 0x80}) {
     std::vector<std::byte> longer = bytes;
     longer.insert(longer.end(), 11, static_cast<std::byte>(more));

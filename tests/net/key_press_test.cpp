@@ -21,21 +21,25 @@ TEST(KeyPress, MovesTheOwnBatInThePlayersMirrorAtTheNextTickByTheClosedForm) {
   player.press(Key::up);
   EXPECT_EQ(player.keys_sent(), 1u);
 
-  // 2. The RTI hands it to the server, which stamps it with that instant and queues it for its game.
+  // 2. The RTI hands it to the server, which stamps it with that instant and queues it for its
+  // game.
   rink.settle();
   ASSERT_EQ(rink.server().record().size(), 1u);
   EXPECT_EQ(rink.server().record()[0].time, pressed);
   EXPECT_EQ(player.bat()->input.count, 0u);
 
-  // 3. The tick applies it: the bat accelerates from the stamped instant on, x(t) = x0 + a (t - s)/g with s = (1 - exp(-g t))/g.
+  // 3. The tick applies it: the bat accelerates from the stamped instant on, x(t) = x0 + a (t -
+  // s)/g with s = (1 - exp(-g t))/g.
   rink.tick();
   const double g = scene.world.bat_drag, t = rink.now - pressed, a = scene.bodies.bats[0].thrust;
   const double s = g > 0.0 ? -std::expm1(-g * t) / g : t;
   const double moved = g > 0.0 ? a * (t - s) / g : 0.5 * a * t * t;
   const Vector2 home = scene.bodies.bats[0].body.position;
-  EXPECT_NEAR(rink.server().game().position(*rink.server().game().bat(0)).y(), home.y() + moved, 1e-12);
+  EXPECT_NEAR(rink.server().game().position(*rink.server().game().bat(0)).y(), home.y() + moved,
+              1e-12);
 
-  // 4. The publisher moves the update region and sends the position; the filter keeps the bat in its player's interest; the mirror has it.
+  // 4. The publisher moves the update region and sends the position; the filter keeps the bat in
+  // its player's interest; the mirror has it.
   EXPECT_EQ(player.bat()->input.count, 1u);
   EXPECT_EQ(player.bat()->input.held, 1u << static_cast<unsigned>(Key::up));
   EXPECT_EQ(player.bat()->position, rounded({home.x(), home.y() + moved}));

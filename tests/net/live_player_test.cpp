@@ -9,13 +9,15 @@
 namespace rink::loadgen {
 namespace {
 
-/// Plays the match with one live player per bat, by 20 ticks and 20 decisions a second; the score after `seconds`.
+/// Plays the match with one live player per bat, by 20 ticks and 20 decisions a second; the score
+/// after `seconds`.
 game::Score score_of(const std::vector<std::string>& kinds, double seconds) {
   const game::Scene scene = game::match();
   game::LockstepRink rink(scene, {.rate_hz = 20.0, .view_fraction = 1.0});
   rink.start();
   std::vector<LivePlayers> settings;
-  for (std::uint32_t k = 0; k < 2; ++k) settings.push_back({.kind = kinds[k], .rules = game::rules_of(scene, k), .seed = 1});
+  for (std::uint32_t k = 0; k < 2; ++k)
+    settings.push_back({.kind = kinds[k], .rules = game::rules_of(scene, k), .seed = 1});
   std::vector<LivePlayer> players;
   for (std::uint32_t k = 0; k < 2; ++k) players.emplace_back(settings[k], k);
   std::vector<game::KeysHeld> held(2);
@@ -25,7 +27,8 @@ game::Score score_of(const std::vector<std::string>& kinds, double seconds) {
     for (std::uint32_t k = 0; k < 2; ++k) {
       const game::KeysHeld wanted = players[k].decide(rink.client(k), rink.now);
       for (const game::Key key : game::all_keys)
-        if (wanted.is_down(key) != held[k].is_down(key)) wanted.is_down(key) ? rink.client(k).press(key) : rink.client(k).release(key);
+        if (wanted.is_down(key) != held[k].is_down(key))
+          wanted.is_down(key) ? rink.client(k).press(key) : rink.client(k).release(key);
       held[k] = wanted;
     }
   }
@@ -33,7 +36,8 @@ game::Score score_of(const std::vector<std::string>& kinds, double seconds) {
 }
 
 TEST(LivePlayer, TakesGoalsForAsWideInALargerFieldAsTheyAreThere) {
-  game::PlayerRules rules{.field = {.length = 2.4, .width = 1.2, .goal_width = 0.4}, .puck_mass = 0.25};
+  game::PlayerRules rules{.field = {.length = 2.4, .width = 1.2, .goal_width = 0.4},
+                          .puck_mass = 0.25};
   const game::PlayerRules larger = rules_on(rules, {.length = 24.0f, .width = 6.0f});
   EXPECT_EQ(larger.field.length, 24.0);
   EXPECT_EQ(larger.field.width, 6.0);

@@ -30,7 +30,8 @@ LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
   hub_.listen("rti");
   host_.add(hub_);
   server_ = std::make_unique<Server>(fom_, scene, settings.server, [this] { return now; });
-  server_link_ = std::make_unique<rti::FederateLink>(server_->ambassador(), server_endpoint_, server_endpoint_.connect("rti"));
+  server_link_ = std::make_unique<rti::FederateLink>(server_->ambassador(), server_endpoint_,
+                                                     server_endpoint_.connect("rti"));
   server_links_.add(*server_link_);
   if (execution_.filter().traits().uses_flights) server_->hand_in_flights();
   settle();
@@ -39,11 +40,16 @@ LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
 
 Client& LockstepRink::add_client(const std::string& name, bool only_watches) {
   auto player = std::make_unique<Player>(network_);
-  const ClientSettings settings{.federation = "rink", .name = name,
-                                .view_fraction = settings_.view_fraction, .view_margin = settings_.view_margin,
-                                .declares_regions = settings_.declares_regions, .extrapolates = settings_.extrapolates, .only_watches = only_watches};
+  const ClientSettings settings{.federation = "rink",
+                                .name = name,
+                                .view_fraction = settings_.view_fraction,
+                                .view_margin = settings_.view_margin,
+                                .declares_regions = settings_.declares_regions,
+                                .extrapolates = settings_.extrapolates,
+                                .only_watches = only_watches};
   player->client = std::make_unique<Client>(fom_, model_, settings);
-  player->link = std::make_unique<rti::FederateLink>(player->client->ambassador(), player->endpoint, player->endpoint.connect("rti"));
+  player->link = std::make_unique<rti::FederateLink>(player->client->ambassador(), player->endpoint,
+                                                     player->endpoint.connect("rti"));
   player->links.add(*player->link);
   clients_.push_back(std::move(player));
   return *clients_.back()->client;

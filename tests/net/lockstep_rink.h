@@ -1,4 +1,5 @@
-// A server and any number of clients in one process, stepped tick by tick under a clock of the test's own.
+// A server and any number of clients in one process, stepped tick by tick under a clock of the
+// test's own.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,9 @@ namespace rink::game {
 
 /// Whether a box of these half sides touches `view`.
 inline bool overlaps(const im::Region& view, const Vector2& centre, const Vector2& half_extent) {
-  return centre.x() - half_extent.x() <= view.high_x && centre.x() + half_extent.x() >= view.low_x && centre.y() - half_extent.y() <= view.high_y &&
-         centre.y() + half_extent.y() >= view.low_y;
+  return centre.x() - half_extent.x() <= view.high_x &&
+         centre.x() + half_extent.x() >= view.low_x &&
+         centre.y() - half_extent.y() <= view.high_y && centre.y() + half_extent.y() >= view.low_y;
 }
 
 /// What a lockstep rink is made of; everything but the scene has a default that suits most tests.
@@ -32,7 +34,8 @@ struct LockstepSettings {
   ServerSettings server = {};
 };
 
-/// The whole path of the real commands (server, RTI, filter, transport, clients) without sockets or real time.
+/// The whole path of the real commands (server, RTI, filter, transport, clients) without sockets or
+/// real time.
 class LockstepRink {
  public:
   LockstepRink(const Scene& scene, const LockstepSettings& settings);

@@ -12,7 +12,9 @@
 namespace rink::game {
 namespace {
 
-bool holds(const im::Region& view, const Vector2& centre) { return overlaps(view, centre, {0.0, 0.0}); }
+bool holds(const im::Region& view, const Vector2& centre) {
+  return overlaps(view, centre, {0.0, 0.0});
+}
 
 class MirrorUnderScheme : public testing::TestWithParam<const char*> {
  protected:
@@ -25,26 +27,37 @@ class MirrorUnderScheme : public testing::TestWithParam<const char*> {
   bool is_exact() const { return std::string(GetParam()) != "grid"; }
 };
 
-/// One tick: what each client knows of each entity, against the server's state at the tick that all were told of.
-void expect_mirrors_equal_the_server(LockstepRink& rink, const std::vector<im::Region>& views, const std::function<bool(const im::Region&, const Entity&, const Vector2&)>& must_know,
-                                     bool is_exact) {
+/// One tick: what each client knows of each entity, against the server's state at the tick that all
+/// were told of.
+void expect_mirrors_equal_the_server(
+    LockstepRink& rink, const std::vector<im::Region>& views,
+    const std::function<bool(const im::Region&, const Entity&, const Vector2&)>& must_know,
+    bool is_exact) {
   const Game& game = rink.server().game();
   for (std::size_t k = 0; k < rink.client_count(); ++k) {
     for (const Entity& entity : game.entities()) {
       const Vector2 centre = game.position(entity.id);
-      const MirroredEntity* mirrored = rink.client(k).mirror().find(rink.server().object(entity.id));
+      const MirroredEntity* mirrored =
+          rink.client(k).mirror().find(rink.server().object(entity.id));
       const bool is_known = mirrored != nullptr && mirrored->in_scope;
       const bool must = must_know(views[k], entity, centre);
-      ASSERT_TRUE(is_known || !must) << "client " << k << " misses entity " << entity.id.index << " at t = " << game.now();
-      ASSERT_TRUE(must || !is_known || !is_exact) << "client " << k << " is told of entity " << entity.id.index << ", which is out of its region";
-      ASSERT_TRUE(!is_known || mirrored->position == rounded(centre)) << "client " << k << ", entity " << entity.id.index << ", t = " << game.now();
+      ASSERT_TRUE(is_known || !must)
+          << "client " << k << " misses entity " << entity.id.index << " at t = " << game.now();
+      ASSERT_TRUE(must || !is_known || !is_exact)
+          << "client " << k << " is told of entity " << entity.id.index
+          << ", which is out of its region";
+      ASSERT_TRUE(!is_known || mirrored->position == rounded(centre))
+          << "client " << k << ", entity " << entity.id.index << ", t = " << game.now();
     }
   }
 }
 
 TEST_P(MirrorUnderScheme, EqualsTheServersStateInsideTheInterestRegionAtEveryTick) {
   const Scene scene = small_crowd();
-  LockstepRink rink(scene, {.scheme = GetParam(), .clients = 12, .view_fraction = 0.1, .server = {.replay = keys_for(scene, 5, 4.0)}});
+  LockstepRink rink(scene, {.scheme = GetParam(),
+                            .clients = 12,
+                            .view_fraction = 0.1,
+                            .server = {.replay = keys_for(scene, 5, 4.0)}});
   rink.start();
   for (int tick = 0; tick < 120; ++tick) {
     rink.settle();
@@ -52,7 +65,11 @@ TEST_P(MirrorUnderScheme, EqualsTheServersStateInsideTheInterestRegionAtEveryTic
     for (std::size_t k = 0; k < rink.client_count(); ++k) views.push_back(rink.client(k).view());
     rink.tick();
     expect_mirrors_equal_the_server(
-        rink, views, [&](const im::Region& view, const Entity& entity, const Vector2& centre) { return must_know(view, entity, centre); }, is_exact());
+        rink, views,
+        [&](const im::Region& view, const Entity& entity, const Vector2& centre) {
+          return must_know(view, entity, centre);
+        },
+        is_exact());
     if (HasFatalFailure()) return;
   }
   EXPECT_EQ(rink.client(0).mirror().counters().malformed, 0u);
@@ -60,7 +77,8 @@ TEST_P(MirrorUnderScheme, EqualsTheServersStateInsideTheInterestRegionAtEveryTic
 
 TEST_P(MirrorUnderScheme, LateJoinerKnowsItsSurroundingsAfterOneTickAndDiscoversNothingTwice) {
   const Scene scene = small_crowd();
-  LockstepRink rink(scene, {.scheme = GetParam(), .clients = 2, .server = {.replay = keys_for(scene, 6, 3.0)}});
+  LockstepRink rink(
+      scene, {.scheme = GetParam(), .clients = 2, .server = {.replay = keys_for(scene, 6, 3.0)}});
   rink.start();
   rink.run(1.0);
   Client& late = rink.add_client("bat-7");
@@ -69,13 +87,16 @@ TEST_P(MirrorUnderScheme, LateJoinerKnowsItsSurroundingsAfterOneTickAndDiscovers
   rink.tick();
   ASSERT_EQ(late.state(), Client::State::playing);
   ASSERT_NE(late.bat(), nullptr);
-  EXPECT_EQ(late.bat()->position, rounded(rink.server().game().position(*rink.server().game().bat(7))));
+  EXPECT_EQ(late.bat()->position,
+            rounded(rink.server().game().position(*rink.server().game().bat(7))));
   std::size_t in_scope = 0;
-  for (const MirroredEntity& entity : late.mirror().entities()) in_scope += entity.in_scope ? 1u : 0u;
+  for (const MirroredEntity& entity : late.mirror().entities())
+    in_scope += entity.in_scope ? 1u : 0u;
   EXPECT_EQ(in_scope, late.mirror().counters().entered - late.mirror().counters().left);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, MirrorUnderScheme, testing::Values("none", "grid", "region"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Schemes, MirrorUnderScheme, testing::Values("none", "grid", "region"),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST(Mirror, KnowsThatItWasNotToldYetWhereADiscoveredEntityIs) {
   const rti::Fom fom = load_rink_fom(fom_file());
@@ -94,7 +115,8 @@ TEST(Mirror, KnowsThatItWasNotToldYetWhereADiscoveredEntityIs) {
   EXPECT_TRUE(mirror.find(object)->is_placed);
   EXPECT_EQ(mirror.find(object)->position, there);
   mirror.set_scope(object, true);
-  EXPECT_TRUE(mirror.find(object)->is_placed) << "the state may come before the word that it entered, or after";
+  EXPECT_TRUE(mirror.find(object)->is_placed)
+      << "the state may come before the word that it entered, or after";
   mirror.set_scope(object, false);
   mirror.set_scope(object, true);
   EXPECT_FALSE(mirror.find(object)->is_placed) << "where it was when it left is not where it is";
@@ -102,7 +124,8 @@ TEST(Mirror, KnowsThatItWasNotToldYetWhereADiscoveredEntityIs) {
   EXPECT_TRUE(mirror.find(object)->is_placed);
 }
 
-/// x(t) = x0 + v (1 - exp(-g t)) / g: by the drag that is the field's, whether that was told before the path or after it.
+/// x(t) = x0 + v (1 - exp(-g t)) / g: by the drag that is the field's, whether that was told before
+/// the path or after it.
 TEST(Mirror, FollowsAPathByTheFieldsDragThoughThatComesLater) {
   const rti::Fom fom = load_rink_fom(fom_file());
   const ObjectModel model(fom);
@@ -114,22 +137,32 @@ TEST(Mirror, FollowsAPathByTheFieldsDragThoughThatComesLater) {
       Mirror mirror(model);
       std::vector<std::byte> bytes;
       mirror.discover(field, model.field);
-      const auto tell_drag = [&] { mirror.reflect(field, rti::AttributeSet{model.extent, model.drag}, encode(bytes, extent, drag), {}); };
+      const auto tell_drag = [&] {
+        mirror.reflect(field, rti::AttributeSet{model.extent, model.drag},
+                       encode(bytes, extent, drag), {});
+      };
       if (!is_late) tell_drag();
-      for (const auto& [object, kind] : {std::pair{puck, physics::BodyKind::puck}, {bat, physics::BodyKind::bat}}) {
+      for (const auto& [object, kind] :
+           {std::pair{puck, physics::BodyKind::puck}, {bat, physics::BodyKind::bat}}) {
         mirror.discover(object, model.entity);
-        const Shape shape{.kind = static_cast<std::uint8_t>(kind), .half_length = 0.04f, .half_width = 0.04f};
+        const Shape shape{
+            .kind = static_cast<std::uint8_t>(kind), .half_length = 0.04f, .half_width = 0.04f};
         mirror.reflect(object, rti::AttributeSet{model.shape}, encode(bytes, shape), {});
         const Trajectory path{.time = 1.0, .position = {3.0, 4.0}, .velocity = {2.0, -1.0}};
         const Snapshot seen{.position = {3.0, 4.0}, .velocity = {2.0, -1.0}};
-        if (is_snapshot) mirror.reflect(object, rti::AttributeSet{model.snapshot}, encode(bytes, seen), {.time = 1.0, .tag = 0});
-        else mirror.reflect(object, rti::AttributeSet{model.trajectory}, encode(bytes, path), {.time = 1.0, .tag = 0});
+        if (is_snapshot)
+          mirror.reflect(object, rti::AttributeSet{model.snapshot}, encode(bytes, seen),
+                         {.time = 1.0, .tag = 0});
+        else
+          mirror.reflect(object, rti::AttributeSet{model.trajectory}, encode(bytes, path),
+                         {.time = 1.0, .tag = 0});
       }
       if (is_late) tell_drag();
       for (const auto& [object, g] : {std::pair{puck, drag.pucks}, {bat, drag.bats}}) {
         const double s = (1.0 - std::exp(-g * 0.5)) / g;
         const physics::Vector2 there = mirror.find(object)->position_at(1.5);
-        EXPECT_NEAR(there.x(), 3.0 + 2.0 * s, 1e-6) << "drag " << g << (is_late ? ", told late" : "");
+        EXPECT_NEAR(there.x(), 3.0 + 2.0 * s, 1e-6)
+            << "drag " << g << (is_late ? ", told late" : "");
         EXPECT_NEAR(there.y(), 4.0 - 1.0 * s, 1e-6);
       }
       EXPECT_EQ(mirror.counters().malformed, 0u);

@@ -1,4 +1,5 @@
-// Under the policy "on-event" a trajectory is sent when it changes; every mirror must know at every tick, within the stated error, where all in its interest are.
+// Under the policy "on-event" a trajectory is sent when it changes; every mirror must know at every
+// tick, within the stated error, where all in its interest are.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,13 +30,17 @@ void measure(LockstepRink& rink, std::size_t client, const im::Region& view, Err
   const Game& game = rink.server().game();
   for (const Entity& entity : game.entities()) {
     const Vector2 centre = game.position(entity.id);
-    const MirroredEntity* mirrored = rink.client(client).mirror().find(rink.server().object(entity.id));
+    const MirroredEntity* mirrored =
+        rink.client(client).mirror().find(rink.server().object(entity.id));
     const bool is_known = mirrored != nullptr && mirrored->in_scope;
-    ASSERT_TRUE(is_known || !overlaps(view, centre, is_by_centre(rink) ? Vector2(0.0, 0.0) : entity.half_extent)) << "client " << client << " misses entity " << entity.id.index << " at t = " << game.now();
+    ASSERT_TRUE(is_known || !overlaps(view, centre,
+                                      is_by_centre(rink) ? Vector2(0.0, 0.0) : entity.half_extent))
+        << "client " << client << " misses entity " << entity.id.index << " at t = " << game.now();
     if (!is_known) continue;
     ASSERT_TRUE(mirrored->trajectory.has_value());
     const double off = (mirrored->position_at(game.now()) - centre).norm();
-    ASSERT_LE(off, trajectory_error_max) << "client " << client << ", entity " << entity.id.index << ", t = " << game.now();
+    ASSERT_LE(off, trajectory_error_max)
+        << "client " << client << ", entity " << entity.id.index << ", t = " << game.now();
     error.squares += off * off;
     error.greatest = std::max(error.greatest, off);
     ++error.count;
@@ -56,7 +61,10 @@ class OnEventUnderScheme : public testing::TestWithParam<const char*> {};
 
 TEST_P(OnEventUnderScheme, MirrorsFollowACrowdWithinTheStatedErrorAtEveryTick) {
   const Scene scene = small_crowd();
-  LockstepRink rink(scene, {.scheme = GetParam(), .clients = 12, .view_fraction = 0.3, .server = {.policy = "on-event", .replay = keys_for(scene, 5, 8.0)}});
+  LockstepRink rink(scene, {.scheme = GetParam(),
+                            .clients = 12,
+                            .view_fraction = 0.3,
+                            .server = {.policy = "on-event", .replay = keys_for(scene, 5, 8.0)}});
   rink.start();
   Error error;
   follow(rink, 240, error);
@@ -70,7 +78,10 @@ TEST_P(OnEventUnderScheme, MirrorsFollowACrowdWithinTheStatedErrorAtEveryTick) {
 TEST_P(OnEventUnderScheme, AMirrorThatComesLateKnowsWhatWasLastSaidLongBefore) {
   Scene scene = small_crowd();
   scene.bodies.bats.resize(3);
-  LockstepRink rink(scene, {.scheme = GetParam(), .clients = 2, .view_fraction = 0.5, .server = {.policy = "on-event", .replay = std::vector<InputEvent>{}}});
+  LockstepRink rink(scene, {.scheme = GetParam(),
+                            .clients = 2,
+                            .view_fraction = 0.5,
+                            .server = {.policy = "on-event", .replay = std::vector<InputEvent>{}}});
   rink.start();
   Error error;
   for (int round = 0; round < 8; ++round) {
@@ -83,15 +94,19 @@ TEST_P(OnEventUnderScheme, AMirrorThatComesLateKnowsWhatWasLastSaidLongBefore) {
   follow(rink, 30, error);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, OnEventUnderScheme, testing::Values("none", "grid", "region"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Schemes, OnEventUnderScheme, testing::Values("none", "grid", "region"),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST(OnEvent, WithoutDragATrajectoryIsToldAgainBeforeRoundingLeadsItAstray) {
   Scene scene = match();
   scene.world.puck_drag = 0.0;
   scene.world.field.goal_width = 0.0;
-  scene.world.restitution = physics::RestitutionTable(scene.world.restitution.material_count(), 1.0);
+  scene.world.restitution =
+      physics::RestitutionTable(scene.world.restitution.material_count(), 1.0);
   scene.bodies.pucks[0].body.velocity = {0.313, 0.0};  // 4.7 s from wall to wall
-  LockstepRink rink(scene, {.clients = 2, .view_fraction = 1.0, .server = {.policy = "on-event", .replay = std::vector<InputEvent>{}}});
+  LockstepRink rink(scene, {.clients = 2,
+                            .view_fraction = 1.0,
+                            .server = {.policy = "on-event", .replay = std::vector<InputEvent>{}}});
   rink.start();
   Error error;
   follow(rink, 1800, error);
@@ -103,7 +118,9 @@ TEST(OnEvent, MirrorsFollowPucksThatFrictionBringsToRest) {
   scene.world.puck_friction = 0.4;
   for (const double drag : {0.0, 0.25}) {
     scene.world.puck_drag = drag;
-    LockstepRink rink(scene, {.clients = 6, .view_fraction = 0.5, .server = {.policy = "on-event", .replay = keys_for(scene, 5, 5.0)}});
+    LockstepRink rink(scene, {.clients = 6,
+                              .view_fraction = 0.5,
+                              .server = {.policy = "on-event", .replay = keys_for(scene, 5, 5.0)}});
     rink.start();
     Error error;
     follow(rink, 300, error);
@@ -118,7 +135,9 @@ TEST(OnEvent, MirrorsFollowGoalsAndFaceOffs) {
   scene.world.field.goal_width = 0.8;
   scene.rules.goals_to_win.reset();
   scene.bodies.pucks[0].body.velocity = {-3.0, 0.1};
-  LockstepRink rink(scene, {.clients = 2, .view_fraction = 1.0, .server = {.policy = "on-event", .replay = keys_for(scene, 3, 40.0)}});
+  LockstepRink rink(scene, {.clients = 2,
+                            .view_fraction = 1.0,
+                            .server = {.policy = "on-event", .replay = keys_for(scene, 3, 40.0)}});
   rink.start();
   Error error;
   follow(rink, 1200, error);
@@ -128,7 +147,8 @@ TEST(OnEvent, MirrorsFollowGoalsAndFaceOffs) {
 
 TEST(OnEvent, MirrorsFollowBatsThatLeaveAndComeBack) {
   const Scene scene = small_crowd();
-  LockstepRink rink(scene, {.clients = 6, .view_fraction = 0.5, .server = {.policy = "on-event", .replay = {}}});
+  LockstepRink rink(
+      scene, {.clients = 6, .view_fraction = 0.5, .server = {.policy = "on-event", .replay = {}}});
   rink.start();
   for (std::size_t k = 0; k < 6; ++k) rink.client(k).press(static_cast<Key>(k % 4));
   Error error;
@@ -145,7 +165,10 @@ TEST(OnEvent, MirrorsFollowBatsThatLeaveAndComeBack) {
   for (int tick = 0; tick < 40; ++tick) rink.tick();
   ASSERT_EQ(back.state(), Client::State::playing);
   ASSERT_NE(back.bat(), nullptr);
-  EXPECT_LE((back.bat()->position_at(rink.now) - rink.server().game().position(*rink.server().game().bat(5))).norm(), trajectory_error_max);
+  EXPECT_LE((back.bat()->position_at(rink.now) -
+             rink.server().game().position(*rink.server().game().bat(5)))
+                .norm(),
+            trajectory_error_max);
 }
 
 TEST(OnEvent, APressedPuckIsFollowedAndNotToldEveryTick) {
@@ -153,23 +176,29 @@ TEST(OnEvent, APressedPuckIsFollowedAndNotToldEveryTick) {
   scene.bodies.pucks[0].body.position = {0.05, 0.6};
   scene.bodies.pucks[0].body.velocity = {0.0, 0.0};
   scene.world.field.goal_width = 0.0;
-  LockstepRink rink(scene, {.clients = 2, .view_fraction = 1.0, .server = {.policy = "on-event", .replay = {}}});
+  LockstepRink rink(
+      scene, {.clients = 2, .view_fraction = 1.0, .server = {.policy = "on-event", .replay = {}}});
   rink.start();
   rink.client(0).press(Key::left);  // the bat presses the puck to the wall
   Error error;
   follow(rink, 90, error);
   const std::uint64_t before = rink.client(0).mirror().counters().updates;
   follow(rink, 300, error);
-  EXPECT_LE(rink.client(0).mirror().counters().updates - before, 300u) << "less than one update a tick for the two of them";
+  EXPECT_LE(rink.client(0).mirror().counters().updates - before, 300u)
+      << "less than one update a tick for the two of them";
 }
 
 TEST(OnEvent, PlaysTheSameGameAsPeriodicWithAFractionOfTheUpdates) {
   const Scene scene = small_crowd();
   std::uint64_t hash[2] = {}, bytes[2] = {}, updates[2] = {};
   for (const int which : {0, 1}) {
-    LockstepRink rink(scene, {.scheme = "region", .clients = 12, .server = {.policy = which == 0 ? "periodic" : "on-event", .replay = keys_for(scene, 5, 3.0)}});
+    LockstepRink rink(scene, {.scheme = "region",
+                              .clients = 12,
+                              .server = {.policy = which == 0 ? "periodic" : "on-event",
+                                         .replay = keys_for(scene, 5, 3.0)}});
     rink.start();
-    const auto start_bytes = rink.execution().counters().bytes_sent, start_updates = rink.execution().counters().updates_sent;
+    const auto start_bytes = rink.execution().counters().bytes_sent,
+               start_updates = rink.execution().counters().updates_sent;
     rink.run(3.0);
     hash[which] = rink.server().game().hash();
     bytes[which] = rink.execution().counters().bytes_sent - start_bytes;

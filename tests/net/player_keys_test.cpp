@@ -12,8 +12,12 @@ namespace {
 
 /// A hosted match whose clock is that of the test, and which runs from the start.
 LockstepSettings hosted(double patience_s = 30.0) {
-  Hosting hosting{.times = {.countdown_s = 0.0, .patience_s = patience_s}, .scene_text = scene_text(test::source_folder() + "/scenes/match.toml")};
-  return {.clients = 2, .rate_hz = 60.0, .view_fraction = 1.0, .server = {.tick_s = 1.0 / 60.0, .replay = std::nullopt, .hosting = std::move(hosting)}};
+  Hosting hosting{.times = {.countdown_s = 0.0, .patience_s = patience_s},
+                  .scene_text = scene_text(test::source_folder() + "/scenes/match.toml")};
+  return {.clients = 2,
+          .rate_hz = 60.0,
+          .view_fraction = 1.0,
+          .server = {.tick_s = 1.0 / 60.0, .replay = std::nullopt, .hosting = std::move(hosting)}};
 }
 
 struct PlayerKeys : testing::Test {
@@ -29,7 +33,13 @@ struct PlayerKeys : testing::Test {
 TEST_F(PlayerKeys, AreFeltWhenTheirPlayerSaysButAtMostAQuarterOfASecondAhead) {
   ASSERT_EQ(rink.client(0).state(), Client::State::playing);
   const double now = rink.now;
-  for (const auto& [ahead_s, expected_s] : {std::pair{-3.0, 0.0}, {0.0, 0.0}, {0.1, 0.1}, {0.25, 0.25}, {0.3, 0.25}, {60.0, 0.25}, {1e300, 0.25}}) {
+  for (const auto& [ahead_s, expected_s] : {std::pair{-3.0, 0.0},
+                                            {0.0, 0.0},
+                                            {0.1, 0.1},
+                                            {0.25, 0.25},
+                                            {0.3, 0.25},
+                                            {60.0, 0.25},
+                                            {1e300, 0.25}}) {
     const std::size_t before = felt().size();
     rink.client(0).press(Key::up, now + ahead_s);
     rink.settle();

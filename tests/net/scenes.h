@@ -8,7 +8,9 @@
 namespace rink::game {
 
 /// Twelve bats and their share of the crowd's pucks, at the crowd's density.
-inline Scene small_crowd() { return scaled_to_bats(load_scene(test::source_folder() + "/scenes/crowd.toml"), 12); }
+inline Scene small_crowd() {
+  return scaled_to_bats(load_scene(test::source_folder() + "/scenes/crowd.toml"), 12);
+}
 
 inline Scene match() { return load_scene(test::source_folder() + "/scenes/match.toml"); }
 

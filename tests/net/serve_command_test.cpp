@@ -1,4 +1,5 @@
-// The commands rink-serve and rink-bots from their arguments to their exit status and last words, as a careless user would start them.
+// The commands rink-serve and rink-bots from their arguments to their exit status and last words,
+// as a careless user would start them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +33,8 @@ using testing::HasSubstr;
 using namespace std::chrono_literals;
 
 TEST(ServeCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
-  for (const char* flag : {"--rate", "--duration", "--warm-up", "--patience", "--cell-size", "--bats", "--clients"}) {
+  for (const char* flag :
+       {"--rate", "--duration", "--warm-up", "--patience", "--cell-size", "--bats", "--clients"}) {
     for (const char* value : {"nan", "inf", "-1", "1e300", "4000000000", "x"}) {
       const Ended ended = serve({"--scene", "match", flag, value});
       EXPECT_EQ(ended.status, 2) << flag << ' ' << value;
@@ -46,7 +48,9 @@ TEST(ServeCommand, CellsTooSmallToCountAreRefused) {
   for (const char* value : {"1e-308", "0.0009"}) {
     const Ended ended = serve({"--scene", "match", "--cell-size", value});
     EXPECT_EQ(ended.status, 2) << value;
-    EXPECT_THAT(ended.words, testing::AllOf(HasSubstr("--cell-size"), HasSubstr("is not a number from 0.001 to 1e+06, nor 0")));
+    EXPECT_THAT(ended.words,
+                testing::AllOf(HasSubstr("--cell-size"),
+                               HasSubstr("is not a number from 0.001 to 1e+06, nor 0")));
   }
 }
 
@@ -54,31 +58,45 @@ TEST(ServeCommand, RefusesASizeOfCellsForASchemeWithoutAny) {
   for (const char* scheme : {"none", "region", "aura", "grid(cell_size=2) or region"}) {
     const Ended ended = serve({"--scene", "match", "--scheme", scheme, "--cell-size", "0.5"});
     EXPECT_EQ(ended.status, 2);
-    EXPECT_THAT(ended.words, testing::AllOf(HasSubstr(std::string("--cell-size: the scheme ") + scheme + " has no cells"), HasSubstr("grid, hex")));
+    EXPECT_THAT(ended.words, testing::AllOf(HasSubstr(std::string("--cell-size: the scheme ") +
+                                                      scheme + " has no cells"),
+                                            HasSubstr("grid, hex")));
   }
 }
 
 TEST(ServeCommand, RefusesWhatIsAlwaysRelevantToASchemeThatDoesNotAsk) {
-  const Ended ended = serve({"--scene", "match", "--scheme", "aura or team", "--always", "puck,post"});
+  const Ended ended =
+      serve({"--scene", "match", "--scheme", "aura or team", "--always", "puck,post"});
   EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.words, HasSubstr("--always: the scheme aura or team does not name always"));
-  EXPECT_THAT(serve({"--scheme", "always", "--always", "pucks"}).words, HasSubstr("--always: pucks not in {puck,bat,post}"));
+  EXPECT_THAT(serve({"--scheme", "always", "--always", "pucks"}).words,
+              HasSubstr("--always: pucks not in {puck,bat,post}"));
 }
 
 TEST(ServeCommand, LoadsTheModulesThatAFederationFileListsAndNamesBothPlacesWhereTheyContradict) {
   const test::TemporaryFolder folder("modules");
-  std::ofstream(folder / "own.fom.xml") << R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name><objectClass><name>Entity</name>
+  std::ofstream(folder / "own.fom.xml")
+      << R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name><objectClass><name>Entity</name>
 <attribute><name>shape</name><dataType>HLAoctet</dataType></attribute></objectClass></objectClass></objects></objectModel>)";
-  std::ofstream(folder / "rink.toml") << "federation = \"rink\"\nfom = [\"" + test::source_folder() + "/game/net/rink.fom.xml\", \"own.fom.xml\"]\naddress = \"127.0.0.1\"\nport = 7000\n";
-  const Ended ended = run("rink-serve", {"--scene", "match", "--federation", (folder / "rink.toml").string()});
+  std::ofstream(folder / "rink.toml")
+      << "federation = \"rink\"\nfom = [\"" + test::source_folder() +
+             "/game/net/rink.fom.xml\", \"own.fom.xml\"]\naddress = \"127.0.0.1\"\nport = 7000\n";
+  const Ended ended =
+      run("rink-serve", {"--scene", "match", "--federation", (folder / "rink.toml").string()});
   EXPECT_NE(ended.status, 0);
-  EXPECT_THAT(ended.words, testing::AllOf(HasSubstr("own.fom.xml:2: InconsistentFDD: <attribute> 'shape' of class 'Entity'"), HasSubstr("game/net/rink.fom.xml:")));
+  EXPECT_THAT(
+      ended.words,
+      testing::AllOf(
+          HasSubstr("own.fom.xml:2: InconsistentFDD: <attribute> 'shape' of class 'Entity'"),
+          HasSubstr("game/net/rink.fom.xml:")));
 }
 
 TEST(ServeCommand, RecordsAllThatAReplayNeedsToComeToTheSameHash) {
   const test::TemporaryFolder folder("record");
   const std::filesystem::path file = folder / "serve.keys";
-  const Ended ended = serve({"--scene", "crowd", "--bat-count", "10", "--puck-count", "30", "--seed", "4", "--clients", "0", "--duration", "0.5", "--record", file.string()});
+  const Ended ended =
+      serve({"--scene", "crowd", "--bat-count", "10", "--puck-count", "30", "--seed", "4",
+             "--clients", "0", "--duration", "0.5", "--record", file.string()});
   ASSERT_EQ(ended.status, 0) << ended.words;
   const KeyLog log = read_key_log(file);
   require_complete(log, file.string());
@@ -103,9 +121,12 @@ TEST(ServeCommand, ResultsThatCannotBeWrittenAreNamedBeforeTheRun) {
 TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
   const test::TemporaryFolder folder("report");
   const std::filesystem::path report = folder / "serve.json";
-  Process server(test::binary_folder() + "/bin/rink-serve",
-                 {"--scene", "match", "--pace", "synchronous", "--port", "0", "--report", report.string()}, {});
-  const auto limit = std::chrono::steady_clock::now() + 6s;  // longer than the RTI lets a federate be silent
+  Process server(
+      test::binary_folder() + "/bin/rink-serve",
+      {"--scene", "match", "--pace", "synchronous", "--port", "0", "--report", report.string()},
+      {});
+  const auto limit =
+      std::chrono::steady_clock::now() + 6s;  // longer than the RTI lets a federate be silent
   while (!server.ending() && std::chrono::steady_clock::now() < limit) server.attend(20ms);
   server.stop(5s);
   EXPECT_EQ(server.ending()->exit_status, 130) << server.last_words();
@@ -115,13 +136,17 @@ TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
 /// Waits until so many players of the server there have each ended twenty turns.
 bool takes_turns(const std::string& place, std::uint32_t players) {
   const auto [address, port] = address_and_port("place", place);
-  const auto now_s = [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
+  const auto now_s = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+  };
   for (const double limit = now_s() + 15.0; now_s() < limit; std::this_thread::sleep_for(20ms)) {
     const StatusAnswer answer = ask_status({.address = address, .port = port}, now_s);
     if (!answer.reports || answer.reports->empty()) continue;
-    const auto playing = std::ranges::count_if(answer.reports->front().federates, [](const rti::FederateReport& federate) {
-      return federate.name != "server" && federate.counts.interactions_sent >= 20;
-    });
+    const auto playing = std::ranges::count_if(
+        answer.reports->front().federates, [](const rti::FederateReport& federate) {
+          return federate.name != "server" && federate.counts.interactions_sent >= 20;
+        });
     if (static_cast<std::uint32_t>(playing) == players) return true;
   }
   return false;
@@ -133,19 +158,24 @@ TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlaye
     const bool loses_one = hashes.size() == 2;
     const test::TemporaryFolder folder("report");
     const std::filesystem::path report = folder / "serve.json";
-    std::vector<std::string> flags{"--scene", "crowd", "--bat-count", "6", "--clients", "6", "--puck-count", "30", "--pace", "synchronous", "--port", "0", "--report", report.string(), "--duration"};
+    std::vector<std::string> flags{
+        "--scene",   "crowd",  "--bat-count", "6",      "--clients", "6",        "--puck-count",
+        "30",        "--pace", "synchronous", "--port", "0",         "--report", report.string(),
+        "--duration"};
     flags.push_back(loses_one ? "200" : "2");
     if (is_managed) flags.push_back("--time-management");
     Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
     const std::optional<std::string> place = place_of(server);
     ASSERT_TRUE(place) << server.last_words();
-    const std::vector<std::string> bots{"--connect", *place, "--count", "3", "--seed", "5", "--duration", flags[15]};
+    const std::vector<std::string> bots{"--connect", *place, "--count",    "3",
+                                        "--seed",    "5",    "--duration", flags[15]};
     Process first(test::binary_folder() + "/bin/rink-bots", bots, {});
     std::vector<std::string> others = bots;
     others.insert(others.end(), {"--first", "3"});
     Process second(test::binary_folder() + "/bin/rink-bots", others, {});
     const auto limit = std::chrono::steady_clock::now() + 20s;
-    for (bool is_killed = false; !server.ending() && std::chrono::steady_clock::now() < limit; is_killed = true) {
+    for (bool is_killed = false; !server.ending() && std::chrono::steady_clock::now() < limit;
+         is_killed = true) {
       if (loses_one && !is_killed) {
         ASSERT_TRUE(takes_turns(*place, 6)) << server.last_words();
         second.stop(0s);
@@ -208,19 +238,25 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
                              "\"127.0.0.1\"\nport = " +
                              port.text() +
                              "\n[[node]]\nname = \"Ada\"\n[[node]]\nname = \"Grace\"\n";
-  const std::vector<std::string> flags{"--scene", "match", "--federation", file, "--duration", "0.3", "--rate", "60", "--patience"};
+  const std::vector<std::string> flags{
+      "--scene", "match", "--federation", file, "--duration", "0.3", "--rate", "60", "--patience"};
   const auto serve_for = [&](const std::string& patience_s) {
     std::vector<std::string> all = flags;
     all.push_back(patience_s);
-    return std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", all, std::vector<int>{});
+    return std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", all,
+                                     std::vector<int>{});
   };
   const auto first = serve_for("20");
   while (!first->line_after("listening on ") && !first->ending()) first->attend(10ms);
   const Ended stranger = run("rink-bots", {"--connect", "127.0.0.1:" + port.text(), "--federation",
                                            "listed", "--duration", "0.2"});
   EXPECT_EQ(stranger.status, 14);
-  EXPECT_THAT(stranger.words, HasSubstr("members are listed by name in its federation file, and this federate is none of them"));
-  const Ended listed = run("rink-bots", {"--federation-file", file, "--count", "2", "--duration", "0.2"});
+  EXPECT_THAT(
+      stranger.words,
+      HasSubstr(
+          "members are listed by name in its federation file, and this federate is none of them"));
+  const Ended listed =
+      run("rink-bots", {"--federation-file", file, "--count", "2", "--duration", "0.2"});
   EXPECT_EQ(listed.status, 0) << listed.words;
   for (int i = 0; i < 500 && !first->ending(); ++i) first->attend(10ms);
   ASSERT_TRUE(first->ending());
@@ -238,19 +274,24 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
 }
 
 TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
-  Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0", "--scheme", "grid"}, {});
+  Process server(test::binary_folder() + "/bin/rink-serve",
+                 {"--scene", "match", "--port", "0", "--scheme", "grid"}, {});
   const std::optional<std::string> place = place_of(server);
   ASSERT_TRUE(place) << server.last_words();
   Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place}, {});
   for (int i = 0; i < 500 && !status.ending(); ++i) status.attend(10ms);
   ASSERT_TRUE(status.ending());
   EXPECT_EQ(status.ending()->exit_status, 0) << status.last_words();
-  EXPECT_THAT(status.line_after("federation rink: ").value_or(""), testing::AllOf(HasSubstr("filter grid"), HasSubstr("1 federates"), HasSubstr("connections dropped: none")));
+  EXPECT_THAT(status.line_after("federation rink: ").value_or(""),
+              testing::AllOf(HasSubstr("filter grid"), HasSubstr("1 federates"),
+                             HasSubstr("connections dropped: none")));
   EXPECT_TRUE(status.line_after("server ")) << "the server's own federate has a line";
   server.stop(5s);
   const Ended nobody = run("rink-serve", {"--status", *place});
   EXPECT_EQ(nobody.status, 11);
-  EXPECT_THAT(nobody.words, testing::AllOf(HasSubstr("--status: " + *place + ": nobody listens there"), HasSubstr("refused")));
+  EXPECT_THAT(nobody.words,
+              testing::AllOf(HasSubstr("--status: " + *place + ": nobody listens there"),
+                             HasSubstr("refused")));
 }
 
 /// Somebody who listens and speaks something else, or nothing.
@@ -269,17 +310,22 @@ TEST(ServeCommand, StatusTellsARefusalFromSomebodyWhoSpeaksAnotherProtocol) {
   for (const bool hangs_up : {true, false}) {
     Foreigner foreigner;
     foreigner.hangs_up = hangs_up;
-    Process status(test::binary_folder() + "/bin/rink-serve", {"--status", "127.0.0.1:" + std::to_string(foreigner.port)}, {});
-    for (int i = 0; i < 1000 && !status.ending(); ++i) status.attend(5ms), foreigner.tcp.poll(5ms, foreigner);
+    Process status(test::binary_folder() + "/bin/rink-serve",
+                   {"--status", "127.0.0.1:" + std::to_string(foreigner.port)}, {});
+    for (int i = 0; i < 1000 && !status.ending(); ++i)
+      status.attend(5ms), foreigner.tcp.poll(5ms, foreigner);
     ASSERT_TRUE(status.ending());
     EXPECT_EQ(status.ending()->exit_status, 11);
-    EXPECT_THAT(status.last_words(), HasSubstr("does not speak version " + std::to_string(rti::protocol_version)));
-    EXPECT_THAT(status.last_words(), HasSubstr(hangs_up ? "closed by peer" : "no answer within 3 s"));
+    EXPECT_THAT(status.last_words(),
+                HasSubstr("does not speak version " + std::to_string(rti::protocol_version)));
+    EXPECT_THAT(status.last_words(),
+                HasSubstr(hangs_up ? "closed by peer" : "no answer within 3 s"));
   }
 }
 
 TEST(ServeCommand, APlayerWhoNeverGetsReadyCostsTheServerNothingButThePatience) {
-  Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--clients", "1", "--patience", "7", "--port", "0"}, {});
+  Process server(test::binary_folder() + "/bin/rink-serve",
+                 {"--scene", "match", "--clients", "1", "--patience", "7", "--port", "0"}, {});
   const std::optional<std::string> place = place_of(server);
   ASSERT_TRUE(place) << server.last_words();
   struct : rti::FederateAmbassador {
@@ -300,15 +346,18 @@ TEST(ServeCommand, APlayerWhoNeverGetsReadyCostsTheServerNothingButThePatience) 
   }
   ASSERT_TRUE(server.ending());
   EXPECT_EQ(server.ending()->exit_status, 17) << "players did not come";
-  EXPECT_THAT(server.last_words(), HasSubstr("1 players came, but not all were ready to start within 7 s"));
+  EXPECT_THAT(server.last_words(),
+              HasSubstr("1 players came, but not all were ready to start within 7 s"));
 }
 
 /// What is printed later is what is true later: a federate who came in between is there.
 TEST(ServeCommand, StatusAsksAgainWhenToldTo) {
-  Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0"}, {});
+  Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0"},
+                 {});
   const std::optional<std::string> place = place_of(server);
   ASSERT_TRUE(place) << server.last_words();
-  Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place, "--every", "0.05"}, {});
+  Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place, "--every", "0.05"},
+                 {});
   for (int i = 0; i < 200 && !status.line_after("server "); ++i) status.attend(20ms);
   EXPECT_TRUE(status.line_after("server ")) << status.last_words();
   EXPECT_FALSE(status.line_after("Ada "));
@@ -321,7 +370,8 @@ TEST(ServeCommand, StatusAsksAgainWhenToldTo) {
 }
 
 TEST(BotsCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
-  for (const char* flag : {"--count", "--first", "--view", "--duration", "--warm-up", "--patience"}) {
+  for (const char* flag :
+       {"--count", "--first", "--view", "--duration", "--warm-up", "--patience"}) {
     for (const char* value : {"nan", "inf", "-1", "1e300", "4000000000", "x"}) {
       const Ended ended = run("rink-bots", {flag, value});
       EXPECT_EQ(ended.status, 2) << flag << ' ' << value;
@@ -331,20 +381,25 @@ TEST(BotsCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
 }
 
 TEST(BotsCommand, BotsThatWantDatagramsOfAServerWithoutAreToldToLookAtItsTransport) {
-  Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--clients", "2", "--port", "0"}, {});
+  Process server(test::binary_folder() + "/bin/rink-serve",
+                 {"--scene", "match", "--clients", "2", "--port", "0"}, {});
   const std::optional<std::string> place = place_of(server);
   ASSERT_TRUE(place) << server.last_words();
-  const Ended bots = run("rink-bots", {"--connect", *place, "--transport", "udp", "--count", "2", "--duration", "1"});
+  const Ended bots = run(
+      "rink-bots", {"--connect", *place, "--transport", "udp", "--count", "2", "--duration", "1"});
   EXPECT_EQ(bots.status, 16);
   EXPECT_THAT(bots.words, HasSubstr("does the server use another transport than udp?"));
 }
 
 TEST(BotsCommand, AServerThatIsKilledEndsThemAtOnceWithAStatusOfItsOwn) {
-  auto server = std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", std::vector<std::string>{"--scene", "match", "--clients", "2", "--port", "0"},
-                                          std::vector<int>{});
+  auto server = std::make_unique<Process>(
+      test::binary_folder() + "/bin/rink-serve",
+      std::vector<std::string>{"--scene", "match", "--clients", "2", "--port", "0"},
+      std::vector<int>{});
   const std::optional<std::string> place = place_of(*server);
   ASSERT_TRUE(place) << server->last_words();
-  Process bots(test::binary_folder() + "/bin/rink-bots", {"--connect", *place, "--count", "2", "--duration", "60"}, {});
+  Process bots(test::binary_folder() + "/bin/rink-bots",
+               {"--connect", *place, "--count", "2", "--duration", "60"}, {});
   for (int i = 0; i < 50; ++i) bots.attend(20ms);
   ASSERT_FALSE(bots.ending()) << bots.last_words();
   server.reset();

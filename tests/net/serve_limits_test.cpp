@@ -29,16 +29,19 @@ Held held_by(std::vector<std::string> flags, const std::function<void(Guest&)>& 
   constexpr double duration_s = 0.3, lead_s = 0.1, room_s = 0.05;
   const test::TemporaryFolder folder("serve-limits");
   const std::string report = (folder / "report.json").string();
-  flags.insert(flags.begin(), {"--scene", "match", "--clients", "1", "--port", "0", "--duration", "0.3", "--report", report});
+  flags.insert(flags.begin(), {"--scene", "match", "--clients", "1", "--port", "0", "--duration",
+                               "0.3", "--report", report});
   Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
   const std::optional<std::string> place = place_of(server);
   if (!place) return {.ended = {.status = -1, .words = server.last_words()}};
   Guest guest(*place, {.name = "bat-0"});
-  for (int i = 0; i < 5000 && guest.client.state() != Client::State::playing; ++i) guest.exchange(), server.attend(0ms);
+  for (int i = 0; i < 5000 && guest.client.state() != Client::State::playing; ++i)
+    guest.exchange(), server.attend(0ms);
   const double started_s = Guest::now_s();
   act(guest);
   Held held;
-  while (Guest::now_s() < started_s + lead_s + duration_s + room_s && guest.client.state() == Client::State::playing) {
+  while (Guest::now_s() < started_s + lead_s + duration_s + room_s &&
+         guest.client.state() == Client::State::playing) {
     guest.exchange();
     server.attend(0ms);
     if (guest.client.bat() != nullptr) held.acknowledged = guest.client.bat()->input.count;
@@ -46,7 +49,8 @@ Held held_by(std::vector<std::string> flags, const std::function<void(Guest&)>& 
   held.is_dropped = guest.client.state() != Client::State::playing;
   guest.leave();
   for (int i = 0; i < 500 && !server.ending(); ++i) server.attend(10ms);
-  if (server.ending()) held.ended = {.status = server.ending()->exit_status, .words = server.last_words()};
+  if (server.ending())
+    held.ended = {.status = server.ending()->exit_status, .words = server.last_words()};
   held.report = nlohmann::json::parse(std::ifstream(report), nullptr, false);
   return held;
 }
@@ -65,14 +69,18 @@ TEST(ServeLimits, AFloodOfKeysIsNotFeltAndWhoSendsItIsNamed) {
   EXPECT_EQ(held.ended.status, 0) << held.ended.words;
   EXPECT_FALSE(held.is_dropped);
   EXPECT_EQ(held.report.at("keys_received"), 2000);
-  EXPECT_NEAR(held.report.at("keys_over_limit").get<double>(), 2000.0 - key_limit_default, 60.0) << "they came within a quarter of a second";
+  EXPECT_NEAR(held.report.at("keys_over_limit").get<double>(), 2000.0 - key_limit_default, 60.0)
+      << "they came within a quarter of a second";
   EXPECT_EQ(held.acknowledged, 2000u);
-  EXPECT_THAT(held.ended.words, HasSubstr("the player of bat-0 sends more than 240 key changes a second (--key-limit)"));
+  EXPECT_THAT(
+      held.ended.words,
+      HasSubstr("the player of bat-0 sends more than 240 key changes a second (--key-limit)"));
   EXPECT_THAT(held.ended.words, HasSubstr("key changes above --key-limit were not felt"));
 }
 
 TEST(ServeLimits, AreAsWideAsTheyAreSaidToBe) {
-  const Held held = held_by({"--key-limit", "0", "--rate-limit", "100000", "--frame-limit", "1000"}, send_frames);
+  const Held held =
+      held_by({"--key-limit", "0", "--rate-limit", "100000", "--frame-limit", "1000"}, send_frames);
   EXPECT_EQ(held.ended.status, 0) << held.ended.words;
   EXPECT_FALSE(held.is_dropped);
   EXPECT_EQ(held.report.at("lost_federates"), 0);
@@ -80,7 +88,8 @@ TEST(ServeLimits, AreAsWideAsTheyAreSaidToBe) {
   EXPECT_EQ(held.report.at("keys_received"), 300);
   EXPECT_EQ(held.acknowledged, 300u);
   EXPECT_THAT(held.ended.words, testing::Not(HasSubstr("limit")));
-  EXPECT_THAT(serve({"--key-limit", "0.5"}).words, HasSubstr("--key-limit: 0.5 is not a number from 1"));
+  EXPECT_THAT(serve({"--key-limit", "0.5"}).words,
+              HasSubstr("--key-limit: 0.5 is not a number from 1"));
 }
 
 TEST(ServeLimits, DropWhoSendsMoreBytesOrFramesPerSecond) {

@@ -13,8 +13,10 @@ namespace rink::game {
 namespace {
 
 /// Plays `seconds` of `scene` with the keys of `log` and returns the final state's hash.
-std::uint64_t hash_after(const Scene& scene, const std::vector<InputEvent>& log, const std::string& scheme, double rate_hz, double seconds) {
-  LockstepRink rink(scene, {.scheme = scheme, .clients = 3, .rate_hz = rate_hz, .server = {.replay = log}});
+std::uint64_t hash_after(const Scene& scene, const std::vector<InputEvent>& log,
+                         const std::string& scheme, double rate_hz, double seconds) {
+  LockstepRink rink(
+      scene, {.scheme = scheme, .clients = 3, .rate_hz = rate_hz, .server = {.replay = log}});
   rink.start();
   rink.run(seconds);
   EXPECT_DOUBLE_EQ(rink.server().game().now(), seconds);
@@ -28,7 +30,9 @@ TEST(Server, EndsInTheSameStateUnderEveryFilterAndOutputRate) {
   for (const InputEvent& event : log) alone.submit(event);
   alone.advance(2.0);
   for (const char* scheme : {"none", "grid", "region"})
-    for (const double rate_hz : {20.0, 60.0}) EXPECT_EQ(hash_after(scene, log, scheme, rate_hz, 2.0), alone.hash()) << scheme << " at " << rate_hz << " Hz";
+    for (const double rate_hz : {20.0, 60.0})
+      EXPECT_EQ(hash_after(scene, log, scheme, rate_hz, 2.0), alone.hash())
+          << scheme << " at " << rate_hz << " Hz";
 }
 
 TEST(Server, RecordsALogThatReplaysLiveKeysToTheSameState) {
@@ -43,7 +47,8 @@ TEST(Server, RecordsALogThatReplaysLiveKeysToTheSameState) {
   }
   EXPECT_EQ(live.server().counters().keys_received, 60u);
   EXPECT_EQ(live.server().counters().keys_applied, 60u);
-  EXPECT_EQ(hash_after(scene, live.server().record(), "none", 30.0, 2.0), live.server().game().hash());
+  EXPECT_EQ(hash_after(scene, live.server().record(), "none", 30.0, 2.0),
+            live.server().game().hash());
 }
 
 TEST(Server, StampsAKeyWithTheInstantOfItsArrival) {
@@ -55,7 +60,9 @@ TEST(Server, StampsAKeyWithTheInstantOfItsArrival) {
   const double arrival = rink.now;
   rink.tick();
   ASSERT_EQ(rink.server().record().size(), 1u);
-  EXPECT_EQ(rink.server().record()[0], (InputEvent{.time = arrival, .player = 0, .kind = InputKind::key_down, .key = Key::up}));
+  EXPECT_EQ(
+      rink.server().record()[0],
+      (InputEvent{.time = arrival, .player = 0, .kind = InputKind::key_down, .key = Key::up}));
 }
 
 TEST(Server, GivesABatToTheFederateThatBearsItsNameAndTheFirstFreeOneToOthers) {
@@ -130,7 +137,9 @@ TEST(Server, WaitsForTheOthersTurnsWhereOneLeavesWhoseTurnIsDone) {
 TEST(Server, CountsAKeyAsFeltInTheTickThatAppliesIt) {
   constexpr double tick_s = 1.0 / 32.0;
   for (const double part : {0.5, 1.0}) {
-    LockstepRink rink(match(), {.clients = 1, .rate_hz = 1.0 / tick_s, .server = {.tick_s = tick_s, .replay = std::nullopt}});
+    LockstepRink rink(match(), {.clients = 1,
+                                .rate_hz = 1.0 / tick_s,
+                                .server = {.tick_s = tick_s, .replay = std::nullopt}});
     rink.start();
     rink.tick();
     rink.now += part * tick_s;
@@ -144,28 +153,34 @@ TEST(Server, CountsAKeyAsFeltInTheTickThatAppliesIt) {
   }
 }
 
-/// 9,600 key changes a second, as a program sends them: a full second's worth is felt at once, and of each later tick its share.
+/// 9,600 key changes a second, as a program sends them: a full second's worth is felt at once, and
+/// of each later tick its share.
 TEST(Server, FeelsNoMoreKeysOfAPlayerThanItsLimitAndAllOfTheOther) {
   LockstepRink rink(match(), {.clients = 2, .rate_hz = 30.0});
   rink.start();
   constexpr int ticks = 60, flood = 320;
   for (int tick = 0; tick < ticks; ++tick) {
-    for (int i = 0; i < flood / 2; ++i) rink.client(0).press(Key::up), rink.client(0).release(Key::up);
+    for (int i = 0; i < flood / 2; ++i)
+      rink.client(0).press(Key::up), rink.client(0).release(Key::up);
     tick % 2 == 0 ? rink.client(1).press(Key::down) : rink.client(1).release(Key::down);
     rink.tick();
   }
   rink.tick();
-  const auto felt = static_cast<double>(std::ranges::count(rink.server().record(), 0u, &InputEvent::player));
+  const auto felt =
+      static_cast<double>(std::ranges::count(rink.server().record(), 0u, &InputEvent::player));
   EXPECT_NEAR(felt, key_limit_default * (1.0 + (ticks - 1) / 30.0), 1.0);
-  EXPECT_EQ(rink.server().counters().keys_over_limit, ticks * flood - static_cast<std::uint64_t>(felt));
+  EXPECT_EQ(rink.server().counters().keys_over_limit,
+            ticks * flood - static_cast<std::uint64_t>(felt));
   EXPECT_EQ(rink.server().counters().player_over_limit, 0u);
   EXPECT_EQ(std::ranges::count(rink.server().record(), 1u, &InputEvent::player), ticks);
-  EXPECT_EQ(rink.client(0).bat()->input.count, static_cast<std::uint32_t>(ticks * flood)) << "nobody waits for a key that is not felt";
+  EXPECT_EQ(rink.client(0).bat()->input.count, static_cast<std::uint32_t>(ticks * flood))
+      << "nobody waits for a key that is not felt";
   EXPECT_EQ(rink.client(1).bat()->input.count, static_cast<std::uint32_t>(ticks));
 }
 
 TEST(Server, FeelsEveryKeyWithoutALimit) {
-  LockstepRink rink(match(), {.clients = 1, .server = {.replay = std::nullopt, .key_limit_per_s = 0.0}});
+  LockstepRink rink(match(),
+                    {.clients = 1, .server = {.replay = std::nullopt, .key_limit_per_s = 0.0}});
   rink.start();
   for (int i = 0; i < 1000; ++i) rink.client(0).press(Key::up), rink.client(0).release(Key::up);
   rink.tick();
@@ -173,15 +188,16 @@ TEST(Server, FeelsEveryKeyWithoutALimit) {
   EXPECT_EQ(rink.server().counters().keys_over_limit, 0u);
 }
 
-/// No bot decides more often than every decision_period, nor has more keys than four; one whose link stood still for two
-/// seconds has as many more to send at once.
+/// No bot decides more often than every decision_period, nor has more keys than four; one whose
+/// link stood still for two seconds has as many more to send at once.
 TEST(Server, FeelsEveryKeyOfABotThatChangesAllItsKeysAtEachDecision) {
   static_assert(all_keys.size() / decision_period <= key_limit_default / 3.0);
   LockstepRink rink(match(), {.clients = 1, .rate_hz = 1.0 / decision_period});
   rink.start();
   std::uint64_t sent = 0;
   const auto decide = [&](bool is_down) {
-    for (const Key key : all_keys) is_down ? rink.client(0).press(key) : rink.client(0).release(key), ++sent;
+    for (const Key key : all_keys)
+      is_down ? rink.client(0).press(key) : rink.client(0).release(key), ++sent;
   };
   for (int tick = 0; tick < 200; ++tick) {
     const bool stood_still = tick > 140 && tick <= 180;

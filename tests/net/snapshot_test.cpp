@@ -1,4 +1,5 @@
-// Under the policy "snapshot" every mirror knows at every tick, to half the stated resolution, where all in its interest are, from differences to what it acknowledged.
+// Under the policy "snapshot" every mirror knows at every tick, to half the stated resolution,
+// where all in its interest are, from differences to what it acknowledged.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +17,10 @@ class SnapshotUnderScheme : public testing::TestWithParam<const char*> {};
 
 TEST_P(SnapshotUnderScheme, MirrorsFollowACrowdWithinHalfTheResolutionAtEveryTick) {
   const Scene scene = small_crowd();
-  LockstepRink rink(scene, {.scheme = GetParam(), .clients = 12, .view_fraction = 0.3, .server = {.policy = "snapshot", .replay = keys_for(scene, 5, 8.0)}});
+  LockstepRink rink(scene, {.scheme = GetParam(),
+                            .clients = 12,
+                            .view_fraction = 0.3,
+                            .server = {.policy = "snapshot", .replay = keys_for(scene, 5, 8.0)}});
   rink.start();
   std::size_t compared = 0;
   for (int tick = 0; tick < 240; ++tick) {
@@ -24,11 +28,13 @@ TEST_P(SnapshotUnderScheme, MirrorsFollowACrowdWithinHalfTheResolutionAtEveryTic
     const Game& game = rink.server().game();
     for (std::size_t k = 0; k < rink.client_count(); ++k) {
       for (const Entity& entity : game.entities()) {
-        const MirroredEntity* mirrored = rink.client(k).mirror().find(rink.server().object(entity.id));
+        const MirroredEntity* mirrored =
+            rink.client(k).mirror().find(rink.server().object(entity.id));
         if (mirrored == nullptr || !mirrored->in_scope) continue;
         ASSERT_TRUE(mirrored->trajectory.has_value());
         const Vector2 off = mirrored->position_at(game.now()) - game.position(entity.id);
-        ASSERT_LE(off.cwiseAbs().maxCoeff(), position_error_max + 1e-12) << "client " << k << ", entity " << entity.id.index << ", t = " << game.now();
+        ASSERT_LE(off.cwiseAbs().maxCoeff(), position_error_max + 1e-12)
+            << "client " << k << ", entity " << entity.id.index << ", t = " << game.now();
         ++compared;
       }
     }
@@ -40,11 +46,14 @@ TEST_P(SnapshotUnderScheme, MirrorsFollowACrowdWithinHalfTheResolutionAtEveryTic
   EXPECT_EQ(rink.client(0).mirror().counters().malformed, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, SnapshotUnderScheme, testing::Values("none", "grid", "region"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Schemes, SnapshotUnderScheme, testing::Values("none", "grid", "region"),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST(Snapshot, TellsVelocitiesToHalfTheirResolution) {
   const Scene scene = small_crowd();
-  LockstepRink rink(scene, {.scheme = "none", .clients = 1, .server = {.policy = "snapshot", .replay = keys_for(scene, 5, 2.0)}});
+  LockstepRink rink(scene, {.scheme = "none",
+                            .clients = 1,
+                            .server = {.policy = "snapshot", .replay = keys_for(scene, 5, 2.0)}});
   rink.start();
   for (int tick = 0; tick < 60; ++tick) rink.tick();
   const Game& game = rink.server().game();
@@ -54,7 +63,8 @@ TEST(Snapshot, TellsVelocitiesToHalfTheirResolution) {
     ASSERT_NE(mirrored, nullptr);
     const physics::Motion motion = game.world().motion(entity.id);
     if (!game.world().is_in_play(entity.id) || game.world().is_resting(entity.id)) continue;
-    const Vector2 off = mirrored->trajectory->velocity - motion.at(std::max(game.now(), motion.time)).velocity;
+    const Vector2 off =
+        mirrored->trajectory->velocity - motion.at(std::max(game.now(), motion.time)).velocity;
     EXPECT_LE(off.cwiseAbs().maxCoeff(), velocity_error_max + 1e-12);
     ++moving;
   }
@@ -65,7 +75,10 @@ TEST(Snapshot, LeavesTheGameAsItIs) {
   const Scene scene = small_crowd();
   std::uint64_t hashes[2];
   for (int which = 0; which < 2; ++which) {
-    LockstepRink rink(scene, {.scheme = "region", .clients = 4, .server = {.policy = which == 0 ? "periodic" : "snapshot", .replay = keys_for(scene, 5, 3.0)}});
+    LockstepRink rink(scene, {.scheme = "region",
+                              .clients = 4,
+                              .server = {.policy = which == 0 ? "periodic" : "snapshot",
+                                         .replay = keys_for(scene, 5, 3.0)}});
     rink.start();
     for (int tick = 0; tick < 90; ++tick) rink.tick();
     hashes[which] = rink.server().game().hash();

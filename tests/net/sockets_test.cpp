@@ -1,4 +1,5 @@
-// The same game over real sockets as in process: server and clients in threads of their own, on loopback.
+// The same game over real sockets as in process: server and clients in threads of their own, on
+// loopback.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -20,8 +21,10 @@ using namespace std::chrono_literals;
 
 constexpr double rate_hz = 50.0, duration_s = 0.6;
 
-/// The server's thread: waits for two players, then ticks in real time until the duration is over. Returns the final state's hash.
-std::uint64_t serve(const Scene& scene, const std::vector<InputEvent>& log, const std::string& scheme, std::atomic<std::uint16_t>& port) {
+/// The server's thread: waits for two players, then ticks in real time until the duration is over.
+/// Returns the final state's hash.
+std::uint64_t serve(const Scene& scene, const std::vector<InputEvent>& log,
+                    const std::string& scheme, std::atomic<std::uint16_t>& port) {
   const rti::Fom fom = load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml");
   rti::InProcessNetwork network;
   rti::InProcessEndpoint hub(network), endpoint(network);
@@ -103,10 +106,12 @@ TEST_P(ThreadedSockets, CarryTheVeryGameThatIsPlayedAlone) {
   EXPECT_EQ(hash, alone.hash());
   EXPECT_EQ(trouble, "");
   EXPECT_GT(total.updates_received, 0u);
-  EXPECT_LE(total.bytes_received, total.kernel_bytes_received);  // the rest lay in the sockets' buffers
+  EXPECT_LE(total.bytes_received,
+            total.kernel_bytes_received);  // the rest lay in the sockets' buffers
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, ThreadedSockets, testing::Values("none", "grid", "region"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Schemes, ThreadedSockets, testing::Values("none", "grid", "region"),
+                         [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
 }  // namespace rink::game

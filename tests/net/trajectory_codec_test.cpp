@@ -1,4 +1,5 @@
-// Trajectories on their way: nothing is lost, whatever they are, and nothing that is no trajectory gets through.
+// Trajectories on their way: nothing is lost, whatever they are, and nothing that is no trajectory
+// gets through.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -16,7 +17,8 @@ namespace {
 using physics::Vector2;
 
 /// Codes `sent` at `time`, checks its size, and decodes it at `read_time`.
-Trajectory travelled(const Trajectory& sent, double time, double read_time, std::size_t* size = nullptr) {
+Trajectory travelled(const Trajectory& sent, double time, double read_time,
+                     std::size_t* size = nullptr) {
   const TrajectoryCodec codec;
   std::vector<std::byte> value, coded, read;
   codec.encode(encode(value, sent), time, coded);
@@ -47,7 +49,8 @@ TEST(TrajectoryCodec, RoundedMotionOnAFieldTakesNineBytesAndRestFive) {
     ASSERT_EQ(travelled(moving, time, time + trajectory_age_max, &size), moving);
     ASSERT_EQ(size, 9u);
     const Trajectory resting{.position = moving.position};
-    ASSERT_EQ(travelled(resting, time, time + 1e6, &size), resting) << "rest has no time, so it is never too old";
+    ASSERT_EQ(travelled(resting, time, time + 1e6, &size), resting)
+        << "rest has no time, so it is never too old";
     ASSERT_EQ(size, 5u);
   }
 }
@@ -57,15 +60,21 @@ TEST(TrajectoryCodec, LosesNothingOfAnyFiniteTrajectory) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937_64 random(seed);
   const auto any = [&] {
-    const std::array<double, 12> edges{0.0, -0.0, 1.0, -1.0, 2.0, -2.0, 63.0, -1.0 - 0x1p-11, 256.0, 4096.0, 1e300, 5e-324};
+    const std::array<double, 12> edges{0.0,  -0.0,           1.0,   -1.0,   2.0,   -2.0,
+                                       63.0, -1.0 - 0x1p-11, 256.0, 4096.0, 1e300, 5e-324};
     if (random() % 3 == 0) return edges[random() % edges.size()];
-    const double magnitude = std::ldexp(1.0, static_cast<int>(random() % 40) - 20) * static_cast<double>(static_cast<std::int64_t>(random())) * 0x1p-63;
+    const double magnitude = std::ldexp(1.0, static_cast<int>(random() % 40) - 20) *
+                             static_cast<double>(static_cast<std::int64_t>(random())) * 0x1p-63;
     return random() % 2 == 0 ? magnitude : on_grid(0x1p-11, magnitude);
   };
   for (int i = 0; i < 20000; ++i) {
-    Trajectory sent{.time = on_grid(trajectory_time_step, std::abs(any())), .position = {any(), any()}, .velocity = {any(), any()}};
+    Trajectory sent{.time = on_grid(trajectory_time_step, std::abs(any())),
+                    .position = {any(), any()},
+                    .velocity = {any(), any()}};
     if (random() % 2 == 0) sent.acceleration = {any(), any()};
-    if (random() % 4 == 0) sent.acceleration = {single_precision(sent.acceleration.x()), single_precision(sent.acceleration.y())};
+    if (random() % 4 == 0)
+      sent.acceleration = {single_precision(sent.acceleration.x()),
+                           single_precision(sent.acceleration.y())};
     if (!sent.acceleration.allFinite()) sent.acceleration = {0.0, 0.0};
     if (random() % 3 == 0) sent.drag.x() = std::abs(any());
     if (random() % 3 == 0) sent.drag.y() = std::abs(any());
@@ -109,14 +118,18 @@ TEST(InputCodec, LosesNothingAndGrowsWithTheCount) {
       std::vector<std::byte> value, coded, read;
       codec.encode(encode(value, Input{count, held}), 0.0, coded);
       ASSERT_EQ(codec.size(coded), coded.size());
-      ASSERT_EQ(coded.size(), (static_cast<std::size_t>(std::bit_width(std::uint64_t{count} << 4 | held | 1)) + 6) / 7) << "seven bits a byte";
+      ASSERT_EQ(
+          coded.size(),
+          (static_cast<std::size_t>(std::bit_width(std::uint64_t{count} << 4 | held | 1)) + 6) / 7)
+          << "seven bits a byte";
       ASSERT_FALSE(codec.size(rti::Bytes(coded).first(coded.size() - 1)));
       ASSERT_TRUE(codec.decode(coded, 0.0, read));
       ASSERT_EQ(read, value);
     }
   }
   std::vector<std::byte> read;
-  EXPECT_FALSE(codec.decode(std::vector<std::byte>(6, std::byte{0x7f}), 0.0, read)) << "more than one number";
+  EXPECT_FALSE(codec.decode(std::vector<std::byte>(6, std::byte{0x7f}), 0.0, read))
+      << "more than one number";
   const std::vector<std::byte> endless(8, std::byte{0xff});
   EXPECT_FALSE(codec.size(endless));
 }
@@ -133,10 +146,13 @@ TEST(TrajectoryCodec, RandomBytesAreRefusedOrGiveATrajectoryThatAnybodyCanFollow
     const std::optional<std::size_t> size = codec.size(noise);
     if (!size || *size > noise.size()) continue;
     value.clear();
-    if (!codec.decode(rti::Bytes(noise).first(*size), 1e4 * static_cast<double>(random() % 1000), value)) continue;
+    if (!codec.decode(rti::Bytes(noise).first(*size), 1e4 * static_cast<double>(random() % 1000),
+                      value))
+      continue;
     Trajectory t;
     ASSERT_TRUE(decode(value, t));
-    ASSERT_TRUE(t.position.allFinite() && t.velocity.allFinite() && t.acceleration.allFinite() && std::isfinite(t.time));
+    ASSERT_TRUE(t.position.allFinite() && t.velocity.allFinite() && t.acceleration.allFinite() &&
+                std::isfinite(t.time));
   }
 }
 

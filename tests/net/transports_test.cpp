@@ -1,4 +1,5 @@
-// One game in the synchronous pace, its keys pressed by its players, over every transport: the same states at the server and in every player's eyes.
+// One game in the synchronous pace, its keys pressed by its players, over every transport: the same
+// states at the server and in every player's eyes.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -14,8 +15,8 @@
 #include "game/net/server/serving.h"
 #include "game/replication/trajectory_codec.h"
 #include "rti/transport/in_process.h"
-#include "rti/transport/socket_transport.h"
 #include "rti/transport/modelled/virtual_network.h"
+#include "rti/transport/socket_transport.h"
 #include "tests/net/scenes.h"
 #include "tests/net/wall_clock.h"
 #include "tests/places.h"
@@ -62,7 +63,8 @@ Carrier virtual_network() {
 
 Carrier sockets(const std::string& name) {
   struct Ends {
-    explicit Ends(const std::string& name) : server(name), players(name), port(server.listen("127.0.0.1", 0)) {}
+    explicit Ends(const std::string& name)
+        : server(name), players(name), port(server.listen("127.0.0.1", 0)) {}
     rti::SocketTransport server, players;
     std::uint16_t port;
   };
@@ -76,7 +78,8 @@ Carrier sockets(const std::string& name) {
 /// What a run ended in.
 struct Outcome {
   std::uint64_t state_hash = 0;
-  std::vector<std::map<std::uint32_t, std::pair<float, float>>> seen;  ///< by player: positions of what is in scope
+  std::vector<std::map<std::uint32_t, std::pair<float, float>>>
+      seen;  ///< by player: positions of what is in scope
   std::uint64_t datagrams = 0;
   std::uint64_t replayed_hash = 0;  ///< of the game played alone with the recorded keys
   std::uint64_t grants = 0, timed_sent = 0;
@@ -90,8 +93,13 @@ class SynchronousGame {
         scene_(small_crowd()),
         fom_(load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml")),
         model_(fom_),
-        serving_(fom_, scene_, {.policy = policy, .is_synchronous = true, .is_time_managed = is_time_managed, .replay = {}},
-                 federation_settings(scene_, "region", 0.0), now_s, [this] { return serving_.server().game().now(); }) {
+        serving_(fom_, scene_,
+                 {.policy = policy,
+                  .is_synchronous = true,
+                  .is_time_managed = is_time_managed,
+                  .replay = {}},
+                 federation_settings(scene_, "region", 0.0), now_s,
+                 [this] { return serving_.server().game().now(); }) {
     serving_.host().add(carrier.server());
     for (int i = 0; i < player_count; ++i) {
       ClientSettings settings;
@@ -99,16 +107,21 @@ class SynchronousGame {
       settings.view_fraction = 0.3;
       Player& player = players_.emplace_back();
       player.client = std::make_unique<Client>(fom_, model_, settings);
-      player.link = std::make_unique<rti::FederateLink>(player.client->ambassador(), carrier.players(), carrier.connect());
+      player.link = std::make_unique<rti::FederateLink>(player.client->ambassador(),
+                                                        carrier.players(), carrier.connect());
       links_.add(*player.link);
     }
   }
 
   Outcome play() {
     TickCosts costs;
-    until([&] { return serving_.server().player_count() == player_count; }, [&] { if (serving_.server().is_joined()) serving_.send(0.0, 0.0, costs); });
+    until([&] { return serving_.server().player_count() == player_count; },
+          [&] {
+            if (serving_.server().is_joined()) serving_.send(0.0, 0.0, costs);
+          });
     serving_.server().call_to_start();
-    until([&] { return serving_.server().is_started() && all_play(); }, [&] { serving_.send(0.0, 0.0, costs); });
+    until([&] { return serving_.server().is_started() && all_play(); },
+          [&] { serving_.send(0.0, 0.0, costs); });
     // Datagrams need their way first, or there would be none to compare.
     const double patience_s = now_s() + 0.3;
     until([&] { return now_s() > patience_s; }, [] {});
@@ -121,7 +134,8 @@ class SynchronousGame {
       }
       until([&] { return serving_.server().may_step(); }, [] {});
       serving_.tick(tick / 30.0, 0.0);
-      // Everybody's view follows before the next turn, so that it is the same however long news takes.
+      // Everybody's view follows before the next turn, so that it is the same however long news
+      // takes.
       settle();
       for (Player& player : players_) player.client->follow_bat();
       settle();
@@ -138,7 +152,9 @@ class SynchronousGame {
     std::unique_ptr<rti::FederateLink> link;
   };
   bool all_play() const {
-    return std::ranges::all_of(players_, [](const Player& each) { return each.client->state() == Client::State::playing; });
+    return std::ranges::all_of(players_, [](const Player& each) {
+      return each.client->state() == Client::State::playing;
+    });
   }
   void round() {
     carrier_.pass_time();
@@ -161,7 +177,8 @@ class SynchronousGame {
     for (int quiet = 0; quiet < 12; ++quiet) {
       round();
       std::uint64_t now_heard = serving_.execution().counters().bytes_received;
-      for (const Player& each : players_) now_heard += each.client->ambassador().counters().bytes_received;
+      for (const Player& each : players_)
+        now_heard += each.client->ambassador().counters().bytes_received;
       if (now_heard != heard) quiet = 0;
       heard = now_heard;
     }
@@ -179,7 +196,9 @@ class SynchronousGame {
     for (const Player& each : players_) {
       auto& seen = outcome.seen.emplace_back();
       for (const MirroredEntity& entity : each.client->mirror().entities())
-        if (entity.in_scope) seen[entity.object.value] = {static_cast<float>(entity.position_at(2.0).x()), static_cast<float>(entity.position_at(2.0).y())};
+        if (entity.in_scope)
+          seen[entity.object.value] = {static_cast<float>(entity.position_at(2.0).x()),
+                                       static_cast<float>(entity.position_at(2.0).y())};
     }
     return outcome;
   }
@@ -196,18 +215,24 @@ class SynchronousGame {
 class EveryTransportsGame : public testing::TestWithParam<const char*> {};
 
 TEST_P(EveryTransportsGame, EndsInTheSameStateAndLooksTheSameToEveryPlayer) {
-  const auto play = [](const Carrier& carrier) { return SynchronousGame(carrier, GetParam()).play(); };
+  const auto play = [](const Carrier& carrier) {
+    return SynchronousGame(carrier, GetParam()).play();
+  };
   const Outcome expected = play(in_process());
   ASSERT_EQ(expected.seen.size(), 4u);
   for (const auto& seen : expected.seen) EXPECT_GT(seen.size(), 5u);
   EXPECT_EQ(expected.datagrams, 0u);
-  const std::vector<std::pair<std::string, Carrier>> others{{"tcp", sockets("tcp")}, {"udp", sockets("udp")}, {"shared memory", sockets("shm")}, {"virtual network", virtual_network()}};
+  const std::vector<std::pair<std::string, Carrier>> others{{"tcp", sockets("tcp")},
+                                                            {"udp", sockets("udp")},
+                                                            {"shared memory", sockets("shm")},
+                                                            {"virtual network", virtual_network()}};
   for (const auto& [name, carrier] : others) {
     SCOPED_TRACE(name);
     const Outcome is = play(carrier);
     EXPECT_EQ(is.state_hash, expected.state_hash);
     EXPECT_EQ(is.seen, expected.seen);
-    const bool takes_datagrams = std::string(GetParam()) == "periodic" && (name == "udp" || name == "virtual network");
+    const bool takes_datagrams =
+        std::string(GetParam()) == "periodic" && (name == "udp" || name == "virtual network");
     EXPECT_EQ(is.datagrams > 0, takes_datagrams);
   }
 }
@@ -215,7 +240,9 @@ TEST_P(EveryTransportsGame, EndsInTheSameStateAndLooksTheSameToEveryPlayer) {
 TEST_P(EveryTransportsGame, IsTheSameToTheBitUnderTimeManagement) {
   const Outcome expected = SynchronousGame(in_process(), GetParam()).play();
   EXPECT_EQ(expected.replayed_hash, expected.state_hash);
-  for (const auto& [name, carrier] : {std::pair{"in process", in_process()}, {"tcp", sockets("tcp")}, {"shared memory", sockets("shm")}}) {
+  for (const auto& [name, carrier] : {std::pair{"in process", in_process()},
+                                      {"tcp", sockets("tcp")},
+                                      {"shared memory", sockets("shm")}}) {
     SCOPED_TRACE(name);
     const Outcome is = SynchronousGame(carrier, GetParam(), true).play();
     EXPECT_EQ(is.state_hash, expected.state_hash);
@@ -226,7 +253,11 @@ TEST_P(EveryTransportsGame, IsTheSameToTheBitUnderTimeManagement) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Policies, EveryTransportsGame, testing::Values("periodic", "on-event"), [](const auto& info) { return std::string(info.param == std::string("periodic") ? "periodic" : "on_event"); });
+INSTANTIATE_TEST_SUITE_P(Policies, EveryTransportsGame, testing::Values("periodic", "on-event"),
+                         [](const auto& info) {
+                           return std::string(info.param == std::string("periodic") ? "periodic"
+                                                                                    : "on_event");
+                         });
 
 }  // namespace
 }  // namespace rink::game

@@ -13,11 +13,15 @@ namespace {
 
 TEST(Watching, ShowsUnderABudgetWhoWasToldOfAndNobodyElse) {
   const Scene scene = small_crowd();
-  LockstepRink rink(scene, {.scheme = "none with priority(budget=200)", .clients = 2, .view_fraction = 1.0, .server = {.replay = keys_for(scene, 5, 4.0)}});
+  LockstepRink rink(scene, {.scheme = "none with priority(budget=200)",
+                            .clients = 2,
+                            .view_fraction = 1.0,
+                            .server = {.replay = keys_for(scene, 5, 4.0)}});
   const rti::Fom fom = load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml");
   const ObjectModel model(fom);
   rti::InProcessEndpoint endpoint(rink.network());
-  NetworkMatch watcher(fom, model, endpoint, endpoint.connect("rti"), {.federation = "rink", .name = "watcher", .only_watches = true});
+  NetworkMatch watcher(fom, model, endpoint, endpoint.connect("rti"),
+                       {.federation = "rink", .name = "watcher", .only_watches = true});
   const auto exchange = [&] {
     for (int round = 0; round < 6; ++round) rink.settle(), watcher.advance(rink.now);
   };
@@ -28,8 +32,10 @@ TEST(Watching, ShowsUnderABudgetWhoWasToldOfAndNobodyElse) {
     rink.tick();
     exchange();
     const std::vector<Thing>& things = watcher.sight().things;
-    most_waiting = std::max(most_waiting, watcher.client().mirror().entities().size() - things.size());
-    for (const Thing& thing : things) EXPECT_GT(thing.half_extent.minCoeff(), 0.0) << "thing " << thing.id << " at tick " << tick;
+    most_waiting =
+        std::max(most_waiting, watcher.client().mirror().entities().size() - things.size());
+    for (const Thing& thing : things)
+      EXPECT_GT(thing.half_extent.minCoeff(), 0.0) << "thing " << thing.id << " at tick " << tick;
     EXPECT_GE(things.size(), shown);
     shown = things.size();
   }

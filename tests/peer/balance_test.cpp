@@ -1,4 +1,5 @@
-// Zones that shift: toward equal load where it is uneven, not at all where it is not, and never with another outcome.
+// Zones that shift: toward equal load where it is uneven, not at all where it is not, and never
+// with another outcome.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +14,9 @@ namespace rink::peer::test {
 namespace {
 
 /// Events per square metre, evenly or mostly about one place.
-double density(double x, double y, double peak) { return 1.0 + peak * std::exp(-((x - 0.9) * (x - 0.9) + (y - 0.6) * (y - 0.6)) / 0.2); }
+double density(double x, double y, double peak) {
+  return 1.0 + peak * std::exp(-((x - 0.9) * (x - 0.9) + (y - 0.6) * (y - 0.6)) / 0.2);
+}
 
 /// Of each peer, by the midpoints of a fine grid.
 std::vector<double> loads(const Cuts& cuts, PeerNumber peer_count, double peak) {
@@ -29,14 +32,17 @@ std::vector<double> loads(const Cuts& cuts, PeerNumber peer_count, double peak) 
 }
 
 double unevenness(const std::vector<double>& loads) {
-  return *std::max_element(loads.begin(), loads.end()) * static_cast<double>(loads.size()) / std::accumulate(loads.begin(), loads.end(), 0.0);
+  return *std::max_element(loads.begin(), loads.end()) * static_cast<double>(loads.size()) /
+         std::accumulate(loads.begin(), loads.end(), 0.0);
 }
 
 /// With nothing in it, the field is cut by area.
 Cuts by_area(PeerNumber peer_count) { return Cuts::by_count(field, {}, peer_count); }
 
 TEST(Cuts, StayWhereTheLoadIsEven) {
-  for (const PeerNumber peer_count : {2u, 3u, 7u, 16u}) EXPECT_FALSE(by_area(peer_count).balanced(loads(by_area(peer_count), peer_count, 0.0), 1.1)) << peer_count;
+  for (const PeerNumber peer_count : {2u, 3u, 7u, 16u})
+    EXPECT_FALSE(by_area(peer_count).balanced(loads(by_area(peer_count), peer_count, 0.0), 1.1))
+        << peer_count;
   const std::vector<double> nothing(4, 0.0);
   EXPECT_FALSE(by_area(4).balanced(nothing, 1.1));
 }
@@ -53,7 +59,8 @@ TEST(Cuts, ShiftUntilEveryCutIsWithinTheTolerance) {
       cuts = *shifted;
     }
     const double after = unevenness(loads(cuts, peer_count, 60.0));
-    std::cout << peer_count << " peers: busiest over mean " << before << ", after " << rounds << " shifts " << after << '\n';
+    std::cout << peer_count << " peers: busiest over mean " << before << ", after " << rounds
+              << " shifts " << after << '\n';
     EXPECT_LT(rounds, 100);
     EXPECT_LE(after, std::pow(tolerance, std::ceil(std::log2(peer_count))));
     EXPECT_GT(before, 1.5 * after);
@@ -72,7 +79,9 @@ TEST(Cuts, KeepAZoneForEverybodyHoweverUnevenTheLoad) {
       const Division division = cuts.division(peer_count);
       for (PeerNumber peer = 0; peer < peer_count; ++peer) {
         const Box box = division.zones_of(peer).front();
-        zones.push_back({{std::max(box.low_x, 0.0), std::max(box.low_y, 0.0), std::min(box.high_x, 4.0), std::min(box.high_y, 2.0)}, peer});
+        zones.push_back({{std::max(box.low_x, 0.0), std::max(box.low_y, 0.0),
+                          std::min(box.high_x, 4.0), std::min(box.high_y, 2.0)},
+                         peer});
       }
       ASSERT_EQ(Division::objection(field, zones, peer_count), std::nullopt);
     }
@@ -92,7 +101,8 @@ TEST(Cuts, GiveTheZoneOfWhoGoesToItsNeighbours) {
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(which));
       const std::vector<double> all = loads(cuts, peer_count, 0.0);
       EXPECT_NEAR(std::accumulate(all.begin(), all.end(), 0.0), 400.0 * 200.0, 1e-6);
-      for (PeerNumber peer = 0; peer < peer_count; ++peer) EXPECT_EQ(all[peer] > 0.0, std::find(left.begin(), left.end(), peer) != left.end());
+      for (PeerNumber peer = 0; peer < peer_count; ++peer)
+        EXPECT_EQ(all[peer] > 0.0, std::find(left.begin(), left.end(), peer) != left.end());
     }
   }
 }
@@ -105,8 +115,11 @@ TEST(Zones, MayBecomeAnyOthersAtAnyWindowAndTheStatesAreThoseOfOneEngine) {
     constexpr int window_count = 60;
     SharedScene scene = shared_scene(number, window * window_count);
     const PeerNumber peer_count = 2 + below(random, 6);
-    Assembly assembly(scene.world, random_division(scene.world.spec().field, random, peer_count), 0.2, window);
-    std::stable_sort(scene.keys.begin(), scene.keys.end(), [](const Key& a, const Key& b) { return a.time != b.time ? a.time < b.time : a.bat < b.bat; });
+    Assembly assembly(scene.world, random_division(scene.world.spec().field, random, peer_count),
+                      0.2, window);
+    std::stable_sort(scene.keys.begin(), scene.keys.end(), [](const Key& a, const Key& b) {
+      return a.time != b.time ? a.time < b.time : a.bat < b.bat;
+    });
     for (const Key& key : scene.keys) assembly.press(key);
     std::size_t next = 0;
     for (int k = 1; k <= window_count && !HasFailure(); ++k) {
@@ -115,11 +128,14 @@ TEST(Zones, MayBecomeAnyOthersAtAnyWindowAndTheStatesAreThoseOfOneEngine) {
         scene.world.set_thrust({scene.keys[next].bat}, scene.keys[next].thrust);
       }
       physics::test::RandomKeys::advance(scene.world, window * k);
-      if (below(random, 3) == 0) assembly.divide(random_division(scene.world.spec().field, random, peer_count));
+      if (below(random, 3) == 0)
+        assembly.divide(random_division(scene.world.spec().field, random, peer_count));
       assembly.advance();
       EXPECT_EQ(assembly.misowned(), 0u);
       for (std::uint32_t body = 0; body < scene.world.body_count(); ++body)
-        ASSERT_EQ(bytes_of(assembly.state(body)), bytes_of(physics::Portion::state_in(scene.world, body))) << "scene " << number << ", window " << k << ", body " << body;
+        ASSERT_EQ(bytes_of(assembly.state(body)),
+                  bytes_of(physics::Portion::state_in(scene.world, body)))
+            << "scene " << number << ", window " << k << ", body " << body;
     }
     for (const Peer& peer : assembly.peers()) hand_overs += peer.counters().hand_overs;
   }
@@ -127,7 +143,8 @@ TEST(Zones, MayBecomeAnyOthersAtAnyWindowAndTheStatesAreThoseOfOneEngine) {
   EXPECT_GT(hand_overs, 10'000u);
 }
 
-/// Whoever comes to own a place comes to know the posts there, and those who fly there come to know them too.
+/// Whoever comes to own a place comes to know the posts there, and those who fly there come to know
+/// them too.
 TEST(Zones, ThatShiftBringTheirPostsAlong) {
   for (std::uint64_t number = 0; number < 8 && !HasFailure(); ++number) {
     Random random(number);
@@ -142,7 +159,8 @@ TEST(Zones, ThatShiftBringTheirPostsAlong) {
       if (k % 5 == 0) assembly.divide(random_division(whole.spec().field, random, peer_count));
       assembly.advance();
       for (std::uint32_t body = 0; body < whole.body_count(); ++body)
-        ASSERT_EQ(bytes_of(assembly.state(body)), bytes_of(physics::Portion::state_in(whole, body))) << "scene " << number << ", window " << k << ", body " << body;
+        ASSERT_EQ(bytes_of(assembly.state(body)), bytes_of(physics::Portion::state_in(whole, body)))
+            << "scene " << number << ", window " << k << ", body " << body;
     }
   }
 }

@@ -9,7 +9,9 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string objection(const std::vector<Zone>& zones, PeerNumber peer_count = 2) { return Division::objection(field, zones, peer_count).value_or(""); }
+std::string objection(const std::vector<Zone>& zones, PeerNumber peer_count = 2) {
+  return Division::objection(field, zones, peer_count).value_or("");
+}
 
 TEST(Division, OfTwoHalvesOrManyRectanglesIsAccepted) {
   EXPECT_EQ(objection({{{0, 0, 2, 2}, 0}, {{2, 0, 4, 2}, 1}}), "");
@@ -18,18 +20,22 @@ TEST(Division, OfTwoHalvesOrManyRectanglesIsAccepted) {
 }
 
 TEST(Division, WithAGapIsRefusedAndThePlaceNamed) {
-  EXPECT_THAT(objection({{{0, 0, 2, 2}, 0}, {{2.5, 0, 4, 2}, 1}}), HasSubstr("no zone covers x 2 to 2.5 m, y 0 to 2 m"));
+  EXPECT_THAT(objection({{{0, 0, 2, 2}, 0}, {{2.5, 0, 4, 2}, 1}}),
+              HasSubstr("no zone covers x 2 to 2.5 m, y 0 to 2 m"));
   EXPECT_THAT(objection({}), HasSubstr("no zone covers x 0 to 4 m, y 0 to 2 m"));
 }
 
 TEST(Division, WithAnOverlapIsRefusedAndBothZonesNamed) {
-  EXPECT_THAT(objection({{{0, 0, 2.5, 2}, 0}, {{2, 0, 4, 2}, 1}}), HasSubstr("zones 0 and 1 overlap at x 2 to 2.5 m, y 0 to 2 m"));
+  EXPECT_THAT(objection({{{0, 0, 2.5, 2}, 0}, {{2, 0, 4, 2}, 1}}),
+              HasSubstr("zones 0 and 1 overlap at x 2 to 2.5 m, y 0 to 2 m"));
 }
 
 TEST(Division, BeyondTheFieldOrOfNobodyIsRefused) {
   EXPECT_THAT(objection({{{0, 0, 2, 2}, 0}, {{2, 0, 5, 2}, 1}}), HasSubstr("zone 1"));
-  EXPECT_THAT(objection({{{0, 0, 2, 2}, 0}, {{2, 0, 4, 2}, 2}}), HasSubstr("belongs to peer 2, expected one below 2"));
-  EXPECT_THAT(objection({{{2, 0, 2, 2}, 0}, {{2, 0, 4, 2}, 1}}), HasSubstr("expected sides in order"));
+  EXPECT_THAT(objection({{{0, 0, 2, 2}, 0}, {{2, 0, 4, 2}, 2}}),
+              HasSubstr("belongs to peer 2, expected one below 2"));
+  EXPECT_THAT(objection({{{2, 0, 2, 2}, 0}, {{2, 0, 4, 2}, 1}}),
+              HasSubstr("expected sides in order"));
   EXPECT_THAT(objection({{{0, 0, std::nan(""), 2}, 0}, {{2, 0, 4, 2}, 1}}), HasSubstr("zone 0"));
 }
 
@@ -43,7 +49,8 @@ TEST(Division, GivesEveryPlaceOneOwnerAlsoAtSidesAndInGoals) {
       int owners = 0;
       for (PeerNumber peer = 0; peer < peer_count; ++peer)
         for (const Box& zone : division.zones_of(peer))
-          owners += zone.low_x <= place.x() && place.x() < zone.high_x && zone.low_y <= place.y() && place.y() < zone.high_y;
+          owners += zone.low_x <= place.x() && place.x() < zone.high_x && zone.low_y <= place.y() &&
+                    place.y() < zone.high_y;
       EXPECT_EQ(owners, 1);
       EXPECT_TRUE(division.is_near(division.owner_of(place), Box::around(place, {0.0, 0.0}), 0.0));
     }
@@ -65,7 +72,9 @@ TEST(Box, HoldsThePathThatItIsSweptBy) {
     }
     const double begin = uniform(random, 0.0, 1.0), length = uniform(random, 0.0, 2.0);
     const Box box = swept(motion, begin, begin + length, {0.04, 0.04}).grown(1e-9);
-    for (int i = 0; i <= 50; ++i) EXPECT_TRUE(box.holds(Box::around(motion.at(begin + length * i / 50.0).position, {0.04, 0.04})));
+    for (int i = 0; i <= 50; ++i)
+      EXPECT_TRUE(
+          box.holds(Box::around(motion.at(begin + length * i / 50.0).position, {0.04, 0.04})));
   }
 }
 
@@ -82,13 +91,15 @@ TEST(Division, ByCountGivesAllPeersEquallyManyPlaces) {
     const Division division = Division::by_count(field, places, peer_count);
     std::vector<int> counts(peer_count, 0);
     for (const Vector2& place : places) ++counts[division.owner_of(place)];
-    for (const int count : counts) EXPECT_NEAR(count, 1000.0 / peer_count, 4.0) << peer_count << " peers";
+    for (const int count : counts)
+      EXPECT_NEAR(count, 1000.0 / peer_count, 4.0) << peer_count << " peers";
   }
 }
 
 TEST(Division, ByCountOfPlacesThatCannotBeToldApartIsOneByArea) {
   for (const std::size_t count : {0, 1, 7}) {
-    const Division division = Division::by_count(field, std::vector<Vector2>(count, Vector2(0.0, 0.0)), 5);
+    const Division division =
+        Division::by_count(field, std::vector<Vector2>(count, Vector2(0.0, 0.0)), 5);
     for (PeerNumber peer = 0; peer < 5; ++peer) EXPECT_EQ(division.zones_of(peer).size(), 1u);
   }
 }

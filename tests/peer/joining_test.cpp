@@ -1,4 +1,5 @@
-// Newcomers while others play, leave, die and are cut off: one owner per body at each window, and every double of it as on one engine.
+// Newcomers while others play, leave, die and are cut off: one owner per body at each window, and
+// every double of it as on one engine.
 #include <iostream>
 
 #include "tests/peer/session_play.h"
@@ -15,8 +16,10 @@ TEST(Joining, OneAloneIsJoinedByOthersAndAllHaveTheStatesOfOneEngine) {
     play.balance_windows = static_cast<std::uint32_t>(seed % 3);
     play.before_window = [&](Session& session, End end) {
       if (end == 0 && session.window() % 5 == 1 && session.window() < 20) play.invite(0);
-      // Windows of tests are short, and a newcomer's thread may have to wait for a processor: nobody is left behind.
-      if (end == 0 && session.window() > 20 && session.members().size() < 5) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      // Windows of tests are short, and a newcomer's thread may have to wait for a processor:
+      // nobody is left behind.
+      if (end == 0 && session.window() > 20 && session.members().size() < 5)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
     };
     play.run();
     expect_whole(play);
@@ -31,7 +34,8 @@ TEST(Joining, ThroughDifferentPeersAtTheSameWindowGivesDifferentNumbers) {
     Play play(seed, 3, joining_window_count);
     play.before_window = [&](Session& session, End end) {
       if (session.window() == 3 && end < 3) play.invite(end), play.invite(end);
-      if (session.window() > 3 && end == 0 && session.members().size() < 9) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      if (session.window() > 3 && end == 0 && session.members().size() < 9)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
     };
     play.run();
     expect_whole(play);
@@ -79,7 +83,8 @@ TEST(Joining, PlaysBatsOfItsOwnAndTheUnionOfTheLogsIsTheSameGame) {
 }
 
 struct Storm {
-  std::uint64_t done = 0, left = 0, killed = 0, halted = 0, recoveries = 0, sent_away = 0, newcomers = 0;
+  std::uint64_t done = 0, left = 0, killed = 0, halted = 0, recoveries = 0, sent_away = 0,
+                newcomers = 0;
 };
 
 /// Joins, leaves, deaths and partitions at random words.
@@ -96,7 +101,8 @@ void play_storm(std::uint64_t seed, bool has_partition, Storm& storm) {
     if (!has_partition && below(random, 5) == 0) dying[end] = 1 + below(random, 400);
   }
   std::vector<std::vector<std::uint64_t>> joining(LossyOffice::ends_max);
-  for (std::uint32_t count = 2 + below(random, 5); count > 0; --count) joining[below(random, peer_count + 2)].push_back(1 + below(random, 20));
+  for (std::uint32_t count = 2 + below(random, 5); count > 0; --count)
+    joining[below(random, peer_count + 2)].push_back(1 + below(random, 20));
   const std::uint64_t side = random(), cut_word = has_partition ? 1 + below(random, 500) : 0;
   const auto is_one = [&](End end) { return (side >> end & 1) != 0; };
   std::atomic<std::uint64_t> words = 0;
@@ -107,26 +113,33 @@ void play_storm(std::uint64_t seed, bool has_partition, Storm& storm) {
     throw Killed();
   };
   play.before_window = [&](Session& session, End end) {
-    while (!joining[end].empty() && joining[end].back() <= session.window()) play.invite(end), joining[end].pop_back();
+    while (!joining[end].empty() && joining[end].back() <= session.window())
+      play.invite(end), joining[end].pop_back();
     if (session.window() >= leaving[end]) session.leave();
   };
   play.run();
   expect_whole(play);
   for (End a = 0; has_partition && a < LossyOffice::ends_max; ++a)
     for (End b = 0; b < a; ++b) {
-      const bool went_on = play.fates[a] == Fate::done && play.fates[b] == Fate::done, was_cut = play.counters[a].recoveries > 0 && play.counters[b].recoveries > 0;
-      EXPECT_FALSE(went_on && was_cut && is_one(a) != is_one(b) && !play.is_of_two) << a << " and " << b;
+      const bool went_on = play.fates[a] == Fate::done && play.fates[b] == Fate::done,
+                 was_cut = play.counters[a].recoveries > 0 && play.counters[b].recoveries > 0;
+      EXPECT_FALSE(went_on && was_cut && is_one(a) != is_one(b) && !play.is_of_two)
+          << a << " and " << b;
     }
   EXPECT_EQ(play.count(Fate::playing), 0u);
-  for (End end = peer_count; end < LossyOffice::ends_max; ++end) storm.newcomers += play.windows_played[end] > 0;
-  storm.done += play.count(Fate::done), storm.left += play.count(Fate::left), storm.killed += play.count(Fate::killed), storm.halted += play.count(Fate::halted);
+  for (End end = peer_count; end < LossyOffice::ends_max; ++end)
+    storm.newcomers += play.windows_played[end] > 0;
+  storm.done += play.count(Fate::done), storm.left += play.count(Fate::left),
+      storm.killed += play.count(Fate::killed), storm.halted += play.count(Fate::halted);
   storm.sent_away += play.sent_away;
   for (const SessionCounters& counters : play.counters) storm.recoveries += counters.recoveries;
 }
 
 void tell(const Storm& storm) {
-  std::cout << storm.newcomers << " newcomers played, " << storm.done << " peers to the end, " << storm.left << " left, " << storm.killed << " were killed, " << storm.halted << " halted, "
-            << storm.sent_away << " were sent away, " << storm.recoveries << " recoveries\n";
+  std::cout << storm.newcomers << " newcomers played, " << storm.done << " peers to the end, "
+            << storm.left << " left, " << storm.killed << " were killed, " << storm.halted
+            << " halted, " << storm.sent_away << " were sent away, " << storm.recoveries
+            << " recoveries\n";
 }
 
 TEST(Joining, StormsOfJoinsLeavesAndKillsLeaveOneOwnerPerBody) {
@@ -149,7 +162,8 @@ class StormLong : public testing::TestWithParam<int> {};
 
 TEST_P(StormLong, LeavesOneOwnerPerBody) {
   Storm storm;
-  for (std::uint64_t seed = 0; seed < 100 && !HasFailure(); ++seed) play_storm(1000 + 100 * static_cast<std::uint64_t>(GetParam()) + seed, seed % 4 == 3, storm);
+  for (std::uint64_t seed = 0; seed < 100 && !HasFailure(); ++seed)
+    play_storm(1000 + 100 * static_cast<std::uint64_t>(GetParam()) + seed, seed % 4 == 3, storm);
   tell(storm);
 }
 

@@ -1,11 +1,12 @@
-// A peer whose engine is honest and one of whose messages is not: whichever field of it is wrong, nobody else crashes, or waits for ever.
+// A peer whose engine is honest and one of whose messages is not: whichever field of it is wrong,
+// nobody else crashes, or waits for ever.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <atomic>
-#include <iostream>
 #include <bit>
 #include <cmath>
+#include <iostream>
 
 #include "game/physics/snapshot_stream.h"
 #include "tests/peer/session_play.h"
@@ -20,7 +21,9 @@ class Spoiler : public physics::SnapshotStream<Spoiler> {
   Spoiler(std::uint64_t which, Random& random) : which_(which), random_(random) {}
   bool word(std::uint64_t& value, int byte_count) {
     if (count_++ != which_) return true;
-    value = byte_count == 8 ? wrong_number(value) : byte_count == 4 ? wrong_count(value) : wrong_byte(value);
+    value = byte_count == 8   ? wrong_number(value)
+            : byte_count == 4 ? wrong_count(value)
+                              : wrong_byte(value);
     return true;
   }
   static std::uint64_t count_max() { return 4096; }
@@ -29,13 +32,16 @@ class Spoiler : public physics::SnapshotStream<Spoiler> {
  private:
   std::uint64_t wrong_number(std::uint64_t value) {
     const double was = std::bit_cast<double>(value);
-    const std::array numbers{std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, -1e300, 4e9, was + 1e6, was - 1e6, was + 0.02, was - 0.02, 1.1 * was, -was, 0.0};
+    const std::array numbers{std::nan(""), HUGE_VAL,  -HUGE_VAL, 1e300,      -1e300,
+                             4e9,          was + 1e6, was - 1e6, was + 0.02, was - 0.02,
+                             1.1 * was,    -was,      0.0};
     const auto which = static_cast<std::size_t>(below(random_, numbers.size() + 2));
     if (which < numbers.size()) return std::bit_cast<std::uint64_t>(numbers[which]);
     return which == numbers.size() ? ~std::uint64_t{0} : value + 1;
   }
   std::uint64_t wrong_count(std::uint64_t value) {
-    const std::array<std::uint64_t, 7> counts{4'000'000'000, 0xffffffff, 0x7fc00000, value + 1, value - 1, 0, value ^ 64};
+    const std::array<std::uint64_t, 7> counts{4'000'000'000, 0xffffffff, 0x7fc00000, value + 1,
+                                              value - 1,     0,          value ^ 64};
     return counts[below(random_, counts.size())] & 0xffffffff;
   }
   std::uint64_t wrong_byte(std::uint64_t value) {
@@ -78,7 +84,8 @@ bool is_entry(std::span<const std::uint8_t> bytes) {
   return read(bytes, message);
 }
 
-/// Random peers, one of whom is a liar, in one message or in all that follow; in some plays another one is killed before, or somebody joins.
+/// Random peers, one of whom is a liar, in one message or in all that follow; in some plays another
+/// one is killed before, or somebody joins.
 void expect_no_harm(std::uint64_t first, std::uint64_t last) {
   std::array<std::atomic<std::uint64_t>, kind_count + 1> spoilt{};
   std::uint64_t named = 0;
@@ -92,8 +99,12 @@ void expect_no_harm(std::uint64_t first, std::uint64_t last) {
     play.balance_windows = static_cast<std::uint32_t>(seed % 3);
     play.office().patience = std::chrono::milliseconds(500);
     const bool is_about_entries = seed % 6 == 0;
-    const std::uint64_t last_word = below(random, 3) == 0 && !is_about_entries ? 1 + below(random, 12 * 6 * (peer_count - 1)) : 0;
-    const std::uint64_t message = is_about_entries ? 1 : 1 + below(random, 12 * 3 * (peer_count - 1)), further = below(random, 2) == 0 ? 0 : 1'000'000;
+    const std::uint64_t last_word = below(random, 3) == 0 && !is_about_entries
+                                        ? 1 + below(random, 12 * 6 * (peer_count - 1))
+                                        : 0;
+    const std::uint64_t message =
+                            is_about_entries ? 1 : 1 + below(random, 12 * 3 * (peer_count - 1)),
+                        further = below(random, 2) == 0 ? 0 : 1'000'000;
     std::uint64_t said = 0;
     std::atomic<bool> has_lost = false;
     play.before_word = [&](End peer, std::uint64_t word) {
@@ -103,7 +114,8 @@ void expect_no_harm(std::uint64_t first, std::uint64_t last) {
       throw Killed();
     };
     play.before_window = [&](Session& session, End peer) {
-      if (peer == victim && session.window() == 3 && last_word == 0 && seed % 2 == 0) play.invite(victim);
+      if (peer == victim && session.window() == 3 && last_word == 0 && seed % 2 == 0)
+        play.invite(victim);
     };
     // If somebody is killed, one of the words that follow.
     play.on_the_way = [&](End peer, std::vector<std::uint8_t>& bytes) {
@@ -122,17 +134,21 @@ void expect_no_harm(std::uint64_t first, std::uint64_t last) {
   std::cout << named << " peers named a liar; spoilt:";
   for (const auto& count : spoilt) std::cout << ' ' << count;
   std::cout << '\n';
-  for (const Kind kind : {loss, entry, verdict, claims, arrivals, part}) EXPECT_GT(spoilt[kind], 0u) << "messages of kind " << kind << " were spoilt";
+  for (const Kind kind : {loss, entry, verdict, claims, arrivals, part})
+    EXPECT_GT(spoilt[kind], 0u) << "messages of kind " << kind << " were spoilt";
   EXPECT_GT(named, 0u);
 }
 
 TEST(Liar, HarmsNobodyByAnyFieldOfAnyMessage) { expect_no_harm(0, 60); }
 
 class LiarLong : public testing::TestWithParam<std::uint64_t> {};
-TEST_P(LiarLong, HarmsNobodyByAnyFieldOfAnyMessage) { expect_no_harm(200 + 400 * GetParam(), 600 + 400 * GetParam()); }
+TEST_P(LiarLong, HarmsNobodyByAnyFieldOfAnyMessage) {
+  expect_no_harm(200 + 400 * GetParam(), 600 + 400 * GetParam());
+}
 INSTANTIATE_TEST_SUITE_P(Part, LiarLong, testing::Range<std::uint64_t>(0, 10));
 
-/// Its digests are of another story than anybody else's, who would repeat the window for ever to have the same.
+/// Its digests are of another story than anybody else's, who would repeat the window for ever to
+/// have the same.
 TEST(Liar, WhoseClaimsNobodyCanAgreeWithIsNamedAndTheOthersGoOn) {
   Play play(0, 3, 30);
   play.is_live = true;
@@ -149,7 +165,9 @@ TEST(Liar, WhoseClaimsNobodyCanAgreeWithIsNamedAndTheOthersGoOn) {
     EXPECT_EQ(play.fates[honest], Fate::done);
     EXPECT_NE(losses[honest].find("peer 1 "), std::string::npos) << losses[honest];
   }
-  EXPECT_NE((losses[0] + losses[2]).find("peer 1 claims what cannot be agreed with of body "), std::string::npos) << losses[0] << losses[2];
+  EXPECT_NE((losses[0] + losses[2]).find("peer 1 claims what cannot be agreed with of body "),
+            std::string::npos)
+      << losses[0] << losses[2];
 }
 
 }  // namespace

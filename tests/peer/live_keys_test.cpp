@@ -1,4 +1,5 @@
-// Keys pressed while peers play: they go to whoever owns the bat, and a replay of the owners' logs is the same game.
+// Keys pressed while peers play: they go to whoever owns the bat, and a replay of the owners' logs
+// is the same game.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,17 +16,26 @@ struct Counts {
   std::uint64_t keys = 0, foreign_keys = 0, timed_keys = 0, glimpses = 0, moved_bats = 0;
 };
 
-/// Scene `number` of those with bats, each of which a random peer plays, at random, by what it is shown.
+/// Scene `number` of those with bats, each of which a random peer plays, at random, by what it is
+/// shown.
 class LiveGame {
  public:
   LiveGame(std::uint64_t number, double window)
-      : random_(number), window_(window), scene_(shared_scene(6 + number % 2 + 10 * (number / 2), 0.0)), peer_count_(2 + below(random_, 5)),
-        division_(random_division(scene_.world.spec().field, random_, peer_count_)), assembly_(scene_.world, division_, 0.2, window) {
+      : random_(number),
+        window_(window),
+        scene_(shared_scene(6 + number % 2 + 10 * (number / 2), 0.0)),
+        peer_count_(2 + below(random_, 5)),
+        division_(random_division(scene_.world.spec().field, random_, peer_count_)),
+        assembly_(scene_.world, division_, 0.2, window) {
     scene_.keys.clear();
     for (std::uint32_t body = 0; body < scene_.world.body_count(); ++body) {
       if (scene_.world.kind({body}) != physics::BodyKind::bat) continue;
       const double period = std::array{window, 3.5 * window, 0.0}[below(random_, 3)];
-      seats_[body] = {.bat = body, .peer = below(random_, peer_count_), .period = period, .phase = uniform(random_, 0.0, 0.999 * window), .puck_count = 4};
+      seats_[body] = {.bat = body,
+                      .peer = below(random_, peer_count_),
+                      .period = period,
+                      .phase = uniform(random_, 0.0, 0.999 * window),
+                      .puck_count = 4};
       owners_[body] = division_.owner_of(scene_.world.position({body}));
     }
     for (Peer& peer : assembly_.peers())
@@ -37,7 +47,9 @@ class LiveGame {
       assembly_.advance();
       replay(window_ * k, counts);
       for (std::uint32_t body = 0; body < scene_.world.body_count(); ++body)
-        ASSERT_EQ(bytes_of(assembly_.state(body)), bytes_of(physics::Portion::state_in(scene_.world, body))) << "window " << k << ", body " << body;
+        ASSERT_EQ(bytes_of(assembly_.state(body)),
+                  bytes_of(physics::Portion::state_in(scene_.world, body)))
+            << "window " << k << ", body " << body;
       EXPECT_EQ(assembly_.misowned(), 0u);
       for (Peer& peer : assembly_.peers()) look_and_press(peer, window_ * k, counts);
     }
@@ -47,15 +59,21 @@ class LiveGame {
   /// On one engine, what the owners logged.
   void replay(double until, Counts& counts) {
     std::vector<Key> log;
-    for (const Peer& peer : assembly_.peers()) log.insert(log.end(), peer.log().begin(), peer.log().end());
-    std::stable_sort(log.begin(), log.end(), [](const Key& a, const Key& b) { return a.time != b.time ? a.time < b.time : a.bat < b.bat; });
+    for (const Peer& peer : assembly_.peers())
+      log.insert(log.end(), peer.log().begin(), peer.log().end());
+    std::stable_sort(log.begin(), log.end(), [](const Key& a, const Key& b) {
+      return a.time != b.time ? a.time < b.time : a.bat < b.bat;
+    });
     counts.keys += log.size();
     for (const Key& key : log) {
       physics::test::RandomKeys::advance(scene_.world, key.time);
       scene_.world.set_thrust({key.bat}, key.thrust);
-      const Wish wish = wishes_[key.bat].front();  // none is lost, none comes twice, in the order in which they were pressed
+      const Wish wish =
+          wishes_[key.bat]
+              .front();  // none is lost, none comes twice, in the order in which they were pressed
       EXPECT_EQ(key.input, wish.press.input);
-      EXPECT_EQ(key.time, std::clamp(wish.press.time, wish.window_end, wish.window_end + Peer::ahead_max));
+      EXPECT_EQ(key.time,
+                std::clamp(wish.press.time, wish.window_end, wish.window_end + Peer::ahead_max));
       counts.timed_keys += key.time != wish.window_end;
       wishes_[key.bat].pop_front();
     }
@@ -77,10 +95,12 @@ class LiveGame {
         distance = (puck.position - glimpse.position).norm();
       }
       for (std::uint32_t k = below(random_, 3); k > 0; --k) {
-        const double x = static_cast<double>(below(random_, 3)) - 1.0, y = static_cast<double>(below(random_, 3)) - 1.0;
+        const double x = static_cast<double>(below(random_, 3)) - 1.0,
+                     y = static_cast<double>(below(random_, 3)) - 1.0;
         double& wanted = wanted_[glimpse.bat];
         wanted = std::max(wanted, now + uniform(random_, -1.0, 3.0) * window_);
-        const Press press{glimpse.bat, Vector2(x, y) * 6.0, static_cast<std::uint8_t>(1 + counts.glimpses % 200), wanted};
+        const Press press{glimpse.bat, Vector2(x, y) * 6.0,
+                          static_cast<std::uint8_t>(1 + counts.glimpses % 200), wanted};
         peer.press(glimpse.owner, press);
         wishes_[glimpse.bat].push_back({press, peer.end()});
         counts.foreign_keys += owner != peer.number();
@@ -110,8 +130,13 @@ TEST(LiveKeys, GoToTheOwnersWhoseLogsAreTheSameGameToTheLastDigit) {
     SCOPED_TRACE("scene " + std::to_string(number));
     LiveGame(number, 0.02).play(120, counts);
   }
-  std::cout << counts.keys << " keys, " << counts.foreign_keys << " pressed of bats that others own, " << counts.timed_keys << " for an instant after their window, by " << counts.glimpses << " glimpses; bats changed their owners " << counts.moved_bats << " times\n";
-  for (const std::uint64_t count : {counts.keys, counts.foreign_keys, counts.timed_keys, counts.glimpses, counts.moved_bats}) EXPECT_GT(count, 0u);
+  std::cout << counts.keys << " keys, " << counts.foreign_keys
+            << " pressed of bats that others own, " << counts.timed_keys
+            << " for an instant after their window, by " << counts.glimpses
+            << " glimpses; bats changed their owners " << counts.moved_bats << " times\n";
+  for (const std::uint64_t count :
+       {counts.keys, counts.foreign_keys, counts.timed_keys, counts.glimpses, counts.moved_bats})
+    EXPECT_GT(count, 0u);
 }
 
 TEST(LiveKeys, OfABatThatSomebodyElsePlaysAreAnAccusation) {
@@ -125,7 +150,8 @@ TEST(LiveKeys, OfABatThatSomebodyElsePlaysAreAnAccusation) {
     assembly.advance();
     ADD_FAILURE() << "nobody minds";
   } catch (const std::logic_error& error) {
-    EXPECT_EQ(std::string(error.what()), "at peer 0: peer 1 presses a key of bat " + std::to_string(bat) + ", which it does not play");
+    EXPECT_EQ(std::string(error.what()), "at peer 0: peer 1 presses a key of bat " +
+                                             std::to_string(bat) + ", which it does not play");
   }
 }
 

@@ -1,4 +1,5 @@
-// Mail between peers in threads that die in the middle of a word, are cut off from each other, or come later.
+// Mail between peers in threads that die in the middle of a word, are cut off from each other, or
+// come later.
 #pragma once
 
 #include <chrono>
@@ -10,15 +11,16 @@
 #include <utility>
 #include <vector>
 
-#include "game/peer/session/session_state.h"
 #include "game/peer/protocol.h"
+#include "game/peer/session/session_state.h"
 
 namespace rink::peer::test {
 
 /// What ends a thread that is killed.
 struct Killed {};
 
-/// One thread's end of all lines; those who begin have their numbers as ends, whoever comes later has the next one that is free.
+/// One thread's end of all lines; those who begin have their numbers as ends, whoever comes later
+/// has the next one that is free.
 using End = std::size_t;
 
 /// What a newcomer is told.
@@ -36,7 +38,14 @@ class LossyOffice {
   /// With one whose word is due; changed before anybody waits.
   std::chrono::milliseconds patience = std::chrono::hours(1);
   explicit LossyOffice(PeerNumber peer_count)
-      : lines_(ends_max * ends_max), is_dead_(ends_max), has_finished_(ends_max), is_connected_(ends_max), tickets_(ends_max), callers_(ends_max), begin_count_(peer_count), end_count_(peer_count) {}
+      : lines_(ends_max * ends_max),
+        is_dead_(ends_max),
+        has_finished_(ends_max),
+        is_connected_(ends_max),
+        tickets_(ends_max),
+        callers_(ends_max),
+        begin_count_(peer_count),
+        end_count_(peer_count) {}
 
   void kill(End peer) {
     const std::lock_guard lock(mutex_);
@@ -72,32 +81,42 @@ class LossyOffice {
     has_come_.notify_all();
   }
   /// `counted`: those whose loss matters to `own`.
-  std::vector<std::uint8_t> receive(End own, PeerNumber from_number, End from, const std::map<PeerNumber, End>& counted) {
+  std::vector<std::uint8_t> receive(End own, PeerNumber from_number, End from,
+                                    const std::map<PeerNumber, End>& counted) {
     std::unique_lock lock(mutex_);
     for (;;) {
       Line& mail = line(from, own);
       for (const auto& [number, end] : counted) {
-        if (line(end, own).is_sent_away) throw SentAway("peer " + std::to_string(number) + " sent this one away");
-        if (!line(end, own).is_parted && (is_dead_[end] || line(end, own).is_cut)) throw PeerGone(number, false, "peer " + std::to_string(number) + " is gone");
+        if (line(end, own).is_sent_away)
+          throw SentAway("peer " + std::to_string(number) + " sent this one away");
+        if (!line(end, own).is_parted && (is_dead_[end] || line(end, own).is_cut))
+          throw PeerGone(number, false, "peer " + std::to_string(number) + " is gone");
       }
       if (!mail.waiting.empty()) {
         std::vector<std::uint8_t> bytes = std::move(mail.waiting.front());
         mail.waiting.pop_front();
         return bytes;
       }
-      if (has_finished_[from]) throw PeerGone(from_number, true, "peer " + std::to_string(from_number) + " has left");
-      if (has_come_.wait_for(lock, patience) == std::cv_status::timeout) throw PeerGone(from_number, false, "peer " + std::to_string(from_number) + " has said nothing");
+      if (has_finished_[from])
+        throw PeerGone(from_number, true, "peer " + std::to_string(from_number) + " has left");
+      if (has_come_.wait_for(lock, patience) == std::cv_status::timeout)
+        throw PeerGone(from_number, false,
+                       "peer " + std::to_string(from_number) + " has said nothing");
     }
   }
 
   /// A newcomer asks `to`, and waits for the answer; with it comes its end.
   std::pair<End, Ticket> ask(End to, Newcomer newcomer) {
     std::unique_lock lock(mutex_);
-    if (end_count_ == ends_max) return {0, {.answer = Ticket::Answer::never, .number = 0, .others = {}, .members = {}}};
+    if (end_count_ == ends_max)
+      return {0, {.answer = Ticket::Answer::never, .number = 0, .others = {}, .members = {}}};
     const End own = end_count_++;
     newcomer.token = own;
     callers_[to].push_back(newcomer);
-    const auto is_over = [&] { return tickets_[own].answer != Ticket::Answer::none || is_dead_[to] || has_finished_[to] || line(to, own).is_cut; };
+    const auto is_over = [&] {
+      return tickets_[own].answer != Ticket::Answer::none || is_dead_[to] || has_finished_[to] ||
+             line(to, own).is_cut;
+    };
     has_come_.wait(lock, is_over);
     Ticket ticket = tickets_[own];
     if (ticket.answer == Ticket::Answer::none) ticket.answer = Ticket::Answer::again;
@@ -125,12 +144,14 @@ class LossyOffice {
   void send_away(End own, End peer) {
     const std::lock_guard lock(mutex_);
     line(own, peer).is_sent_away = true;
-    if (tickets_[peer].answer == Ticket::Answer::none) tickets_[peer].answer = Ticket::Answer::again;
+    if (tickets_[peer].answer == Ticket::Answer::none)
+      tickets_[peer].answer = Ticket::Answer::again;
     has_come_.notify_all();
   }
   bool is_there(End end) {
     const std::lock_guard lock(mutex_);
-    return end < end_count_ && (end < begin_count_ || is_connected_[end]) && !is_dead_[end] && !has_finished_[end];
+    return end < end_count_ && (end < begin_count_ || is_connected_[end]) && !is_dead_[end] &&
+           !has_finished_[end];
   }
 
  private:
@@ -151,9 +172,15 @@ class LossyOffice {
 
 class LossyMail final : public Mail {
  public:
-  /// With every word that is said or awaited, `before_word` is called with its number; it may throw. `others`: those who are there, of whom the `counted` are no candidates.
-  LossyMail(LossyOffice& office, End own, std::map<PeerNumber, End> others, std::map<PeerNumber, End> counted, std::function<void(std::uint64_t)> before_word)
-      : office_(office), own_(own), ends_(std::move(others)), counted_(std::move(counted)), before_word_(std::move(before_word)) {}
+  /// With every word that is said or awaited, `before_word` is called with its number; it may
+  /// throw. `others`: those who are there, of whom the `counted` are no candidates.
+  LossyMail(LossyOffice& office, End own, std::map<PeerNumber, End> others,
+            std::map<PeerNumber, End> counted, std::function<void(std::uint64_t)> before_word)
+      : office_(office),
+        own_(own),
+        ends_(std::move(others)),
+        counted_(std::move(counted)),
+        before_word_(std::move(before_word)) {}
   /// What is said may be changed on its way.
   std::function<void(std::vector<std::uint8_t>&)> on_the_way = [](std::vector<std::uint8_t>&) {};
   void send(PeerNumber to, std::vector<std::uint8_t> bytes) override {
@@ -171,18 +198,27 @@ class LossyMail final : public Mail {
   void rejoin(PeerNumber peer) override { office_.rejoin(own_, ends_.at(peer)); }
   std::vector<Newcomer> callers() override { return office_.callers(own_); }
   void refuse(std::uint64_t token, const std::string&, bool may_ask_again) override {
-    office_.answer(token, {.answer = may_ask_again ? Ticket::Answer::again : Ticket::Answer::never, .number = 0, .others = {}, .members = {}});
+    office_.answer(token, {.answer = may_ask_again ? Ticket::Answer::again : Ticket::Answer::never,
+                           .number = 0,
+                           .others = {},
+                           .members = {}});
   }
   void expect(const Candidate& candidate, bool has_asked_here, const State& state) override {
     if (has_asked_here) {
-      Ticket ticket{.answer = Ticket::Answer::number, .number = candidate.number, .others = ends_, .members = state.members, .first_bat = candidate.first_bat};
+      Ticket ticket{.answer = Ticket::Answer::number,
+                    .number = candidate.number,
+                    .others = ends_,
+                    .members = state.members,
+                    .first_bat = candidate.first_bat};
       ticket.others[own_number(state)] = own_;
       office_.answer(candidate.newcomer.token, std::move(ticket));
     }
     ends_[candidate.number] = candidate.newcomer.token;
   }
   bool reaches(PeerNumber candidate) override { return office_.reaches(own_, ends_.at(candidate)); }
-  bool has_given_up(PeerNumber candidate) override { return office_.has_given_up(own_, ends_.at(candidate)); }
+  bool has_given_up(PeerNumber candidate) override {
+    return office_.has_given_up(own_, ends_.at(candidate));
+  }
   void admit(PeerNumber candidate, bool is_in) override {
     if (is_in) {
       counted_[candidate] = ends_.at(candidate);

@@ -1,4 +1,5 @@
-// More peers than events may come at one instant: they are not taken for simultaneous unless they are.
+// More peers than events may come at one instant: they are not taken for simultaneous unless they
+// are.
 #include <gtest/gtest.h>
 
 #include "game/peer/assembly.h"
@@ -11,7 +12,8 @@ constexpr PeerNumber peer_count = 80;
 
 physics::WorldSpec long_hall() {
   physics::WorldSpec spec;
-  spec.field = {.length = 80.0, .width = 1.0, .goal_width = 0.0, .wall = 0, .bats_keep_to_half = false};
+  spec.field = {
+      .length = 80.0, .width = 1.0, .goal_width = 0.0, .wall = 0, .bats_keep_to_half = false};
   spec.restitution = physics::RestitutionTable(1, 1.0);
   return spec;
 }
@@ -28,7 +30,8 @@ Compared played_alone_and_shared(physics::World& whole, int windows, double wind
     physics::test::RandomKeys::advance(whole, window * k);
     assembly.advance();
     for (std::uint32_t body = 0; body < whole.body_count(); ++body)
-      compared.different += bytes_of(assembly.state(body)) != bytes_of(physics::Portion::state_in(whole, body));
+      compared.different +=
+          bytes_of(assembly.state(body)) != bytes_of(physics::Portion::state_in(whole, body));
   }
   for (const Peer& peer : assembly.peers()) compared.repeats += peer.counters().repeats;
   compared.at_once = whole.counters().events_at_once_max;

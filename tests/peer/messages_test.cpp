@@ -1,4 +1,5 @@
-// Messages as bytes: what is written is read, what was altered is refused; and peers that claim what is not theirs are named.
+// Messages as bytes: what is written is read, what was altered is refused; and peers that claim
+// what is not theirs are named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,9 +14,19 @@ namespace {
 Arrivals some_arrivals() {
   SharedScene scene = shared_scene(6, 0.2);
   scene.world.advance(0.2);
-  Arrivals message{.window = 3, .bodies = {}, .holds = {{.low = 2, .high = 5, .axis = 1, .age = {}}}, .keys = scene.keys, .glimpses = {}};
-  message.glimpses = {{.bat = 4, .owner = 1, .time = 0.2, .position = {1.0, 2.0}, .pucks = {{.number = 9, .radius = 0.04}, {}}}, {}};
-  for (std::uint32_t body = 0; body < 20; ++body) message.bodies.push_back({body, physics::Portion::state_in(scene.world, body)});
+  Arrivals message{.window = 3,
+                   .bodies = {},
+                   .holds = {{.low = 2, .high = 5, .axis = 1, .age = {}}},
+                   .keys = scene.keys,
+                   .glimpses = {}};
+  message.glimpses = {{.bat = 4,
+                       .owner = 1,
+                       .time = 0.2,
+                       .position = {1.0, 2.0},
+                       .pucks = {{.number = 9, .radius = 0.04}, {}}},
+                      {}};
+  for (std::uint32_t body = 0; body < 20; ++body)
+    message.bodies.push_back({body, physics::Portion::state_in(scene.world, body)});
   return message;
 }
 
@@ -31,22 +42,44 @@ void expect_kept(Message message) {
     altered[i] = static_cast<std::uint8_t>(altered[i] ^ (1u << (i % 8)));
     EXPECT_FALSE(read(altered, heard)) << i;
   }
-  for (std::size_t length = 0; length < bytes.size(); ++length) EXPECT_FALSE(read(std::span(bytes).first(length), heard)) << length;
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    EXPECT_FALSE(read(std::span(bytes).first(length), heard)) << length;
 }
 
 TEST(Messages, AreReadAsWrittenAndRefusedIfAltered) {
   expect_kept(some_arrivals());
   const std::vector<ClaimedFlight> flights{{0.5, 99, 0.0f, 1.0f, 2.0f, 3.0f}, {0.6, 98}, {0.0, 0}};
-  expect_kept(Claims{.window = 2, .known_count = 7, .bodies = {{4, 2, true}, {9, 1, false}}, .flights = flights, .presses = {{3, {1.0, -2.0}, 5}, {}}});
-  expect_kept(Verdict{.window = 5, .accepts = true, .halo = std::numeric_limits<float>::infinity(), .at_once_max = 3, .was_hopeless = true, .events = 9, .leaves = true, .listed = {0, 7, 255}});
+  expect_kept(Claims{.window = 2,
+                     .known_count = 7,
+                     .bodies = {{4, 2, true}, {9, 1, false}},
+                     .flights = flights,
+                     .presses = {{3, {1.0, -2.0}, 5}, {}}});
+  expect_kept(Verdict{.window = 5,
+                      .accepts = true,
+                      .halo = std::numeric_limits<float>::infinity(),
+                      .at_once_max = 3,
+                      .was_hopeless = true,
+                      .events = 9,
+                      .leaves = true,
+                      .listed = {0, 7, 255}});
 }
 
-/// What nearly all messages among many peers are, so that it decides what these carry (docs/peer-to-peer.md, "What is said").
+/// What nearly all messages among many peers are, so that it decides what these carry
+/// (docs/peer-to-peer.md, "What is said").
 TEST(Messages, ThatSayNothingTakeAFewBytes) {
   constexpr std::size_t head = 1, window = 2, checksum = 4;
-  EXPECT_EQ(written(Arrivals{.window = 300, .bodies = {}, .holds = {}, .keys = {}, .glimpses = {}}).size(), head + window + checksum);
-  EXPECT_EQ(written(Claims{.window = 300, .known_count = 100, .bodies = {}, .flights = {}, .presses = {}}).size(), head + window + 1 + checksum);
-  EXPECT_EQ(written(Verdict{.window = 300, .accepts = true, .halo = 0.5f, .at_once_max = 2, .events = 100}).size(), head + window + 4 + 1 + 1 + checksum);
+  EXPECT_EQ(written(Arrivals{.window = 300, .bodies = {}, .holds = {}, .keys = {}, .glimpses = {}})
+                .size(),
+            head + window + checksum);
+  EXPECT_EQ(
+      written(Claims{.window = 300, .known_count = 100, .bodies = {}, .flights = {}, .presses = {}})
+          .size(),
+      head + window + 1 + checksum);
+  EXPECT_EQ(
+      written(
+          Verdict{.window = 300, .accepts = true, .halo = 0.5f, .at_once_max = 2, .events = 100})
+          .size(),
+      head + window + 4 + 1 + 1 + checksum);
 }
 
 TEST(Messages, GrowByWhatIsThereAlone) {
@@ -70,19 +103,23 @@ TEST(Messages, OfAWindowAreNeverTakenForALossNorALossForThem) {
   Arrivals arrivals;
   Claims claims;
   Verdict verdict;
-  EXPECT_FALSE(read(written(loss), arrivals) || read(written(loss), claims) || read(written(loss), verdict));
-  EXPECT_FALSE(read(written(some_arrivals()), loss) || read(written(Claims{}), loss) || read(written(Verdict{}), loss));
+  EXPECT_FALSE(read(written(loss), arrivals) || read(written(loss), claims) ||
+               read(written(loss), verdict));
+  EXPECT_FALSE(read(written(some_arrivals()), loss) || read(written(Claims{}), loss) ||
+               read(written(Verdict{}), loss));
 }
 
 TEST(Messages, WithAPartThatIsSaidToBeThereAndIsEmptyAreRefused) {
   physics::SnapshotWriter writer;
-  for (std::uint64_t byte : {0x80u | 2u, 3u, 0u}) writer.word(byte, 1);  // flights of bodies, window 3, none
+  for (std::uint64_t byte : {0x80u | 2u, 3u, 0u})
+    writer.word(byte, 1);  // flights of bodies, window 3, none
   Arrivals arrivals;
   EXPECT_FALSE(read(writer.finish(4), arrivals));
 }
 
 TEST(Messages, KeepNumbersOfAnyLength) {
-  for (const std::uint64_t events : {std::uint64_t{0}, std::uint64_t{127}, std::uint64_t{128}, std::uint64_t{1} << 32, ~std::uint64_t{0}}) {
+  for (const std::uint64_t events : {std::uint64_t{0}, std::uint64_t{127}, std::uint64_t{128},
+                                     std::uint64_t{1} << 32, ~std::uint64_t{0}}) {
     const Verdict verdict{.window = 0xffffffff, .events = events};
     expect_kept(verdict);
     Verdict heard;
@@ -93,25 +130,33 @@ TEST(Messages, KeepNumbersOfAnyLength) {
 }
 
 TEST(Messages, WhoseFlightsDoNotAddUpAreRefused) {
-  Claims claims{.window = 2, .known_count = 0, .bodies = {{4, 3, true}}, .flights = {{}, {}}, .presses = {}};
+  Claims claims{
+      .window = 2, .known_count = 0, .bodies = {{4, 3, true}}, .flights = {{}, {}}, .presses = {}};
   Claims heard;
   EXPECT_FALSE(read(written(claims), heard));
 }
 
 TEST(Messages, WithThrustsThatAreNoNumberAreRefused) {
   Claims heard;
-  EXPECT_FALSE(read(written(Claims{.window = 2, .bodies = {}, .flights = {}, .presses = {{3, {std::nan(""), 0.0}, 5}}}), heard));
-  EXPECT_FALSE(read(written(Claims{.window = 2, .bodies = {}, .flights = {}, .presses = {{3, {1.0, 0.0}, 0}}}), heard));
+  EXPECT_FALSE(
+      read(written(Claims{
+               .window = 2, .bodies = {}, .flights = {}, .presses = {{3, {std::nan(""), 0.0}, 5}}}),
+           heard));
+  EXPECT_FALSE(read(
+      written(Claims{.window = 2, .bodies = {}, .flights = {}, .presses = {{3, {1.0, 0.0}, 0}}}),
+      heard));
 }
 
 /// Two halves of a gas, the left one's peer after a window.
 struct TwoPeers {
   SharedScene scene = shared_scene(0, 1.0);
   Division division = Division::into_strips(scene.world.spec().field, 2);
-  Peer left{scene.world.spec(), division, 0, scene.world.body_count(), 0.3}, right{scene.world.spec(), division, 1, scene.world.body_count(), 0.3};
+  Peer left{scene.world.spec(), division, 0, scene.world.body_count(), 0.3},
+      right{scene.world.spec(), division, 1, scene.world.body_count(), 0.3};
   TwoPeers() {
     for (Peer* peer : {&left, &right}) {
-      for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) peer->consider(body, physics::Portion::state_in(scene.world, body));
+      for (std::uint32_t body = 0; body < scene.world.body_count(); ++body)
+        peer->consider(body, physics::Portion::state_in(scene.world, body));
       peer->begin(0.01);
       peer->play();
     }
@@ -124,7 +169,9 @@ TEST(Peer, NamesWhoClaimsABodyThatIsNotItsOwn) {
   claims.bodies.push_back({two.left.owned().front(), 0, true});
   two.left.hear(1, claims);
   EXPECT_FALSE(two.left.judge().accepts);
-  EXPECT_EQ(two.left.accusation(), "peer 1 claims body " + std::to_string(two.left.owned().front()) + ", which it does not own");
+  EXPECT_EQ(
+      two.left.accusation(),
+      "peer 1 claims body " + std::to_string(two.left.owned().front()) + ", which it does not own");
 }
 
 TEST(Peer, NamesWhoCountsOtherwise) {
@@ -148,21 +195,28 @@ TEST(Peer, NamesWhoHandsOverABodyThatIsNotItsOwn) {
   arrivals.bodies.push_back({body, two.right.state(two.right.owned().front())});
   two.left.hear(1, arrivals);
   two.left.commit(0.02);
-  EXPECT_EQ(two.left.accusation(), "peer 1 hands over body " + std::to_string(body) + ", which it does not own");
+  EXPECT_EQ(two.left.accusation(),
+            "peer 1 hands over body " + std::to_string(body) + ", which it does not own");
   EXPECT_EQ(bytes_of(two.left.state(body)), before);
 }
 
-/// A ghost is hit by somebody who is too far off to be known here, far from all that the peer owns: the window stands, though the ghost is elsewhere in this peer's run.
+/// A ghost is hit by somebody who is too far off to be known here, far from all that the peer owns:
+/// the window stands, though the ghost is elsewhere in this peer's run.
 TEST(Peer, KnowsOfAGhostThatWentAstrayWhereItWasWhenTheWindowBegan) {
   physics::World world(physics::test::rink_of(4.0, 2.0));
   const Vector2 ghost_place(2.2, 1.0);
-  const std::uint32_t ghost = world.add(physics::PuckSpec{.position = ghost_place, .velocity = {0.5, 0.0}, .radius = 0.03}).index;
+  const std::uint32_t ghost =
+      world.add(physics::PuckSpec{.position = ghost_place, .velocity = {0.5, 0.0}, .radius = 0.03})
+          .index;
   world.add(physics::PuckSpec{.position = {2.9, 1.0}, .velocity = {-40.0, 0.0}, .radius = 0.03});
   world.add(physics::PuckSpec{.position = {0.5, 0.5}, .radius = 0.03});
-  const Division division(world.spec().field, {{{0.0, 0.0, 2.0, 2.0}, 0}, {{2.0, 0.0, 4.0, 2.0}, 1}}, 2);
-  Peer left(world.spec(), division, 0, world.body_count(), 0.3), right(world.spec(), division, 1, world.body_count(), 0.3);
+  const Division division(world.spec().field,
+                          {{{0.0, 0.0, 2.0, 2.0}, 0}, {{2.0, 0.0, 4.0, 2.0}, 1}}, 2);
+  Peer left(world.spec(), division, 0, world.body_count(), 0.3),
+      right(world.spec(), division, 1, world.body_count(), 0.3);
   for (Peer* peer : {&left, &right}) {
-    for (std::uint32_t body = 0; body < world.body_count(); ++body) peer->consider(body, physics::Portion::state_in(world, body));
+    for (std::uint32_t body = 0; body < world.body_count(); ++body)
+      peer->consider(body, physics::Portion::state_in(world, body));
     peer->begin(0.02), peer->play();
   }
   left.hear(1, right.claims_for(0)), right.hear(0, left.claims_for(1));

@@ -1,4 +1,5 @@
-// The part of a peer as another one keeps it: what it has, one step behind, and which keys it has told of.
+// The part of a peer as another one keeps it: what it has, one step behind, and which keys it has
+// told of.
 #include "game/peer/session/mirror.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +8,14 @@ namespace rink::peer::test {
 namespace {
 
 PartChange step(std::uint64_t number, bool is_whole, std::vector<Key> log) {
-  return {.step = number, .time = 0.1 * static_cast<double>(number), .is_whole = is_whole, .bodies = {}, .gone = {}, .holds = {}, .keys = {}, .log = std::move(log)};
+  return {.step = number,
+          .time = 0.1 * static_cast<double>(number),
+          .is_whole = is_whole,
+          .bodies = {},
+          .gone = {},
+          .holds = {},
+          .keys = {},
+          .log = std::move(log)};
 }
 
 std::vector<double> times(const std::vector<Key>& log) {
@@ -41,7 +49,8 @@ TEST(PeerMirror, TakesTheNextStepOrAWholePartAndGoesBackByOne) {
   EXPECT_FALSE(mirror.rewind(3));
   ASSERT_TRUE(mirror.rewind(5));
   ASSERT_TRUE(mirror.rewind(4));
-  EXPECT_EQ(times(mirror.log()), (std::vector{0.05})) << "the step that was taken back took its keys along";
+  EXPECT_EQ(times(mirror.log()), (std::vector{0.05}))
+      << "the step that was taken back took its keys along";
   ASSERT_TRUE(mirror.add(step(5, false, {third})));
   EXPECT_EQ(times(mirror.log()), (std::vector{0.05, 0.25}));
   EXPECT_EQ(mirror.part().time, 0.5);

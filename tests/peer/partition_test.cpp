@@ -1,4 +1,5 @@
-// Peers cut off from each other by a modelled network for a while, in virtual time: who is too few halts, the others go on, and what they end with is what nobody disturbed.
+// Peers cut off from each other by a modelled network for a while, in virtual time: who is too few
+// halts, the others go on, and what they end with is what nobody disturbed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,32 +27,46 @@ struct Outcomes {
   std::vector<std::uint64_t> last_steps;
   std::int64_t end_ns = 0;
 
-  std::size_t count(Fate fate) const { return static_cast<std::size_t>(std::count(fates.begin(), fates.end(), fate)); }
+  std::size_t count(Fate fate) const {
+    return static_cast<std::size_t>(std::count(fates.begin(), fates.end(), fate));
+  }
 };
 
 /// One scene among peers who play a window every 50 ms of the network's clock.
 class PartitionPlay {
  public:
-  PartitionPlay(std::uint64_t scene, PeerNumber peer_count, const rti::NetworkConditions& conditions, const Cut& cut)
-      : scene_number_(scene), peer_count_(peer_count), model_(conditions, cut), network_(model_), turns_(peer_count), start_(shared_scene(scene, window_length * static_cast<double>(window_count))),
+  PartitionPlay(std::uint64_t scene, PeerNumber peer_count,
+                const rti::NetworkConditions& conditions, const Cut& cut)
+      : scene_number_(scene),
+        peer_count_(peer_count),
+        model_(conditions, cut),
+        network_(model_),
+        turns_(peer_count),
+        start_(shared_scene(scene, window_length * static_cast<double>(window_count))),
         cuts_(Cuts::by_count(start_.world.spec().field, places(), peer_count)) {
-    std::stable_sort(start_.keys.begin(), start_.keys.end(), [](const Key& a, const Key& b) { return a.time != b.time ? a.time < b.time : a.bat < b.bat; });
-    for (PeerNumber number = 0; number < peer_count; ++number) mails_.emplace_back(network_, turns_, number, peer_count, patience_ns);
-    outcomes_.fates.resize(peer_count, Fate::playing), outcomes_.messages.resize(peer_count), outcomes_.ends.resize(peer_count), outcomes_.counters.resize(peer_count);
+    std::stable_sort(start_.keys.begin(), start_.keys.end(), [](const Key& a, const Key& b) {
+      return a.time != b.time ? a.time < b.time : a.bat < b.bat;
+    });
+    for (PeerNumber number = 0; number < peer_count; ++number)
+      mails_.emplace_back(network_, turns_, number, peer_count, patience_ns);
+    outcomes_.fates.resize(peer_count, Fate::playing), outcomes_.messages.resize(peer_count),
+        outcomes_.ends.resize(peer_count), outcomes_.counters.resize(peer_count);
     outcomes_.last_steps.resize(peer_count);
   }
 
   /// Until all have ended.
   const Outcomes& run() {
     for (VirtualMail& mail : mails_) mail.connect();
-    while (!std::all_of(mails_.begin(), mails_.end(), [](const VirtualMail& mail) { return mail.is_connected(); })) {
+    while (!std::all_of(mails_.begin(), mails_.end(),
+                        [](const VirtualMail& mail) { return mail.is_connected(); })) {
       network_.advance_to(network_.next_arrival_ns().value());
       for (VirtualMail& mail : mails_) mail.poll();
     }
     network_.advance_to(start_ns);
     {
       std::vector<std::jthread> threads;
-      for (PeerNumber number = 0; number < peer_count_; ++number) threads.emplace_back([this, number] { live(number); });
+      for (PeerNumber number = 0; number < peer_count_; ++number)
+        threads.emplace_back([this, number] { live(number); });
       keep_time();
     }
     outcomes_.end_ns = network_.now_ns();
@@ -62,22 +77,29 @@ class PartitionPlay {
 
   /// Of one engine that nobody disturbs.
   std::uint64_t truth() const {
-    SharedScene alone = shared_scene(scene_number_, window_length * static_cast<double>(window_count));
+    SharedScene alone =
+        shared_scene(scene_number_, window_length * static_cast<double>(window_count));
     std::vector<Key> keys = start_.keys;
     for (const Key& key : keys) {
       if (key.time > window_length * static_cast<double>(window_count)) break;
       physics::test::RandomKeys::advance(alone.world, key.time);
       alone.world.set_thrust({key.bat}, key.thrust);
     }
-    physics::test::RandomKeys::advance(alone.world, window_length * static_cast<double>(window_count));
+    physics::test::RandomKeys::advance(alone.world,
+                                       window_length * static_cast<double>(window_count));
     return alone.world.hash();
   }
   /// Nothing unless each body is one peer's.
-  std::optional<std::uint64_t> hash_of(const std::vector<Arrivals>& parts) const { return hash_of_whole(start_.world.spec(), start_.world.body_count(), parts); }
-  /// At each step that ever stood, nobody's body is another's too, and where all members were, each is somebody's.
+  std::optional<std::uint64_t> hash_of(const std::vector<Arrivals>& parts) const {
+    return hash_of_whole(start_.world.spec(), start_.world.body_count(), parts);
+  }
+  /// At each step that ever stood, nobody's body is another's too, and where all members were, each
+  /// is somebody's.
   void expect_one_owner_each() const {
     for (const auto& [at, owners] : owners_) {
-      for (const auto& [body, count] : owners.counts) ASSERT_EQ(count, 1) << "body " << body << " at step " << at.first << ", window " << at.second;
+      for (const auto& [body, count] : owners.counts)
+        ASSERT_EQ(count, 1) << "body " << body << " at step " << at.first << ", window "
+                            << at.second;
       if (owners.peer_count == owners.member_count) {
         ASSERT_EQ(owners.counts.size(), start_.world.body_count()) << "at step " << at.first;
       }
@@ -92,14 +114,16 @@ class PartitionPlay {
 
   std::vector<Vector2> places() const {
     std::vector<Vector2> all;
-    for (std::uint32_t body = 0; body < start_.world.body_count(); ++body) all.push_back(start_.world.position({body}));
+    for (std::uint32_t body = 0; body < start_.world.body_count(); ++body)
+      all.push_back(start_.world.position({body}));
     return all;
   }
 
   /// From one instant at which something comes, or somebody has waited long enough, to the next.
   void keep_time() {
     for (bool is_first = true;; is_first = false) {
-      std::int64_t next_ns = network_.next_arrival_ns().value_or(std::numeric_limits<std::int64_t>::max());
+      std::int64_t next_ns =
+          network_.next_arrival_ns().value_or(std::numeric_limits<std::int64_t>::max());
       bool is_over = true;
       for (PeerNumber number = 0; number < peer_count_; ++number) {
         const bool has_news = mails_[number].poll();
@@ -120,7 +144,11 @@ class PartitionPlay {
     std::unique_ptr<Session> session;
     VirtualMail& mail = mails_[number];
     try {
-      SessionSettings settings{.number = number, .peer_count = peer_count_, .halo = 0.2, .window_count = window_count, .end_of = {}};
+      SessionSettings settings{.number = number,
+                               .peer_count = peer_count_,
+                               .halo = 0.2,
+                               .window_count = window_count,
+                               .end_of = {}};
       settings.end_of = [](std::uint64_t k) { return window_length * static_cast<double>(k); };
       settings.keys = start_.keys;
       session = std::make_unique<Session>(start_.world, cuts_, std::move(settings), mail);
@@ -164,7 +192,8 @@ class PartitionPlay {
 rti::NetworkConditions conditions_of(std::uint64_t seed, double loss) {
   rti::LinkConditions line{.latency_ns = 5 * ms, .jitter_ns = ms};
   line.loss = rti::PacketLoss::independent(loss);
-  return {.seed = seed, .to_listener = line, .from_listener = line, .exceptions = {}, .partitions = {}};
+  return {
+      .seed = seed, .to_listener = line, .from_listener = line, .exceptions = {}, .partitions = {}};
 }
 
 /// Fewer than half of them, or half without the first.
@@ -172,13 +201,20 @@ std::function<bool(PeerNumber)> some_minority(Random& random, PeerNumber peer_co
   for (;;) {
     const std::uint64_t mask = 1 + below(random, (1u << peer_count) - 2);
     const auto count = static_cast<PeerNumber>(std::popcount(mask));
-    if (2 * count < peer_count || (2 * count == peer_count && (mask & 1) == 0)) return [mask](PeerNumber peer) { return (mask >> peer & 1) != 0; };
+    if (2 * count < peer_count || (2 * count == peer_count && (mask & 1) == 0))
+      return [mask](PeerNumber peer) { return (mask >> peer & 1) != 0; };
   }
 }
 
-Cut some_cut(Random& random, PeerNumber peer_count, std::int64_t shortest_ms, std::int64_t longest_ms) {
-  Cut cut{.from_ns = PartitionPlay::start_ns + static_cast<std::int64_t>(below(random, 1200)) * ms, .is_minority = some_minority(random, peer_count)};
-  cut.until_ns = cut.from_ns + (shortest_ms + static_cast<std::int64_t>(below(random, static_cast<std::uint32_t>(longest_ms - shortest_ms)))) * ms;
+Cut some_cut(Random& random, PeerNumber peer_count, std::int64_t shortest_ms,
+             std::int64_t longest_ms) {
+  Cut cut{.from_ns = PartitionPlay::start_ns + static_cast<std::int64_t>(below(random, 1200)) * ms,
+          .is_minority = some_minority(random, peer_count)};
+  cut.until_ns =
+      cut.from_ns +
+      (shortest_ms + static_cast<std::int64_t>(
+                         below(random, static_cast<std::uint32_t>(longest_ms - shortest_ms)))) *
+          ms;
   return cut;
 }
 
@@ -195,8 +231,10 @@ TEST(Partition, HaltsTheMinorityAndTheOthersEndAsIfUndisturbed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const PeerNumber peer_count = 3 + below(random, 4);
-    Cut cut = some_cut(random, peer_count, 1000, 1500);  // over three patiences, and healed while the others play
-    while (!is_mirrored_beyond(cut.is_minority, peer_count)) cut.is_minority = some_minority(random, peer_count);
+    Cut cut = some_cut(random, peer_count, 1000,
+                       1500);  // over three patiences, and healed while the others play
+    while (!is_mirrored_beyond(cut.is_minority, peer_count))
+      cut.is_minority = some_minority(random, peer_count);
     PartitionPlay play(below(random, 10) + 10 * seed, peer_count, conditions_of(seed, 0.0), cut);
     const Outcomes& outcomes = play.run();
     play.expect_one_owner_each();
@@ -204,7 +242,9 @@ TEST(Partition, HaltsTheMinorityAndTheOthersEndAsIfUndisturbed) {
       SCOPED_TRACE("peer " + std::to_string(peer) + ": " + outcomes.messages[peer]);
       if (cut.is_minority(peer)) {
         EXPECT_EQ(outcomes.fates[peer], Fate::halted);
-        EXPECT_THAT(outcomes.messages[peer], testing::AnyOf(testing::HasSubstr("it halts, for the others may go on"), testing::HasSubstr("it halts, others may go on")));
+        EXPECT_THAT(outcomes.messages[peer],
+                    testing::AnyOf(testing::HasSubstr("it halts, for the others may go on"),
+                                   testing::HasSubstr("it halts, others may go on")));
       } else {
         EXPECT_EQ(outcomes.fates[peer], Fate::done);
         EXPECT_GT(outcomes.counters[peer].recoveries, 0u);
@@ -222,7 +262,8 @@ TEST(Partition, ShorterThanThePatienceIsWaitedOut) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const PeerNumber peer_count = 3 + below(random, 4);
-    PartitionPlay play(below(random, 10) + 10 * seed, peer_count, conditions_of(seed, 0.0), some_cut(random, peer_count, 20, 150));
+    PartitionPlay play(below(random, 10) + 10 * seed, peer_count, conditions_of(seed, 0.0),
+                       some_cut(random, peer_count, 20, 150));
     const Outcomes& outcomes = play.run();
     EXPECT_EQ(outcomes.count(Fate::done), peer_count);
     play.expect_one_owner_each();
@@ -240,7 +281,9 @@ TEST(Partition, OfAnyLengthLeavesOneAuthorityAtMost) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(1000 + seed);
     const PeerNumber peer_count = 3 + below(random, 4);
-    PartitionPlay play(below(random, 10) + 10 * seed, peer_count, conditions_of(seed, seed % 2 == 0 ? 0.0 : 0.002), some_cut(random, peer_count, 100, 900));
+    PartitionPlay play(below(random, 10) + 10 * seed, peer_count,
+                       conditions_of(seed, seed % 2 == 0 ? 0.0 : 0.002),
+                       some_cut(random, peer_count, 100, 900));
     const Outcomes& outcomes = play.run();
     play.expect_one_owner_each();
     EXPECT_EQ(outcomes.count(Fate::playing), 0u);
@@ -250,14 +293,16 @@ TEST(Partition, OfAnyLengthLeavesOneAuthorityAtMost) {
       EXPECT_EQ(play.hash_of(outcomes.ends[peer]), play.truth());
       std::vector<PeerNumber> owners;
       for (PeerNumber other = 0; other < outcomes.ends[peer].size(); ++other)
-        if (!outcomes.ends[peer][other].bodies.empty() || !outcomes.ends[peer][other].flown.empty()) owners.push_back(other);
+        if (!outcomes.ends[peer][other].bodies.empty() || !outcomes.ends[peer][other].flown.empty())
+          owners.push_back(other);
       if (!authority) authority = owners;
       EXPECT_EQ(owners, *authority) << "peer " << peer;
     }
     done += outcomes.count(Fate::done), halted += outcomes.count(Fate::halted);
     divided += outcomes.count(Fate::done) > 0 && outcomes.count(Fate::halted) > 0;
   }
-  std::cout << done << " peers went on, " << halted << " halted; " << divided << " of 40 cuts divided them\n";
+  std::cout << done << " peers went on, " << halted << " halted; " << divided
+            << " of 40 cuts divided them\n";
   EXPECT_GT(divided, 10u);
   EXPECT_GT(done, halted);
 }

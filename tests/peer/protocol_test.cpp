@@ -11,13 +11,15 @@ namespace rink::peer::test {
 namespace {
 
 /// What each of the peers has at the end of so many windows of scene `number`.
-std::vector<Arrivals> play_in_threads(const SharedScene& scene, const Division& division, double window, int window_count) {
+std::vector<Arrivals> play_in_threads(const SharedScene& scene, const Division& division,
+                                      double window, int window_count) {
   const PeerNumber peer_count = division.peer_count();
   std::vector<Arrivals> parts(peer_count);
   PostOffice office(peer_count);
   const auto play = [&](PeerNumber number) {
     Peer peer(scene.world.spec(), division, number, scene.world.body_count(), 0.2);
-    for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) peer.consider(body, physics::Portion::state_in(scene.world, body));
+    for (std::uint32_t body = 0; body < scene.world.body_count(); ++body)
+      peer.consider(body, physics::Portion::state_in(scene.world, body));
     for (const Key& key : scene.keys) peer.press_first(key);
     peer.begin(window);
     ThreadMail mail(office, number);
@@ -36,21 +38,27 @@ TEST(PeersThreaded, HaveTogetherTheHashOfOneEngine) {
     const int window_count = 20;
     SharedScene scene = shared_scene(number, window * window_count);
     Random random(number);
-    const std::vector<Arrivals> parts = play_in_threads(scene, random_division(scene.world.spec().field, random, 4), window, window_count);
+    const std::vector<Arrivals> parts = play_in_threads(
+        scene, random_division(scene.world.spec().field, random, 4), window, window_count);
     for (const Key& key : scene.keys) {
       physics::test::RandomKeys::advance(scene.world, key.time);
       scene.world.set_thrust({key.bat}, key.thrust);
     }
     physics::test::RandomKeys::advance(scene.world, window * window_count);
-    EXPECT_EQ(hash_of_whole(scene.world.spec(), scene.world.body_count(), parts), scene.world.hash()) << "scene " << number;
+    EXPECT_EQ(hash_of_whole(scene.world.spec(), scene.world.body_count(), parts),
+              scene.world.hash())
+        << "scene " << number;
   }
 }
 
 TEST(HashOfWhole, IsRefusedWhereABodyIsMissingOrDoubled) {
   const SharedScene scene = shared_scene(2, 1.0);
   Arrivals all;
-  for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) all.bodies.push_back({body, physics::Portion::state_in(scene.world, body)});
-  const auto hash_of = [&](std::initializer_list<Arrivals> parts) { return hash_of_whole(scene.world.spec(), scene.world.body_count(), std::vector(parts)); };
+  for (std::uint32_t body = 0; body < scene.world.body_count(); ++body)
+    all.bodies.push_back({body, physics::Portion::state_in(scene.world, body)});
+  const auto hash_of = [&](std::initializer_list<Arrivals> parts) {
+    return hash_of_whole(scene.world.spec(), scene.world.body_count(), std::vector(parts));
+  };
   EXPECT_EQ(hash_of({all}), scene.world.hash());
   Arrivals one, others = all;
   one.bodies.push_back(all.bodies.back());

@@ -23,16 +23,27 @@ namespace rink::peer::test {
 class Play {
  public:
   Play(std::uint64_t number, PeerNumber peer_count, std::uint64_t window_count)
-      : number_(number), peer_count_(peer_count), window_count_(window_count), scene_(shared_scene(number, window_length * static_cast<double>(window_count))),
-        cuts_(Cuts::by_count(scene_.world.spec().field, places(), peer_count)), office_(peer_count), fates(LossyOffice::ends_max, Fate::away), ends(LossyOffice::ends_max),
-        counters(LossyOffice::ends_max), messages(LossyOffice::ends_max), windows_played(LossyOffice::ends_max) {
-    std::stable_sort(scene_.keys.begin(), scene_.keys.end(), [](const Key& a, const Key& b) { return a.time != b.time ? a.time < b.time : a.bat < b.bat; });
+      : number_(number),
+        peer_count_(peer_count),
+        window_count_(window_count),
+        scene_(shared_scene(number, window_length * static_cast<double>(window_count))),
+        cuts_(Cuts::by_count(scene_.world.spec().field, places(), peer_count)),
+        office_(peer_count),
+        fates(LossyOffice::ends_max, Fate::away),
+        ends(LossyOffice::ends_max),
+        counters(LossyOffice::ends_max),
+        messages(LossyOffice::ends_max),
+        windows_played(LossyOffice::ends_max) {
+    std::stable_sort(scene_.keys.begin(), scene_.keys.end(), [](const Key& a, const Key& b) {
+      return a.time != b.time ? a.time < b.time : a.bat < b.bat;
+    });
   }
 
   /// Told the end of the peer and its word.
   std::function<void(End, std::uint64_t)> before_word = [](End, std::uint64_t) {};
   /// Told what the peer of that end says, before it goes out, to be changed.
-  std::function<void(End, std::vector<std::uint8_t>&)> on_the_way = [](End, std::vector<std::uint8_t>&) {};
+  std::function<void(End, std::vector<std::uint8_t>&)> on_the_way =
+      [](End, std::vector<std::uint8_t>&) {};
   /// Told before each advance.
   std::function<void(Session&, End)> before_window = [](Session&, End) {};
   bool is_live = false;
@@ -40,13 +51,15 @@ class Play {
   std::uint32_t balance_windows = 0;
 
   void run() {
-    const SharedScene start = shared_scene(number_, window_length * static_cast<double>(window_count_));
+    const SharedScene start =
+        shared_scene(number_, window_length * static_cast<double>(window_count_));
     if (is_live) scene_.keys.clear();
     else find_truth();
     start_ = &start.world;
     for (std::uint32_t body = 0; body < start.world.body_count(); ++body)
       if (start.world.kind({body}) == physics::BodyKind::bat) bats_.push_back(body);
-    for (PeerNumber number = 0; number < peer_count_; ++number) launch([&, number] { begin(number); });
+    for (PeerNumber number = 0; number < peer_count_; ++number)
+      launch([&, number] { begin(number); });
     for (std::size_t k = 0;; ++k) {
       std::thread next;
       {
@@ -63,8 +76,11 @@ class Play {
   }
   /// By one engine, with everybody's logs.
   std::uint64_t replayed(const std::vector<Arrivals>& parts) {
-    for (const Arrivals& part : parts) scene_.keys.insert(scene_.keys.end(), part.keys.begin(), part.keys.end());
-    std::stable_sort(scene_.keys.begin(), scene_.keys.end(), [](const Key& a, const Key& b) { return a.time != b.time ? a.time < b.time : a.bat < b.bat; });
+    for (const Arrivals& part : parts)
+      scene_.keys.insert(scene_.keys.end(), part.keys.begin(), part.keys.end());
+    std::stable_sort(scene_.keys.begin(), scene_.keys.end(), [](const Key& a, const Key& b) {
+      return a.time != b.time ? a.time < b.time : a.bat < b.bat;
+    });
     find_truth();
     return scene_.world.hash();
   }
@@ -80,14 +96,19 @@ class Play {
   }
   std::uint64_t truth() const { return scene_.world.hash(); }
   std::size_t key_count() const { return scene_.keys.size(); }
-  std::uint64_t hash_of(const std::vector<Arrivals>& parts) const { return hash_of_whole(scene_.world.spec(), scene_.world.body_count(), parts).value_or(0); }
+  std::uint64_t hash_of(const std::vector<Arrivals>& parts) const {
+    return hash_of_whole(scene_.world.spec(), scene_.world.body_count(), parts).value_or(0);
+  }
   LossyOffice& office() { return office_; }
-  std::size_t count(Fate fate) const { return static_cast<std::size_t>(std::count(fates.begin(), fates.end(), fate)); }
+  std::size_t count(Fate fate) const {
+    return static_cast<std::size_t>(std::count(fates.begin(), fates.end(), fate));
+  }
 
  private:
   std::vector<Vector2> places() const {
     std::vector<Vector2> all;
-    for (std::uint32_t body = 0; body < scene_.world.body_count(); ++body) all.push_back(scene_.world.position({body}));
+    for (std::uint32_t body = 0; body < scene_.world.body_count(); ++body)
+      all.push_back(scene_.world.position({body}));
     return all;
   }
 
@@ -100,7 +121,8 @@ class Play {
         scene_.world.set_thrust({scene_.keys[next].bat}, scene_.keys[next].thrust);
       }
       physics::test::RandomKeys::advance(scene_.world, until);
-      for (std::uint32_t body = 0; body < scene_.world.body_count(); ++body) states_[{window, body}] = bytes_of(physics::Portion::state_in(scene_.world, body));
+      for (std::uint32_t body = 0; body < scene_.world.body_count(); ++body)
+        states_[{window, body}] = bytes_of(physics::Portion::state_in(scene_.world, body));
     }
   }
 
@@ -110,20 +132,33 @@ class Play {
   }
 
   SessionSettings settings(PeerNumber number) const {
-    SessionSettings settings{.number = number, .peer_count = peer_count_, .halo = 0.2, .window_count = window_count_, .end_of = [](std::uint64_t k) { return window_length * static_cast<double>(k); }};
+    SessionSettings settings{
+        .number = number,
+        .peer_count = peer_count_,
+        .halo = 0.2,
+        .window_count = window_count_,
+        .end_of = [](std::uint64_t k) { return window_length * static_cast<double>(k); }};
     settings.keys = scene_.keys;
     settings.balance_windows = balance_windows;
     settings.bat_count = is_live ? static_cast<std::uint32_t>(bats_.size()) : 0;
     const std::uint32_t seated = settings.bat_count - std::min(settings.bat_count, spare_bats);
     for (PeerNumber peer = 0; peer < peer_count_; ++peer) {
       const std::uint32_t first = seated * peer / peer_count_;
-      settings.players.push_back({.peer = peer, .first_bat = first, .bat_count = seated * (peer + 1) / peer_count_ - first, .puck_count = 2});
+      settings.players.push_back({.peer = peer,
+                                  .first_bat = first,
+                                  .bat_count = seated * (peer + 1) / peer_count_ - first,
+                                  .puck_count = 2});
     }
     settings.seats_of = [this](const Player& player) {
-      if (std::uint64_t{player.first_bat} + player.bat_count > bats_.size()) throw ProtocolError("bats that are not there");
+      if (std::uint64_t{player.first_bat} + player.bat_count > bats_.size())
+        throw ProtocolError("bats that are not there");
       std::vector<Seat> seats;
       for (std::uint32_t k = player.first_bat; k < player.first_bat + player.bat_count; ++k)
-        seats.push_back({.bat = bats_[k], .peer = player.peer, .period = 0.02, .phase = 0.001 * bats_[k], .puck_count = player.puck_count});
+        seats.push_back({.bat = bats_[k],
+                         .peer = player.peer,
+                         .period = 0.02,
+                         .phase = 0.001 * bats_[k],
+                         .puck_count = player.puck_count});
       return seats;
     };
     return settings;
@@ -133,10 +168,12 @@ class Play {
     std::map<PeerNumber, End> others;
     for (PeerNumber peer = 0; peer < peer_count_; ++peer)
       if (peer != number) others[peer] = peer;
-    LossyMail mail(office_, number, others, others, [&](std::uint64_t word) { before_word(number, word); });
+    LossyMail mail(office_, number, others, others,
+                   [&](std::uint64_t word) { before_word(number, word); });
     mail.on_the_way = [&](std::vector<std::uint8_t>& bytes) { on_the_way(number, bytes); };
     try {
-      live(number, [&] { return std::make_unique<Session>(*start_, cuts_, settings(number), mail); });
+      live(number,
+           [&] { return std::make_unique<Session>(*start_, cuts_, settings(number), mail); });
     } catch (const SentAway& sent) {  // by a liar: nobody else sends away who began
       office_.kill(number);
       fates[number] = Fate::halted;
@@ -151,9 +188,13 @@ class Play {
       if (ticket.answer == Ticket::Answer::number) {
         std::map<PeerNumber, End> counted;
         for (const PeerNumber peer : ticket.members) counted[peer] = ticket.others.at(peer);
-        LossyMail mail(office_, own, ticket.others, counted, [&, own = own](std::uint64_t word) { before_word(own, word); });
+        LossyMail mail(office_, own, ticket.others, counted,
+                       [&, own = own](std::uint64_t word) { before_word(own, word); });
         try {
-          return live(own, [&, &ticket = ticket] { return std::make_unique<Session>(*start_, settings(ticket.number), mail, ticket.members); });
+          return live(own, [&, &ticket = ticket] {
+            return std::make_unique<Session>(*start_, settings(ticket.number), mail,
+                                             ticket.members);
+          });
         } catch (const SentAway&) {
           office_.kill(own);
           fates[own] = Fate::away;
@@ -181,7 +222,8 @@ class Play {
         note_owners(*session);
         for (const Glimpse& glimpse : session->peer().glimpses()) {
           const double x = static_cast<double>(below(random, 3)) - 1.0;
-          session->press(glimpse, {glimpse.bat, Vector2(x, 0.5) * 6.0, static_cast<std::uint8_t>(1 + below(random, 200))});
+          session->press(glimpse, {glimpse.bat, Vector2(x, 0.5) * 6.0,
+                                   static_cast<std::uint8_t>(1 + below(random, 200))});
         }
       }
       if (!session->has_left()) ends[own] = session->end();
@@ -202,7 +244,8 @@ class Play {
     office_.finish(own);
   }
 
-  /// Whoever is at the same step after the same windows is so by the same history, or by one that was undone.
+  /// Whoever is at the same step after the same windows is so by the same history, or by one that
+  /// was undone.
   void note_owners(const Session& session) {
     if (session.has_left()) return;
     const std::lock_guard lock(mutex_);
@@ -216,7 +259,9 @@ class Play {
   void expect_truth(Session& session) {
     if (session.window() == 0) return;
     for (const std::uint32_t body : session.peer().owned())
-      ASSERT_TRUE(bytes_of(session.peer().state(body)) == states_.at({session.window(), body})) << "peer " << session.peer().number() << ", window " << session.window() << ", body " << body;
+      ASSERT_TRUE(bytes_of(session.peer().state(body)) == states_.at({session.window(), body}))
+          << "peer " << session.peer().number() << ", window " << session.window() << ", body "
+          << body;
   }
 
   struct Owners {
@@ -226,13 +271,17 @@ class Play {
   };
 
  public:
-  /// Unless two were cut off from each other, of whom either goes on, at each step: nobody's body is another's too, and where all were, each is somebody's.
+  /// Unless two were cut off from each other, of whom either goes on, at each step: nobody's body
+  /// is another's too, and where all were, each is somebody's.
   void expect_one_owner_each() {
     if (is_of_two) return;
     for (const auto& [at, owners] : owners_) {
-      for (const auto& [body, count] : owners.counts) ASSERT_EQ(count, 1) << "body " << body << " at step " << at.first << ", window " << at.second;
+      for (const auto& [body, count] : owners.counts)
+        ASSERT_EQ(count, 1) << "body " << body << " at step " << at.first << ", window "
+                            << at.second;
       if (owners.peers.size() < owners.member_count) continue;
-      ASSERT_EQ(owners.counts.size(), scene_.world.body_count()) << "at step " << at.first << ", window " << at.second;
+      ASSERT_EQ(owners.counts.size(), scene_.world.body_count())
+          << "at step " << at.first << ", window " << at.second;
     }
   }
 
@@ -261,7 +310,8 @@ class Play {
 };
 
 inline void expect_whole(Play& play) {
-  for (const std::vector<Arrivals>& parts : play.ends) EXPECT_TRUE(parts.empty() || play.hash_of(parts) == play.truth());
+  for (const std::vector<Arrivals>& parts : play.ends)
+    EXPECT_TRUE(parts.empty() || play.hash_of(parts) == play.truth());
   play.expect_one_owner_each();
 }
 

@@ -1,4 +1,5 @@
-// Peers that die, are cut off, or leave: whoever is left has the states of one engine, every double of them, at every window.
+// Peers that die, are cut off, or leave: whoever is left has the states of one engine, every double
+// of them, at every window.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -25,13 +26,17 @@ TEST(Session, AsksForTheWholeNoMoreOnceItHasTakenItsPart) {
   auto start = std::make_unique<SharedScene>(shared_scene(0, 0.1));
   LossyOffice office(1);
   LossyMail mail(office, 0, {}, {}, [](std::uint64_t) {});
-  SessionSettings settings{.number = 0, .peer_count = 1, .halo = 0.2, .window_count = window_count, .end_of = {}};
+  SessionSettings settings{
+      .number = 0, .peer_count = 1, .halo = 0.2, .window_count = window_count, .end_of = {}};
   settings.end_of = [](std::uint64_t k) { return window_length * static_cast<double>(k); };
-  Session session(start->world, Cuts::whole(truth.world.spec().field), std::move(settings), mail, [&] { start.reset(); });
+  Session session(start->world, Cuts::whole(truth.world.spec().field), std::move(settings), mail,
+                  [&] { start.reset(); });
   ASSERT_EQ(start, nullptr);
   while (!session.is_over()) session.advance();
-  physics::test::RandomKeys::advance(truth.world, window_length * static_cast<double>(window_count));
-  EXPECT_EQ(hash_of_whole(truth.world.spec(), truth.world.body_count(), session.end()), truth.world.hash());
+  physics::test::RandomKeys::advance(truth.world,
+                                     window_length * static_cast<double>(window_count));
+  EXPECT_EQ(hash_of_whole(truth.world.spec(), truth.world.body_count(), session.end()),
+            truth.world.hash());
 }
 
 TEST(Session, GoesOnWhereverInTheProtocolAPeerIsKilled) {
@@ -52,7 +57,8 @@ TEST(Session, GoesOnWhereverInTheProtocolAPeerIsKilled) {
     EXPECT_EQ(play.count(Fate::killed) + play.count(Fate::done), peer_count);
     EXPECT_GE(play.count(Fate::done), peer_count - 1);
     expect_whole(play);
-    for (const SessionCounters& counters : play.counters) recoveries += counters.recoveries, shifts += counters.shifts;
+    for (const SessionCounters& counters : play.counters)
+      recoveries += counters.recoveries, shifts += counters.shifts;
   }
   std::cout << recoveries << " recoveries, " << shifts << " shifts of zones\n";
   EXPECT_GT(shifts, 50u);
@@ -64,14 +70,17 @@ TEST(Session, GoesOnWhenAPeerIsKilledWhileOthersRecoverOrSaysSo) {
   for (std::uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    const PeerNumber peer_count = 5 + below(random, 2), first = below(random, peer_count), second = (first + 1 + below(random, peer_count - 1)) % peer_count;
-    const std::uint64_t last_word = 1 + below(random, 20 * 6 * (peer_count - 1)), further = below(random, 6 * (peer_count - 1));
+    const PeerNumber peer_count = 5 + below(random, 2), first = below(random, peer_count),
+                     second = (first + 1 + below(random, peer_count - 1)) % peer_count;
+    const std::uint64_t last_word = 1 + below(random, 20 * 6 * (peer_count - 1)),
+                        further = below(random, 6 * (peer_count - 1));
     std::atomic<bool> is_first_dead = false;
     std::atomic<std::uint64_t> words_since = 0;
     Play play(below(random, 10) + 10 * seed, peer_count, 20);
     play.balance_windows = static_cast<std::uint32_t>(seed % 3);
     play.before_word = [&](End peer, std::uint64_t word) {
-      const bool dies_first = peer == first && word == last_word, dies_second = peer == second && is_first_dead && words_since++ == further;
+      const bool dies_first = peer == first && word == last_word,
+                 dies_second = peer == second && is_first_dead && words_since++ == further;
       if (!dies_first && !dies_second) return;
       play.office().kill(peer);
       if (dies_first) is_first_dead = true;
@@ -80,12 +89,15 @@ TEST(Session, GoesOnWhenAPeerIsKilledWhileOthersRecoverOrSaysSo) {
     play.run();
     expect_whole(play);
     done += play.count(Fate::done), halted += play.count(Fate::halted);
-    EXPECT_EQ(play.count(Fate::done) + play.count(Fate::halted) + play.count(Fate::killed), peer_count);
+    EXPECT_EQ(play.count(Fate::done) + play.count(Fate::halted) + play.count(Fate::killed),
+              peer_count);
     EXPECT_TRUE(play.count(Fate::halted) == 0 || play.count(Fate::done) == 0);
     for (const std::string& message : play.messages)
-      EXPECT_TRUE(message.empty() || message.find("and with them what peer") != std::string::npos) << message;
+      EXPECT_TRUE(message.empty() || message.find("and with them what peer") != std::string::npos)
+          << message;
   }
-  std::cout << done << " peers went on to the end, " << halted << " halted since both copies of a part were lost\n";
+  std::cout << done << " peers went on to the end, " << halted
+            << " halted since both copies of a part were lost\n";
   EXPECT_GT(done, halted);
 }
 
@@ -95,7 +107,8 @@ TEST(Session, IsGoneOnWithByOneSideOfAPartitionAtMost) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const PeerNumber peer_count = 3 + below(random, 4);
-    const std::uint64_t side = 1 + below(random, (1u << peer_count) - 2), last_word = 1 + below(random, 20 * 6 * (peer_count - 1));
+    const std::uint64_t side = 1 + below(random, (1u << peer_count) - 2),
+                        last_word = 1 + below(random, 20 * 6 * (peer_count - 1));
     const auto is_one = [&](End peer) { return (side >> peer & 1) != 0; };
     Play play(below(random, 10) + 10 * seed, peer_count, 20);
     play.balance_windows = static_cast<std::uint32_t>(seed % 3);
@@ -159,8 +172,10 @@ TEST(Session, KeepsTheLogsOfThoseWhoAreGone) {
   for (std::uint64_t seed = 0; seed < 30 && !HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    const PeerNumber peer_count = 3 + below(random, 3), victim = below(random, peer_count), leaver = (victim + 1 + below(random, peer_count - 1)) % peer_count;
-    const std::uint64_t last_word = 1 + below(random, 20 * 6 * (peer_count - 1)), last_window = below(random, 30);
+    const PeerNumber peer_count = 3 + below(random, 3), victim = below(random, peer_count),
+                     leaver = (victim + 1 + below(random, peer_count - 1)) % peer_count;
+    const std::uint64_t last_word = 1 + below(random, 20 * 6 * (peer_count - 1)),
+                        last_window = below(random, 30);
     Play play(6 + seed % 2 + 10 * seed, peer_count, 20);
     play.is_live = true;
     play.before_word = [&](End peer, std::uint64_t word) {

@@ -39,7 +39,8 @@ class Post {
 /// From everybody to everybody.
 class PostOffice {
  public:
-  explicit PostOffice(PeerNumber peer_count) : peer_count_(peer_count), posts_(peer_count * peer_count) {}
+  explicit PostOffice(PeerNumber peer_count)
+      : peer_count_(peer_count), posts_(peer_count * peer_count) {}
   Post& between(PeerNumber from, PeerNumber to) { return posts_[from * peer_count_ + to]; }
 
  private:
@@ -50,8 +51,12 @@ class PostOffice {
 class ThreadMail final : public Mail {
  public:
   ThreadMail(PostOffice& office, PeerNumber number) : office_(office), number_(number) {}
-  void send(PeerNumber to, std::vector<std::uint8_t> bytes) override { office_.between(number_, to).put(std::move(bytes)); }
-  std::vector<std::uint8_t> receive(PeerNumber from) override { return office_.between(from, number_).take(); }
+  void send(PeerNumber to, std::vector<std::uint8_t> bytes) override {
+    office_.between(number_, to).put(std::move(bytes));
+  }
+  std::vector<std::uint8_t> receive(PeerNumber from) override {
+    return office_.between(from, number_).take();
+  }
 
  private:
   PostOffice& office_;

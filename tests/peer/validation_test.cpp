@@ -1,4 +1,5 @@
-// Liars: every field of what one peer sends another, wrong in each way that the receiver can see, is named and not taken.
+// Liars: every field of what one peer sends another, wrong in each way that the receiver can see,
+// is named and not taken.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,12 +41,18 @@ struct Honest {
     for (const Arrivals::Body& body : arrivals.bodies)
       for (const int axis : {0, 1})
         if (physics::Portion::is_held_along(body.state, axis))
-          arrivals.holds.push_back({.low = physics::partner::wall_left, .high = body.number, .axis = axis, .age = {}});
-    arrivals.holds.push_back({.low = physics::partner::wall_left, .high = puck, .axis = 0, .age = {}});
+          arrivals.holds.push_back(
+              {.low = physics::partner::wall_left, .high = body.number, .axis = axis, .age = {}});
+    arrivals.holds.push_back(
+        {.low = physics::partner::wall_left, .high = puck, .axis = 0, .age = {}});
     arrivals.flown.push_back(Flown::of(puck, arrivals.bodies[puck].state.flight));
     arrivals.keys.push_back({.time = 0.3, .bat = bat, .thrust = {1.0, 0.0}});
     const Vector2 place(0.3, 0.3);
-    arrivals.glimpses.push_back({.bat = bat, .owner = 1, .time = 0.2, .position = place, .pucks = {{.number = puck, .position = place, .radius = 0.04}}});
+    arrivals.glimpses.push_back({.bat = bat,
+                                 .owner = 1,
+                                 .time = 0.2,
+                                 .position = place,
+                                 .pucks = {{.number = puck, .position = place, .radius = 0.04}}});
   }
   BodyState& state() { return arrivals.bodies[puck].state; }
 };
@@ -54,10 +61,27 @@ TEST(Validator, FindsNoFaultInWhatIsHonest) {
   Honest honest;
   ASSERT_NE(honest.bat, honest.puck);
   EXPECT_EQ(honest.validator.fault_of(honest.arrivals, now), "");
-  EXPECT_EQ(honest.validator.fault_of(Claims{.window = 1, .bodies = {{honest.puck, 1, true}}, .flights = {{0.1, 7, 0.0f, 0.0f, 1.0f, 1.0f}}, .presses = {{honest.bat, {1.0, 0.0}, 1}}}, now), "");
-  EXPECT_EQ(honest.validator.fault_of(Verdict{.window = 1, .goals = {{0.1, honest.puck, true}}}), "");
-  EXPECT_EQ(honest.validator.fault_of(FaceOffWord{.puck = honest.puck, .taken = 3, .body = {honest.arrivals.bodies[honest.puck]}}, now), "");
-  const PartChange part{.step = 1, .time = 0.2, .is_whole = true, .bodies = honest.arrivals.bodies, .gone = {honest.puck}, .holds = honest.arrivals.holds, .keys = honest.arrivals.keys, .log = {}};
+  EXPECT_EQ(honest.validator.fault_of(Claims{.window = 1,
+                                             .bodies = {{honest.puck, 1, true}},
+                                             .flights = {{0.1, 7, 0.0f, 0.0f, 1.0f, 1.0f}},
+                                             .presses = {{honest.bat, {1.0, 0.0}, 1}}},
+                                      now),
+            "");
+  EXPECT_EQ(honest.validator.fault_of(Verdict{.window = 1, .goals = {{0.1, honest.puck, true}}}),
+            "");
+  EXPECT_EQ(honest.validator.fault_of(
+                FaceOffWord{
+                    .puck = honest.puck, .taken = 3, .body = {honest.arrivals.bodies[honest.puck]}},
+                now),
+            "");
+  const PartChange part{.step = 1,
+                        .time = 0.2,
+                        .is_whole = true,
+                        .bodies = honest.arrivals.bodies,
+                        .gone = {honest.puck},
+                        .holds = honest.arrivals.holds,
+                        .keys = honest.arrivals.keys,
+                        .log = {}};
   EXPECT_EQ(honest.validator.fault_of(part, now), "");
 }
 
@@ -66,15 +90,18 @@ using Lie = std::function<void(Honest&)>;
 /// Each number of a body's state that must be one, or within bounds.
 std::vector<Lie> lies_about_numbers() {
   std::vector<Lie> lies;
-  const auto each = [&](const std::function<double&(BodyState&)>& field, std::initializer_list<double> wrong) {
-    for (const double value : wrong) lies.push_back([=](Honest& honest) { field(honest.state()) = value; });
+  const auto each = [&](const std::function<double&(BodyState&)>& field,
+                        std::initializer_list<double> wrong) {
+    for (const double value : wrong)
+      lies.push_back([=](Honest& honest) { field(honest.state()) = value; });
   };
   constexpr double inf = HUGE_VAL;
   each([](BodyState& s) -> double& { return s.flight.x; }, {nan, inf, -inf, 1e300, -1e9});
   each([](BodyState& s) -> double& { return s.flight.y; }, {nan, inf, -inf, 1e300, -1e9});
   each([](BodyState& s) -> double& { return s.flight.vx; }, {nan, inf, -inf, 1e300});
   each([](BodyState& s) -> double& { return s.flight.vy; }, {nan, inf, -inf, 1e300});
-  each([](BodyState& s) -> double& { return s.flight.time; }, {nan, inf, -inf, -1.0, now + 1e-9, 1e300});
+  each([](BodyState& s) -> double& { return s.flight.time; },
+       {nan, inf, -inf, -1.0, now + 1e-9, 1e300});
   each([](BodyState& s) -> double& { return s.flight.radius; }, {nan, inf, -1.0, 0.0, 10.0});
   each([](BodyState& s) -> double& { return s.mass; }, {nan, inf, 0.0, -1.0, 77.0});
   each([](BodyState& s) -> double& { return s.inverse_mass; }, {nan, inf, -1.0, 77.0});
@@ -97,50 +124,57 @@ std::vector<Lie> lies_about_numbers() {
 }
 
 std::vector<Lie> lies_about_kinds() {
-  return {[](Honest& honest) { honest.state().kind = physics::BodyKind::bat; },
-          [](Honest& honest) { honest.state().material = 200; },
-          [](Honest& honest) { honest.state().half = physics::Half::left; },
-          [](Honest& honest) { honest.state().flags = 4; },
-          [](Honest& honest) { honest.state().flags = 64; },
-          [](Honest& honest) { honest.state().flags = 128; },
-          [](Honest& honest) { honest.state().mouth = 3; },
-          [](Honest& honest) { honest.state().flags = 32, honest.state().jam = nobody; },
-          [](Honest& honest) { honest.state().flags = 8 | 16; },
-          [](Honest& honest) { honest.arrivals.bodies[0].number = nobody; },
-          [](Honest& honest) { honest.arrivals.bodies[0].number = honest.scene.world.body_count(); },
-          [](Honest& honest) { std::swap(honest.arrivals.bodies[honest.bat].number, honest.arrivals.bodies[honest.puck].number); }};
+  return {
+      [](Honest& honest) { honest.state().kind = physics::BodyKind::bat; },
+      [](Honest& honest) { honest.state().material = 200; },
+      [](Honest& honest) { honest.state().half = physics::Half::left; },
+      [](Honest& honest) { honest.state().flags = 4; },
+      [](Honest& honest) { honest.state().flags = 64; },
+      [](Honest& honest) { honest.state().flags = 128; },
+      [](Honest& honest) { honest.state().mouth = 3; },
+      [](Honest& honest) { honest.state().flags = 32, honest.state().jam = nobody; },
+      [](Honest& honest) { honest.state().flags = 8 | 16; },
+      [](Honest& honest) { honest.arrivals.bodies[0].number = nobody; },
+      [](Honest& honest) { honest.arrivals.bodies[0].number = honest.scene.world.body_count(); },
+      [](Honest& honest) {
+        std::swap(honest.arrivals.bodies[honest.bat].number,
+                  honest.arrivals.bodies[honest.puck].number);
+      }};
 }
 
 std::vector<Lie> lies_beside_bodies() {
-  return {[](Honest& honest) { honest.arrivals.holds.back().low = nobody; },
-          [](Honest& honest) { honest.arrivals.holds.back().high = nobody; },
-          [](Honest& honest) { honest.arrivals.holds.back().high = physics::partner::wall_top; },
-          [](Honest& honest) { honest.arrivals.holds.back().low = physics::partner::stop; },
-          [](Honest& honest) { honest.arrivals.holds.back().low = honest.arrivals.holds.back().high; },
-          [](Honest& honest) { honest.arrivals.holds.back().pull_time = nan; },
-          [](Honest& honest) { honest.arrivals.holds.back().turn_time = nan; },
-          [](Honest& honest) { honest.arrivals.holds.back().force = nan; },
-          [](Honest& honest) { honest.arrivals.holds.back().force = -1e300; },
-          [](Honest& honest) { honest.arrivals.holds.back().age.time = nan; },
-          [](Honest& honest) { honest.arrivals.flown[0].number = nobody; },
-          [](Honest& honest) { honest.arrivals.flown[0].position.x() = nan; },
-          [](Honest& honest) { honest.arrivals.flown[0].velocity.y() = HUGE_VAL; },
-          [](Honest& honest) { honest.arrivals.flown[0].time = nan; },
-          [](Honest& honest) { honest.arrivals.flown[0].time = now + 1e-9; },
-          // A fast one that hit nobody for so long is not where it says.
-          [](Honest& honest) { honest.arrivals.flown[0].velocity = {1e6, 0.0}, honest.arrivals.flown[0].time = 0.1; },
-          [](Honest& honest) { honest.state().flight.vx = 1e6, honest.state().flight.time = 0.1; },
-          [](Honest& honest) { honest.arrivals.keys[0].bat = nobody; },
-          [](Honest& honest) { honest.arrivals.keys[0].bat = honest.puck; },
-          [](Honest& honest) { honest.arrivals.keys[0].thrust.x() = nan; },
-          [](Honest& honest) { honest.arrivals.keys[0].thrust.y() = 1e300; },
-          [](Honest& honest) { honest.arrivals.keys[0].time = nan; },
-          [](Honest& honest) { honest.arrivals.glimpses[0].bat = nobody; },
-          [](Honest& honest) { honest.arrivals.glimpses[0].position.x() = nan; },
-          [](Honest& honest) { honest.arrivals.glimpses[0].velocity.x() = nan; },
-          [](Honest& honest) { honest.arrivals.glimpses[0].time = nan; },
-          [](Honest& honest) { honest.arrivals.glimpses[0].pucks[0].number = nobody; },
-          [](Honest& honest) { honest.arrivals.glimpses[0].pucks[0].radius = -1.0; }};
+  return {
+      [](Honest& honest) { honest.arrivals.holds.back().low = nobody; },
+      [](Honest& honest) { honest.arrivals.holds.back().high = nobody; },
+      [](Honest& honest) { honest.arrivals.holds.back().high = physics::partner::wall_top; },
+      [](Honest& honest) { honest.arrivals.holds.back().low = physics::partner::stop; },
+      [](Honest& honest) { honest.arrivals.holds.back().low = honest.arrivals.holds.back().high; },
+      [](Honest& honest) { honest.arrivals.holds.back().pull_time = nan; },
+      [](Honest& honest) { honest.arrivals.holds.back().turn_time = nan; },
+      [](Honest& honest) { honest.arrivals.holds.back().force = nan; },
+      [](Honest& honest) { honest.arrivals.holds.back().force = -1e300; },
+      [](Honest& honest) { honest.arrivals.holds.back().age.time = nan; },
+      [](Honest& honest) { honest.arrivals.flown[0].number = nobody; },
+      [](Honest& honest) { honest.arrivals.flown[0].position.x() = nan; },
+      [](Honest& honest) { honest.arrivals.flown[0].velocity.y() = HUGE_VAL; },
+      [](Honest& honest) { honest.arrivals.flown[0].time = nan; },
+      [](Honest& honest) { honest.arrivals.flown[0].time = now + 1e-9; },
+      // A fast one that hit nobody for so long is not where it says.
+      [](Honest& honest) {
+        honest.arrivals.flown[0].velocity = {1e6, 0.0}, honest.arrivals.flown[0].time = 0.1;
+      },
+      [](Honest& honest) { honest.state().flight.vx = 1e6, honest.state().flight.time = 0.1; },
+      [](Honest& honest) { honest.arrivals.keys[0].bat = nobody; },
+      [](Honest& honest) { honest.arrivals.keys[0].bat = honest.puck; },
+      [](Honest& honest) { honest.arrivals.keys[0].thrust.x() = nan; },
+      [](Honest& honest) { honest.arrivals.keys[0].thrust.y() = 1e300; },
+      [](Honest& honest) { honest.arrivals.keys[0].time = nan; },
+      [](Honest& honest) { honest.arrivals.glimpses[0].bat = nobody; },
+      [](Honest& honest) { honest.arrivals.glimpses[0].position.x() = nan; },
+      [](Honest& honest) { honest.arrivals.glimpses[0].velocity.x() = nan; },
+      [](Honest& honest) { honest.arrivals.glimpses[0].time = nan; },
+      [](Honest& honest) { honest.arrivals.glimpses[0].pucks[0].number = nobody; },
+      [](Honest& honest) { honest.arrivals.glimpses[0].pucks[0].radius = -1.0; }};
 }
 
 void expect_seen(const std::vector<Lie>& lies) {
@@ -153,23 +187,55 @@ void expect_seen(const std::vector<Lie>& lies) {
 
 TEST(Validator, SeesEachNumberOfABodyThatCannotBe) { expect_seen(lies_about_numbers()); }
 TEST(Validator, SeesEachConstantOfABodyThatIsNotTheScenes) { expect_seen(lies_about_kinds()); }
-TEST(Validator, SeesContactsFlightsKeysAndGlimpsesThatCannotBe) { expect_seen(lies_beside_bodies()); }
+TEST(Validator, SeesContactsFlightsKeysAndGlimpsesThatCannotBe) {
+  expect_seen(lies_beside_bodies());
+}
 
 TEST(Validator, SeesClaimsVerdictsPartsAndFaceOffsThatCannotBe) {
   Honest honest;
   const Validator& validator = honest.validator;
-  EXPECT_THAT(validator.fault_of(Claims{.window = 1, .bodies = {{nobody, 0, false}}, .flights = {}, .presses = {}}, now), HasSubstr("4000000000"));
-  for (const ClaimedFlight& flight : {ClaimedFlight{nan, 0, 0.0f, 0.0f, 1.0f, 1.0f}, ClaimedFlight{0.1, 0, std::nanf(""), 0.0f, 1.0f, 1.0f}, ClaimedFlight{0.1, 0, 0.0f, 2.0f, 1.0f, 1.0f},
-                                      ClaimedFlight{now + 0.01, 0, 0.0f, 0.0f, 1.0f, 1.0f}, ClaimedFlight{-1.0, 0, 0.0f, 0.0f, 1.0f, 1.0f}})
-    EXPECT_NE(validator.fault_of(Claims{.window = 1, .bodies = {{honest.puck, 1, true}}, .flights = {flight}, .presses = {}}, now), "");
-  for (const std::uint32_t bat : {nobody, honest.puck}) EXPECT_NE(validator.fault_of(Claims{.window = 1, .bodies = {}, .flights = {}, .presses = {{bat, {1.0, 0.0}, 1}}}, now), "");
-  EXPECT_NE(validator.fault_of(Claims{.window = 1, .bodies = {}, .flights = {}, .presses = {{honest.bat, {1e300, 0.0}, 1}}}, now), "");
-  for (const std::uint32_t puck : {nobody, honest.bat}) EXPECT_NE(validator.fault_of(Verdict{.window = 1, .goals = {{0.1, puck, true}}}), "");
+  EXPECT_THAT(
+      validator.fault_of(
+          Claims{.window = 1, .bodies = {{nobody, 0, false}}, .flights = {}, .presses = {}}, now),
+      HasSubstr("4000000000"));
+  for (const ClaimedFlight& flight : {ClaimedFlight{nan, 0, 0.0f, 0.0f, 1.0f, 1.0f},
+                                      ClaimedFlight{0.1, 0, std::nanf(""), 0.0f, 1.0f, 1.0f},
+                                      ClaimedFlight{0.1, 0, 0.0f, 2.0f, 1.0f, 1.0f},
+                                      ClaimedFlight{now + 0.01, 0, 0.0f, 0.0f, 1.0f, 1.0f},
+                                      ClaimedFlight{-1.0, 0, 0.0f, 0.0f, 1.0f, 1.0f}})
+    EXPECT_NE(validator.fault_of(Claims{.window = 1,
+                                        .bodies = {{honest.puck, 1, true}},
+                                        .flights = {flight},
+                                        .presses = {}},
+                                 now),
+              "");
+  for (const std::uint32_t bat : {nobody, honest.puck})
+    EXPECT_NE(
+        validator.fault_of(
+            Claims{.window = 1, .bodies = {}, .flights = {}, .presses = {{bat, {1.0, 0.0}, 1}}},
+            now),
+        "");
+  EXPECT_NE(
+      validator.fault_of(
+          Claims{
+              .window = 1, .bodies = {}, .flights = {}, .presses = {{honest.bat, {1e300, 0.0}, 1}}},
+          now),
+      "");
+  for (const std::uint32_t puck : {nobody, honest.bat})
+    EXPECT_NE(validator.fault_of(Verdict{.window = 1, .goals = {{0.1, puck, true}}}), "");
   EXPECT_NE(validator.fault_of(FaceOffWord{.puck = nobody, .taken = 0, .body = {}}, now), "");
   Arrivals::Body lie = honest.arrivals.bodies[honest.puck];
   lie.state.flight.vx = nan;
-  EXPECT_NE(validator.fault_of(FaceOffWord{.puck = honest.puck, .taken = 0, .body = {lie}}, now), "");
-  PartChange part{.step = 1, .time = 0.2, .is_whole = true, .bodies = {lie}, .gone = {}, .holds = {}, .keys = {}, .log = {}};
+  EXPECT_NE(validator.fault_of(FaceOffWord{.puck = honest.puck, .taken = 0, .body = {lie}}, now),
+            "");
+  PartChange part{.step = 1,
+                  .time = 0.2,
+                  .is_whole = true,
+                  .bodies = {lie},
+                  .gone = {},
+                  .holds = {},
+                  .keys = {},
+                  .log = {}};
   EXPECT_NE(validator.fault_of(part, now), "");
   part.bodies.clear(), part.gone = {nobody};
   EXPECT_NE(validator.fault_of(part, now), "");
@@ -181,14 +247,16 @@ TEST(Validator, SeesClaimsVerdictsPartsAndFaceOffsThatCannotBe) {
   part.time = now;
   EXPECT_EQ(validator.fault_of(part, now), "");
   lie.state.flight.vx = 0.0, lie.state.flags = 8, part.bodies = {lie}, part.holds.clear();
-  EXPECT_THAT(validator.fault_of(part, now), HasSubstr("in a rest contact of which it does not tell"));
+  EXPECT_THAT(validator.fault_of(part, now),
+              HasSubstr("in a rest contact of which it does not tell"));
   EXPECT_NE(validator.fault_of(std::vector<Key>{{.time = nan, .bat = honest.bat}}), "");
 }
 
 TEST(Validator, SeesLossesThatNobodyTells) {
   const Honest honest;
   EXPECT_EQ(honest.validator.fault_of(Loss{.step = 1, .gone = {0, 2}, .finished = {2}}), "");
-  for (const std::vector<PeerNumber>& gone : {std::vector<PeerNumber>{2, 0}, {1, 1}, {numbers_max}}) {
+  for (const std::vector<PeerNumber>& gone :
+       {std::vector<PeerNumber>{2, 0}, {1, 1}, {numbers_max}}) {
     EXPECT_NE(honest.validator.fault_of(Loss{.step = 1, .gone = gone}), "");
     EXPECT_NE(honest.validator.fault_of(Loss{.step = 1, .gone = {}, .finished = gone}), "");
   }
@@ -198,13 +266,15 @@ TEST(Validator, SeesLossesThatNobodyTells) {
 struct HandOver {
   SharedScene scene = shared_scene(0, 1.0);
   Division division = Division::into_strips(scene.world.spec().field, 2);
-  Peer left{scene.world.spec(), division, 0, scene.world.body_count(), 0.3}, right{scene.world.spec(), division, 1, scene.world.body_count(), 0.3};
+  Peer left{scene.world.spec(), division, 0, scene.world.body_count(), 0.3},
+      right{scene.world.spec(), division, 1, scene.world.body_count(), 0.3};
   Arrivals arrivals;
 
   HandOver() {
     for (Peer* peer : {&left, &right}) {
       peer->validate_by(Validator(scene.world));
-      for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) peer->consider(body, physics::Portion::state_in(scene.world, body));
+      for (std::uint32_t body = 0; body < scene.world.body_count(); ++body)
+        peer->consider(body, physics::Portion::state_in(scene.world, body));
       peer->begin(0.01);
       peer->play();
     }
@@ -222,7 +292,8 @@ struct HandOver {
     EXPECT_THAT(left.accusation(), HasSubstr(fault));
     left.commit(0.02);
     left.play();
-    for (const std::uint32_t body : left.owned()) EXPECT_TRUE(std::isfinite(left.state(body).flight.vx));
+    for (const std::uint32_t body : left.owned())
+      EXPECT_TRUE(std::isfinite(left.state(body).flight.vx));
   }
 };
 

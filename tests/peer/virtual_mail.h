@@ -1,4 +1,5 @@
-// Sessions over a modelled network under a virtual clock: a thread for each peer, of which one runs at a time, so that the same seed always goes the same way.
+// Sessions over a modelled network under a virtual clock: a thread for each peer, of which one runs
+// at a time, so that the same seed always goes the same way.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,9 @@
 
 namespace rink::peer::test {
 
-/// From `from_ns` on and before `until_ns` nothing that sets out between those for whom `is_minority` is true and the others gets there; as TCP does, it is sent again after 0.2, 0.6, 1.4, ... s.
+/// From `from_ns` on and before `until_ns` nothing that sets out between those for whom
+/// `is_minority` is true and the others gets there; as TCP does, it is sent again after 0.2,
+/// 0.6, 1.4, ... s.
 struct Cut {
   std::int64_t from_ns = 0, until_ns = 0;
   std::function<bool(PeerNumber)> is_minority = [](PeerNumber) { return false; };
@@ -24,7 +27,8 @@ struct Cut {
 
 class CutNetwork final : public rti::LinkModel {
  public:
-  CutNetwork(const rti::NetworkConditions& conditions, Cut cut) : inner_(conditions), cut_(std::move(cut)) {}
+  CutNetwork(const rti::NetworkConditions& conditions, Cut cut)
+      : inner_(conditions), cut_(std::move(cut)) {}
   void open_line(std::uint32_t line, const rti::LineIdentity& identity) override {
     inner_.open_line(line, identity);
     // All connect in order of their numbers, each to all below its own.
@@ -36,11 +40,15 @@ class CutNetwork final : public rti::LinkModel {
     rti::Delivery delivery = inner_.deliver(line, now_ns, size);
     if (!crosses_[line] || now_ns < cut_.from_ns) return delivery;
     std::int64_t wait_ns = 0;
-    for (std::int64_t timeout_ns = rti::NetworkModel::timeout_min_ns; now_ns + wait_ns < cut_.until_ns; timeout_ns *= 2) wait_ns += timeout_ns;
+    for (std::int64_t timeout_ns = rti::NetworkModel::timeout_min_ns;
+         now_ns + wait_ns < cut_.until_ns; timeout_ns *= 2)
+      wait_ns += timeout_ns;
     delivery.instant_ns += wait_ns;
     return delivery;
   }
-  std::int64_t arrival_ns(std::uint32_t line, std::int64_t now_ns, std::size_t size) override { return deliver(line, now_ns, size).instant_ns; }
+  std::int64_t arrival_ns(std::uint32_t line, std::int64_t now_ns, std::size_t size) override {
+    return deliver(line, now_ns, size).instant_ns;
+  }
 
  private:
   rti::NetworkModel inner_;
@@ -53,7 +61,8 @@ class Turns {
  public:
   explicit Turns(std::size_t count) : wake_ns_(count, 0), is_over_(count, false), turn_(count) {}
 
-  /// Of a thread: gives its turn back, to have it again when something has come for it or the clock shows `until_ns`.
+  /// Of a thread: gives its turn back, to have it again when something has come for it or the clock
+  /// shows `until_ns`.
   void wait(std::size_t who, std::int64_t until_ns) {
     std::unique_lock lock(mutex_);
     wake_ns_[who] = until_ns;
@@ -90,18 +99,27 @@ class Turns {
   std::size_t turn_;  ///< whose it is; the number of threads: the clock's
 };
 
-/// One peer's end, with the rules of `rink peer`'s: silence beyond the patience is a loss, and who waits shows signs of life.
+/// One peer's end, with the rules of `rink peer`'s: silence beyond the patience is a loss, and who
+/// waits shows signs of life.
 class VirtualMail final : public Mail, private rti::TransportListener {
  public:
-  VirtualMail(rti::VirtualNetwork& network, Turns& turns, PeerNumber number, PeerNumber count, std::int64_t patience_ns)
-      : network_(network), turns_(turns), end_(network), number_(number), patience_ns_(patience_ns), links_(count) {
+  VirtualMail(rti::VirtualNetwork& network, Turns& turns, PeerNumber number, PeerNumber count,
+              std::int64_t patience_ns)
+      : network_(network),
+        turns_(turns),
+        end_(network),
+        number_(number),
+        patience_ns_(patience_ns),
+        links_(count) {
     end_.listen(std::to_string(number));
   }
   void connect() {
-    for (PeerNumber other = 0; other < number_; ++other) note(end_.connect(std::to_string(other)), other);
+    for (PeerNumber other = 0; other < number_; ++other)
+      note(end_.connect(std::to_string(other)), other);
   }
   bool is_connected() const {
-    return std::all_of(links_.begin(), links_.end(), [&](const Link& link) { return &link == &links_[number_] || link.is_open; });
+    return std::all_of(links_.begin(), links_.end(),
+                       [&](const Link& link) { return &link == &links_[number_] || link.is_open; });
   }
   /// Takes what has arrived; answers whether anything had.
   bool poll() {
@@ -126,16 +144,19 @@ class VirtualMail final : public Mail, private rti::TransportListener {
     const std::int64_t begin_ns = network_.now_ns();
     for (;;) {
       for (PeerNumber peer = 0; peer < links_.size(); ++peer)
-        if (!links_[peer].loss.empty() && !links_[peer].is_parted) throw PeerGone(peer, false, links_[peer].loss);
+        if (!links_[peer].loss.empty() && !links_[peer].is_parted)
+          throw PeerGone(peer, false, links_[peer].loss);
       if (!link.inbox.empty()) {
         std::vector<std::uint8_t> first = std::move(link.inbox.front());
         link.inbox.pop_front();
         return first;
       }
-      if (link.has_finished) throw PeerGone(from, true, "peer " + std::to_string(from) + " has left");
+      if (link.has_finished)
+        throw PeerGone(from, true, "peer " + std::to_string(from) + " has left");
       const std::int64_t give_up_ns = std::max(begin_ns, link.heard_ns) + patience_ns_;
       if (network_.now_ns() >= give_up_ns) {
-        link.loss = "peer " + std::to_string(from) + " has said nothing for " + std::to_string(patience_ns_ / 1'000'000) + " ms";
+        link.loss = "peer " + std::to_string(from) + " has said nothing for " +
+                    std::to_string(patience_ns_ / 1'000'000) + " ms";
         continue;
       }
       if (network_.now_ns() >= sign_ns_) {
@@ -172,7 +193,8 @@ class VirtualMail final : public Mail, private rti::TransportListener {
     const auto size = static_cast<std::uint32_t>(content.size());
     std::memcpy(head.data(), &size, sizeof size);
     head[4] = static_cast<std::uint8_t>(kind);
-    const std::array<rti::Bytes, 2> parts{std::as_bytes(std::span(head)), std::as_bytes(std::span(content))};
+    const std::array<rti::Bytes, 2> parts{std::as_bytes(std::span(head)),
+                                          std::as_bytes(std::span(content))};
     end_.send(links_[to].connection, parts);
   }
   void note(rti::ConnectionId connection, PeerNumber other) {
@@ -181,28 +203,37 @@ class VirtualMail final : public Mail, private rti::TransportListener {
     if (other != nobody) links_[other].connection = connection;
   }
   void on_open(rti::ConnectionId connection) override {
-    if (connection >= others_.size() || others_[connection] == nobody) return note(connection, nobody);
+    if (connection >= others_.size() || others_[connection] == nobody)
+      return note(connection, nobody);
     links_[others_[connection]].is_open = true;
     say(others_[connection], Kind::greeting, {static_cast<std::uint8_t>(number_)});
   }
   void on_bytes(rti::ConnectionId connection, rti::Bytes bytes) override {
     constexpr std::size_t head = 5;
-    if (others_[connection] == nobody) note(connection, static_cast<PeerNumber>(bytes[head])), links_[others_[connection]].is_open = true, bytes = bytes.subspan(head + 1);
+    if (others_[connection] == nobody)
+      note(connection, static_cast<PeerNumber>(bytes[head])),
+          links_[others_[connection]].is_open = true, bytes = bytes.subspan(head + 1);
     Link& link = links_[others_[connection]];
     link.heard_ns = network_.now_ns();
     const auto* from = reinterpret_cast<const std::uint8_t*>(bytes.data());
     link.stream.insert(link.stream.end(), from, from + bytes.size());
-    for (std::uint32_t size = 0; link.stream.size() >= head; link.stream.erase(link.stream.begin(), link.stream.begin() + head + size)) {
+    for (std::uint32_t size = 0; link.stream.size() >= head;
+         link.stream.erase(link.stream.begin(), link.stream.begin() + head + size)) {
       std::memcpy(&size, link.stream.data(), sizeof size);
       if (link.stream.size() < head + size) return;
-      if (link.stream[4] == static_cast<std::uint8_t>(Kind::mail)) link.inbox.emplace_back(link.stream.begin() + head, link.stream.begin() + head + size);
-      link.has_finished = link.has_finished || link.stream[4] == static_cast<std::uint8_t>(Kind::farewell);
+      if (link.stream[4] == static_cast<std::uint8_t>(Kind::mail))
+        link.inbox.emplace_back(link.stream.begin() + head, link.stream.begin() + head + size);
+      link.has_finished =
+          link.has_finished || link.stream[4] == static_cast<std::uint8_t>(Kind::farewell);
     }
   }
-  void on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string&) override {
+  void on_close(rti::ConnectionId connection, rti::CloseReason reason,
+                const std::string&) override {
     Link& link = links_[others_[connection]];
     link.is_open = false;
-    if (!link.has_finished && link.loss.empty()) link.loss = "peer " + std::to_string(others_[connection]) + " is gone: " + rti::to_string(reason);
+    if (!link.has_finished && link.loss.empty())
+      link.loss =
+          "peer " + std::to_string(others_[connection]) + " is gone: " + rti::to_string(reason);
   }
 
   rti::VirtualNetwork& network_;

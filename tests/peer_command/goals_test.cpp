@@ -1,4 +1,5 @@
-// Goals and face-offs among peers: every body at every window as in one game, whose score and hash are the same.
+// Goals and face-offs among peers: every body at every window as in one game, whose score and hash
+// are the same.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,10 +38,13 @@ mass = 2.0
 [[population]]
 name = "puck"
 kind = "puck"
-count = )" + std::to_string(pucks) + R"(
+count = )" + std::to_string(pucks) +
+                                   R"(
 mean_speed = 1.2
 speeds = "maxwell"
-)", "mouths.toml"), seed);
+)",
+                               "mouths.toml"),
+                   seed);
 }
 
 /// What one peer had at each window's end.
@@ -52,7 +56,8 @@ class Notes final : public Onlooker {
   };
   void after_window(const peer::Session& session) override {
     windows.push_back({session.peer().now(), {}});
-    for (const std::uint32_t body : session.peer().owned()) windows.back().own.push_back({body, session.peer().state(body)});
+    for (const std::uint32_t body : session.peer().owned())
+      windows.back().own.push_back({body, session.peer().state(body)});
     repeats = session.counters().peer.repeats, stretches = session.counters().peer.windows;
   }
   std::vector<Window> windows;
@@ -67,7 +72,8 @@ struct Shared {
 Shared shared_by(std::uint32_t peers, const SharedGame& game, const Terms& terms) {
   std::vector<Guest> guests(peers);
   for (std::uint32_t k = 0; k < 6; ++k) ++guests[k % peers].bat_count;
-  for (std::uint32_t k = 1; k < peers; ++k) guests[k].first_bat = guests[k - 1].first_bat + guests[k - 1].bat_count;
+  for (std::uint32_t k = 1; k < peers; ++k)
+    guests[k].first_bat = guests[k - 1].first_bat + guests[k - 1].bat_count;
   for (Guest& guest : guests) guest.puck_count = 8;
   Shared shared{std::vector<Notes>(peers), std::vector<PlayedPart>(peers)};
   peer::test::PostOffice office(peers);
@@ -89,31 +95,44 @@ TEST(GoalsAmongPeers, AreCountedAndTheirPucksComeBackAsInOneGameToTheLastDigit) 
   for (std::uint64_t seed = 1; seed <= 10 && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto peers = static_cast<std::uint32_t>(seed == 4 || seed == 9 ? 9 : 2 + seed % 3);
-    // Spots near the borders of zones and in their middles; delays that end together, and in the middle of a window.
-    const std::string rules = "face_off_delay = " + std::string(seed % 2 == 0 ? "0.25" : "0.4371") + "\nface_off_distance = " + (seed % 3 == 0 ? "0.48" : "0.3");
+    // Spots near the borders of zones and in their middles; delays that end together, and in the
+    // middle of a window.
+    const std::string rules = "face_off_delay = " + std::string(seed % 2 == 0 ? "0.25" : "0.4371") +
+                              "\nface_off_distance = " + (seed % 3 == 0 ? "0.48" : "0.3");
     const Scene scene = goal_mouths(seed, seed == 5 ? 150 : 40, rules);
     const SharedGame game(scene, {});
-    const Terms terms{.peer_count = peers, .until = 4.0, .window = seed % 4 == 0 ? 0.07 : 0.02, .balance_windows = 25, .is_mirrored = seed % 2 == 0};
+    const Terms terms{.peer_count = peers,
+                      .until = 4.0,
+                      .window = seed % 4 == 0 ? 0.07 : 0.02,
+                      .balance_windows = 25,
+                      .is_mirrored = seed % 2 == 0};
     const Shared shared = shared_by(peers, game, terms);
 
     Game one(scene);
     auto key = shared.parts[0].keys.begin();
     const std::uint64_t goals_before = goals;
-    for (std::size_t k = 0; k < shared.notes[0].windows.size() && !testing::Test::HasFailure(); ++k) {
+    for (std::size_t k = 0; k < shared.notes[0].windows.size() && !testing::Test::HasFailure();
+         ++k) {
       // Keys that are stamped with a window's end are played at the beginning of the next.
-      for (; key != shared.parts[0].keys.end() && key->time < shared.notes[0].windows[k].time; ++key) one.submit(*key);
+      for (; key != shared.parts[0].keys.end() && key->time < shared.notes[0].windows[k].time;
+           ++key)
+        one.submit(*key);
       one.advance(shared.notes[0].windows[k].time);
       for (const ScoredGoal& goal : one.scored()) goals += goal.time > 0.0;
       std::size_t count = 0;
       for (const Notes& notes : shared.notes)
         for (const auto& [body, state] : notes.windows[k].own) {
           ++count;
-          ASSERT_EQ(peer::bytes_of(state), peer::bytes_of(physics::Portion::state_in(one.world(), body))) << "window " << k << ", body " << body;
+          ASSERT_EQ(peer::bytes_of(state),
+                    peer::bytes_of(physics::Portion::state_in(one.world(), body)))
+              << "window " << k << ", body " << body;
         }
       ASSERT_EQ(count, one.world().body_count()) << "window " << k;
       // Nobody but who has just come back lies still.
       for (const Entity& entity : one.entities())
-        off_spot += entity.kind == physics::BodyKind::puck && one.simulator().is_in_play(entity.id) && one.velocity(entity.id).isZero(0.0) && one.position(entity.id).y() != 0.8;
+        off_spot += entity.kind == physics::BodyKind::puck &&
+                    one.simulator().is_in_play(entity.id) && one.velocity(entity.id).isZero(0.0) &&
+                    one.position(entity.id).y() != 0.8;
       compared += count;
     }
     for (; key != shared.parts[0].keys.end(); ++key) one.submit(*key);
@@ -125,10 +144,12 @@ TEST(GoalsAmongPeers, AreCountedAndTheirPucksComeBackAsInOneGameToTheLastDigit) 
     }
     for (const Notes& notes : shared.notes) {
       repeats += notes.repeats;
-      EXPECT_LE(notes.stretches, notes.windows.size() + goals - goals_before) << "windows are cut more often than pucks come back";
+      EXPECT_LE(notes.stretches, notes.windows.size() + goals - goals_before)
+          << "windows are cut more often than pucks come back";
     }
   }
-  std::cout << goals << " goals, " << compared << " states compared, " << repeats << " windows repeated\n";
+  std::cout << goals << " goals, " << compared << " states compared, " << repeats
+            << " windows repeated\n";
   EXPECT_GT(goals, 100u);
   EXPECT_GT(off_spot, 0u) << "no spot was taken";
 }
@@ -136,7 +157,9 @@ TEST(GoalsAmongPeers, AreCountedAndTheirPucksComeBackAsInOneGameToTheLastDigit) 
 TEST(GoalsAmongPeers, EndTheGameWithTheWindowInWhichOneSideHasWon) {
   const Scene scene = goal_mouths(3, 30, "face_off_delay = 0.5\ngoals_to_win = 4");
   const SharedGame game(scene, {});
-  const Shared shared = shared_by(3, game, {.peer_count = 3, .until = 60.0, .window = 0.02, .balance_windows = 0, .is_mirrored = true});
+  const Shared shared = shared_by(
+      3, game,
+      {.peer_count = 3, .until = 60.0, .window = 0.02, .balance_windows = 0, .is_mirrored = true});
   Game one(scene);
   for (const InputEvent& event : shared.parts[1].keys) one.submit(event);
   while (!one.is_over()) one.advance(one.now() + 0.001);

@@ -1,4 +1,5 @@
-// What players among peers are told, counted anew by brute force from the states of one engine: as much as a server with the same filter would tell, whoever comes, leaves and dies.
+// What players among peers are told, counted anew by brute force from the states of one engine: as
+// much as a server with the same filter would tell, whoever comes, leaves and dies.
 #include "tests/peer_command/interest_play.h"
 
 namespace rink::game {
@@ -12,7 +13,8 @@ class InterestRecount : public testing::Test {
   }
 
   /// Everybody saw all that it was to see, and nothing else, and the game is that of one engine.
-  static void expect_right(InterestPlay& play, const im::Relevant& relevant, const im::Relevant& stays, const std::string& what) {
+  static void expect_right(InterestPlay& play, const im::Relevant& relevant,
+                           const im::Relevant& stays, const std::string& what) {
     play.find_truth();
     for (const std::string& trouble : play.troubles) ADD_FAILURE() << what << ": " << trouble;
     ASSERT_FALSE(play.hashes.empty()) << what;
@@ -32,14 +34,21 @@ class InterestRecount : public testing::Test {
 const im::Relevant everything = [](const im::Observer&, const im::Body&) { return true; };
 
 im::Relevant cells_of(double size) {
-  return [settings = im::FilterSettings{.world = {0.0, 0.0, 5.0, 3.0}, .cell_size = size}](const im::Observer& view, const im::Body& body) { return im::grid_touches(settings, view, body); };
+  return [settings = im::FilterSettings{.world = {0.0, 0.0, 5.0, 3.0}, .cell_size = size}](
+             const im::Observer& view, const im::Body& body) {
+    return im::grid_touches(settings, view, body);
+  };
 }
 
 TEST_F(InterestRecount, FindsNothingMissingWhileOthersComeLeaveAndDie) {
   const std::vector<std::pair<InterestTerms, im::Relevant>> cases{
       {{.scheme = "none"}, everything},
-      {{.scheme = "region"}, [](const im::Observer& view, const im::Body& body) { return im::overlap_closed(view, body); }},
-      {{.scheme = "aura"}, [](const im::Observer& view, const im::Body& body) { return im::disc_touches(view, body); }},
+      {{.scheme = "region"},
+       [](const im::Observer& view, const im::Body& body) {
+         return im::overlap_closed(view, body);
+       }},
+      {{.scheme = "aura"},
+       [](const im::Observer& view, const im::Body& body) { return im::disc_touches(view, body); }},
       {{.scheme = "grid", .cell_size = 0.5}, cells_of(0.5)}};
   for (const auto& [interest, relevant] : cases) {
     InterestPlay play(scene_file_, 2, 320, interest);
@@ -54,7 +63,9 @@ TEST_F(InterestRecount, FindsNothingMissingWhileOthersComeLeaveAndDie) {
 
 im::Relevant within(double margin) {
   return [margin](const im::Observer& view, const im::Body& body) {
-    return im::overlap_closed({view.low_x - margin, view.low_y - margin, view.high_x + margin, view.high_y + margin}, body);
+    return im::overlap_closed(
+        {view.low_x - margin, view.low_y - margin, view.high_x + margin, view.high_y + margin},
+        body);
   };
 }
 
@@ -64,18 +75,28 @@ TEST_F(InterestRecount, FindsWhatASchemeSeesBeyondTheViewInZonesBeyondTheView) {
     im::Relevant relevant, stays;
   };
   const im::FilterSettings coarse{.world = {0.0, 0.0, 5.0, 3.0}, .cell_size = 1.5};
-  const auto same = [](const std::string& scheme, const im::Relevant& relevant) { return Case{scheme, relevant, relevant}; };
-  const auto with = [&](bool (*rule)(const im::FilterSettings&, const im::Region&, const im::Region&)) {
+  const auto same = [](const std::string& scheme, const im::Relevant& relevant) {
+    return Case{scheme, relevant, relevant};
+  };
+  const auto with = [&](bool (*rule)(const im::FilterSettings&, const im::Region&,
+                                     const im::Region&)) {
     return [=](const im::Observer& view, const im::Body& body) { return rule(coarse, view, body); };
   };
   const im::Relevant cells = cells_of(1.5);
-  // Of hysteresis only that nobody stays beyond its margin, and who is within the view is seen, follows from states alone.
-  const std::vector<Case> cases{same("strips(cell_size=1.5)", with(im::strip_touches)),
-                                same("hex(cell_size=1.5)", with(im::hexagon_touches)),
-                                same("hierarchical(cell_size=1.5)", with(im::level_touches)),
-                                same("aura or grid(cell_size=1.5)", [cells](const im::Observer& view, const im::Body& body) { return im::disc_touches(view, body) || cells(view, body); }),
-                                {"region with hysteresis(margin=0.6)", within(0.0), within(0.6)},
-                                same("region or always", [](const im::Observer& view, const im::Body& body) { return im::overlap_closed(view, body) || body.role.is_always_relevant; })};
+  // Of hysteresis only that nobody stays beyond its margin, and who is within the view is seen,
+  // follows from states alone.
+  const std::vector<Case> cases{
+      same("strips(cell_size=1.5)", with(im::strip_touches)),
+      same("hex(cell_size=1.5)", with(im::hexagon_touches)),
+      same("hierarchical(cell_size=1.5)", with(im::level_touches)),
+      same("aura or grid(cell_size=1.5)",
+           [cells](const im::Observer& view, const im::Body& body) {
+             return im::disc_touches(view, body) || cells(view, body);
+           }),
+      {"region with hysteresis(margin=0.6)", within(0.0), within(0.6)},
+      same("region or always", [](const im::Observer& view, const im::Body& body) {
+        return im::overlap_closed(view, body) || body.role.is_always_relevant;
+      })};
   for (const Case& one : cases) {
     RelevantKinds pucks;
     pucks.add(physics::BodyKind::puck);
@@ -107,8 +128,11 @@ TEST(ReachOfASchemeByTrial, IsNeverLessThanWhatIsLetInAndLittleMore) {
   const double extent = 0.1, never = std::numeric_limits<double>::infinity();
   const auto expect_reach = [&](const std::string& scheme, double x, double y) {
     const SchemeReach reach = reach_of(scheme, settings, extent);
-    const auto is_right = [&](double found, double truth) { return truth == never ? found == never : found >= truth && found <= 2.5 * truth + extent; };
-    EXPECT_TRUE(is_right(reach.x, x) && is_right(reach.y, y)) << scheme << ": " << reach.x << ", " << reach.y;
+    const auto is_right = [&](double found, double truth) {
+      return truth == never ? found == never : found >= truth && found <= 2.5 * truth + extent;
+    };
+    EXPECT_TRUE(is_right(reach.x, x) && is_right(reach.y, y))
+        << scheme << ": " << reach.x << ", " << reach.y;
   };
   expect_reach("region", extent, extent);
   expect_reach("region and aura", extent, extent);
@@ -119,9 +143,12 @@ TEST(ReachOfASchemeByTrial, IsNeverLessThanWhatIsLetInAndLittleMore) {
     expect_reach("hex" + cells, size, size * 2.0 / std::sqrt(3.0));
     expect_reach("strips" + cells, size, never);
     expect_reach("strips" + cells + " and aura", extent, extent);
-    expect_reach("aura with hysteresis(margin=" + std::to_string(size) + ")", size + extent, size + extent);
+    expect_reach("aura with hysteresis(margin=" + std::to_string(size) + ")", size + extent,
+                 size + extent);
   }
-  for (const char* const scheme : {"none", "not region", "aura or always", "region or team", "owner", "region with dwell(matches=5)"}) expect_reach(scheme, never, never);
+  for (const char* const scheme : {"none", "not region", "aura or always", "region or team",
+                                   "owner", "region with dwell(matches=5)"})
+    expect_reach(scheme, never, never);
 }
 
 }  // namespace

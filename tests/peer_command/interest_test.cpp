@@ -1,4 +1,5 @@
-// What peers tell each other of where their players look, and what they are told: read as written, and never trusted.
+// What peers tell each other of where their players look, and what they are told: read as written,
+// and never trusted.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -13,9 +14,12 @@ namespace {
 
 TEST(Gaze, IsReadAsWrittenAndNamesTheCellsThatTheRegionTouches) {
   std::mt19937_64 random(4);
-  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   for (int k = 0; k < 1000; ++k) {
-    const double x = uniform(-5.0, 25.0), y = uniform(-5.0, 15.0), reach = uniform(0.01, 4.0), cell = k % 2 == 0 ? 0.0 : uniform(0.05, 3.0);
+    const double x = uniform(-5.0, 25.0), y = uniform(-5.0, 15.0), reach = uniform(0.01, 4.0),
+                 cell = k % 2 == 0 ? 0.0 : uniform(0.05, 3.0);
     const im::Region region{x - reach, y - reach, x + reach, y + reach};
     const Gaze gaze = gaze_at(region, cell);
     const auto read = gaze_from(bytes_of(gaze));
@@ -23,7 +27,10 @@ TEST(Gaze, IsReadAsWrittenAndNamesTheCellsThatTheRegionTouches) {
     EXPECT_EQ(*read, gaze);
     if (cell == 0.0) continue;
     const im::Region told = region_of(gaze, cell);
-    for (const auto& [here, there] : {std::pair(region.low_x, told.low_x), {region.low_y, told.low_y}, {region.high_x, told.high_x}, {region.high_y, told.high_y}})
+    for (const auto& [here, there] : {std::pair(region.low_x, told.low_x),
+                                      {region.low_y, told.low_y},
+                                      {region.high_x, told.high_x},
+                                      {region.high_y, told.high_y}})
       EXPECT_EQ(std::floor(here / cell), std::floor(there / cell));
   }
 }
@@ -31,7 +38,8 @@ TEST(Gaze, IsReadAsWrittenAndNamesTheCellsThatTheRegionTouches) {
 TEST(Gaze, IsRefusedIfNoPlayerCouldHaveIt) {
   EXPECT_TRUE(gaze_from(bytes_of(Gaze{})));
   const std::vector<std::byte> good = bytes_of(gaze_at({1.0, 2.0, 3.0, 4.0}, 0.0));
-  for (std::size_t size = 0; size < good.size(); ++size) EXPECT_FALSE(gaze_from(rti::Bytes(good).first(size)));
+  for (std::size_t size = 0; size < good.size(); ++size)
+    EXPECT_FALSE(gaze_from(rti::Bytes(good).first(size)));
   std::vector<std::byte> bad = good;
   bad[0] = std::byte{3};
   EXPECT_FALSE(gaze_from(bad)) << "no such form";
@@ -43,21 +51,28 @@ TEST(Gaze, IsRefusedIfNoPlayerCouldHaveIt) {
   EXPECT_FALSE(gaze_from(bad)) << "not a number";
 }
 
-/// Pucks that nothing happens to are told of once, and once more to whoever looked away and comes back.
+/// Pucks that nothing happens to are told of once, and once more to whoever looked away and comes
+/// back.
 TEST(SenderInterest, TellsWhoLooksAgainOfWhatIsThereThoughNothingHappenedToIt) {
   physics::World world(physics::test::rink_of(8.0, 2.0));
-  for (const double x : {1.0, 1.5, 2.0}) world.add(physics::PuckSpec{.position = {x, 1.0}, .radius = 0.05});
+  for (const double x : {1.0, 1.5, 2.0})
+    world.add(physics::PuckSpec{.position = {x, 1.0}, .radius = 0.05});
   const physics::BodyId bat = world.add(physics::BatSpec{.position = {7.0, 1.0}});
-  peer::Assembly assembly(world, peer::Division(world.spec().field, {{{0.0, 0.0, 4.0, 2.0}, 0}, {{4.0, 0.0, 8.0, 2.0}, 1}}, 2), 0.1, 0.02);
+  peer::Assembly assembly(
+      world,
+      peer::Division(world.spec().field, {{{0.0, 0.0, 4.0, 2.0}, 0}, {{4.0, 0.0, 8.0, 2.0}, 1}}, 2),
+      0.1, 0.02);
   const peer::Peer& sender = assembly.peers()[0];
-  SenderInterest interest("region", {.world = {0.0, 0.0, 8.0, 2.0}}, "on-event", std::vector<im::Role>(4), 0.05);
+  SenderInterest interest("region", {.world = {0.0, 0.0, 8.0, 2.0}}, "on-event",
+                          std::vector<im::Role>(4), 0.05);
   interest.add_player(1, bat.index);
   const im::Region view{0.5, 0.5, 2.5, 1.5};
   std::uint32_t window = 0;
   const auto bytes_told = [&] {
     assembly.advance();
     interest.match(sender);
-    return interest.updates_for(sender, 1, window++, [](std::uint32_t) { return std::nullopt; }).size();
+    return interest.updates_for(sender, 1, window++, [](std::uint32_t) { return std::nullopt; })
+        .size();
   };
   interest.look(1, view);
   const std::size_t all = bytes_told();
@@ -73,7 +88,8 @@ TEST(SenderInterest, TellsWhoLooksAgainOfWhatIsThereThoughNothingHappenedToIt) {
 TEST(PlayerPicture, SurvivesWhateverItIsTold) {
   std::mt19937_64 random(5);
   for (const bool has_trajectories : {false, true}) {
-    PlayerPicture picture(has_trajectories, {}, std::vector<physics::BodyKind>(50, physics::BodyKind::puck));
+    PlayerPicture picture(has_trajectories, {},
+                          std::vector<physics::BodyKind>(50, physics::BodyKind::puck));
     for (int k = 0; k < 20'000; ++k) {
       std::vector<std::byte> bytes(random() % 24);
       for (std::byte& byte : bytes) byte = static_cast<std::byte>(random() & 0x7f);
@@ -81,7 +97,8 @@ TEST(PlayerPicture, SurvivesWhateverItIsTold) {
       picture.forget_heard();
     }
     picture.drop_forgotten();
-    for (const auto& [body, belief] : picture.beliefs()) EXPECT_TRUE(body < 50 && belief.is_there && belief.source == 1);
+    for (const auto& [body, belief] : picture.beliefs())
+      EXPECT_TRUE(body < 50 && belief.is_there && belief.source == 1);
     picture.forget(1);
     for (const auto& [body, belief] : picture.beliefs()) EXPECT_FALSE(belief.is_there);
     picture.drop_forgotten();

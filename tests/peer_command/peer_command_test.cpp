@@ -1,4 +1,5 @@
-// The command rink-peer: processes that find each other, play to the hash of one engine, and refuse who is different.
+// The command rink-peer: processes that find each other, play to the hash of one engine, and refuse
+// who is different.
 #include "tests/peer_command/peer_processes.h"
 
 #include "game/net/address.h"
@@ -17,7 +18,8 @@ TEST_F(PeerCommand, EndsInTheHashOfOneEngineForTwoAndFourPeersOverTcpAndSharedMe
       const Process& first = found(count, "2", {"--transport", transport});
       std::vector<const Process*> all{&first};
       // Each asks another one that is there.
-      while (static_cast<int>(all.size()) < count) all.push_back(&join(*all.back(), {"--transport", transport}));
+      while (static_cast<int>(all.size()) < count)
+        all.push_back(&join(*all.back(), {"--transport", transport}));
       for (const Process* peer : all) {
         ASSERT_TRUE(ends(*peer));
         EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
@@ -39,7 +41,8 @@ TEST_F(PeerCommand, PlaysRecordedKeysToTheHashOfTheirLog) {
   ASSERT_TRUE(ends(keyless));
   EXPECT_EQ(keyless.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
   EXPECT_THAT(keyless.last_words(), HasSubstr("it has other keys"));
-  const std::vector<const Process*> all{&first, &join(first, {"--keys", file}), &join(first, {"--keys", file})};
+  const std::vector<const Process*> all{&first, &join(first, {"--keys", file}),
+                                        &join(first, {"--keys", file})};
   for (const Process* peer : all) {
     ASSERT_TRUE(ends(*peer));
     EXPECT_EQ(hash_of(*peer), printed(playing.game().hash()));
@@ -49,8 +52,11 @@ TEST_F(PeerCommand, PlaysRecordedKeysToTheHashOfTheirLog) {
 TEST_F(PeerCommand, RecordsWhatBotsOfAllPeersPlayedLiveAsAKeyLogOfTheSameGame) {
   const std::string file = (folder_ / "live.keys").string();
   for (const char* pace : {"free", "realtime"}) {
-    Process& first = found(3, "2", {"--bots", "3", "--players", "chaser,random", "--record", file, "--pace", pace, "--balance", "5"});
-    const std::vector<const Process*> all{&first, &join(first, {"--bots", "4", "--players", "waypoint"}), &join(first)};
+    Process& first = found(3, "2",
+                           {"--bots", "3", "--players", "chaser,random", "--record", file, "--pace",
+                            pace, "--balance", "5"});
+    const std::vector<const Process*> all{
+        &first, &join(first, {"--bots", "4", "--players", "waypoint"}), &join(first)};
     for (const Process* peer : all) ASSERT_TRUE(ends(*peer));
     const KeyLog log = read_key_log(std::filesystem::path(file));
     const Scene shared = load_scene(scene());
@@ -84,7 +90,9 @@ TEST_F(PeerCommand, RefusesOtherScenesAndWhoComesTooLateByNameAndGoesOn) {
   const Process& seeded = join(first, {"--seed", "9"});
   ASSERT_TRUE(ends(seeded));
   EXPECT_EQ(seeded.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
-  EXPECT_THAT(seeded.last_words(), testing::AllOf(HasSubstr("does not let this one in"), HasSubstr("another scene: its fingerprint is"), HasSubstr("here it is")));
+  EXPECT_THAT(seeded.last_words(), testing::AllOf(HasSubstr("does not let this one in"),
+                                                  HasSubstr("another scene: its fingerprint is"),
+                                                  HasSubstr("here it is")));
   const Process& other = start({"--join", place_of(first)}, (folder_ / "other.toml").string());
   ASSERT_TRUE(ends(other));
   EXPECT_THAT(other.last_words(), HasSubstr("another scene"));
@@ -98,7 +106,9 @@ TEST_F(PeerCommand, RefusesOtherScenesAndWhoComesTooLateByNameAndGoesOn) {
   const Process& third = join(last);
   ASSERT_TRUE(ends(third));
   EXPECT_EQ(third.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
-  EXPECT_THAT(third.last_words(), HasSubstr("they play already, and without mirrors (--unmirrored) nobody can join them"));
+  EXPECT_THAT(
+      third.last_words(),
+      HasSubstr("they play already, and without mirrors (--unmirrored) nobody can join them"));
   EXPECT_FALSE(crowded.ending());
 }
 
@@ -114,9 +124,12 @@ TEST_F(PeerCommand, SaysWhatItCannotPlay) {
 }
 
 TEST_F(PeerCommand, SaysByItsStatusThatAReportOrARecordCouldNotBeWritten) {
-  const std::string peer = test::binary_folder() + "/bin/rink-peer --scene " + scene() + " --peers 1 --until 0.1 --listen 127.0.0.1:0";
-  EXPECT_EQ(WEXITSTATUS(std::system((peer + " > /dev/full 2> /dev/null").c_str())), static_cast<int>(ExitStatus::failed));
-  EXPECT_NE(WEXITSTATUS(std::system((peer + " --record /dev/full > /dev/null 2> /dev/null").c_str())), 0);
+  const std::string peer = test::binary_folder() + "/bin/rink-peer --scene " + scene() +
+                           " --peers 1 --until 0.1 --listen 127.0.0.1:0";
+  EXPECT_EQ(WEXITSTATUS(std::system((peer + " > /dev/full 2> /dev/null").c_str())),
+            static_cast<int>(ExitStatus::failed));
+  EXPECT_NE(
+      WEXITSTATUS(std::system((peer + " --record /dev/full > /dev/null 2> /dev/null").c_str())), 0);
   EXPECT_EQ(WEXITSTATUS(std::system((peer + " > /dev/null 2> /dev/null").c_str())), 0);
 }
 
@@ -142,7 +155,9 @@ class Stranger final : public rti::TransportListener {
  private:
   void on_open(rti::ConnectionId) override { is_open_ = true; }
   void on_bytes(rti::ConnectionId, rti::Bytes bytes) override { reader_.add(bytes); }
-  void on_close(rti::ConnectionId, rti::CloseReason, const std::string&) override { is_closed_ = true; }
+  void on_close(rti::ConnectionId, rti::CloseReason, const std::string&) override {
+    is_closed_ = true;
+  }
 
   rti::TcpTransport transport_;
   rti::ConnectionId connection_ = 0;
@@ -156,7 +171,8 @@ TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
   const auto answer_to = [&](const Hello& hello) {
     Stranger stranger(place_of(first), framed(FrameKind::hello, bytes_of(hello)));
     const auto frame = stranger.frame();
-    return frame && frame->kind == FrameKind::refusal ? message_from<Refused>(frame->content) : std::nullopt;
+    return frame && frame->kind == FrameKind::refusal ? message_from<Refused>(frame->content)
+                                                      : std::nullopt;
   };
   Hello hello;
   hello.luggage = luggage, hello.guest.place = {"127.0.0.1", 1};
@@ -164,7 +180,10 @@ TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
   const auto version = answer_to(hello);
   ASSERT_TRUE(version);
   EXPECT_EQ(version->kind, RefusalKind::wrong_version);
-  EXPECT_THAT(version->reason, HasSubstr("speaks version " + std::to_string(peer_protocol_version + 1) + " of the peers' protocol, here it is version " + std::to_string(peer_protocol_version)));
+  EXPECT_THAT(version->reason,
+              HasSubstr("speaks version " + std::to_string(peer_protocol_version + 1) +
+                        " of the peers' protocol, here it is version " +
+                        std::to_string(peer_protocol_version)));
   hello.version = peer_protocol_version;
   ++hello.luggage.self_test;
   const auto build = answer_to(hello);
@@ -177,10 +196,18 @@ TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
 
 TEST_F(PeerCommand, LosesNoMoreThanTheConnectionToStrangersWhoSayAnything) {
   Process& first = found(2, "1");
-  std::vector<std::vector<std::uint8_t>> words{{'G', 'E', 'T', ' ', '/', ' ', 'H', 'T', 'T', 'P', '\r', '\n'}, {0, 0, 0, 0, 0}, {255, 255, 255, 255, 0}, {1, 0, 0, 0, 9}};
-  for (const FrameKind kind : {FrameKind::hello, FrameKind::welcome, FrameKind::elsewhere, FrameKind::refusal, FrameKind::greeting, FrameKind::mail, FrameKind::farewell})
+  std::vector<std::vector<std::uint8_t>> words{
+      {'G', 'E', 'T', ' ', '/', ' ', 'H', 'T', 'T', 'P', '\r', '\n'},
+      {0, 0, 0, 0, 0},
+      {255, 255, 255, 255, 0},
+      {1, 0, 0, 0, 9}};
+  for (const FrameKind kind :
+       {FrameKind::hello, FrameKind::welcome, FrameKind::elsewhere, FrameKind::refusal,
+        FrameKind::greeting, FrameKind::mail, FrameKind::farewell})
     words.push_back(framed(kind, std::vector<std::uint8_t>(40, 0x55)));
-  words.push_back(framed(FrameKind::greeting, bytes_of(Greeting{.session = 1, .number = 1, .guest = {{"127.0.0.1", 1}}})));
+  words.push_back(
+      framed(FrameKind::greeting,
+             bytes_of(Greeting{.session = 1, .number = 1, .guest = {{"127.0.0.1", 1}}})));
   Hello damaged;
   damaged.guest.place = {"127.0.0.1", 1};
   std::vector<std::uint8_t> content = bytes_of(damaged);

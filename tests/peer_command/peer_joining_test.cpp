@@ -1,4 +1,5 @@
-// Processes of rink-peer that come while others play, leave, and are killed: whoever is there at the end has the hash of one engine.
+// Processes of rink-peer that come while others play, leave, and are killed: whoever is there at
+// the end has the hash of one engine.
 #include <set>
 
 #include "game/peer/session/session.h"
@@ -15,7 +16,10 @@ class PeerJoining : public PeerCommand {
     until([&] { return std::chrono::steady_clock::now() >= end; });
   }
   bool is_in(const Process& peer) {
-    return until([&] { return peer.last_words().find(" is in from ") != std::string::npos || peer.ending(); }) && !peer.ending();
+    return until([&] {
+             return peer.last_words().find(" is in from ") != std::string::npos || peer.ending();
+           }) &&
+           !peer.ending();
   }
 };
 
@@ -62,7 +66,8 @@ TEST_F(PeerJoining, BringsItsOwnBotsAndIsRefusedMoreThanAreFree) {
   Game one(load_scene(scene()));
   for (const InputEvent& event : log.events) one.submit(event);
   one.advance(3.0);
-  EXPECT_TRUE(std::any_of(log.events.begin(), log.events.end(), [](const InputEvent& event) { return event.player >= 3; }));
+  EXPECT_TRUE(std::any_of(log.events.begin(), log.events.end(),
+                          [](const InputEvent& event) { return event.player >= 3; }));
   for (const Process* peer : {&first, &second}) EXPECT_EQ(hash_of(*peer), printed(one.hash()));
 }
 
@@ -82,14 +87,17 @@ TEST_F(PeerJoining, SeveralWhoComeAtOnceEachPlayTheirOwnBats) {
     EXPECT_NE(peer->line_after("  \"key_presses\": "), "0,");
   }
   std::set<std::uint32_t> players;
-  for (const InputEvent& event : read_key_log(std::filesystem::path(file)).events) players.insert(event.player);
+  for (const InputEvent& event : read_key_log(std::filesystem::path(file)).events)
+    players.insert(event.player);
   EXPECT_EQ(players, (std::set<std::uint32_t>{0, 1, 2, 3, 4, 5}));
 }
 
 TEST_F(PeerJoining, MayBeAskedForBeforeTheFirstListens) {
   const auto free_port = [] { return rti::TcpTransport().listen("127.0.0.1", 0); };
   const std::string place = "127.0.0.1:" + std::to_string(free_port());
-  Process& early = *peers_.emplace_back(std::make_unique<Process>(test::binary_folder() + "/bin/rink-peer", Words{"--scene", scene(), "--join", place}, std::vector<int>{}));
+  Process& early = *peers_.emplace_back(
+      std::make_unique<Process>(test::binary_folder() + "/bin/rink-peer",
+                                Words{"--scene", scene(), "--join", place}, std::vector<int>{}));
   pass(1000ms);
   EXPECT_FALSE(early.ending());
   Process& first = start({"--peers", "2", "--until", "1", "--listen", place});
@@ -143,11 +151,17 @@ class OneWord final : public peer::Mail {
 TEST(Newcomer, BelievesNoBeginningThatIsNotWhereAWindowEnds) {
   const Game start(parse_scene(small_scene, "small.toml"));
   const auto begin = [&](std::uint64_t window, double time) {
-    peer::State state{.step = 9, .window = window, .time = time, .members = {0, 1}, .cuts = peer::Cuts::whole(start.world().spec().field)};
+    peer::State state{.step = 9,
+                      .window = window,
+                      .time = time,
+                      .members = {0, 1},
+                      .cuts = peer::Cuts::whole(start.world().spec().field)};
     state.fresh = {1};
     state.slots = state.next_number = 2;
     OneWord mail(peer::written(peer::Entry{.state = state}));
-    peer::SessionSettings settings{.number = 1, .window_count = 10, .end_of = [](std::uint64_t k) { return 0.02 * static_cast<double>(k); }};
+    peer::SessionSettings settings{.number = 1, .window_count = 10, .end_of = [](std::uint64_t k) {
+                                     return 0.02 * static_cast<double>(k);
+                                   }};
     settings.seats_of = [](const peer::Player&) { return std::vector<peer::Seat>(); };
     const peer::Session session(start.world(), std::move(settings), mail, {0});
     return session.peer().now();

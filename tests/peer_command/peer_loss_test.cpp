@@ -1,4 +1,5 @@
-// Processes of rink-peer that are killed, stopped and interrupted: the others end in the hash of one engine.
+// Processes of rink-peer that are killed, stopped and interrupted: the others end in the hash of
+// one engine.
 #include "tests/peer_command/peer_processes.h"
 
 namespace rink::game {
@@ -19,9 +20,11 @@ TEST_F(PeerLoss, OfOneThatIsKilledIsMadeGoodWithinASecondAndTheHashIsThatOfOneEn
     ASSERT_TRUE(are_playing({&first, &second, &third}));
     until([] { return false; }, 1s);
     ASSERT_EQ(kill(second.id(), SIGKILL), 0);
-    for (const Process* peer : {&first, &third}) EXPECT_TRUE(says(*peer, "2 peers go on from", 1s)) << peer->last_words();
+    for (const Process* peer : {&first, &third})
+      EXPECT_TRUE(says(*peer, "2 peers go on from", 1s)) << peer->last_words();
     // Whoever hears of it from another one does not say where it was.
-    EXPECT_THAT(first.last_words() + third.last_words(), HasSubstr("peer 1 (" + place_of(second) + ") is gone"));
+    EXPECT_THAT(first.last_words() + third.last_words(),
+                HasSubstr("peer 1 (" + place_of(second) + ") is gone"));
     for (const Process* peer : {&first, &third}) {
       ASSERT_TRUE(ends(*peer));
       EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
@@ -39,7 +42,8 @@ TEST_F(PeerLoss, OfOneOfTwoLeavesTheOtherAlone) {
   EXPECT_TRUE(says(second, "this peer goes on alone", 1s)) << second.last_words();
   ASSERT_TRUE(ends(second));
   EXPECT_EQ(hash_of(second), truth(2.0));
-  EXPECT_EQ(second.ending()->exit_status, static_cast<int>(ExitStatus::may_have_split)) << "it cannot know that the first one is dead";
+  EXPECT_EQ(second.ending()->exit_status, static_cast<int>(ExitStatus::may_have_split))
+      << "it cannot know that the first one is dead";
   EXPECT_THAT(second.last_words(), HasSubstr("the other may have done so too"));
 }
 
@@ -124,11 +128,13 @@ TEST_F(PeerLoss, OfOneThatIsSilentForTooLongIsFinalAndItHaltsWhenItComesBack) {
   Process& third = join(first, patience);
   ASSERT_TRUE(are_playing({&first, &second, &third}));
   ASSERT_EQ(kill(second.id(), SIGSTOP), 0);
-  for (const Process* peer : {&first, &third}) EXPECT_TRUE(says(*peer, "2 peers go on from", 3s)) << peer->last_words();
+  for (const Process* peer : {&first, &third})
+    EXPECT_TRUE(says(*peer, "2 peers go on from", 3s)) << peer->last_words();
   ASSERT_EQ(kill(second.id(), SIGCONT), 0);
   ASSERT_TRUE(ends(second, 3s));
   EXPECT_EQ(second.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-  EXPECT_THAT(second.last_words(), testing::AnyOf(HasSubstr("1 of 3 peers are left: it halts"), HasSubstr("has given this one up: it halts")));
+  EXPECT_THAT(second.last_words(), testing::AnyOf(HasSubstr("1 of 3 peers are left: it halts"),
+                                                  HasSubstr("has given this one up: it halts")));
   for (const Process* peer : {&first, &third}) {
     ASSERT_TRUE(ends(*peer));
     EXPECT_EQ(hash_of(*peer), truth(4.0));

@@ -1,4 +1,5 @@
-// A person at one of two peers: what the window shows of the own bat is what one engine plays from everybody's keys, frame by frame.
+// A person at one of two peers: what the window shows of the own bat is what one engine plays from
+// everybody's keys, frame by frame.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -28,7 +29,8 @@ Scene duel() {
 
 constexpr double frame_s = 1.0 / 60.0;
 
-/// Looks at 60 frames a second of a real time by which each window is played when it begins, and presses keys at random.
+/// Looks at 60 frames a second of a real time by which each window is played when it begins, and
+/// presses keys at random.
 class Person final : public Onlooker {
  public:
   struct Frame {
@@ -36,7 +38,8 @@ class Person final : public Onlooker {
     Vector2 own, other;
   };
 
-  Person(const SharedGame& game, std::uint32_t player, std::uint32_t seed) : hand_player_(game, player, hand_), match_(game, hand_), player_(player), random_(seed) {
+  Person(const SharedGame& game, std::uint32_t player, std::uint32_t seed)
+      : hand_player_(game, player, hand_), match_(game, hand_), player_(player), random_(seed) {
     hand_.set_player(player);
     hand_.set_stage(PeerStage::Step::playing, "");
   }
@@ -54,12 +57,15 @@ class Person final : public Onlooker {
  private:
   void look(double now_s) {
     for (const Key key : all_keys)
-      if (now_s > 0.5 && random_() % 16 == 0) match_.press(0, key, is_down_[static_cast<std::size_t>(key)] ^= true), ++waiting_;
+      if (now_s > 0.5 && random_() % 16 == 0)
+        match_.press(0, key, is_down_[static_cast<std::size_t>(key)] ^= true), ++waiting_;
     match_.advance(now_s);
     const PredictedRink* rink = match_.prediction();
     if (rink == nullptr || now_s < 0.5) return;
-    pressed.insert(pressed.end(), std::exchange(waiting_, 0), std::ceil(rink->now() * 0x1p16) * 0x1p-16);
-    frames.push_back({rink->now(), rink->bats()[player_].position, rink->bats()[1 - player_].position});
+    pressed.insert(pressed.end(), std::exchange(waiting_, 0),
+                   std::ceil(rink->now() * 0x1p16) * 0x1p-16);
+    frames.push_back(
+        {rink->now(), rink->bats()[player_].position, rink->bats()[1 - player_].position});
   }
 
   Hand hand_;
@@ -79,7 +85,8 @@ struct Played {
   std::uint64_t corrections = 0;
 };
 
-/// For `until` seconds; the person is at peer 0 and plays bat `player`, of which peer `player` owns the half where it is.
+/// For `until` seconds; the person is at peer 0 and plays bat `player`, of which peer `player` owns
+/// the half where it is.
 Played played_by_a_person(const SharedGame& game, std::uint32_t player, double until) {
   const Terms terms{.peer_count = 2, .until = until, .window = 0.02, .balance_windows = 0};
   std::vector<Guest> guests(2);
@@ -121,7 +128,8 @@ TEST_P(APersonAtAPeer, SeesTheOwnBatAnswerInTheSameFrameWhereOneEngineHasIt) {
   }
   one.advance(20.0);
   EXPECT_EQ(one.hash(), played.part.hash);
-  // Of a hit of the puck that the other's key has brought about nothing is known before its window's end; for a tenth of a second after that the difference is led away.
+  // Of a hit of the puck that the other's key has brought about nothing is known before its
+  // window's end; for a tenth of a second after that the difference is led away.
   std::sort(own_errors.begin(), own_errors.end());
   ASSERT_GT(own_errors.size(), 1000u);
   EXPECT_LT(own_errors[own_errors.size() * 9 / 10], 1e-9);
@@ -132,10 +140,16 @@ TEST_P(APersonAtAPeer, SeesTheOwnBatAnswerInTheSameFrameWhereOneEngineHasIt) {
     if (event.player == player) felt.push_back(event.time);
   ASSERT_GT(felt.size(), 200u);
   ASSERT_LE(felt.size(), played.pressed.size());
-  EXPECT_EQ(felt, std::vector<double>(played.pressed.begin(), played.pressed.begin() + static_cast<std::ptrdiff_t>(felt.size()))) << "a key was late";
+  EXPECT_EQ(felt,
+            std::vector<double>(played.pressed.begin(),
+                                played.pressed.begin() + static_cast<std::ptrdiff_t>(felt.size())))
+      << "a key was late";
 }
 
-INSTANTIATE_TEST_SUITE_P(WhoOwnsTheBat, APersonAtAPeer, testing::Values(0u, 1u), [](const auto& info) { return info.param == 0 ? "Itself" : "AsTheOtherPeerDoes"; });
+INSTANTIATE_TEST_SUITE_P(WhoOwnsTheBat, APersonAtAPeer, testing::Values(0u, 1u),
+                         [](const auto& info) {
+                           return info.param == 0 ? "Itself" : "AsTheOtherPeerDoes";
+                         });
 
 }  // namespace
 }  // namespace rink::game

@@ -65,19 +65,23 @@ class PeerCommand : public testing::Test {
   Process& start(Words arguments, const std::string& scene_file = {}) {
     const Words scene_words{"--scene", scene_file.empty() ? scene() : scene_file};
     arguments.insert(arguments.begin(), scene_words.begin(), scene_words.end());
-    Process& peer = *peers_.emplace_back(std::make_unique<Process>(test::binary_folder() + "/bin/rink-peer", arguments, std::vector<int>{}));
+    Process& peer = *peers_.emplace_back(std::make_unique<Process>(
+        test::binary_folder() + "/bin/rink-peer", arguments, std::vector<int>{}));
     until([&] { return peer.line_after("listening on ") || peer.ending(); });
     return peer;
   }
   Process& found(int count, const std::string& until, Words further = {}) {
-    further.insert(further.end(), {"--peers", std::to_string(count), "--until", until, "--listen", "127.0.0.1:0"});
+    further.insert(further.end(),
+                   {"--peers", std::to_string(count), "--until", until, "--listen", "127.0.0.1:0"});
     return start(further);
   }
   Process& join(const Process& other, Words further = {}) {
     further.insert(further.end(), {"--join", place_of(other)});
     return start(further);
   }
-  static std::string place_of(const Process& peer) { return peer.line_after("listening on ").value_or("nowhere"); }
+  static std::string place_of(const Process& peer) {
+    return peer.line_after("listening on ").value_or("nowhere");
+  }
 
   bool until(const std::function<bool()>& is_reached, std::chrono::seconds limit = 30s) {
     const auto end = std::chrono::steady_clock::now() + limit;
@@ -89,7 +93,11 @@ class PeerCommand : public testing::Test {
     return until([&] { return peer.ending().has_value(); }, limit);
   }
   bool are_playing(std::initializer_list<const Process*> peers) {
-    return until([&] { return std::all_of(peers.begin(), peers.end(), [](const Process* peer) { return peer->line_after("playing").has_value(); }); });
+    return until([&] {
+      return std::all_of(peers.begin(), peers.end(), [](const Process* peer) {
+        return peer->line_after("playing").has_value();
+      });
+    });
   }
   /// Of one engine.
   std::string truth(double until) const {
@@ -97,7 +105,9 @@ class PeerCommand : public testing::Test {
     one.advance(until);
     return printed(one.hash());
   }
-  static std::string hash_of(const Process& peer) { return peer.line_after("  \"hash\": ").value_or(peer.last_words()); }
+  static std::string hash_of(const Process& peer) {
+    return peer.line_after("  \"hash\": ").value_or(peer.last_words());
+  }
   /// As a report prints it.
   static std::string printed(std::uint64_t hash) {
     char text[32];

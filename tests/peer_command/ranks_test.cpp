@@ -43,7 +43,9 @@ std::vector<pid_t> children_of(pid_t parent) {
     std::ifstream stat(entry.path() / "stat");
     std::string number, name, state;
     pid_t its_parent = 0;
-    if (stat >> number >> name >> state >> its_parent && its_parent == parent && name == "(rink-peer)") children.push_back(std::stoi(number));
+    if (stat >> number >> name >> state >> its_parent && its_parent == parent &&
+        name == "(rink-peer)")
+      children.push_back(std::stoi(number));
   }
   return children;
 }
@@ -66,7 +68,8 @@ class RanksOfMpi : public testing::Test {
   void TearDown() override { unsetenv("ASAN_OPTIONS"); }
 
   static Words peer(Words arguments) {
-    arguments.insert(arguments.begin(), {test::binary_folder() + "/bin/rink-peer", "--transport", "mpi", "--scene", "arena"});
+    arguments.insert(arguments.begin(), {test::binary_folder() + "/bin/rink-peer", "--transport",
+                                         "mpi", "--scene", "arena"});
     return arguments;
   }
   /// `groups` of ranks that differ in what they are given.
@@ -87,14 +90,21 @@ class RanksOfMpi : public testing::Test {
     while (!launcher_->ending() && std::chrono::steady_clock::now() < end) launcher_->attend(10ms);
     return launcher_->ending().has_value();
   }
-  nlohmann::json report() const { return nlohmann::json::parse(test::text_of(output_), nullptr, false); }
+  nlohmann::json report() const {
+    return nlohmann::json::parse(test::text_of(output_), nullptr, false);
+  }
   /// One of four ranks in the middle of a long game.
   pid_t one_of_four_that_play() {
     std::vector<pid_t> ranks;
     const auto end = std::chrono::steady_clock::now() + 40s;
-    // Where a host's own name is unknown MPI takes seconds to begin, and under a sanitizer half a second of a processor; whoever has taken a second of it plays.
-    const auto do_play = [&] { return ranks.size() == 4 && std::ranges::all_of(ranks, [](pid_t rank) { return ticks_of(rank) >= 100; }); };
-    while (!do_play() && std::chrono::steady_clock::now() < end) launcher_->attend(10ms), ranks = children_of(launcher_->id());
+    // Where a host's own name is unknown MPI takes seconds to begin, and under a sanitizer half a
+    // second of a processor; whoever has taken a second of it plays.
+    const auto do_play = [&] {
+      return ranks.size() == 4 &&
+             std::ranges::all_of(ranks, [](pid_t rank) { return ticks_of(rank) >= 100; });
+    };
+    while (!do_play() && std::chrono::steady_clock::now() < end)
+      launcher_->attend(10ms), ranks = children_of(launcher_->id());
     return do_play() ? ranks[2] : 0;
   }
 
@@ -115,7 +125,8 @@ TEST_F(RanksOfMpi, FourOnTwoProcessorsEndInTheHashOfOneEngineWithOneCollectiveFo
     EXPECT_EQ(all["ranks"][k]["peer"], k);
     EXPECT_EQ(all["ranks"][k]["hash"], text_of(one.hash()));
     // The words at the start are one more; a window that is repeated is agreed upon again.
-    EXPECT_EQ(all["collectives"], 1 + all["ranks"][k]["windows"].get<int>() + all["ranks"][k]["repeats"].get<int>());
+    EXPECT_EQ(all["collectives"],
+              1 + all["ranks"][k]["windows"].get<int>() + all["ranks"][k]["repeats"].get<int>());
   }
 }
 
@@ -135,11 +146,16 @@ TEST_F(RanksOfMpi, PlayRecordedKeysToTheHashOfTheirLogAndOneRankPlaysAlone) {
 }
 
 TEST_F(RanksOfMpi, WhoHaveAnotherSceneOrOtherTermsAreNamedAndNobodyPlays) {
-  run({{2, peer({"--until", "1"})}, {1, peer({"--until", "1", "--seed", "9"})}, {1, peer({"--until", "2"})}});
+  run({{2, peer({"--until", "1"})},
+       {1, peer({"--until", "1", "--seed", "9"})},
+       {1, peer({"--until", "2"})}});
   ASSERT_TRUE(ends());
   EXPECT_EQ(launcher_->ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
-  EXPECT_THAT(launcher_->last_words(), AllOf(HasSubstr("rank 2 cannot play with rank 0: it has another scene: its fingerprint is"),
-                                             HasSubstr("rank 3 cannot play with rank 0: it is to play 2 s in windows of 0.02 s, here it is 1 s in windows of 0.02 s")));
+  EXPECT_THAT(
+      launcher_->last_words(),
+      AllOf(HasSubstr("rank 2 cannot play with rank 0: it has another scene: its fingerprint is"),
+            HasSubstr("rank 3 cannot play with rank 0: it is to play 2 s in windows of 0.02 s, "
+                      "here it is 1 s in windows of 0.02 s")));
   EXPECT_EQ(test::text_of(output_), "");
 }
 
@@ -147,7 +163,9 @@ TEST_F(RanksOfMpi, OneOfAnotherVersionIsNamed) {
   run({{3, peer({"--until", "1"})}, {1, {test::binary_folder() + "/bin/rank-of-another-version"}}});
   ASSERT_TRUE(ends());
   EXPECT_EQ(launcher_->ending()->exit_status, static_cast<int>(ExitStatus::wrong_version));
-  EXPECT_THAT(launcher_->last_words(), HasSubstr("rank 3 cannot play with rank 0: it speaks version " + std::to_string(peer_protocol_version + 1)));
+  EXPECT_THAT(launcher_->last_words(),
+              HasSubstr("rank 3 cannot play with rank 0: it speaks version " +
+                        std::to_string(peer_protocol_version + 1)));
 }
 
 TEST_F(RanksOfMpi, OneThatIsKilledEndsAllWithinFiveSeconds) {
@@ -189,19 +207,25 @@ TEST(RankWords, DamagedOnesAreRefusedWhateverIsDamaged) {
 
 TEST(PeerWithoutALauncher, RefusesFlagsThatRanksDoNotHave) {
   for (const char* flag : {"--peers", "--join", "--listen"}) {
-    Process peer(test::binary_folder() + "/bin/rink-peer", {"--transport", "mpi", "--scene", "arena", flag, std::string(flag) == "--peers" ? "3" : "127.0.0.1:0"}, {});
+    Process peer(test::binary_folder() + "/bin/rink-peer",
+                 {"--transport", "mpi", "--scene", "arena", flag,
+                  std::string(flag) == "--peers" ? "3" : "127.0.0.1:0"},
+                 {});
     while (!peer.ending()) peer.attend(10ms);
     EXPECT_EQ(peer.ending()->exit_status, 2);
-    EXPECT_THAT(peer.last_words(), HasSubstr("with --transport mpi the launcher says how many there are"));
+    EXPECT_THAT(peer.last_words(),
+                HasSubstr("with --transport mpi the launcher says how many there are"));
   }
 }
 
 TEST(PeerWithoutMpi, SaysWhatToInstall) {
   if (rti::Ranks::is_built_in()) GTEST_SKIP() << "this build has MPI";
-  Process peer(test::binary_folder() + "/bin/rink-peer", {"--transport", "mpi", "--scene", "arena"}, {});
+  Process peer(test::binary_folder() + "/bin/rink-peer", {"--transport", "mpi", "--scene", "arena"},
+               {});
   while (!peer.ending()) peer.attend(10ms);
   EXPECT_EQ(peer.ending()->exit_status, 1);
-  EXPECT_THAT(peer.last_words(), HasSubstr("this build has no MPI: install libopenmpi-dev and openmpi-bin"));
+  EXPECT_THAT(peer.last_words(),
+              HasSubstr("this build has no MPI: install libopenmpi-dev and openmpi-bin"));
 }
 
 }  // namespace

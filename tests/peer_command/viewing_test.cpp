@@ -1,9 +1,10 @@
-// Interest told by running processes of rink-peer: their players see others' bodies, the game stays that of one engine, and what they say of themselves adds up.
+// Interest told by running processes of rink-peer: their players see others' bodies, the game stays
+// that of one engine, and what they say of themselves adds up.
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "game/net/peer/peer_evidence.h"
 #include "game/net/peer/meeting/seating.h"
+#include "game/net/peer/peer_evidence.h"
 #include "game/players/random_plan.h"
 #include "tests/peer_command/peer_processes.h"
 
@@ -12,7 +13,9 @@ namespace {
 
 class Viewing : public PeerCommand {
  protected:
-  static nlohmann::json report_of(const std::filesystem::path& file) { return nlohmann::json::parse(std::ifstream(file), nullptr, false); }
+  static nlohmann::json report_of(const std::filesystem::path& file) {
+    return nlohmann::json::parse(std::ifstream(file), nullptr, false);
+  }
 
   /// Random keys for all bats of the small scene.
   std::filesystem::path plan(double until) {
@@ -27,7 +30,9 @@ class Viewing : public PeerCommand {
 TEST_F(Viewing, ShowsPlayersWhatOthersHaveAndLeavesTheGameAsItIs) {
   for (const char* scheme : {"none", "grid", "region", "aura"}) {
     const Words view{"--bots", "1", "--players", "chaser", "--view-area", "2"};
-    Words first_words{"--scheme", scheme, "--record", (folder_ / "live.keys").string(), "--report", (folder_ / "first.json").string()};
+    Words first_words{"--scheme", scheme,
+                      "--record", (folder_ / "live.keys").string(),
+                      "--report", (folder_ / "first.json").string()};
     first_words.insert(first_words.end(), view.begin(), view.end());
     Process& first = found(3, "1", first_words);
     Process& second = join(first, view);
@@ -48,7 +53,13 @@ TEST_F(Viewing, ShowsPlayersWhatOthersHaveAndLeavesTheGameAsItIs) {
 
 TEST_F(Viewing, GoesOnWhenAPeerIsKilled) {
   const Words view{"--view-area", "3", "--keys", plan(3.0).string()};
-  Words first_words{"--scheme", "region", "--seated", "--pace", "realtime", "--report", (folder_ / "first.json").string()};
+  Words first_words{"--scheme",
+                    "region",
+                    "--seated",
+                    "--pace",
+                    "realtime",
+                    "--report",
+                    (folder_ / "first.json").string()};
   first_words.insert(first_words.end(), view.begin(), view.end());
   Process& first = found(3, "3", first_words);
   Process& second = join(first, view);
@@ -66,14 +77,20 @@ TEST_F(Viewing, GoesOnWhenAPeerIsKilled) {
 
 TEST_F(Viewing, LetsNewcomersInWhoSeeAndAreSeen) {
   for (const std::string scheme : {"none", "region"}) {
-    const auto file = [&](int k) { return (folder_ / ("peer" + std::to_string(k) + ".json")).string(); };
+    const auto file = [&](int k) {
+      return (folder_ / ("peer" + std::to_string(k) + ".json")).string();
+    };
     const auto words = [&](int k, Words further) {
-      const Words all{"--pace", "realtime", "--bots", "1", "--view-area", "100", "--report", file(k)};
+      const Words all{"--pace",      "realtime", "--bots",   "1",
+                      "--view-area", "100",      "--report", file(k)};
       further.insert(further.end(), all.begin(), all.end());
       return further;
     };
     const auto is_in = [&](const Process& peer) {
-      return until([&] { return peer.last_words().find(" is in from ") != std::string::npos || peer.ending(); }) && !peer.ending();
+      return until([&] {
+               return peer.last_words().find(" is in from ") != std::string::npos || peer.ending();
+             }) &&
+             !peer.ending();
     };
     const std::string record = (folder_ / (scheme + ".keys")).string();
     Process& first = found(1, "5", words(0, {"--scheme", scheme, "--record", record}));
@@ -88,11 +105,14 @@ TEST_F(Viewing, LetsNewcomersInWhoSeeAndAreSeen) {
     Game one(load_scene(scene()));
     for (const InputEvent& key : log.events) one.submit(key);
     one.advance(5.0);
-    EXPECT_TRUE(std::any_of(log.events.begin(), log.events.end(), [](const InputEvent& key) { return key.player > 0; }));
-    for (const int k : {0, 2}) EXPECT_EQ(report_of(file(k))["hash"].dump(), printed(one.hash())) << scheme;
+    EXPECT_TRUE(std::any_of(log.events.begin(), log.events.end(),
+                            [](const InputEvent& key) { return key.player > 0; }));
+    for (const int k : {0, 2})
+      EXPECT_EQ(report_of(file(k))["hash"].dump(), printed(one.hash())) << scheme;
     for (const int k : {0, 1, 2}) {
       const nlohmann::json view = report_of(file(k))["view"];
-      EXPECT_GT(view["updates_bytes"], 0) << scheme << ": peer " << k << " tells nobody of what it owns";
+      EXPECT_GT(view["updates_bytes"], 0)
+          << scheme << ": peer " << k << " tells nobody of what it owns";
       EXPECT_EQ(view["interest_bytes"] > 0, scheme == "region");
       EXPECT_GT(view["in_view"], 0) << scheme;
     }
@@ -102,13 +122,19 @@ TEST_F(Viewing, LetsNewcomersInWhoSeeAndAreSeen) {
 }
 
 TEST_F(Viewing, EvidenceAccountsForEveryByteAndAgreesWithTheKernel) {
-  const auto file = [&](int k, const char* ending) { return (folder_ / ("peer" + std::to_string(k) + ending)).string(); };
+  const auto file = [&](int k, const char* ending) {
+    return (folder_ / ("peer" + std::to_string(k) + ending)).string();
+  };
   const auto words = [&](int k, Words first) {
-    const Words all{"--keys", plan(2.0).string(), "--pace", "realtime", "--view-area", "3", "--warm-up", "0.5", "--evidence", file(k, ".jsonl"), "--report", file(k, ".json")};
+    const Words all{"--keys",   plan(2.0).string(), "--pace", "realtime",   "--view-area",
+                    "3",        "--warm-up",        "0.5",    "--evidence", file(k, ".jsonl"),
+                    "--report", file(k, ".json")};
     first.insert(first.end(), all.begin(), all.end());
     return first;
   };
-  Process& first = found(3, "2", words(0, {"--scheme", "region", "--seated", "--unmirrored", "--balance", "0", "--window", "0.05"}));
+  Process& first = found(3, "2",
+                         words(0, {"--scheme", "region", "--seated", "--unmirrored", "--balance",
+                                   "0", "--window", "0.05"}));
   Process& second = join(first, words(1, {}));
   Process& third = join(first, words(2, {}));
   for (const Process* peer : {&first, &second, &third}) {
@@ -120,22 +146,33 @@ TEST_F(Viewing, EvidenceAccountsForEveryByteAndAgreesWithTheKernel) {
   for (int k = 0; k < 3; ++k) {
     const PeerEvidence evidence = read_peer_evidence(file(k, ".jsonl"));
     is_there[evidence.peer] = true;
-    const auto sum = [](const TrafficBytes& bytes) { return std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0}); };
-    EXPECT_EQ(sum(evidence.end.bytes) - sum(evidence.begin.bytes), evidence.end.bytes_sent - evidence.begin.bytes_sent);
+    const auto sum = [](const TrafficBytes& bytes) {
+      return std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0});
+    };
+    EXPECT_EQ(sum(evidence.end.bytes) - sum(evidence.begin.bytes),
+              evidence.end.bytes_sent - evidence.begin.bytes_sent);
     EXPECT_NEAR(evidence.end.instant_s - evidence.begin.instant_s, 1.5, 0.5);
-    sent += evidence.end.bytes_sent - evidence.begin.bytes_sent, received += evidence.end.bytes_received - evidence.begin.bytes_received;
+    sent += evidence.end.bytes_sent - evidence.begin.bytes_sent,
+        received += evidence.end.bytes_received - evidence.begin.bytes_received;
     ASSERT_TRUE(evidence.player) << "fewer players than are watched";
     EXPECT_GE(evidence.player->samples.size(), 15u);
-    const auto known = std::count_if(evidence.events.begin(), evidence.events.end(), [](const PeerEvidence::Event& event) { return event.kind == PeerEvidence::Kind::known; });
+    const auto known = std::count_if(
+        evidence.events.begin(), evidence.events.end(),
+        [](const PeerEvidence::Event& event) { return event.kind == PeerEvidence::Kind::known; });
     EXPECT_EQ(known, 40);
-    for (const PeerEvidence::Event& event : evidence.events) EXPECT_GE(event.instant_s, event.due_s);
+    for (const PeerEvidence::Event& event : evidence.events)
+      EXPECT_GE(event.instant_s, event.due_s);
     const nlohmann::json transport = report_of(file(k, ".json"))["transport"];
-    EXPECT_NEAR(transport["bytes_sent"].get<double>(), transport["kernel_bytes_sent"].get<double>(), 400.0);
-    EXPECT_NEAR(transport["bytes_received"].get<double>(), transport["kernel_bytes_received"].get<double>(), 16.0);  // the kernel counts a connection's end
+    EXPECT_NEAR(transport["bytes_sent"].get<double>(), transport["kernel_bytes_sent"].get<double>(),
+                400.0);
+    EXPECT_NEAR(transport["bytes_received"].get<double>(),
+                transport["kernel_bytes_received"].get<double>(),
+                16.0);  // the kernel counts a connection's end
   }
   EXPECT_THAT(is_there, testing::Each(true));
   // What is on its way when one of them looks is another's a little later.
-  EXPECT_NEAR(static_cast<double>(sent), static_cast<double>(received), 0.1 * static_cast<double>(sent));
+  EXPECT_NEAR(static_cast<double>(sent), static_cast<double>(received),
+              0.1 * static_cast<double>(sent));
 }
 
 TEST_F(Viewing, RefusesWhatCannotBe) {
@@ -147,11 +184,15 @@ TEST_F(Viewing, RefusesWhatCannotBe) {
   };
   EXPECT_THAT(complaint({"--scheme", "regoin"}), HasSubstr("regoin"));
   EXPECT_THAT(complaint({"--scheme", "region", "--policy", "snapshot"}), HasSubstr("snapshot"));
-  EXPECT_THAT(complaint({"--scheme", "region", "--always", "puck"}), HasSubstr("does not name always"));
-  EXPECT_THAT(complaint({"--always", "puck"}), HasSubstr("--always: there is no scheme that could ask: expected one that does"));
+  EXPECT_THAT(complaint({"--scheme", "region", "--always", "puck"}),
+              HasSubstr("does not name always"));
+  EXPECT_THAT(complaint({"--always", "puck"}),
+              HasSubstr("--always: there is no scheme that could ask: expected one that does"));
   EXPECT_THAT(complaint({"--seated", "--bots", "1"}), HasSubstr("expected no --bots"));
-  EXPECT_THAT(complaint({"--evidence", (folder_ / "e.jsonl").string()}), HasSubstr("expected --pace realtime"));
-  EXPECT_THAT(complaint({"--seated", "--bat-count", "1"}), HasSubstr("2 peers, but the scene has 1 bats"));
+  EXPECT_THAT(complaint({"--evidence", (folder_ / "e.jsonl").string()}),
+              HasSubstr("expected --pace realtime"));
+  EXPECT_THAT(complaint({"--seated", "--bat-count", "1"}),
+              HasSubstr("2 peers, but the scene has 1 bats"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The cell grid: nobody within reach is ever missed, however crowded the cells are and however often bodies move.
+// The cell grid: nobody within reach is ever missed, however crowded the cells are and however
+// often bodies move.
 #include "game/physics/cell_grid.h"
 
 #include <gtest/gtest.h>
@@ -41,8 +42,11 @@ TEST(CellGrid, ListsOnceEverybodyWithinReach) {
       const std::vector<std::uint32_t> near = crowd.near(body);
       EXPECT_EQ(std::adjacent_find(near.begin(), near.end()), near.end());
       for (std::uint32_t other = 0; other < 400; ++other) {
-        if (std::max(std::abs(crowd.x[other] - crowd.x[body]), std::abs(crowd.y[other] - crowd.y[body])) > reach) continue;
-        EXPECT_TRUE(std::binary_search(near.begin(), near.end(), other)) << body << " and " << other << ", reach " << reach;
+        if (std::max(std::abs(crowd.x[other] - crowd.x[body]),
+                     std::abs(crowd.y[other] - crowd.y[body])) > reach)
+          continue;
+        EXPECT_TRUE(std::binary_search(near.begin(), near.end(), other))
+            << body << " and " << other << ", reach " << reach;
       }
     }
   }
@@ -65,7 +69,8 @@ TEST(CellGrid, SeesAheadExactlyThoseWhoCameIntoSightByACrossing) {
     ahead.resize(crowd.grid.collect_ahead(body, direction, ahead.data()));
     std::sort(ahead.begin(), ahead.end());
     const std::vector<std::uint32_t> after = crowd.near(body);
-    std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(came));
+    std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
+                        std::back_inserter(came));
     ASSERT_EQ(ahead, came) << "step " << step;
     seen += static_cast<int>(came.size());
   }

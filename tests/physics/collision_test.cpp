@@ -39,7 +39,9 @@ TEST(Collision, ObliquePucksExchangeOnlyTheirNormalSpeeds) {
   const BodyId a = world.add(puck_at(4, 5, 1, 0)), b = world.add(puck_at(6, 5 + offset, 0, 0));
   world.advance(3.0);
   const double c = std::cos(std::asin(0.5)), s = 0.5;
-  expect_near(world.velocity(b), {c * c, c * s}, 2e-14);  // the place in the field is known to 1e-15 m, the normal to that over the reach
+  expect_near(
+      world.velocity(b), {c * c, c * s},
+      2e-14);  // the place in the field is known to 1e-15 m, the normal to that over the reach
   expect_near(world.velocity(a), {1 - c * c, -c * s}, 2e-14);
 }
 
@@ -51,7 +53,8 @@ TEST(Collision, DragDelaysTheSameImpactByTheWarpedClock) {
   const double impact = -std::log1p(-g * 1.92 / 2.0) / g;
   EXPECT_NEAR(world.motion(a).time, impact, 1e-14);
   EXPECT_NEAR(world.velocity(b).x(), 2.0 * std::exp(-g * 3.0), 1e-14);
-  EXPECT_NEAR(world.position(b).x(), 6.0 + 2.0 * (std::exp(-g * impact) - std::exp(-g * 3.0)) / g, 1e-13);
+  EXPECT_NEAR(world.position(b).x(), 6.0 + 2.0 * (std::exp(-g * impact) - std::exp(-g * 3.0)) / g,
+              1e-13);
 }
 
 TEST(Collision, PuckThatDragStopsShortNeverArrives) {
@@ -97,8 +100,10 @@ TEST(Collision, BatCornerIsRounded) {
   const double impact = 6 - 0.05 - 0.04 * std::cos(angle) - 4;
   EXPECT_NEAR(world.motion(puck).time, impact, 1e-13);
   const double impulse = 2.0 * std::cos(angle) / (1.0 + 0.5);
-  expect_near(world.velocity(puck), {1 - impulse * std::cos(angle), impulse * std::sin(angle)}, 1e-12);
-  expect_near(world.velocity(b), {0.5 * impulse * std::cos(angle), -0.5 * impulse * std::sin(angle)}, 1e-12);
+  expect_near(world.velocity(puck), {1 - impulse * std::cos(angle), impulse * std::sin(angle)},
+              1e-12);
+  expect_near(world.velocity(b),
+              {0.5 * impulse * std::cos(angle), -0.5 * impulse * std::sin(angle)}, 1e-12);
 }
 
 TEST(Collision, BatUnderAKeyFollowsTheClosedFormAndStrikesAtItsTime) {
@@ -239,7 +244,9 @@ TEST(Gas, ElasticPucksKeepTheirEnergyOverAMillionCollisions) {
 TEST(Gas, ImpactsAwayFromWallsKeepMomentum) {
   World world(rink_of(100, 100));  // too large for anyone to reach a wall
   std::mt19937_64 random(6);
-  for (int i = 0; i < 400; ++i) world.add(puck_at(48 + 0.2 * (i % 20), 48 + 0.2 * (i / 20), uniform(random, -2, 2), uniform(random, -2, 2), uniform(random, 0.1, 3)));
+  for (int i = 0; i < 400; ++i)
+    world.add(puck_at(48 + 0.2 * (i % 20), 48 + 0.2 * (i / 20), uniform(random, -2, 2),
+                      uniform(random, -2, 2), uniform(random, 0.1, 3)));
   const Vector2 before = world.momentum();
   world.advance(6.0);
   EXPECT_EQ(world.counters().wall_impacts, 0u);
@@ -248,7 +255,8 @@ TEST(Gas, ImpactsAwayFromWallsKeepMomentum) {
 }
 
 TEST(Gas, TakesTheSameImpactsAsSteppingInSmallTime) {
-  // Brute force: between two samples 1e-4 s apart no pair may overlap, and every pair that would have met without an event must have had one.
+  // Brute force: between two samples 1e-4 s apart no pair may overlap, and every pair that would
+  // have met without an event must have had one.
   World world(rink_of(2, 2, 0.9, 0.3));
   std::mt19937_64 random(7);
   const std::vector<BodyId> pucks = scatter_pucks(world, random, 40);
@@ -265,7 +273,8 @@ TEST(Skipping, RestingPucksCostNoEventsWhateverTheirNumber) {
     World world(rink_of(20, 20));
     PuckSpec mover = puck_at(1, 1, 1, 0);
     world.add(mover);
-    for (int i = 0; i < (scene == 0 ? 10 : 3000); ++i) world.add(puck_at(1 + 0.3 * (i % 60), 4 + 0.3 * (i / 60), 0, 0));
+    for (int i = 0; i < (scene == 0 ? 10 : 3000); ++i)
+      world.add(puck_at(1 + 0.3 * (i % 60), 4 + 0.3 * (i / 60), 0, 0));
     world.advance(40.0);
     counters[scene] = world.counters();
   }

@@ -1,4 +1,5 @@
-// The same bits whatever the cell size, the queue, the rate of output, and however often the world is saved and restored on the way.
+// The same bits whatever the cell size, the queue, the rate of output, and however often the world
+// is saved and restored on the way.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,29 +27,43 @@ const Way ways[] = {{.name = "in one go"},
                     {.name = "large cells", .cell_size = 0.7},
                     {.name = "one cell", .cell_size = 10.0},
                     {.name = "a heap", .queue = QueuePolicy::heap},
-                    {.name = "a heap and large cells at 1 kHz", .cell_size = 0.4, .queue = QueuePolicy::heap, .stop_every = 1e-3},
+                    {.name = "a heap and large cells at 1 kHz",
+                     .cell_size = 0.4,
+                     .queue = QueuePolicy::heap,
+                     .stop_every = 1e-3},
                     {.name = "random stops", .stop_every = 0.05},
                     {.name = "restored now and then", .window_every = 0.2},
-                    {.name = "restored often, between stops", .cell_size = 0.3, .stop_every = 0.02, .window_every = 0.01}};
+                    {.name = "restored often, between stops",
+                     .cell_size = 0.3,
+                     .stop_every = 0.02,
+                     .window_every = 0.01}};
 
 struct History {
   std::uint64_t hash = 0, events = 0;
   double energy = 0.0;
-  std::uint32_t windows = 0, windows_held = 0;  ///< how often it was restored, and with rest contacts or jams
-  friend bool operator==(const History& a, const History& b) { return a.hash == b.hash && a.events == b.events && a.energy == b.energy; }
+  std::uint32_t windows = 0,
+                windows_held = 0;  ///< how often it was restored, and with rest contacts or jams
+  friend bool operator==(const History& a, const History& b) {
+    return a.hash == b.hash && a.events == b.events && a.energy == b.energy;
+  }
 };
 
-/// Six pucks that touch, and one that is about to hit them in the middle: contacts that close at one instant.
+/// Six pucks that touch, and one that is about to hit them in the middle: contacts that close at
+/// one instant.
 void add_rack(World& world) {
   constexpr double reach = 0.0625 + 4e-16;
   for (int row = 0; row < 3; ++row)
     for (int i = 0; i <= row; ++i)
-      world.add(PuckSpec{.position = {2.0 + 0.5 * std::sqrt(3.0) * reach * row, 1.0 + reach * (i - 0.5 * row)}, .radius = 0.03125, .mass = row == 1 ? 3.0 : 1.0});
+      world.add(PuckSpec{
+          .position = {2.0 + 0.5 * std::sqrt(3.0) * reach * row, 1.0 + reach * (i - 0.5 * row)},
+          .radius = 0.03125,
+          .mass = row == 1 ? 3.0 : 1.0});
   world.add(PuckSpec{.position = {1.9, 1.0}, .velocity = {2.0, 0.0}, .radius = 0.03125});
 }
 
-/// Scene k of many: pucks alone, with drag, with bats under keys, with goals, with a rack to break, with friction of the table and of surfaces, which turns pucks;
-/// restitution 0 to 1; equal and unequal masses.
+/// Scene k of many: pucks alone, with drag, with bats under keys, with goals, with a rack to break,
+/// with friction of the table and of surfaces, which turns pucks; restitution 0 to 1; equal and
+/// unequal masses.
 class Scene {
  public:
   explicit Scene(std::uint64_t number) : number_(number) {
@@ -56,7 +71,8 @@ class Scene {
     spec_ = rink_of(4.0, 2.0, restitutions[number % 7], number % 3 == 0 ? 0.0 : 0.2, 1.0);
     if (number % 4 == 3) spec_.field.goal_width = 0.5;
     if (number % 4 == 1) spec_.puck_friction = 0.6;
-    if (number % 4 == 2 || number % 8 == 5) spec_.surface_friction = SurfaceFriction{PairTable(1, 0.2), RestitutionTable(1, 0.3)};
+    if (number % 4 == 2 || number % 8 == 5)
+      spec_.surface_friction = SurfaceFriction{PairTable(1, 0.2), RestitutionTable(1, 0.3)};
     bat_count_ = number % 5 == 0 ? 0 : 6;
     mass_low_ = number % 2 == 0 ? 1.0 : 0.05;
     has_rack_ = number % 3 == 1;
@@ -74,13 +90,17 @@ class Scene {
     scatter_pucks(world, random, 40, mass_low_, 1.0);
     RandomKeys keys{std::mt19937_64(number_ + 100), 0.05};
     History history;
-    const auto after = [&](double now, double interval) { return interval == never ? never : now + uniform(stops, 0.0, 2.0 * interval); };
+    const auto after = [&](double now, double interval) {
+      return interval == never ? never : now + uniform(stops, 0.0, 2.0 * interval);
+    };
     double stop = after(0.0, way.stop_every), window = after(0.0, way.window_every);
     for (double now = 0.0; now < duration;) {
       now = std::min({stop, window, duration});
       if (bats.empty()) RandomKeys::advance(world, now);
       else keys.play(world, bats, now);
-      if (now == stop) history.energy += world.kinetic_energy(), stop = after(now, way.stop_every);  // asking changes nothing
+      if (now == stop)
+        history.energy += world.kinetic_energy(),
+            stop = after(now, way.stop_every);  // asking changes nothing
       if (now == window) restore(world, history), window = after(now, way.window_every);
     }
     history.hash = world.hash();
@@ -134,7 +154,9 @@ void expect_one_history(std::uint64_t first, std::uint64_t last, double duration
 
 TEST(Determinism, OneHistoryWhateverCellsQueueStopsAndWindows) { expect_one_history(0, 14, 2.0); }
 
-TEST(DeterminismLong, OneHistoryWhateverCellsQueueStopsAndWindows) { expect_one_history(100, 400, 4.0); }
+TEST(DeterminismLong, OneHistoryWhateverCellsQueueStopsAndWindows) {
+  expect_one_history(100, 400, 4.0);
+}
 
 TEST(Determinism, LookingAheadAmongManyPucksChangesNothing) {
   const auto hash = [](QueuePolicy queue) {
@@ -154,7 +176,8 @@ TEST(Determinism, LookingAheadAmongManyPucksChangesNothing) {
     for (int tenth = 1; tenth <= 3; ++tenth) {
       while (world.advance(0.1 * tenth)) {
       }
-      for (int k = 0; k < 100; ++k) world.remove({static_cast<std::uint32_t>(random() % (columns * columns))});
+      for (int k = 0; k < 100; ++k)
+        world.remove({static_cast<std::uint32_t>(random() % (columns * columns))});
     }
     EXPECT_GT(world.counters().goals, 10u);
     return world.hash();
@@ -178,7 +201,8 @@ TEST(Snapshot, IsRefusedIfAnyByteIsAltered) {
     altered[i] = static_cast<std::uint8_t>(altered[i] ^ (1u << (i % 8)));
     EXPECT_FALSE(World::restore(altered)) << i;
   }
-  for (std::size_t length = 0; length < bytes.size(); ++length) EXPECT_FALSE(World::restore(std::span(bytes).first(length))) << length;
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    EXPECT_FALSE(World::restore(std::span(bytes).first(length))) << length;
 }
 
 TEST(Snapshot, BelongsToItsScalar) {
@@ -197,7 +221,8 @@ TEST(Snapshot, BelongsToItsScalar) {
 
 TEST(Snapshot, KeepsAPinnedPuckPinnedAtNoCost) {
   World world(rink_of(4, 2, 0.5, 0.2, 1.0));
-  const BodyId bat = world.add(BatSpec{.position = {1.0, 1.0}}), puck = world.add(PuckSpec{.position = {0.5, 1.0}});
+  const BodyId bat = world.add(BatSpec{.position = {1.0, 1.0}}),
+               puck = world.add(PuckSpec{.position = {0.5, 1.0}});
   world.set_thrust(bat, {-6.0, 0.0});
   world.advance(5.0);
   ASSERT_TRUE(world.is_held(puck));

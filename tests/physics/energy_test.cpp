@@ -1,4 +1,5 @@
-// The books of energy: work of thrust and losses, each from its own integral, must add up to the kinetic energy.
+// The books of energy: work of thrust and losses, each from its own integral, must add up to the
+// kinetic energy.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,8 +10,11 @@ namespace rink::physics::test {
 namespace {
 
 void expect_balance(const World& world, double accuracy) {
-  const double turned_over = world.energy_introduced() + std::abs(world.work_of_thrust()) + std::abs(world.dissipated());
-  EXPECT_NEAR(world.kinetic_energy(), world.energy_introduced() + world.work_of_thrust() - world.dissipated(), accuracy * turned_over);
+  const double turned_over =
+      world.energy_introduced() + std::abs(world.work_of_thrust()) + std::abs(world.dissipated());
+  EXPECT_NEAR(world.kinetic_energy(),
+              world.energy_introduced() + world.work_of_thrust() - world.dissipated(),
+              accuracy * turned_over);
 }
 
 WorldSpec accounted(WorldSpec spec) {
@@ -76,7 +80,9 @@ TEST(Energy, AddsUpInAMatchWithEverything) {
         WorldSpec spec = accounted(rink_of(2.5, 1.5, restitution, 0.1, 1.5));
         spec.puck_friction = friction;
         spec.field.goal_width = 0.4;
-        if (roughness > 0.0) spec.surface_friction = SurfaceFriction{PairTable(1, roughness), RestitutionTable(1, 0.3)};
+        if (roughness > 0.0)
+          spec.surface_friction =
+              SurfaceFriction{PairTable(1, roughness), RestitutionTable(1, 0.3)};
         World world(spec);
         std::mt19937_64 random(41);
         const std::vector<BodyId> bats = scatter_bats(world, random, 3);
@@ -100,7 +106,8 @@ TEST(Energy, AddsUpOverAHundredThousandCollisions) {
   World world(accounted(rink_of(3, 3, 1.0, 0.05)));
   std::mt19937_64 random(43);
   scatter_pucks(world, random, 400, 0.3, 3.0);
-  while (world.counters().disc_impacts < 100000 && world.now() < 100.0) world.advance(world.now() + 1.0);
+  while (world.counters().disc_impacts < 100000 && world.now() < 100.0)
+    world.advance(world.now() + 1.0);
   expect_balance(world, 1e-14);
 }
 

@@ -1,4 +1,5 @@
-// The binary heap gives the same events in the same order as the calendar, and as a search through all.
+// The binary heap gives the same events in the same order as the calendar, and as a search through
+// all.
 #include "game/physics/events/event_heap.h"
 
 #include <gtest/gtest.h>
@@ -24,25 +25,33 @@ TEST(EventHeap, AgreesWithTheCalendarAndWithASearchThroughAll) {
   EventQueue calendar;
   heap.resize(count);
   calendar.resize(count);
-  std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> all(count, {std::numeric_limits<double>::infinity(), 0, 0});
+  std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> all(
+      count, {std::numeric_limits<double>::infinity(), 0, 0});
   double now = 0.0;
   const auto set = [&](std::uint32_t body, double time) {
     const auto other = static_cast<std::uint32_t>(random() % count);
-    all[body] = {time, std::min(body, other), count * std::max(body, other) + body};  // no two alike
+    all[body] = {time, std::min(body, other),
+                 count * std::max(body, other) + body};  // no two alike
     heap.set(body, time, std::get<1>(all[body]), std::get<2>(all[body]));
     calendar.set(body, time, std::get<1>(all[body]), std::get<2>(all[body]));
   };
   for (int step = 0; step < 20'000; ++step) {
     // Coarse times, so that many are equal; now and then none at all.
-    set(static_cast<std::uint32_t>(random() % count), random() % 20 == 0 ? std::numeric_limits<double>::infinity() : now + 1e-3 * static_cast<double>(random() % 40));
+    set(static_cast<std::uint32_t>(random() % count),
+        random() % 20 == 0 ? std::numeric_limits<double>::infinity()
+                           : now + 1e-3 * static_cast<double>(random() % 40));
     const auto best = std::min_element(all.begin(), all.end());
-    const std::uint32_t expected = std::get<0>(*best) <= now + 0.02 ? static_cast<std::uint32_t>(best - all.begin()) : BasicEventHeap<double>::none;
+    const std::uint32_t expected = std::get<0>(*best) <= now + 0.02
+                                       ? static_cast<std::uint32_t>(best - all.begin())
+                                       : BasicEventHeap<double>::none;
     ASSERT_EQ(heap.first(now + 0.02), expected);
     ASSERT_EQ(calendar.first(now + 0.02), expected);
     if (expected == BasicEventHeap<double>::none) continue;
     now = std::get<0>(*best);
     ASSERT_EQ(heap.time(expected), now);
-    const auto close = std::count_if(all.begin(), all.end(), [&](const auto& event) { return std::get<0>(event) <= now + 2e-3; });
+    const auto close = std::count_if(all.begin(), all.end(), [&](const auto& event) {
+      return std::get<0>(event) <= now + 2e-3;
+    });
     ASSERT_EQ(heap.is_followed_within(2e-3), close > 1);
     if (random() % 2 == 0) set(expected, now + 1e-3 * static_cast<double>(1 + random() % 40));
   }

@@ -1,4 +1,5 @@
-// The calendar queue: the order of its events is that of their times, and its work does not depend on how it was asked.
+// The calendar queue: the order of its events is that of their times, and its work does not depend
+// on how it was asked.
 #include "game/physics/events/event_queue.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,10 @@ class PairedEvents {
   }
 
  private:
-  static double time(std::uint64_t number) { return 1e-3 + static_cast<double>(number / 2) * 2.0 * gap_s + static_cast<double>(number % 2) * pair_gap_s; }
+  static double time(std::uint64_t number) {
+    return 1e-3 + static_cast<double>(number / 2) * 2.0 * gap_s +
+           static_cast<double>(number % 2) * pair_gap_s;
+  }
   void set(std::uint32_t body, double time) { queue_.set(body, time, body, body); }
 
   EventQueue queue_;
@@ -50,7 +54,8 @@ TEST(EventQueue, IsNotMisledByManyQuestionsBetweenTwoEventsOfAPair) {
   for (int pair = 0; pair < 4; ++pair) {
     events.take(1);
     // As a server asks when a thousand players press keys within a microsecond.
-    for (int i = 0; i < 400'000; ++i) ASSERT_EQ(events.queue().first(events.next_time() - 1e-10), EventQueue::none);
+    for (int i = 0; i < 400'000; ++i)
+      ASSERT_EQ(events.queue().first(events.next_time() - 1e-10), EventQueue::none);
   }
   events.take(100);  // a queue may need a moment to adapt
   const std::uint64_t before = events.queue().looked_at();
@@ -63,7 +68,9 @@ TEST(EventQueue, KnowsWhetherAnotherEventFollowsClosely) {
   queue.resize(1000);
   std::uint64_t said_in_vain = 0;
   // Pairs 1e-10 s apart and single events, 1 ms from one to the next.
-  const auto time = [](std::uint32_t body) { return 1e-3 * (body / 3 * 2 + (body % 3 == 2 ? 1 : 0)) + (body % 3 == 1 ? 1e-10 : 0.0); };
+  const auto time = [](std::uint32_t body) {
+    return 1e-3 * (body / 3 * 2 + (body % 3 == 2 ? 1 : 0)) + (body % 3 == 1 ? 1e-10 : 0.0);
+  };
   for (std::uint32_t body = 0; body < 1000; ++body) queue.set(body, time(body), body, body);
   for (std::uint32_t body = 0; body < 1000; ++body) {
     ASSERT_EQ(queue.first(1e9), body);
@@ -88,7 +95,7 @@ TEST(EventQueue, DoesNotTakeAnImpactForItsOwnSuccessorBecauseItIsNotedForBothBod
   ASSERT_LE(heap.first(1.0), 1u);
   EXPECT_FALSE(calendar.is_followed_within(1e-12));
   EXPECT_FALSE(heap.is_followed_within(1e-12));
-  set(2, 1e-4, 1, 2);  // a third one touches the second at the same time
+  set(2, 1e-4, 1, 2);                  // a third one touches the second at the same time
   ASSERT_LE(calendar.first(1.0), 1u);  // of either body: it is one impact
   ASSERT_LE(heap.first(1.0), 1u);
   EXPECT_TRUE(calendar.is_followed_within(1e-12));
@@ -116,8 +123,10 @@ TEST(EventQueue, KeepsTheOrderOfASortedSetWhileBodiesComeRestAndGo) {
     // Busy at first, then nearly all rest for long, then busy again.
     const bool is_idle = step > 30'000 && step < 60'000;
     const double scale = is_idle ? 100.0 : 1.0;
-    put(body, is_idle && sorted.size() > 20 ? std::numeric_limits<double>::infinity() : now + test::uniform(random, 0.0, scale));
-    if (step >= 60'000 && step < 64'000) put(static_cast<std::uint32_t>(random() % 5'000), now + test::uniform(random, 0.0, 1.0));
+    put(body, is_idle && sorted.size() > 20 ? std::numeric_limits<double>::infinity()
+                                            : now + test::uniform(random, 0.0, scale));
+    if (step >= 60'000 && step < 64'000)
+      put(static_cast<std::uint32_t>(random() % 5'000), now + test::uniform(random, 0.0, 1.0));
   }
   EXPECT_LE(queue.looked_at(), 8u * 100'000u);
 }
@@ -127,7 +136,8 @@ TEST(EventQueue, DoesNoMoreWorkForBodiesWithoutAnEvent) {
     EventQueue queue;
     queue.resize(count);
     std::mt19937_64 random(10);
-    for (std::uint32_t body = 0; body < 100; ++body) queue.set(body, test::uniform(random, 0.0, 1.0), body, body);
+    for (std::uint32_t body = 0; body < 100; ++body)
+      queue.set(body, test::uniform(random, 0.0, 1.0), body, body);
     for (int step = 0; step < 20'000; ++step) {
       const std::uint32_t body = queue.first(1e9);
       queue.set(body, queue.time(body) + test::uniform(random, 0.0, 1.0), body, body);

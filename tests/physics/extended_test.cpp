@@ -47,27 +47,37 @@ TEST(TheExtendedEngine, AgreesWithTheDoubleOneToRounding) {
   EXPECT_EQ(world.counters().impacts(), truth.counters().impacts());
   long double worst = 0.0;
   for (std::uint32_t body = 0; body < world.body_count(); ++body)
-    worst = std::max(worst, (world.position({body}).cast<long double>() - truth.position({body})).norm());
+    worst = std::max(worst,
+                     (world.position({body}).cast<long double>() - truth.position({body})).norm());
   EXPECT_LT(worst, 1e-11L);  // 2^-53 m, grown by a dozen impacts
   EXPECT_GT(worst, 0.0L);
 }
 
-/// An oblique impact of unequal, perfectly elastic pucks at 3/5, 4/5: every number of the answer is rational.
+/// An oblique impact of unequal, perfectly elastic pucks at 3/5, 4/5: every number of the answer is
+/// rational.
 template <class Real>
 long double error_of_an_oblique_impact() {
   BasicWorld<Real> world(rink_of(16.0, 16.0));
-  const BodyId a = world.add(PuckSpec{.position = {4.0, 8.0}, .velocity = {1.0, 0.0}, .radius = 0.25});
-  // Contact when the centres are 0.5 apart along (3/5, 4/5) in units of the reach: offset (0.3, 0.4) is not a binary fraction, so take reach 0.625: (0.375, 0.5).
-  const BodyId b = world.add(PuckSpec{.position = {6.375, 8.5}, .velocity = {0.0, 0.0}, .radius = 0.375, .mass = 2.0});
+  const BodyId a =
+      world.add(PuckSpec{.position = {4.0, 8.0}, .velocity = {1.0, 0.0}, .radius = 0.25});
+  // Contact when the centres are 0.5 apart along (3/5, 4/5) in units of the reach: offset (0.3,
+  // 0.4) is not a binary fraction, so take reach 0.625: (0.375, 0.5).
+  const BodyId b = world.add(
+      PuckSpec{.position = {6.375, 8.5}, .velocity = {0.0, 0.0}, .radius = 0.375, .mass = 2.0});
   world.advance(static_cast<Real>(3.0));
-  // At time 2: normal (3/5, 4/5), closing 3/5, impulse 2 (3/5)/(1 + 1/2) = 4/5; a loses it along the normal, b gains half of it.
-  const Extended a_velocity(1.0L - 12.0L / 25.0L, -16.0L / 25.0L), b_velocity(6.0L / 25.0L, 8.0L / 25.0L);
-  const Extended at_a = Extended(6.0L, 8.0L) + a_velocity, at_b = Extended(6.375L, 8.5L) + b_velocity;
-  return std::max((world.position(a).template cast<long double>() - at_a).norm(), (world.position(b).template cast<long double>() - at_b).norm());
+  // At time 2: normal (3/5, 4/5), closing 3/5, impulse 2 (3/5)/(1 + 1/2) = 4/5; a loses it along
+  // the normal, b gains half of it.
+  const Extended a_velocity(1.0L - 12.0L / 25.0L, -16.0L / 25.0L),
+      b_velocity(6.0L / 25.0L, 8.0L / 25.0L);
+  const Extended at_a = Extended(6.0L, 8.0L) + a_velocity,
+                 at_b = Extended(6.375L, 8.5L) + b_velocity;
+  return std::max((world.position(a).template cast<long double>() - at_a).norm(),
+                  (world.position(b).template cast<long double>() - at_b).norm());
 }
 
 TEST(TheExtendedEngine, IsNearerToAClosedFormThanTheDoubleOne) {
-  const long double in_double = error_of_an_oblique_impact<double>(), extended = error_of_an_oblique_impact<long double>();
+  const long double in_double = error_of_an_oblique_impact<double>(),
+                    extended = error_of_an_oblique_impact<long double>();
   EXPECT_LT(in_double, 4e-15L);
   EXPECT_GT(in_double, 0.0L);
   EXPECT_LT(extended, in_double / 100.0L);

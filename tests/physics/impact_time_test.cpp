@@ -1,4 +1,5 @@
-// Times of first contact against closed forms, fine stepping in extended precision, and the hard cases.
+// Times of first contact against closed forms, fine stepping in extended precision, and the hard
+// cases.
 #include "game/physics/flight/impact_time.h"
 
 #include <gtest/gtest.h>
@@ -28,13 +29,16 @@ RealPoint real_position(const Motion& m, Real time) {
 
 Real real_gap(const Motion& a, const Motion& b, const RoundedBox& shape, Real time) {
   const RealPoint p = real_position(a, time), q = real_position(b, time);
-  const Real x = std::abs(q.x - p.x) - static_cast<Real>(shape.half_extent.x()), y = std::abs(q.y - p.y) - static_cast<Real>(shape.half_extent.y());
+  const Real x = std::abs(q.x - p.x) - static_cast<Real>(shape.half_extent.x()),
+             y = std::abs(q.y - p.y) - static_cast<Real>(shape.half_extent.y());
   if (x > 0 && y > 0) return std::sqrt(x * x + y * y) - static_cast<Real>(shape.radius);
   return std::max(x, y) - static_cast<Real>(shape.radius);
 }
 
-/// First sign change of the gap by fine stepping and bisection; negative if there is none before `until`.
-Real first_contact_by_stepping(const Motion& a, const Motion& b, const RoundedBox& shape, Real start, Real until, int steps) {
+/// First sign change of the gap by fine stepping and bisection; negative if there is none before
+/// `until`.
+Real first_contact_by_stepping(const Motion& a, const Motion& b, const RoundedBox& shape,
+                               Real start, Real until, int steps) {
   Real before = start;
   for (int i = 1; i <= steps; ++i) {
     Real after = start + (until - start) * i / steps;
@@ -64,7 +68,8 @@ TEST(DiscImpact, TouchingDiscsThatCloseCollideNowAndPartingOnesNever) {
 }
 
 TEST(DrivenImpact, FindsEachOfThreeRootsWhenDragsDiffer) {
-  // Puck before a bat: drag 0.2 and 3 per second, thrust 6 m/s^2, gap 17.7 mm; the gap has roots at 0.064, 0.395 and 2.09 s.
+  // Puck before a bat: drag 0.2 and 3 per second, thrust 6 m/s^2, gap 17.7 mm; the gap has roots at
+  // 0.064, 0.395 and 2.09 s.
   Motion bat, puck;
   bat.velocity = {2.9726, 0.0};
   bat.acceleration = {6.0, 0.0};
@@ -75,12 +80,17 @@ TEST(DrivenImpact, FindsEachOfThreeRootsWhenDragsDiffer) {
   const RoundedBox shape{{0.5, 1.0}, 0.0};
   const auto first = first_contact(RelativeMotion{bat, puck}, shape, 0.0, 10.0, 1e-16);
   ASSERT_TRUE(first);
-  EXPECT_NEAR(*first, static_cast<double>(first_contact_by_stepping(bat, puck, shape, 0, 0.2L, 2000)), 1e-13);
+  EXPECT_NEAR(*first,
+              static_cast<double>(first_contact_by_stepping(bat, puck, shape, 0, 0.2L, 2000)),
+              1e-13);
   EXPECT_NEAR(*first, 0.064, 5e-4);
   // From behind the second root the third is the first to come.
-  const auto third = first_contact(RelativeMotion{bat, puck}, HalfPlane{{1.0, 0.0}, 0.5}, 0.5, 10.0, 1e-16);
+  const auto third =
+      first_contact(RelativeMotion{bat, puck}, HalfPlane{{1.0, 0.0}, 0.5}, 0.5, 10.0, 1e-16);
   ASSERT_TRUE(third);
-  EXPECT_NEAR(*third, static_cast<double>(first_contact_by_stepping(bat, puck, shape, 0.5L, 3, 5000)), 1e-13);
+  EXPECT_NEAR(*third,
+              static_cast<double>(first_contact_by_stepping(bat, puck, shape, 0.5L, 3, 5000)),
+              1e-13);
   EXPECT_NEAR(*third, 2.09, 5e-3);
 }
 
@@ -91,7 +101,8 @@ TEST(DrivenImpact, BatEdgesAndRoundedCornersAgreeWithFineStepping) {
     SCOPED_TRACE(i);
     Motion bat, puck;
     bat.velocity = {uniform(random, -3, 3), uniform(random, -3, 3)};
-    bat.acceleration = {6.0 * static_cast<double>(random() % 3) - 6.0, 6.0 * static_cast<double>(random() % 3) - 6.0};
+    bat.acceleration = {6.0 * static_cast<double>(random() % 3) - 6.0,
+                        6.0 * static_cast<double>(random() % 3) - 6.0};
     bat.drag = Vector2::Constant(random() % 4 == 0 ? 0.0 : uniform(random, 0.1, 3.0));
     puck.position = {uniform(random, -1, 1), uniform(random, -1, 1)};
     puck.velocity = {uniform(random, -3, 3), uniform(random, -3, 3)};
@@ -125,12 +136,14 @@ TEST(DrivenImpact, SafeStepsEqualTheQuadraticWhereBothApply) {
     b.velocity = {uniform(random, -2, 2), uniform(random, -2, 2)};
     if (b.position.norm() < 0.08) continue;
     const auto straight = time_to_touch(b.position, b.velocity - a.velocity, 0.08);
-    const auto stepped = first_contact(RelativeMotion{a, b}, RoundedBox{{0.0, 0.0}, 0.08}, 0.0, 1e3, 4e-16);
+    const auto stepped =
+        first_contact(RelativeMotion{a, b}, RoundedBox{{0.0, 0.0}, 0.08}, 0.0, 1e3, 4e-16);
     ASSERT_EQ(straight.has_value(), stepped.has_value());
     if (!straight) continue;
     const Vector2 velocity = b.velocity - a.velocity;
     const double miss = std::abs(cross(b.position, velocity)) / velocity.norm() / 0.08;
-    EXPECT_NEAR(*straight, *stepped, 4e-14 * (1.0 + *straight) / std::sqrt(1.0 - std::min(miss * miss, 1.0 - 1e-12)));
+    EXPECT_NEAR(*straight, *stepped,
+                4e-14 * (1.0 + *straight) / std::sqrt(1.0 - std::min(miss * miss, 1.0 - 1e-12)));
   }
 }
 

@@ -14,7 +14,13 @@ namespace rink::physics::test {
 namespace {
 
 enum Material : MaterialId {
-  of_wall, of_puck, of_other_puck, of_bat, of_other_bat, of_post, material_count
+  of_wall,
+  of_puck,
+  of_other_puck,
+  of_bat,
+  of_other_bat,
+  of_post,
+  material_count
 };
 
 /// A number of its own for each pair, whichever of the two is named first.
@@ -101,9 +107,9 @@ std::vector<Encounter> all_encounters() {
   return all;
 }
 
-/// What is left of an impact in which `body` comes at 1 m/s along the normal and 0.25 m/s across it.
-void expect_laws_of_the_pair(const Encounter& encounter, Surfaces surfaces,
-                             bool is_partner_first) {
+/// What is left of an impact in which `body` comes at 1 m/s along the normal and 0.25 m/s across
+/// it.
+void expect_laws_of_the_pair(const Encounter& encounter, Surfaces surfaces, bool is_partner_first) {
   SCOPED_TRACE(encounter.name + (is_partner_first ? ", the partner added first" : ""));
   using P = Encounter::Partner;
   World world(field_of_many_materials(surfaces));
@@ -111,9 +117,7 @@ void expect_laws_of_the_pair(const Encounter& encounter, Surfaces surfaces,
   const Vector2 before = -normal + 0.25 * tangent;
   // Across, the body starts beside its way, so that it arrives straight before its partner.
   const bool is_edge = normal.x() != 0.0 && normal.y() != 0.0;
-  const double wait = encounter.partner != P::field ? 0.5 - 2.0 * disc
-                      : is_edge                     ? 0.5 - disc
-                                                    : 0.0;
+  const double wait = encounter.partner != P::field ? 0.5 - 2.0 * disc : is_edge ? 0.5 - disc : 0.0;
   const Vector2 start = encounter.place - 0.25 * wait * tangent;
   BodyId body, partner;
   const auto add_body = [&] {
@@ -176,8 +180,8 @@ TEST(Materials, OfBothPartnersDecideHowTheirSurfacesStick) {
   expect_laws_of_every_pair(Surfaces::sticking);
 }
 
-/// Two pucks that lose nothing take a shorter way through the engine. It is theirs by their pair, not
-/// by either one's own material.
+/// Two pucks that lose nothing take a shorter way through the engine. It is theirs by their pair,
+/// not by either one's own material.
 TEST(Materials, ThatLoseNothingAmongThemselvesLoseWithOneAnother) {
   for (const double with_each_other : {0.5, 1.0}) {
     WorldSpec spec = rink_of(4, 4);

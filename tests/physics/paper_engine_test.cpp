@@ -36,8 +36,10 @@ TEST(IntegratorsInFreeFlight, ConvergeWithOrdersOneOneTwoAndFour) {
   const std::array<double, 4> orders{1.0, 1.0, 2.0, 4.0};
   for (std::size_t i = 0; i < integrators.size(); ++i)
     for (const double frames : {64.0, 128.0, 256.0}) {
-      const double order = std::log2(free_flight_error(integrators[i], 1.0 / frames) / free_flight_error(integrators[i], 0.5 / frames));
-      EXPECT_NEAR(order, orders[i], 0.08) << integrators[i] << " at " << frames << " frames per second";
+      const double order = std::log2(free_flight_error(integrators[i], 1.0 / frames) /
+                                     free_flight_error(integrators[i], 0.5 / frames));
+      EXPECT_NEAR(order, orders[i], 0.08)
+          << integrators[i] << " at " << frames << " frames per second";
     }
 }
 
@@ -46,7 +48,8 @@ TEST(IntegratorsInFreeFlight, KeepTheirOrderWhenAKeyFallsWithinAFrame) {
   const double key_time = 0.3937, drag = 3.0;
   const Vector2 before(6.0, 0.0), after(-3.0, 5.0);
   const WarpedTime w1 = warp(key_time, drag), w2 = warp(1.0 - key_time, drag);
-  const Vector2 expected = Vector2(10.0, 10.0) + w1.q * before + w2.s * (w1.s * before) + w2.q * after;
+  const Vector2 expected =
+      Vector2(10.0, 10.0) + w1.q * before + w2.s * (w1.s * before) + w2.q * after;
   const auto error = [&](const char* integrator, double dt) {
     const auto simulator = paper(rink_of(20.0, 20.0, 1.0, 0.0, drag), integrator, dt);
     const BodyId bat = simulator->add(BatSpec{.position = {10.0, 10.0}});
@@ -57,7 +60,8 @@ TEST(IntegratorsInFreeFlight, KeepTheirOrderWhenAKeyFallsWithinAFrame) {
     return (simulator->position(bat) - expected).norm();
   };
   for (std::size_t i = 0; i < integrators.size(); ++i) {
-    const double order = std::log2(error(integrators[i], 1.0 / 64) / error(integrators[i], 1.0 / 256)) / 2;
+    const double order =
+        std::log2(error(integrators[i], 1.0 / 64) / error(integrators[i], 1.0 / 256)) / 2;
     EXPECT_NEAR(order, orders[i], 0.25) << integrators[i];
   }
 }
@@ -69,7 +73,8 @@ TEST(ExplicitEuler, MultipliesSpeedByOneMinusDragTimesFrameAndGrowsWithoutBoundB
     play(*simulator, until);
     return simulator->velocity(puck).x();
   };
-  EXPECT_NEAR(speed_after(0.5, 1.0 / 64, 1.0), std::pow(1.0 - 0.5 / 64, 64), 1e-14);  // the truth is exp(-0.5)
+  EXPECT_NEAR(speed_after(0.5, 1.0 / 64, 1.0), std::pow(1.0 - 0.5 / 64, 64),
+              1e-14);  // the truth is exp(-0.5)
   EXPECT_NEAR(speed_after(25.0, 0.125, 1.0), std::pow(1.0 - 25.0 * 0.125, 8), 1e-9);
 }
 
@@ -80,26 +85,31 @@ TEST(PapersEngine, MeetsTheExactOneInFreePairsWithoutForces) {
     World world(spec);
     const auto simulator = paper(spec, integrators[random() % 4], 1.0 / 60);
     for (const double x : {1.0, 3.0}) {
-      const PuckSpec puck{.position = {x, uniform(random, 0.9, 1.1)},
-                          .velocity = {x < 2.0 ? uniform(random, 0.5, 3.0) : uniform(random, -3.0, -0.5), uniform(random, -0.1, 0.1)},
-                          .radius = uniform(random, 0.1, 0.3),
-                          .mass = uniform(random, 0.1, 10.0)};
+      const PuckSpec puck{
+          .position = {x, uniform(random, 0.9, 1.1)},
+          .velocity = {x < 2.0 ? uniform(random, 0.5, 3.0) : uniform(random, -3.0, -0.5),
+                       uniform(random, -0.1, 0.1)},
+          .radius = uniform(random, 0.1, 0.3),
+          .mass = uniform(random, 0.1, 10.0)};
       world.add(puck);
       simulator->add(puck);
     }
     EXPECT_FALSE(world.advance(1.2));
     play(*simulator, 1.2);
     EXPECT_EQ(simulator->counters().impacts(), world.counters().impacts()) << round;
-    for (const BodyId puck : {BodyId{0}, BodyId{1}}) EXPECT_LT((simulator->position(puck) - world.position(puck)).norm(), 1e-12) << round;
+    for (const BodyId puck : {BodyId{0}, BodyId{1}})
+      EXPECT_LT((simulator->position(puck) - world.position(puck)).norm(), 1e-12) << round;
   }
 }
 
-/// The distance from the exact engine after a collision of two pucks under drag, 1 s from the start.
+/// The distance from the exact engine after a collision of two pucks under drag, 1 s from the
+/// start.
 double pair_error(const std::string& integrator, double dt) {
   const WorldSpec spec = rink_of(4.0, 2.0, 0.9, 0.8);
   World world(spec);
   const auto simulator = paper(spec, integrator, dt);
-  const PuckSpec light{.position = {1.0, 1.0}, .velocity = {1.5, 0.05}, .radius = 0.2}, heavy{.position = {2.5, 1.1}, .velocity = {-1.0, 0.0}, .radius = 0.2, .mass = 2.0};
+  const PuckSpec light{.position = {1.0, 1.0}, .velocity = {1.5, 0.05}, .radius = 0.2},
+      heavy{.position = {2.5, 1.1}, .velocity = {-1.0, 0.0}, .radius = 0.2, .mass = 2.0};
   for (const PuckSpec& puck : {light, heavy}) {
     world.add(puck);
     simulator->add(puck);
@@ -108,14 +118,17 @@ double pair_error(const std::string& integrator, double dt) {
   play(*simulator, 1.0);
   EXPECT_EQ(world.counters().disc_impacts, 1u);
   EXPECT_EQ(simulator->counters().disc_impacts, 1u);
-  return (simulator->position({0}) - world.position({0})).norm() + (simulator->position({1}) - world.position({1})).norm();
+  return (simulator->position({0}) - world.position({0})).norm() +
+         (simulator->position({1}) - world.position({1})).norm();
 }
 
 TEST(PapersEngine, ApproachesTheExactOneAsFramesShrinkAndAnImpactLimitsTheOrderToTwo) {
   const std::array<double, 4> least_orders{0.9, 0.9, 1.7, 1.7};
   for (std::size_t i = 0; i < integrators.size(); ++i) {
-    const double coarse = pair_error(integrators[i], 1.0 / 50), fine = pair_error(integrators[i], 1.0 / 3200);
-    EXPECT_GT(std::log2(coarse / fine) / 6.0, least_orders[i]) << integrators[i] << ": " << coarse << " to " << fine;
+    const double coarse = pair_error(integrators[i], 1.0 / 50),
+                 fine = pair_error(integrators[i], 1.0 / 3200);
+    EXPECT_GT(std::log2(coarse / fine) / 6.0, least_orders[i])
+        << integrators[i] << ": " << coarse << " to " << fine;
     EXPECT_LT(fine, i < 2 ? 1e-3 : 1e-6) << integrators[i];
   }
 }
@@ -126,7 +139,10 @@ TEST(PapersEngine, KeepsTheEnergyAndMomentumOfAnElasticGas) {
   World world(spec);
   const auto pucks = test::scatter_pucks(world, random, 100, 0.1, 10.0);
   const auto simulator = paper(spec, "euler", 1.0 / 60);
-  for (const BodyId puck : pucks) simulator->add(PuckSpec{.position = world.position(puck), .velocity = world.velocity(puck), .mass = world.mass(puck)});
+  for (const BodyId puck : pucks)
+    simulator->add(PuckSpec{.position = world.position(puck),
+                            .velocity = world.velocity(puck),
+                            .mass = world.mass(puck)});
   const double before = simulator->kinetic_energy();
   play(*simulator, 10.0);
   EXPECT_GT(simulator->counters().impacts(), 3000u);
@@ -141,9 +157,11 @@ class FastPucks : public ::testing::TestWithParam<const char*> {
   /// Where a puck of 0.02 m is 0.1 s after it was shot along the middle at an obstacle at x = 2.
   template <class Obstacle>
   double shot_at(const Obstacle& obstacle) {
-    const auto simulator = make_simulator(rink_of(40.0, 2.0), {.engine = GetParam(), .dt = 1.0 / 60});
+    const auto simulator =
+        make_simulator(rink_of(40.0, 2.0), {.engine = GetParam(), .dt = 1.0 / 60});
     simulator->add(obstacle);
-    const BodyId puck = simulator->add(PuckSpec{.position = {1.0, 1.0}, .velocity = {45.0, 0.0}, .radius = 0.02, .mass = 1e-3});
+    const BodyId puck = simulator->add(
+        PuckSpec{.position = {1.0, 1.0}, .velocity = {45.0, 0.0}, .radius = 0.02, .mass = 1e-3});
     play(*simulator, 0.1);
     return simulator->position(puck).x();
   }
@@ -151,7 +169,8 @@ class FastPucks : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(FastPucks, PassThroughAThinBatOnlyWhereContactsAreTestedAtTheEndsOfFrames) {
-  const double x = shot_at(BatSpec{.position = {2.0, 1.0}, .half_extent = {0.02, 0.1}, .mass = 1e6});
+  const double x =
+      shot_at(BatSpec{.position = {2.0, 1.0}, .half_extent = {0.02, 0.1}, .mass = 1e6});
   if (is_naive()) {
     EXPECT_NEAR(x, 1.0 + 45.0 * 0.1, 1e-9);
   } else {
@@ -168,14 +187,18 @@ TEST_P(FastPucks, PassThroughAPostOnlyWhereContactsAreTestedAtTheEndsOfFrames) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, FastPucks, ::testing::Values("exact", "paper", "naive"), [](const auto& engine) { return std::string(engine.param); });
+INSTANTIATE_TEST_SUITE_P(Engines, FastPucks, ::testing::Values("exact", "paper", "naive"),
+                         [](const auto& engine) { return std::string(engine.param); });
 
-/// After an impact explicit Euler spends the rest r of the frame along v r, away from the wall; the others along a path that thrust bends back, into the wall again if v < a r.
+/// After an impact explicit Euler spends the rest r of the frame along v r, away from the wall; the
+/// others along a path that thrust bends back, into the wall again if v < a r.
 TEST(PaperEngine, CountsTheBatThatLeansOnAWallByTheSchemesNatureButKeepsItThere) {
   std::uint64_t impacts[4];
   for (std::size_t k = 0; k < 4; ++k) {
     constexpr double dt = 1.0 / 60, thrust = 6.0;
-    const auto simulator = make_simulator(rink_of(4.0, 2.0, 0.9, 0.0, 3.0), {.engine = "paper", .integrator = integrator_names()[k], .dt = dt});
+    const auto simulator =
+        make_simulator(rink_of(4.0, 2.0, 0.9, 0.0, 3.0),
+                       {.engine = "paper", .integrator = integrator_names()[k], .dt = dt});
     const BodyId bat = simulator->add(BatSpec{.position = {0.5, 1.0}, .half_extent = {0.05, 0.1}});
     simulator->set_thrust(bat, {-thrust, 0.0});
     simulator->advance(10.0);
@@ -183,16 +206,19 @@ TEST(PaperEngine, CountsTheBatThatLeansOnAWallByTheSchemesNatureButKeepsItThere)
     simulator->advance(20.0);
     impacts[k] = simulator->counters().impacts() - before;
     EXPECT_LE(impacts[k], 21u * 600u);  // 20 a frame, and the one that stops it
-    EXPECT_NEAR(simulator->position(bat).x(), 0.05, 10.0 * thrust * dt * dt) << integrator_names()[k];
+    EXPECT_NEAR(simulator->position(bat).x(), 0.05, 10.0 * thrust * dt * dt)
+        << integrator_names()[k];
     EXPECT_LT(simulator->max_overlap(), 1e-15);
   }
   EXPECT_EQ(integrator_names()[0], "euler");
-  for (std::size_t k = 1; k < 4; ++k) EXPECT_GT(impacts[k], 5 * impacts[0]) << integrator_names()[k];
+  for (std::size_t k = 1; k < 4; ++k)
+    EXPECT_GT(impacts[k], 5 * impacts[0]) << integrator_names()[k];
 }
 
 TEST(NaiveEngine, BouncesSlowPucksAsTheOthersDoButLate) {
   const auto simulator = make_simulator(rink_of(4.0, 2.0), {.engine = "naive", .dt = 1.0 / 60});
-  const BodyId left = simulator->add(PuckSpec{.position = {1.0, 1.0}, .velocity = {0.5, 0.0}}), right = simulator->add(PuckSpec{.position = {3.0, 1.0}, .velocity = {-0.5, 0.0}});
+  const BodyId left = simulator->add(PuckSpec{.position = {1.0, 1.0}, .velocity = {0.5, 0.0}}),
+               right = simulator->add(PuckSpec{.position = {3.0, 1.0}, .velocity = {-0.5, 0.0}});
   play(*simulator, 3.0);
   EXPECT_EQ(simulator->velocity(left), Vector2(-0.5, 0.0));
   EXPECT_EQ(simulator->velocity(right), Vector2(0.5, 0.0));
@@ -201,7 +227,8 @@ TEST(NaiveEngine, BouncesSlowPucksAsTheOthersDoButLate) {
 }
 
 /// 12 pucks, 4 bats and 3 posts in a field with goals and a halfway line.
-std::unique_ptr<Simulator> busy_rink(const SimulatorChoice& choice, double restitution, std::vector<BodyId>& bats, std::uint64_t seed) {
+std::unique_ptr<Simulator> busy_rink(const SimulatorChoice& choice, double restitution,
+                                     std::vector<BodyId>& bats, std::uint64_t seed) {
   WorldSpec spec = rink_of(2.0, 1.2, restitution, 0.1, 3.0);
   spec.field.goal_width = 0.4;
   spec.field.bats_keep_to_half = true;
@@ -211,16 +238,24 @@ std::unique_ptr<Simulator> busy_rink(const SimulatorChoice& choice, double resti
   simulator->add(PostSpec{.position = {1.0, 0.6}, .radius = 0.03});
   std::mt19937_64 random(seed);
   for (const double x : {0.3, 0.6, 1.4, 1.7})
-    bats.push_back(simulator->add(BatSpec{.position = {x, 0.6}, .half_extent = {0.04, 0.09}, .mass = 0.5, .half = x < 1.0 ? Half::left : Half::right}));
+    bats.push_back(simulator->add(BatSpec{.position = {x, 0.6},
+                                          .half_extent = {0.04, 0.09},
+                                          .mass = 0.5,
+                                          .half = x < 1.0 ? Half::left : Half::right}));
   for (int tries = 0; simulator->body_count() < 19 && tries < 10000; ++tries) {
     const Vector2 place(uniform(random, 0.04, 1.96), uniform(random, 0.04, 1.16));
-    if (simulator->is_free(place, 0.04)) simulator->add(PuckSpec{.position = place, .velocity = {uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0)}, .mass = 0.1});
+    if (simulator->is_free(place, 0.04))
+      simulator->add(PuckSpec{.position = place,
+                              .velocity = {uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0)},
+                              .mass = 0.1});
   }
   return simulator;
 }
 
-/// Presses keys at random times and puts scored pucks back; stops `extra_stops` times more often than it must.
-void play_keys(Simulator& simulator, const std::vector<BodyId>& bats, double until, std::uint64_t seed, int extra_stops) {
+/// Presses keys at random times and puts scored pucks back; stops `extra_stops` times more often
+/// than it must.
+void play_keys(Simulator& simulator, const std::vector<BodyId>& bats, double until,
+               std::uint64_t seed, int extra_stops) {
   std::mt19937_64 random(seed);
   double next = 0.0;
   std::vector<BodyId> scored;
@@ -228,13 +263,17 @@ void play_keys(Simulator& simulator, const std::vector<BodyId>& bats, double unt
     while (const auto goal = simulator.advance(time)) scored.push_back(goal->puck);
   };
   while (next < until) {
-    for (int stop = 1; stop <= extra_stops; ++stop) go_on(simulator.now() + (next - simulator.now()) * stop / (extra_stops + 1.0));
+    for (int stop = 1; stop <= extra_stops; ++stop)
+      go_on(simulator.now() + (next - simulator.now()) * stop / (extra_stops + 1.0));
     go_on(next);
-    const double x = static_cast<double>(random() % 3) - 1.0, y = static_cast<double>(random() % 3) - 1.0;
+    const double x = static_cast<double>(random() % 3) - 1.0,
+                 y = static_cast<double>(random() % 3) - 1.0;
     simulator.set_thrust(bats[random() % bats.size()], {8.0 * x, 8.0 * y});
     for (std::size_t i = 0; i < scored.size();) {
       const Vector2 spot(1.0 + 0.1 * static_cast<double>(i), 0.4);
-      if (simulator.is_free(spot, 0.04)) simulator.place(scored[i], spot, {0.0, 0.0}), scored.erase(scored.begin() + static_cast<std::ptrdiff_t>(i));
+      if (simulator.is_free(spot, 0.04))
+        simulator.place(scored[i], spot, {0.0, 0.0}),
+            scored.erase(scored.begin() + static_cast<std::ptrdiff_t>(i));
       else ++i;
     }
     next += uniform(random, 0.0, 0.2);
@@ -257,7 +296,8 @@ TEST(Simulators, RecordEveryEventThatTheyCount) {
     }
     Counters counted = simulator->counters();
     for (std::size_t kind = 0; kind < event_kind_names.size(); ++kind)
-      EXPECT_EQ(seen.of(static_cast<EventKind>(kind)), counted.of(static_cast<EventKind>(kind))) << engine << ' ' << event_kind_names[kind];
+      EXPECT_EQ(seen.of(static_cast<EventKind>(kind)), counted.of(static_cast<EventKind>(kind)))
+          << engine << ' ' << event_kind_names[kind];
     EXPECT_GT(seen.impacts(), 200u) << engine;
   }
 }
@@ -268,7 +308,8 @@ TEST(SteppedEngines, GiveTheSameBitsWhereverTheyStop) {
       std::vector<std::uint64_t> hashes;
       for (const int extra_stops : {0, 1, 7}) {
         std::vector<BodyId> bats;
-        const auto simulator = busy_rink({.engine = engine, .integrator = integrator, .dt = 1.0 / 60}, 0.8, bats, 3);
+        const auto simulator =
+            busy_rink({.engine = engine, .integrator = integrator, .dt = 1.0 / 60}, 0.8, bats, 3);
         play_keys(*simulator, bats, 5.0, 9, extra_stops);
         hashes.push_back(simulator->hash());
       }
@@ -281,7 +322,8 @@ TEST(PapersEngine, LetsNothingEscapeOrOverlapUnderRandomKeysWithExplicitEuler) {
   for (const double restitution : {0.0, 0.5, 0.9, 1.0})
     for (const std::uint64_t seed : {1, 2, 3}) {
       std::vector<BodyId> bats;
-      const auto simulator = busy_rink({.engine = "paper", .dt = 1.0 / 60}, restitution, bats, seed);
+      const auto simulator =
+          busy_rink({.engine = "paper", .dt = 1.0 / 60}, restitution, bats, seed);
       play_keys(*simulator, bats, 10.0, seed + 100, 0);
       EXPECT_EQ(escape_count(*simulator), 0u) << restitution << ", seed " << seed;
       EXPECT_LT(simulator->max_overlap(), 1e-3) << restitution << ", seed " << seed;
@@ -293,7 +335,9 @@ TEST(PapersEngine, FinishesItsFramesWhileABatPressesAPuckIntoAWall) {
   for (const char* integrator : integrators)
     for (const double restitution : {0.0, 0.5, 1.0}) {
       const auto simulator = paper(rink_of(2.0, 1.0, restitution, 0.0, 3.0), integrator, 1.0 / 60);
-      const BodyId bat = simulator->add(BatSpec{.position = {0.3, 0.5}, .half_extent = {0.05, 0.1}}), puck = simulator->add(PuckSpec{.position = {0.15, 0.5}, .mass = 0.1});
+      const BodyId bat =
+                       simulator->add(BatSpec{.position = {0.3, 0.5}, .half_extent = {0.05, 0.1}}),
+                   puck = simulator->add(PuckSpec{.position = {0.15, 0.5}, .mass = 0.1});
       simulator->set_thrust(bat, {-8.0, 0.0});
       play(*simulator, 10.0);
       EXPECT_GE(simulator->position(puck).x(), 0.04 - 1e-3) << integrator << ' ' << restitution;
@@ -305,7 +349,8 @@ TEST(PapersEngine, FinishesItsFramesWhileABatPressesAPuckIntoAWall) {
 TEST(PapersEngine, ScoresTheSameGoalsAtTheSameTimesWithoutForces) {
   WorldSpec spec = rink_of(2.0, 1.0);
   spec.field.goal_width = 0.3;
-  for (const double slope : {0.0, 0.1, 0.16, -0.175, 0.19}) {  // through the middle, past and off the edges, off the wall
+  for (const double slope : {0.0, 0.1, 0.16, -0.175,
+                             0.19}) {  // through the middle, past and off the edges, off the wall
     World world(spec);
     const auto simulator = paper(spec, "euler", 1.0 / 60);
     const PuckSpec puck{.position = {1.0, 0.5}, .velocity = {-2.0, 2.0 * slope}};
@@ -327,7 +372,9 @@ TEST(PapersEngine, MeetsACornerTooEarlyUnlessItIsToldToRoundIt) {
     const auto simulator = make_simulator(spec, choice);
     simulator->record_events(true);
     simulator->add(BatSpec{.position = {2.0, 1.0}, .half_extent = {0.1, 0.1}, .mass = 1e3});
-    simulator->add(PuckSpec{.position = {2.6, 1.6}, .velocity = {-1.0, -1.0}, .radius = 0.1});  // along the diagonal, at a corner
+    simulator->add(PuckSpec{.position = {2.6, 1.6},
+                            .velocity = {-1.0, -1.0},
+                            .radius = 0.1});  // along the diagonal, at a corner
     play(*simulator, 1.0);
     return simulator->events().front().time;
   };
@@ -343,7 +390,9 @@ TEST(PapersEngine, LooksAtFewPairsInALargeGas) {
   std::mt19937_64 random(2);
   for (int column = 0; column < 50; ++column)
     for (int row = 0; row < 50; ++row)
-      simulator->add(PuckSpec{.position = {0.2 + 0.4 * column, 0.2 + 0.4 * row}, .velocity = {uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0)}});
+      simulator->add(
+          PuckSpec{.position = {0.2 + 0.4 * column, 0.2 + 0.4 * row},
+                   .velocity = {uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0)}});
   play(*simulator, 1.0);
   EXPECT_GT(simulator->counters().disc_impacts, 200u);
   EXPECT_LT(simulator->counters().predictions, 60u * 2500u);

@@ -20,8 +20,10 @@ TEST(PapersEngineWithFriction, StopsAPuckWhereItShouldAsFramesShrink) {
   const double speed = 1.4, distance = speed * speed / (2 * 0.7);  // v^2/(2 mu g)
   for (const char* integrator : {"euler", "semi_implicit", "verlet", "rk4"}) {
     const auto error = [&](double dt) {
-      const auto simulator = make_simulator(spec, {.engine = "paper", .integrator = integrator, .dt = dt});
-      const BodyId puck = simulator->add(PuckSpec{.position = {1.0, 1.0}, .velocity = {speed, 0.0}});
+      const auto simulator =
+          make_simulator(spec, {.engine = "paper", .integrator = integrator, .dt = dt});
+      const BodyId puck =
+          simulator->add(PuckSpec{.position = {1.0, 1.0}, .velocity = {speed, 0.0}});
       play(*simulator, 3.0);
       EXPECT_EQ(simulator->velocity(puck), Vector2(0.0, 0.0)) << integrator;
       EXPECT_EQ(simulator->counters().of(EventKind::stop), 1u) << integrator;
@@ -37,7 +39,8 @@ TEST(PapersEngineWithRoughSurfaces, TurnsPucksAsTheExactOneDoes) {
   spec.surface_friction = SurfaceFriction{PairTable(1, 0.3), RestitutionTable(1, 0.4)};
   World world(spec);
   const auto simulator = make_simulator(spec, {.engine = "paper"});
-  const PuckSpec left{.position = {1.0, 1.0}, .velocity = {1.5, 0.1}, .radius = 0.2, .spin = 3.0}, right{.position = {2.5, 1.15}, .velocity = {-1.0, 0.0}, .radius = 0.15, .mass = 2.0};
+  const PuckSpec left{.position = {1.0, 1.0}, .velocity = {1.5, 0.1}, .radius = 0.2, .spin = 3.0},
+      right{.position = {2.5, 1.15}, .velocity = {-1.0, 0.0}, .radius = 0.15, .mass = 2.0};
   for (const PuckSpec& puck : {left, right}) {
     world.add(puck);
     simulator->add(puck);
@@ -79,7 +82,11 @@ TEST(PaperEngines, PutAPuckBackWithoutTheSpinThatItScoredWith) {
   spec.surface_friction = SurfaceFriction{PairTable(1, 0.5), RestitutionTable(1, 0.5)};
   for (const char* engine : {"exact", "paper", "naive"}) {
     const auto simulator = make_simulator(spec, {.engine = engine});
-    const BodyId puck = simulator->add(PuckSpec{.position = {3.5, 1.0}, .velocity = {2.0, 0.0}, .radius = 0.0625, .mass = 0.5, .spin = 10.0});
+    const BodyId puck = simulator->add(PuckSpec{.position = {3.5, 1.0},
+                                                .velocity = {2.0, 0.0},
+                                                .radius = 0.0625,
+                                                .mass = 0.5,
+                                                .spin = 10.0});
     ASSERT_TRUE(simulator->advance(5.0)) << engine;
     EXPECT_EQ(simulator->spin(puck), 10.0) << engine;
     simulator->place(puck, {2.0, 1.0}, {3.0, 4.0});

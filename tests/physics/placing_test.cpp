@@ -76,8 +76,8 @@ TEST(PlacedPuck, IsMetByThoseWhoComeTheWayAndMeetsThoseWhoLieThere) {
   AfterAGoal scene(field_with_goals());
   World& world = scene.world;
   const double begin = world.now(), reach = 2.0 * 0.0625;
-  const BodyId coming = world.add(PuckSpec{
-      .position = {1.0, 0.5}, .velocity = {1.0, 0.0}, .radius = 0.0625, .mass = 0.5});
+  const BodyId coming = world.add(
+      PuckSpec{.position = {1.0, 0.5}, .velocity = {1.0, 0.0}, .radius = 0.0625, .mass = 0.5});
   world.advance(begin + 0.25);
   world.place(scene.puck, {2.0, 0.5}, {0.0, 0.0});
   world.advance(begin + 1.25);
@@ -104,12 +104,15 @@ TEST(PlacedPuck, BringsNothingOfTheSpinThatItLeftWith) {
   AfterAGoal scene(spec);
   scene.world.place(scene.puck, {2.0, 1.0}, {3.0, 4.0});
   EXPECT_NEAR(scene.world.kinetic_energy(), 0.5 * 0.5 * 25.0, 1e-14);
-  EXPECT_NEAR(scene.world.energy_introduced() + scene.world.work_of_thrust() - scene.world.dissipated(), scene.world.kinetic_energy(), 1e-14);
+  EXPECT_NEAR(
+      scene.world.energy_introduced() + scene.world.work_of_thrust() - scene.world.dissipated(),
+      scene.world.kinetic_energy(), 1e-14);
 }
 
 /// A field's length less a radius, and the length that a radius makes with that place, are rounded
-/// twice: some places are free, for the puck ends with the field, and lie in the mouth, for its centre
-/// is nearer than its radius. There the edge of the goal stops a puck that goes along the goal line.
+/// twice: some places are free, for the puck ends with the field, and lie in the mouth, for its
+/// centre is nearer than its radius. There the edge of the goal stops a puck that goes along the
+/// goal line.
 TEST(PlacedPuck, MeetsTheEdgeOfAGoalWhoseMouthItReachesByARounding) {
   int found = 0;
   for (double radius = 0.031; radius < 0.06; radius += 0.001) {
@@ -192,8 +195,8 @@ TEST(FreePlaces, LieWithinTheWallsAndNotInAGoal) {
 TEST(FreePlaces, MayTouchBodiesWhereTheyAreNow) {
   constexpr double radius = 0.0625;
   World world(rink_of(8, 8));
-  const BodyId moving = world.add(
-      PuckSpec{.position = {1.0, 2.0}, .velocity = {1.0, 0.0}, .radius = radius});
+  const BodyId moving =
+      world.add(PuckSpec{.position = {1.0, 2.0}, .velocity = {1.0, 0.0}, .radius = radius});
   world.add(PostSpec{.position = {4.0, 4.0}, .radius = 0.25});
   world.add(BatSpec{.position = {6.0, 6.0}, .half_extent = {0.25, 0.5}});
   const BodyId leaving = world.add(PuckSpec{.position = {2.0, 7.0}, .radius = radius});

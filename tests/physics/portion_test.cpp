@@ -26,15 +26,19 @@ World whole_of(std::uint64_t number) {
 }
 
 void put_all(Portion& portion, const World& world) {
-  for (std::uint32_t body = 0; body < world.body_count(); ++body) portion.put(body, Portion::state_in(world, body));
+  for (std::uint32_t body = 0; body < world.body_count(); ++body)
+    portion.put(body, Portion::state_in(world, body));
 }
 
 /// The next 50 ms, with keys.
 template <class Playable>
 void play(Playable& world, std::uint64_t number, int window) {
-  std::mt19937_64 random(1000 * number + static_cast<std::uint64_t>(window) / 8);  // keys are held for a while, so that something gets pressed
+  std::mt19937_64 random(1000 * number +
+                         static_cast<std::uint64_t>(window) /
+                             8);  // keys are held for a while, so that something gets pressed
   const auto bat = static_cast<std::uint32_t>(2 + random() % 6);
-  const double x = static_cast<double>(random() % 3) - 1.0, y = static_cast<double>(random() % 3) - 1.0;
+  const double x = static_cast<double>(random() % 3) - 1.0,
+               y = static_cast<double>(random() % 3) - 1.0;
   if constexpr (std::is_same_v<Playable, World>) {
     world.set_thrust({bat}, {6.0 * x, 6.0 * y});
     RandomKeys::advance(world, 0.05 * (window + 1));
@@ -61,7 +65,8 @@ TEST(Portion, OfAllBodiesGoesOnAsTheWorldDoesHoweverOftenItsWindowsAreUndone) {
       }
       play(portion, number, window);
       held += portion.holds().size();
-      ASSERT_EQ(portion.world().hash(), world.hash()) << "scene " << number << ", window " << window;
+      ASSERT_EQ(portion.world().hash(), world.hash())
+          << "scene " << number << ", window " << window;
     }
   }
   EXPECT_GT(held, 100u);
@@ -104,15 +109,23 @@ TEST(Portion, KnowsHowABodyWasBeforeTheWindow) {
 TEST(Portion, PredictsWhenARestContactEndsAnewIfTheOtherSideIsPut) {
   // A bat pushes another one and slides along its face, until that ends.
   World world(rink_of(4.0, 2.0, 0.0, 0.0, 1.0));
-  const BodyId pushing = world.add(BatSpec{.position = {1.0, 1.0}, .half_extent = {0.125, 0.125}}), pushed = world.add(BatSpec{.position = {1.25, 1.0}, .half_extent = {0.125, 0.125}});
+  const BodyId pushing = world.add(BatSpec{.position = {1.0, 1.0}, .half_extent = {0.125, 0.125}}),
+               pushed = world.add(BatSpec{.position = {1.25, 1.0}, .half_extent = {0.125, 0.125}});
   world.set_thrust(pushing, {6.0, 1.0});
   world.advance(0.25);
   ASSERT_TRUE(world.is_held(pushed));
   const auto portion_of = [&] {
     auto portion = std::make_unique<Portion>(world.spec(), world.body_count());
     portion->advance(world.now());
-    for (const BodyId body : {pushing, pushed}) portion->put(body.index, Portion::state_in(world, body.index));
-    portion->set_holds({{.low = pushing.index, .high = pushed.index, .axis = 0, .pull_time = 1e300, .force = 0.0, .turn_time = 1e300, .age = {}}});
+    for (const BodyId body : {pushing, pushed})
+      portion->put(body.index, Portion::state_in(world, body.index));
+    portion->set_holds({{.low = pushing.index,
+                         .high = pushed.index,
+                         .axis = 0,
+                         .pull_time = 1e300,
+                         .force = 0.0,
+                         .turn_time = 1e300,
+                         .age = {}}});
     portion->begin_window();
     return portion;
   };
@@ -141,8 +154,10 @@ TEST(Portion, PredictsWhenARestContactEndsAnewIfTheOtherSideIsPut) {
 
 TEST(Portion, CountsWhatAnotherWorldMayCountAtOneInstant) {
   const double rounding = 0x1p-52 * 2.0, begin = 1.0;
-  // A world that begins to count with the second one finds three within its 16 roundings; one that begins with the first, two and then two.
-  const std::vector<double> times{begin, begin + 10 * rounding, begin + 17 * rounding, begin + 26 * rounding, begin + 1.0};
+  // A world that begins to count with the second one finds three within its 16 roundings; one that
+  // begins with the first, two and then two.
+  const std::vector<double> times{begin, begin + 10 * rounding, begin + 17 * rounding,
+                                  begin + 26 * rounding, begin + 1.0};
   EXPECT_GE(most_at_once(times), 3u);
   EXPECT_LE(most_at_once(times), 4u);
   EXPECT_EQ(most_at_once({}), 0u);
@@ -154,9 +169,11 @@ TEST(Portion, KeepsJamsThatDoNotTouchApart) {
   // A bat jams a puck between two posts, twice, 2 m from each other.
   World world(rink_of(4.0, 4.0, 0.5, 0.0, 1.0));
   for (const double y : {1.0, 3.0}) {
-    for (const double side : {-0.1, 0.1}) world.add(PostSpec{.position = {2.0, y + side}, .radius = 0.0625});
+    for (const double side : {-0.1, 0.1})
+      world.add(PostSpec{.position = {2.0, y + side}, .radius = 0.0625});
     world.add(PuckSpec{.position = {1.8, y}, .radius = 0.0625});
-    world.set_thrust(world.add(BatSpec{.position = {1.5, y}, .half_extent = {0.0625, 0.25}}), {6.0, 0.0});
+    world.set_thrust(world.add(BatSpec{.position = {1.5, y}, .half_extent = {0.0625, 0.25}}),
+                     {6.0, 0.0});
   }
   world.advance(5.0);
   ASSERT_GT(world.counters().freezes, 1u);

@@ -17,8 +17,10 @@ using ::testing::HasSubstr;
 
 TEST(SimulatorChoices, AreRefusedByNameWithWhatIsAllowed) {
   EXPECT_THAT(objection({.engine = "box"}).value(), AllOf(HasSubstr("box"), HasSubstr("exact")));
-  EXPECT_THAT(objection({.integrator = "rk5"}).value(), AllOf(HasSubstr("rk5"), HasSubstr("euler, semi_implicit, verlet, rk4")));
-  for (const double dt : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+  EXPECT_THAT(objection({.integrator = "rk5"}).value(),
+              AllOf(HasSubstr("rk5"), HasSubstr("euler, semi_implicit, verlet, rk4")));
+  for (const double dt : {0.0, -1.0, std::numeric_limits<double>::infinity(),
+                          std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THAT(objection({.dt = dt}).value(), HasSubstr("above 0 s"));
   EXPECT_FALSE(objection({}));
 }
@@ -27,7 +29,8 @@ TEST(ExactSimulators, DoWhatTheirWorldDoes) {
   const WorldSpec spec = test::rink_of(2.0, 1.0, 0.9);
   World world(spec);
   const auto simulator = make_simulator(spec);
-  for (const PuckSpec& puck : {PuckSpec{.position = {0.5, 0.5}, .velocity = {1.0, 0.25}}, PuckSpec{.position = {1.5, 0.55}, .velocity = {-2.0, 0.125}}}) {
+  for (const PuckSpec& puck : {PuckSpec{.position = {0.5, 0.5}, .velocity = {1.0, 0.25}},
+                               PuckSpec{.position = {1.5, 0.55}, .velocity = {-2.0, 0.125}}}) {
     world.add(puck);
     simulator->add(puck);
   }
@@ -83,9 +86,12 @@ class Lost final : public Simulator {
 
 TEST(Escaped, AreBodiesInPlayBeyondAnyOfTheFourWallsOrNowhere) {
   const double beyond = 1e-9, nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Vector2& inside : {Vector2(0.0, 0.0), Vector2(4.0, 1.0), Vector2(2.0, 0.5)}) EXPECT_EQ(escape_count(Lost({inside})), 0u) << inside.transpose();
-  const std::vector<Vector2> outside{{-beyond, 0.5}, {4.0 + beyond, 0.5}, {2.0, -beyond}, {2.0, 1.0 + beyond}, {nan, 0.5}, {2.0, nan}};
-  for (const Vector2& place : outside) EXPECT_EQ(escape_count(Lost({place})), 1u) << place.transpose();
+  for (const Vector2& inside : {Vector2(0.0, 0.0), Vector2(4.0, 1.0), Vector2(2.0, 0.5)})
+    EXPECT_EQ(escape_count(Lost({inside})), 0u) << inside.transpose();
+  const std::vector<Vector2> outside{{-beyond, 0.5},      {4.0 + beyond, 0.5}, {2.0, -beyond},
+                                     {2.0, 1.0 + beyond}, {nan, 0.5},          {2.0, nan}};
+  for (const Vector2& place : outside)
+    EXPECT_EQ(escape_count(Lost({place})), 1u) << place.transpose();
   Lost all(outside);
   all.out_of_play = 3;
   EXPECT_EQ(escape_count(all), 5u);

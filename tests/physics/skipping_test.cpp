@@ -1,4 +1,5 @@
-// What rests costs nothing: the counters of a few fenced-in movers do not know how many others there are.
+// What rests costs nothing: the counters of a few fenced-in movers do not know how many others
+// there are.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,13 +18,16 @@ void add_fence(World& world) {
   }
 }
 
-/// 30 pucks and a bat under keys behind a fence in a corner, and resting pucks on a lattice outside it, `count` bodies in all; the field grows with their number.
+/// 30 pucks and a bat under keys behind a fence in a corner, and resting pucks on a lattice outside
+/// it, `count` bodies in all; the field grows with their number.
 Counters counters_among(std::uint32_t count, double puck_drag) {
   const double side = 0.25 * std::sqrt(static_cast<double>(count));
   World world(rink_of(side, side, 0.95, puck_drag, 1.0));
   add_fence(world);
   const BodyId bat = world.add(BatSpec{.position = {1.0, 1.0}, .mass = 3.0});
-  for (int i = 0; i < 30; ++i) world.add(PuckSpec{.position = {0.1 + 0.16 * (i % 10), 0.2 + 0.25 * (i / 10)}, .velocity = {1.0 - 0.07 * i, 0.4 + 0.05 * i}});
+  for (int i = 0; i < 30; ++i)
+    world.add(PuckSpec{.position = {0.1 + 0.16 * (i % 10), 0.2 + 0.25 * (i / 10)},
+                       .velocity = {1.0 - 0.07 * i, 0.4 + 0.05 * i}});
   for (double y = 0.1; y + 0.05 < side; y += spacing)
     for (double x = 0.1; x + 0.05 < side && world.body_count() < count; x += spacing)
       if (x > fence + 0.15 || y > fence + 0.25) world.add(PuckSpec{.position = {x, y}});
@@ -51,20 +55,26 @@ void expect_equal_counters(std::uint32_t few, std::uint32_t many) {
   }
 }
 
-TEST(Skipping, FencedInMoversCostTheSameAmongAThousandAndAHundredThousandAtRest) { expect_equal_counters(1'000, 100'000); }
+TEST(Skipping, FencedInMoversCostTheSameAmongAThousandAndAHundredThousandAtRest) {
+  expect_equal_counters(1'000, 100'000);
+}
 
-TEST(SkippingLong, FencedInMoversCostTheSameAmongAThousandAndAMillionAtRest) { expect_equal_counters(1'000, 1'000'000); }
+TEST(SkippingLong, FencedInMoversCostTheSameAmongAThousandAndAMillionAtRest) {
+  expect_equal_counters(1'000, 1'000'000);
+}
 
 TEST(Skipping, ARestingCrowdIsNeverLookedAt) {
   World world(rink_of(20.0, 20.0));
-  for (int i = 0; i < 2000; ++i) world.add(PuckSpec{.position = {1.0 + 0.4 * (i % 45), 1.0 + 0.4 * (i / 45)}});
+  for (int i = 0; i < 2000; ++i)
+    world.add(PuckSpec{.position = {1.0 + 0.4 * (i % 45), 1.0 + 0.4 * (i / 45)}});
   world.advance(100.0);
   EXPECT_TRUE(world.counters() == Counters{});
 }
 
 TEST(Skipping, NobodyIsEvaluatedButThoseWhoHaveAnEventOrAreAskedFor) {
   World world(rink_of(30.0, 110.0, 1.0, 0.1));
-  for (int i = 0; i < 1000; ++i) world.add(PuckSpec{.position = {1.0, 0.05 + 0.1 * i}, .velocity = {1.0 + 1e-3 * i, 0.0}});
+  for (int i = 0; i < 1000; ++i)
+    world.add(PuckSpec{.position = {1.0, 0.05 + 0.1 * i}, .velocity = {1.0 + 1e-3 * i, 0.0}});
   double seen = 0.0;
   for (int step = 1; step <= 1000; ++step) {
     world.advance(5e-3 * step);

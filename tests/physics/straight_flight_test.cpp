@@ -23,8 +23,9 @@ std::vector<Flight<double>> crowd_of(std::mt19937_64& random, std::uint32_t coun
       continue;
     }
     const double speed = random() % 8 == 0 ? 0.0 : 1.0;
-    discs.push_back({uniform(random, -0.3, 0.3), uniform(random, -0.3, 0.3), speed * uniform(random, -2.0, 2.0), speed * uniform(random, -2.0, 2.0), uniform(random, 0.0, 0.05),
-                     uniform(random, 0.01, 0.06)});
+    discs.push_back({uniform(random, -0.3, 0.3), uniform(random, -0.3, 0.3),
+                     speed * uniform(random, -2.0, 2.0), speed * uniform(random, -2.0, 2.0),
+                     uniform(random, 0.0, 0.05), uniform(random, 0.01, 0.06)});
   }
   return discs;
 }
@@ -36,21 +37,26 @@ TEST(FirstMeeting, HasTheSameBitsTwoOrFourAtATimeAsOneByOne) {
     const auto count = static_cast<std::uint32_t>(random() % (flight_max + 1));
     const std::vector<Flight<double>> discs = crowd_of(random, count + 1);
     std::vector<std::uint32_t> near;
-    for (std::uint32_t k = 0; k < count; ++k) near.push_back(static_cast<std::uint32_t>(random() % discs.size()));
+    for (std::uint32_t k = 0; k < count; ++k)
+      near.push_back(static_cast<std::uint32_t>(random() % discs.size()));
     near.resize(flight_max + 8);
-    const double latest = round % 3 == 0 ? std::numeric_limits<double>::infinity() : uniform(random, 0.05, 0.4);
-    const Meeting<double> expected = first_meeting_singly(discs.data(), 0, near.data(), count, latest);
+    const double latest =
+        round % 3 == 0 ? std::numeric_limits<double>::infinity() : uniform(random, 0.05, 0.4);
+    const Meeting<double> expected =
+        first_meeting_singly(discs.data(), 0, near.data(), count, latest);
     const Meeting<double> first = first_meeting(discs.data(), 0, near.data(), count, latest);
     ASSERT_EQ(first.time, expected.time) << "round " << round;
     ASSERT_EQ(first.other, expected.other) << "round " << round;
     ASSERT_EQ(first.second_time, expected.second_time) << "round " << round;
 #if defined(__SSE2__)
-    const Meeting<double> in_pairs = first_meeting_in_pairs(discs.data(), 0, near.data(), count, latest);
+    const Meeting<double> in_pairs =
+        first_meeting_in_pairs(discs.data(), 0, near.data(), count, latest);
     ASSERT_EQ(in_pairs.time, expected.time) << "round " << round;
     ASSERT_EQ(in_pairs.second_time, expected.second_time) << "round " << round;
 #endif
     met += expected.time < std::numeric_limits<double>::infinity();
-    tied += expected.time < std::numeric_limits<double>::infinity() && expected.time == expected.second_time;
+    tied += expected.time < std::numeric_limits<double>::infinity() &&
+            expected.time == expected.second_time;
   }
   EXPECT_GT(met, 5'000);
   EXPECT_GT(tied, 500);
@@ -68,8 +74,12 @@ TEST(FirstMeeting, CountsThoseWhoTouchInTheSameBreath) {
     // Every third is put where it is nearly in touch then.
     for (std::uint32_t k = 1; k <= count; k += 3) {
       Flight<double>& other = discs[k];
-      const double angle = uniform(random, 0.0, 6.3), distance = own.radius + other.radius + clear_of_touching * (random() % 2 == 0 ? uniform(random, -0.1, 0.9) : uniform(random, 1.1, 3.0));
-      other.x = own.x + distance * std::cos(angle) - other.vx * (0.1 - other.time), other.y = own.y + distance * std::sin(angle) - other.vy * (0.1 - other.time);
+      const double angle = uniform(random, 0.0, 6.3),
+                   distance = own.radius + other.radius +
+                              clear_of_touching * (random() % 2 == 0 ? uniform(random, -0.1, 0.9)
+                                                                     : uniform(random, 1.1, 3.0));
+      other.x = own.x + distance * std::cos(angle) - other.vx * (0.1 - other.time),
+      other.y = own.y + distance * std::sin(angle) - other.vy * (0.1 - other.time);
     }
     std::vector<std::uint32_t> near;
     for (std::uint32_t k = 0; k < count; ++k) near.push_back(k);
@@ -77,10 +87,13 @@ TEST(FirstMeeting, CountsThoseWhoTouchInTheSameBreath) {
     std::uint32_t expected = 0;
     for (std::uint32_t k = 0; k < count; ++k) {
       const Flight<double>& other = discs[k];
-      const double distance = std::hypot(other.x + other.vx * (0.1 - other.time) - own.x, other.y + other.vy * (0.1 - other.time) - own.y);
+      const double distance = std::hypot(other.x + other.vx * (0.1 - other.time) - own.x,
+                                         other.y + other.vy * (0.1 - other.time) - own.y);
       expected += k == 0 || distance <= own.radius + other.radius + clear_of_touching;
     }
-    const Meeting<double> plain = first_meeting(discs.data(), 0, near.data(), count, 1.0), counting = first_meeting_counting(discs.data(), 0, near.data(), count, 1.0);
+    const Meeting<double> plain = first_meeting(discs.data(), 0, near.data(), count, 1.0),
+                          counting =
+                              first_meeting_counting(discs.data(), 0, near.data(), count, 1.0);
     ASSERT_EQ(counting.touching, expected) << "round " << round;
     ASSERT_EQ(counting.time, plain.time) << "round " << round;
     ASSERT_EQ(counting.other, plain.other) << "round " << round;
@@ -91,28 +104,40 @@ TEST(FirstMeeting, CountsThoseWhoTouchInTheSameBreath) {
   EXPECT_GT(apart, 20'000u);
 }
 
-/// Discs that graze each other at a gap of some roundings: what the best event known happens to be decides nothing but whether the meeting comes too late.
+/// Discs that graze each other at a gap of some roundings: what the best event known happens to be
+/// decides nothing but whether the meeting comes too late.
 TEST(FirstMeeting, OfThoseWhoGrazeDoesNotDependOnHowFarOneLooks) {
   std::mt19937_64 random(8);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   int met = 0, hardly_closing = 0;
   for (int round = 0; round < 200'000; ++round) {
-    const double angle = uniform(random, 0.0, 6.3), reach = uniform(random, 0.02, 0.1), distance = reach * (1.0 + 1e-16 * static_cast<double>(random() % 20));
-    const double speed = uniform(random, 0.01, 2.0), across = 1e-16 * static_cast<double>(random() % 5), along = random() % 2 == 0 ? speed : -speed;
+    const double angle = uniform(random, 0.0, 6.3), reach = uniform(random, 0.02, 0.1),
+                 distance = reach * (1.0 + 1e-16 * static_cast<double>(random() % 20));
+    const double speed = uniform(random, 0.01, 2.0),
+                 across = 1e-16 * static_cast<double>(random() % 5),
+                 along = random() % 2 == 0 ? speed : -speed;
     const double x = std::cos(angle), y = std::sin(angle);
-    const std::vector<Flight<double>> discs{{0.5, 0.5, 0.0, 0.0, 0.3, 0.5 * reach}, {0.5 + distance * x, 0.5 + distance * y, -along * y - across * x, along * x - across * y, 0.3, 0.5 * reach}};
+    const std::vector<Flight<double>> discs{
+        {0.5, 0.5, 0.0, 0.0, 0.3, 0.5 * reach},
+        {0.5 + distance * x, 0.5 + distance * y, -along * y - across * x, along * x - across * y,
+         0.3, 0.5 * reach}};
     std::vector<std::uint32_t> near{1, 0, 0, 0};
     const Meeting<double> ever = first_meeting_singly(discs.data(), 0, near.data(), 1, infinity);
-    const double closing = (discs[1].x - discs[0].x) * discs[1].vx + (discs[1].y - discs[0].y) * discs[1].vy;
+    const double closing =
+        (discs[1].x - discs[0].x) * discs[1].vx + (discs[1].y - discs[0].y) * discs[1].vy;
     if (!(ever.time < infinity && ever.time > 0.3 + 1e-12)) continue;
     ++met, hardly_closing += std::abs(closing) < 1e-17;
     const double wait = ever.time - 0.3;
     for (const double share : {0.5, 0.9, 1.1, 2.0, 1e3, 1e9}) {
-      const double latest = 0.3 + share * wait, expected = wait <= latest - 0.3 ? ever.time : infinity;
-      ASSERT_EQ(first_meeting_singly(discs.data(), 0, near.data(), 1, latest).time, expected) << "round " << round << ", share " << share;
-      ASSERT_EQ(first_meeting(discs.data(), 0, near.data(), 1, latest).time, expected) << "round " << round << ", share " << share;
+      const double latest = 0.3 + share * wait,
+                   expected = wait <= latest - 0.3 ? ever.time : infinity;
+      ASSERT_EQ(first_meeting_singly(discs.data(), 0, near.data(), 1, latest).time, expected)
+          << "round " << round << ", share " << share;
+      ASSERT_EQ(first_meeting(discs.data(), 0, near.data(), 1, latest).time, expected)
+          << "round " << round << ", share " << share;
 #if defined(__SSE2__)
-      ASSERT_EQ(first_meeting_in_pairs(discs.data(), 0, near.data(), 1, latest).time, expected) << "round " << round << ", share " << share;
+      ASSERT_EQ(first_meeting_in_pairs(discs.data(), 0, near.data(), 1, latest).time, expected)
+          << "round " << round << ", share " << share;
 #endif
     }
   }
@@ -125,10 +150,13 @@ TEST(FirstMeeting, IsWhereTheDistanceIsTheSumOfTheRadii) {
   for (int round = 0; round < 2'000; ++round) {
     const std::vector<Flight<double>> discs = crowd_of(random, 12);
     std::vector<std::uint32_t> near{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 0, 0};
-    const Meeting<double> first = first_meeting(discs.data(), 0, near.data(), 11, std::numeric_limits<double>::infinity());
+    const Meeting<double> first =
+        first_meeting(discs.data(), 0, near.data(), 11, std::numeric_limits<double>::infinity());
     if (first.other > 11) continue;
     const Flight<double>&a = discs[0], &b = discs[first.other];
-    const double distance = std::hypot(b.x + b.vx * (first.time - b.time) - a.x - a.vx * (first.time - a.time), b.y + b.vy * (first.time - b.time) - a.y - a.vy * (first.time - a.time));
+    const double distance =
+        std::hypot(b.x + b.vx * (first.time - b.time) - a.x - a.vx * (first.time - a.time),
+                   b.y + b.vy * (first.time - b.time) - a.y - a.vy * (first.time - a.time));
     EXPECT_LE(distance, (a.radius + b.radius) * (1.0 + 1e-12));
     if (first.time > std::max(a.time, b.time)) {
       EXPECT_NEAR(distance, a.radius + b.radius, 1e-12) << "round " << round;
@@ -159,7 +187,9 @@ TEST(APuck, MeetsTheSameOthersWhetherOrNotABatIsSomewhere) {
     world.advance(3.0);
     std::vector<double> states;
     for (const BodyId puck : pucks)
-      for (const double value : {world.position(puck).x(), world.position(puck).y(), world.velocity(puck).x(), world.velocity(puck).y()}) states.push_back(value);
+      for (const double value : {world.position(puck).x(), world.position(puck).y(),
+                                 world.velocity(puck).x(), world.velocity(puck).y()})
+        states.push_back(value);
     return states;
   };
   EXPECT_EQ(gas(false), gas(true));

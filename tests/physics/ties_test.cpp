@@ -33,8 +33,8 @@ WorldSpec one_by_one(QueuePolicy queue) {
 
 constexpr std::array policies{QueuePolicy::calendar, QueuePolicy::heap};
 
-/// Two balls stand at 30 degrees to the way of a third. The first to be hit takes c = cos(30) of its
-/// speed along their line, the second c (1 - n . n') = c/2.
+/// Two balls stand at 30 degrees to the way of a third. The first to be hit takes c = cos(30) of
+/// its speed along their line, the second c (1 - n . n') = c/2.
 TEST(Ties, OfOneBodyWithTwoGoToTheLowerId) {
   for (const QueuePolicy queue : policies) {
     std::vector<int> order{0, 1, 2};  // which of: coming, above, below
@@ -58,8 +58,8 @@ TEST(Ties, OfOneBodyWithTwoGoToTheLowerId) {
   }
 }
 
-/// Two pucks that come down side by side, one faster towards the other, touch each other and the wall
-/// at one time, which the engine finds without a rounding.
+/// Two pucks that come down side by side, one faster towards the other, touch each other and the
+/// wall at one time, which the engine finds without a rounding.
 TEST(Ties, WithTheFieldComeAfterThoseOfBodies) {
   for (const QueuePolicy queue : policies)
     for (const bool is_left_first : {false, true}) {
@@ -129,8 +129,9 @@ void expect_every_close_pair_to_be_seen(double gap, double apart) {
   }
 }
 
-/// Pairs around the edges of buckets: of a new calendar, a millisecond wide, and of whatever width it
-/// learns, since pairs as close to each other as a bucket is to its next lie on all sides of edges.
+/// Pairs around the edges of buckets: of a new calendar, a millisecond wide, and of whatever width
+/// it learns, since pairs as close to each other as a bucket is to its next lie on all sides of
+/// edges.
 TEST(Ties, AreSeenAcrossTheEdgesOfBuckets) {
   for (const double gap : {1e-3, 1e-5, 3.7e-7, 2.3e-8}) {
     expect_every_close_pair_to_be_seen<EventQueue>(gap, 4e-10);
@@ -138,8 +139,8 @@ TEST(Ties, AreSeenAcrossTheEdgesOfBuckets) {
   }
 }
 
-/// Equal times for eight bodies on the average, dense at first and then a thousand times as rare, so
-/// that the buckets are made anew on the way.
+/// Equal times for eight bodies on the average, dense at first and then a thousand times as rare,
+/// so that the buckets are made anew on the way.
 TEST(Ties, KeepTheirOrderWhileBucketsAdapt) {
   constexpr std::uint32_t count = 3'000;
   constexpr std::uint64_t seed = 12;

@@ -1,4 +1,5 @@
-// The airport federation, in process and over TCP: what every federate knows at the end is the closed form.
+// The airport federation, in process and over TCP: what every federate knows at the end is the
+// closed form.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,9 +15,11 @@ namespace rink::rti::airport {
 namespace {
 
 /// All numbers are multiples of 1/8, so that every sum of the closed form is exact.
-const std::vector<Gust> gusts{{2.5, 8.0}, {7.125, -12.0}, {7.75, 4.0}, {15.0, -3.0}, {23.875, 80.0}};
-const std::vector<FlightPlan> plans{{-400.0, 100.0, 60.0},  {-900.0, 200.0, 20.0}, {300.0, 300.0, -50.0}, {700.0, 400.0, 2.5},
-                                    {-650.0, 500.0, 30.0}, {980.0, 600.0, -90.0}, {-1.0, 700.0, 0.25},   {500.0, 800.0, -12.5}};
+const std::vector<Gust> gusts{
+    {2.5, 8.0}, {7.125, -12.0}, {7.75, 4.0}, {15.0, -3.0}, {23.875, 80.0}};
+const std::vector<FlightPlan> plans{
+    {-400.0, 100.0, 60.0}, {-900.0, 200.0, 20.0}, {300.0, 300.0, -50.0}, {700.0, 400.0, 2.5},
+    {-650.0, 500.0, 30.0}, {980.0, 600.0, -90.0}, {-1.0, 700.0, 0.25},   {500.0, 800.0, -12.5}};
 
 /// The sector in which a flight is: 1 west, 2 east.
 std::int32_t sector_of(double x) { return x < 0.0 ? 1 : 2; }
@@ -26,7 +29,11 @@ enum class Carrier { in_process, tcp };
 /// The host, the federates and the loop that carries bytes between them.
 class Airport : public ::testing::TestWithParam<Carrier> {
  protected:
-  Airport() : directory_(settings()), host_(directory_), server_local_(network_), clients_local_(network_) {
+  Airport()
+      : directory_(settings()),
+        host_(directory_),
+        server_local_(network_),
+        clients_local_(network_) {
     directory_.offer(model_.fom);
     if (is_tcp()) port_ = server_tcp_.listen("127.0.0.1", 0);
     else server_local_.listen("airport");
@@ -43,8 +50,10 @@ class Airport : public ::testing::TestWithParam<Carrier> {
   Transport& clients() { return is_tcp() ? static_cast<Transport&>(clients_tcp_) : clients_local_; }
 
   void enter(AirportFederate& federate, const std::string& name, const std::string& type) {
-    const ConnectionId connection = is_tcp() ? clients_tcp_.connect("127.0.0.1", port_) : clients_local_.connect("airport");
-    federate_links_.push_back(std::make_unique<FederateLink>(federate.ambassador(), clients(), connection));
+    const ConnectionId connection =
+        is_tcp() ? clients_tcp_.connect("127.0.0.1", port_) : clients_local_.connect("airport");
+    federate_links_.push_back(
+        std::make_unique<FederateLink>(federate.ambassador(), clients(), connection));
     links_.add(*federate_links_.back());
     federate.join(name, type);
   }
@@ -71,7 +80,8 @@ class Airport : public ::testing::TestWithParam<Carrier> {
   std::vector<AirportFederate*> all() { return {&weather_, &traffic_, &west_, &east_}; }
   bool has_landed() {
     const auto federates = all();
-    return std::all_of(federates.begin(), federates.end(), [](const AirportFederate* each) { return each->has_landed(); });
+    return std::all_of(federates.begin(), federates.end(),
+                       [](const AirportFederate* each) { return each->has_landed(); });
   }
   std::size_t flight_of(ObjectHandle object) const {
     for (std::size_t i = 0; i < plans.size(); ++i)
@@ -97,8 +107,10 @@ class Airport : public ::testing::TestWithParam<Carrier> {
 TEST_P(Airport, EveryFlightIsWhereTheClosedFormHasItToTheLastBit) {
   run();
   ASSERT_EQ(traffic_.felt().size(), gusts.size());
-  for (std::size_t k = 0; k < gusts.size(); ++k) EXPECT_EQ(traffic_.felt()[k].time, gusts[k].time) << "in the order of time";
-  for (std::size_t i = 0; i < plans.size(); ++i) EXPECT_EQ(traffic_.x(i), x_of(plans[i], gusts, end_s)) << "flight " << i;
+  for (std::size_t k = 0; k < gusts.size(); ++k)
+    EXPECT_EQ(traffic_.felt()[k].time, gusts[k].time) << "in the order of time";
+  for (std::size_t i = 0; i < plans.size(); ++i)
+    EXPECT_EQ(traffic_.x(i), x_of(plans[i], gusts, end_s)) << "flight " << i;
 }
 
 TEST_P(Airport, TowersHearOfTheirOwnSectorInTheOrderOfTimeAndExactly) {
@@ -110,7 +122,8 @@ TEST_P(Airport, TowersHearOfTheirOwnSectorInTheOrderOfTimeAndExactly) {
       const std::size_t flight = flight_of(report.object);
       EXPECT_GE(report.time, last);
       last = report.time;
-      EXPECT_EQ(report.x, x_of(plans[flight], gusts, report.time)) << "flight " << flight << " at " << report.time;
+      EXPECT_EQ(report.x, x_of(plans[flight], gusts, report.time))
+          << "flight " << flight << " at " << report.time;
       EXPECT_EQ(report.y, plans[flight].y);
     }
   }
@@ -124,13 +137,18 @@ TEST_P(Airport, WhoFliesInASectorForAWhileIsInItsTowersSightAndReportedEverySeco
     bool has_stayed = true;
     for (double time = end_s - 5.0; time <= end_s; time += step_s) {
       const double x = x_of(plans[i], gusts, time);
-      has_stayed = has_stayed && sector_of(x) == sector_of(x_of(plans[i], gusts, end_s)) && std::abs(x) < sector_m;
+      has_stayed = has_stayed && sector_of(x) == sector_of(x_of(plans[i], gusts, end_s)) &&
+                   std::abs(x) < sector_m;
     }
     if (!has_stayed) continue;
     EXPECT_TRUE(tower.in_sight().contains(traffic_.object(i))) << "flight " << i;
     EXPECT_FALSE(other.in_sight().contains(traffic_.object(i))) << "flight " << i;
     for (double time = end_s - 4.0; time < end_s; time += step_s)
-      EXPECT_EQ(std::count_if(tower.reports().begin(), tower.reports().end(), [&](const Tower::Report& each) { return each.object == traffic_.object(i) && each.time == time; }), 1)
+      EXPECT_EQ(std::count_if(tower.reports().begin(), tower.reports().end(),
+                              [&](const Tower::Report& each) {
+                                return each.object == traffic_.object(i) && each.time == time;
+                              }),
+                1)
           << "flight " << i << " at " << time;
   }
 }
@@ -139,7 +157,8 @@ TEST_P(Airport, EachFlightIsClearedByTheTowerOfItsSectorAndHandedOverWhenItCross
   run();
   std::size_t crossings = 0;
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    std::int32_t cleared_by = 0;  // who entered a sector's square last; nobody clears outside of both
+    std::int32_t cleared_by =
+        0;  // who entered a sector's square last; nobody clears outside of both
     for (double time = 0.0; time <= end_s; time += step_s) {
       const double x = x_of(plans[i], gusts, time);
       if (std::abs(x) > sector_m) continue;
@@ -154,7 +173,10 @@ TEST_P(Airport, EachFlightIsClearedByTheTowerOfItsSectorAndHandedOverWhenItCross
   EXPECT_EQ(west_.given_up() + east_.given_up(), crossings);
 }
 
-INSTANTIATE_TEST_SUITE_P(Over, Airport, ::testing::Values(Carrier::in_process, Carrier::tcp), [](const auto& carrier) { return carrier.param == Carrier::tcp ? "tcp" : "in_process"; });
+INSTANTIATE_TEST_SUITE_P(Over, Airport, ::testing::Values(Carrier::in_process, Carrier::tcp),
+                         [](const auto& carrier) {
+                           return carrier.param == Carrier::tcp ? "tcp" : "in_process";
+                         });
 
 }  // namespace
 }  // namespace rink::rti::airport

@@ -1,4 +1,5 @@
-// In a steady tick nothing is allocated: updates, interactions and regions through the RTI, in process and over TCP, counted by this executable's operator new.
+// In a steady tick nothing is allocated: updates, interactions and regions through the RTI, in
+// process and over TCP, counted by this executable's operator new.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -21,7 +22,8 @@ void* counted(std::size_t size) {
 
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
-// Also the form that buffers of std::stable_sort come from: what it gives is freed by the same operator delete.
+// Also the form that buffers of std::stable_sort come from: what it gives is freed by the same
+// operator delete.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   try {
     return counted(size);
@@ -40,12 +42,18 @@ namespace {
 /// Hears and keeps nothing but counts.
 struct Counter final : FederateAmbassador {
   std::uint64_t updates = 0, interactions = 0;
-  void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes, const Stamp&) override { ++updates; }
-  void receive_interaction(InteractionClassHandle, Bytes, FederateHandle, const Stamp&) override { ++interactions; }
+  void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes, const Stamp&) override {
+    ++updates;
+  }
+  void receive_interaction(InteractionClassHandle, Bytes, FederateHandle, const Stamp&) override {
+    ++interactions;
+  }
 };
 
 class Allocations : public ::testing::TestWithParam<Carrier> {};
-INSTANTIATE_TEST_SUITE_P(Carriers, Allocations, ::testing::Values(Carrier::in_process, Carrier::tcp), [](const auto& each) { return name_of(each.param); });
+INSTANTIATE_TEST_SUITE_P(Carriers, Allocations,
+                         ::testing::Values(Carrier::in_process, Carrier::tcp),
+                         [](const auto& each) { return name_of(each.param); });
 
 TEST_P(Allocations, ASteadyTickOfUpdatesInteractionsAndRegionsAllocatesNothing) {
   const bool is_tcp = GetParam() == Carrier::tcp;
@@ -68,7 +76,9 @@ TEST_P(Allocations, ASteadyTickOfUpdatesInteractionsAndRegionsAllocatesNothing) 
   FederateLinks links;
   for (Counter& each : counters) {
     Ambassador& ambassador = ambassadors.emplace_back(harbour(), each);
-    links.add(ends.emplace_back(ambassador, clients, is_tcp ? client_tcp.connect("127.0.0.1", port) : client_local.connect("rti")));
+    links.add(ends.emplace_back(
+        ambassador, clients,
+        is_tcp ? client_tcp.connect("127.0.0.1", port) : client_local.connect("rti")));
     ambassador.join("rink", "federate " + std::to_string(ends.size()), "tester");
     ambassador.publish_interaction_class(hail);
     ambassador.subscribe_interaction_class(hail);
@@ -103,7 +113,8 @@ TEST_P(Allocations, ASteadyTickOfUpdatesInteractionsAndRegionsAllocatesNothing) 
     for (int i = 0; i < vessel_count; ++i) {
       const double x = (7 * i + 2 * phase) % 100, y = (13 * i) % 100;
       places[static_cast<std::size_t>(i)].bounds = {x, y, x, y};
-      master.update_attribute_values(vessels[static_cast<std::size_t>(i)], all, values, {static_cast<double>(number), 1});
+      master.update_attribute_values(vessels[static_cast<std::size_t>(i)], all, values,
+                                     {static_cast<double>(number), 1});
     }
     master.commit_region_modifications(places);
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -117,7 +128,8 @@ TEST_P(Allocations, ASteadyTickOfUpdatesInteractionsAndRegionsAllocatesNothing) 
   };
   int number = 0;
   for (; number < 400; ++number) tick(number);
-  const std::uint64_t updates = counters[1].updates, interactions = counters[1].interactions, before = allocation_count;
+  const std::uint64_t updates = counters[1].updates, interactions = counters[1].interactions,
+                      before = allocation_count;
   for (; number < 600; ++number) tick(number);
   EXPECT_EQ(allocation_count - before, 0u);
   EXPECT_GT(counters[1].updates, updates + 200u);
@@ -135,7 +147,8 @@ TEST(AllocationsOfNone, WhatNobodyHearsAllocatesNothingAndSendsNothing) {
   for (int i = 0; i < 100; ++i) vessels.push_back(pilot.register_object_instance(vessel));
   const std::vector<std::byte> values = values_of(1.0f, 2.0f, 3.0f), words = bytes_of("ahoy");
   const auto tick = [&](double now) {
-    for (const ObjectHandle each : vessels) pilot.update_attribute_values(each, all, values, {now, 1});
+    for (const ObjectHandle each : vessels)
+      pilot.update_attribute_values(each, all, values, {now, 1});
     pilot.send_interaction(hail, words, {now, 1});
     rig.round();
   };

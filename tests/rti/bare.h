@@ -1,4 +1,5 @@
-// Strangers' own bytes against an execution without any transport, beside a good federate that must never be harmed.
+// Strangers' own bytes against an execution without any transport, beside a good federate that must
+// never be harmed.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -45,8 +46,10 @@ struct Bare final : Outlet {
   std::map<ConnectionId, int> sends;
   std::size_t witness_bytes = 0;  ///< sent to it
   Recorder witness_heard;
-  Ambassador witness{harbour(), witness_heard};  ///< a good federate that must never be harmed, on connection 0
-  std::size_t datagram_size = 0;  ///< what connections but the witness's carry; their datagrams are lost
+  Ambassador witness{
+      harbour(), witness_heard};  ///< a good federate that must never be harmed, on connection 0
+  std::size_t datagram_size =
+      0;  ///< what connections but the witness's carry; their datagrams are lost
 
   explicit Bare(const FederationSettings& settings = {}) : execution(harbour(), settings) {
     execution.connect(0);
@@ -65,7 +68,9 @@ struct Bare final : Outlet {
       else sent[connection].insert(sent[connection].end(), part.begin(), part.end());
     }
   }
-  std::size_t datagram_max(ConnectionId connection) const override { return connection == 0 ? 0 : datagram_size; }
+  std::size_t datagram_max(ConnectionId connection) const override {
+    return connection == 0 ? 0 : datagram_size;
+  }
   void drop(ConnectionId connection, std::string_view why) override { dropped[connection] = why; }
   void tick() {
     execution.receive(0, witness.outgoing());
@@ -86,7 +91,9 @@ struct Bare final : Outlet {
     execution.receive(connection, frame_of(join_of(name)));
     tick();
   }
-  std::uint64_t drops(Violation violation) { return execution.counters().drops[static_cast<std::size_t>(violation)]; }
+  std::uint64_t drops(Violation violation) {
+    return execution.counters().drops[static_cast<std::size_t>(violation)];
+  }
 };
 
 }  // namespace rink::rti::testing

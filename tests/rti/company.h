@@ -1,4 +1,5 @@
-// A federation without transports whose members are of the test's own kind: services in, callbacks out.
+// A federation without transports whose members are of the test's own kind: services in, callbacks
+// out.
 #pragma once
 
 #include <gtest/gtest.h>

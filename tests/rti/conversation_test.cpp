@@ -21,7 +21,8 @@ class Conversation : public ::testing::TestWithParam<Carrier> {
   Station& publisher(const std::string& name) {
     Station& station = rig.join(name);
     station.ambassador.publish_object_class_attributes(vessel, all);
-    station.ambassador.publish_object_class_attributes(ferry, AttributeSet{position, speed, destination});
+    station.ambassador.publish_object_class_attributes(ferry,
+                                                       AttributeSet{position, speed, destination});
     station.ambassador.publish_interaction_class(hail);
     station.ambassador.publish_interaction_class(mayday);
     return station;
@@ -66,8 +67,10 @@ TEST_P(Conversation, ASubscriberHearsOnlyOfTheAttributesItNamed) {
   const ObjectHandle object = pilot.ambassador.register_object_instance(vessel);
   rig.settle();
   for (int i = 0; i < 3; ++i) {
-    pilot.ambassador.update_attribute_values(object, all, values_of(1.0f, 2.0f, static_cast<float>(i)), {});
-    pilot.ambassador.update_attribute_values(object, AttributeSet{position}, values_of(1.0f, 2.0f), {});
+    pilot.ambassador.update_attribute_values(object, all,
+                                             values_of(1.0f, 2.0f, static_cast<float>(i)), {});
+    pilot.ambassador.update_attribute_values(object, AttributeSet{position}, values_of(1.0f, 2.0f),
+                                             {});
     rig.settle();
   }
   EXPECT_EQ(coast.heard.objects[object.value].values.count(position.value), 0u);
@@ -81,7 +84,8 @@ TEST_P(Conversation, SubscribingAClassBringsItsSubclassesWithWhatTheyInherit) {
   auto values = values_of(1.0f, 2.0f, 3.0f);
   const auto town = varying("Bergen");
   values.insert(values.end(), town.begin(), town.end());
-  pilot.ambassador.update_attribute_values(object, AttributeSet{position, speed, destination}, values, {});
+  pilot.ambassador.update_attribute_values(object, AttributeSet{position, speed, destination},
+                                           values, {});
   rig.settle();
   EXPECT_EQ(coast.heard.objects[object.value].object_class, ferry);
   EXPECT_EQ(coast.heard.objects[object.value].values.count(destination.value), 0u);
@@ -98,7 +102,8 @@ TEST_P(Conversation, ALateJoinerGetsTheCurrentStateExactlyOnce) {
   Station& pilot = publisher("pilot");
   const ObjectHandle object = pilot.ambassador.register_object_instance(vessel, "Aurora");
   for (int i = 0; i < 5; ++i) {
-    pilot.ambassador.update_attribute_values(object, AttributeSet{position}, values_of(static_cast<float>(i), 0.0f), {});
+    pilot.ambassador.update_attribute_values(object, AttributeSet{position},
+                                             values_of(static_cast<float>(i), 0.0f), {});
     rig.settle();
   }
   pilot.ambassador.update_attribute_values(object, AttributeSet{speed}, values_of(9.0f), {});
@@ -113,7 +118,8 @@ TEST_P(Conversation, ALateJoinerGetsTheCurrentStateExactlyOnce) {
 
 TEST_P(Conversation, UpdatesOfOneObjectArriveInTheOrderOfTheirSending) {
   Station &pilot = publisher("pilot"), &coast = subscriber("coast");
-  const ObjectHandle a = pilot.ambassador.register_object_instance(vessel), b = pilot.ambassador.register_object_instance(vessel);
+  const ObjectHandle a = pilot.ambassador.register_object_instance(vessel),
+                     b = pilot.ambassador.register_object_instance(vessel);
   rig.settle();
   pilot.ambassador.update_attribute_values(a, AttributeSet{speed}, values_of(1.0f), {});
   pilot.ambassador.update_attribute_values(b, all, values_of(0.0f, 0.0f, 1.0f), {});
@@ -150,7 +156,8 @@ TEST_P(Conversation, InteractionsReachSubscribersOfTheirClassOrAnAncestor) {
   pilot.ambassador.send_interaction(mayday, bytes_of("help"), {});
   pilot.ambassador.send_interaction(hail, bytes_of("ahoy"), {});
   rig.settle();
-  EXPECT_THAT(coast.heard.interactions, ElementsAre(Pair(mayday.value, "help"), Pair(hail.value, "ahoy")));
+  EXPECT_THAT(coast.heard.interactions,
+              ElementsAre(Pair(mayday.value, "help"), Pair(hail.value, "ahoy")));
   EXPECT_THAT(deaf.heard.interactions, IsEmpty());
   EXPECT_THAT(pilot.heard.interactions, IsEmpty());
 }
@@ -160,7 +167,8 @@ TEST_P(Conversation, ADirectedInteractionReachesItsReceiverOnly) {
   coast.ambassador.subscribe_interaction_class(hail);
   other.ambassador.subscribe_interaction_class(hail);
   rig.settle();
-  pilot.ambassador.send_directed_interaction(hail, other.ambassador.federate(), bytes_of("you"), {});
+  pilot.ambassador.send_directed_interaction(hail, other.ambassador.federate(), bytes_of("you"),
+                                             {});
   rig.settle();
   EXPECT_THAT(coast.heard.interactions, IsEmpty());
   EXPECT_THAT(other.heard.interactions, ElementsAre(Pair(hail.value, "you")));
@@ -172,7 +180,8 @@ TEST_P(Conversation, ABarrierOpensWhenTheLastHasComeOrGone) {
   rig.settle();
   Station& late = rig.join("late");
   for (Station* each : {&a, &b, &c}) EXPECT_THAT(each->heard.log, Contains("announced start"));
-  EXPECT_THAT(late.heard.log, ElementsAre("joined", "announced start")) << "a point without a set is for all, late ones too";
+  EXPECT_THAT(late.heard.log, ElementsAre("joined", "announced start"))
+      << "a point without a set is for all, late ones too";
   a.ambassador.synchronization_point_achieved("start");
   b.ambassador.synchronization_point_achieved("start");
   rig.settle();
@@ -182,7 +191,8 @@ TEST_P(Conversation, ABarrierOpensWhenTheLastHasComeOrGone) {
   EXPECT_THAT(a.heard.log, Not(Contains("synchronized start")));
   late.ambassador.synchronization_point_achieved("start");
   rig.settle();
-  for (Station* each : {&a, &b, &late}) EXPECT_THAT(each->heard.log, Contains("synchronized start"));
+  for (Station* each : {&a, &b, &late})
+    EXPECT_THAT(each->heard.log, Contains("synchronized start"));
 }
 
 TEST_P(Conversation, WatchersAreToldWhoIsThereWhoComesAndHowTheyGo) {
@@ -210,7 +220,8 @@ TEST_P(Conversation, AResignedFederatesObjectsAreRemovedAndItsNameIsFree) {
   EXPECT_THAT(coast.heard.objects, IsEmpty());
   Station& again = publisher("pilot");
   EXPECT_TRUE(again.ambassador.is_joined());
-  EXPECT_NE(again.ambassador.register_object_instance(vessel), object) << "handles that have been seen are not used again";
+  EXPECT_NE(again.ambassador.register_object_instance(vessel), object)
+      << "handles that have been seen are not used again";
 }
 
 TEST_P(Conversation, UnsubscribingEndsScopeAndSubscribingAgainRenewsTheState) {
@@ -239,19 +250,27 @@ TEST_P(Conversation, ThousandsOfUpdatesTravelAsOneBlockOfNineBytesEach) {
   for (int i = 0; i < 8000; ++i) fleet.push_back(pilot.ambassador.register_object_instance(vessel));
   rig.settle();
   ASSERT_EQ(coast.heard.objects.size(), fleet.size());
-  const std::uint64_t before = coast.ambassador.counters().bytes_received, frames = coast.ambassador.counters().frames_received;
-  for (const ObjectHandle object : fleet) pilot.ambassador.update_attribute_values(object, AttributeSet{position}, values_of(1.0f, 2.0f), {1.0, 2});
-  EXPECT_GT(pilot.ambassador.outgoing().size(), frame_max_to_rti) << "so it takes two frames upwards";
+  const std::uint64_t before = coast.ambassador.counters().bytes_received,
+                      frames = coast.ambassador.counters().frames_received;
+  for (const ObjectHandle object : fleet)
+    pilot.ambassador.update_attribute_values(object, AttributeSet{position}, values_of(1.0f, 2.0f),
+                                             {1.0, 2});
+  EXPECT_GT(pilot.ambassador.outgoing().size(), frame_max_to_rti)
+      << "so it takes two frames upwards";
   rig.settle();
   const std::uint64_t received = coast.ambassador.counters().bytes_received - before;
   const std::uint64_t down_frames = coast.ambassador.counters().frames_received - frames;
-  // Frame's length, stamp, the block's kind, class and attributes, its end; a second byte for the first handle's step, which is not from its neighbour.
+  // Frame's length, stamp, the block's kind, class and attributes, its end; a second byte for the
+  // first handle's step, which is not from its neighbour.
   EXPECT_LE(received, 8000 * 9 + down_frames * (4 + StampMessage::size_max + 3 + 1 + 1));
   EXPECT_GE(received, 8000u * 9u);
   EXPECT_EQ(coast.ambassador.counters().updates_reflected, 8000u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Over, Conversation, ::testing::Values(Carrier::in_process, Carrier::tcp, Carrier::virtual_network), [](const auto& carrier) { return name_of(carrier.param); });
+INSTANTIATE_TEST_SUITE_P(Over, Conversation,
+                         ::testing::Values(Carrier::in_process, Carrier::tcp,
+                                           Carrier::virtual_network),
+                         [](const auto& carrier) { return name_of(carrier.param); });
 
 }  // namespace
 }  // namespace rink::rti::testing

@@ -14,7 +14,8 @@ HlaError error_thrown_by(const auto& service) {
   try {
     service();
   } catch (const RtiException& exception) {
-    EXPECT_TRUE(std::string_view(exception.what()).starts_with(to_string(exception.error()))) << exception.what();
+    EXPECT_TRUE(std::string_view(exception.what()).starts_with(to_string(exception.error())))
+        << exception.what();
     return exception.error();
   }
   return HlaError::none;

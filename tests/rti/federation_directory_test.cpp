@@ -1,4 +1,5 @@
-// Several federation executions in one host: who may make and remove them, and that they know nothing of each other.
+// Several federation executions in one host: who may make and remove them, and that they know
+// nothing of each other.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +25,8 @@ class FreePort {
   }
   Station& connect(const Fom& fom = harbour()) {
     Station& station = stations_.emplace_back(fom);
-    station.link = std::make_unique<FederateLink>(station.ambassador, clients_, clients_.connect("rti"));
+    station.link =
+        std::make_unique<FederateLink>(station.ambassador, clients_, clients_.connect("rti"));
     links_.add(*station.link);
     return station;
   }
@@ -70,7 +72,8 @@ TEST(FederationDirectory, ExecutionsAreMadeListedJoinedAndRemovedByName) {
   lister.ambassador.destroy_federation_execution("north");
   port.settle();
   EXPECT_THAT(asker.heard.log, ElementsAre("created north", "created south", "joined"));
-  EXPECT_THAT(lister.heard.log, ElementsAre("listed north:2 south:1", "destroyed northFederatesCurrentlyJoined"));
+  EXPECT_THAT(lister.heard.log,
+              ElementsAre("listed north:2 south:1", "destroyed northFederatesCurrentlyJoined"));
   asker.ambassador.resign();
   port.settle();
   lister.ambassador.destroy_federation_execution("south");
@@ -85,7 +88,8 @@ TEST(FederationDirectory, FederatesOfOneNameInTwoExecutionsHearNothingOfEachOthe
   FreePort port;
   port.directory.create("north", harbour().hash());
   port.directory.create("south", harbour().hash());
-  Station &north = port.join("north", "ship"), &south = port.join("south", "ship"), &watcher = port.join("south", "watcher");
+  Station &north = port.join("north", "ship"), &south = port.join("south", "ship"),
+          &watcher = port.join("south", "watcher");
   for (Station* each : {&north, &south}) {
     each->ambassador.publish_object_class_attributes(vessel, AttributeSet{position});
     each->ambassador.subscribe_object_class_attributes(vessel, AttributeSet{position});
@@ -103,11 +107,13 @@ TEST(FederationDirectory, FederatesOfOneNameInTwoExecutionsHearNothingOfEachOthe
 TEST(FederationDirectory, NamesInUseForeignModelsAndTooManyAreRefusedByTheirErrors) {
   FreePort port;
   EXPECT_EQ(port.directory.create("north", harbour().hash()), HlaError::none);
-  EXPECT_EQ(port.directory.create("north", harbour().hash()), HlaError::federation_execution_already_exists);
+  EXPECT_EQ(port.directory.create("north", harbour().hash()),
+            HlaError::federation_execution_already_exists);
   EXPECT_EQ(port.directory.create("south", harbour().hash() + 1), HlaError::could_not_open_fdd);
   EXPECT_EQ(port.directory.create("", harbour().hash()), HlaError::illegal_name);
   EXPECT_EQ(port.directory.destroy("south"), HlaError::federation_execution_does_not_exist);
-  FederationDirectory small(DirectorySettings{.federation = {}, .services = {}, .execution_max = 1});
+  FederationDirectory small(
+      DirectorySettings{.federation = {}, .services = {}, .execution_max = 1});
   small.offer(harbour());
   EXPECT_EQ(small.create("one", harbour().hash()), HlaError::none);
   EXPECT_EQ(small.create("two", harbour().hash()), HlaError::rti_internal_error);
@@ -122,7 +128,10 @@ TEST(FederationDirectory, AHostOfOneFederationListsItAndKeepsIt) {
   asker.ambassador.list_federation_executions();
   asker.ambassador.join("rink", "asker", "tester");
   rig.settle();
-  EXPECT_THAT(asker.heard.log, ElementsAre("created rinkFederationExecutionAlreadyExists", "created otherUnauthorized", "destroyed rinkUnauthorized", "listed rink:0", "joined"));
+  EXPECT_THAT(
+      asker.heard.log,
+      ElementsAre("created rinkFederationExecutionAlreadyExists", "created otherUnauthorized",
+                  "destroyed rinkUnauthorized", "listed rink:0", "joined"));
 }
 
 /// Keeps what goes out, by connection.
@@ -130,7 +139,8 @@ struct Drain final : Outlet {
   std::map<ConnectionId, std::vector<std::byte>> sent;
   std::set<ConnectionId> dropped;
   void send(ConnectionId connection, std::span<const Bytes> parts) override {
-    for (const Bytes part : parts) sent[connection].insert(sent[connection].end(), part.begin(), part.end());
+    for (const Bytes part : parts)
+      sent[connection].insert(sent[connection].end(), part.begin(), part.end());
   }
   void drop(ConnectionId connection, std::string_view) override { dropped.insert(connection); }
 };
@@ -146,8 +156,11 @@ TEST(FederationDirectory, AConversationMeansTheSameHoweverItIsCut) {
     FederationDirectory directory;
     directory.offer(harbour());
     directory.connect(7);
-    for (std::size_t at = 0; at < said.size(); at += step) directory.receive(7, Bytes(said).subspan(at, std::min(step, said.size() - at)));
-    ASSERT_EQ(directory.list(), (std::vector<FederationExecutionInformation>{{"north", "Harbour", 1}})) << "cut every " << step << " bytes";
+    for (std::size_t at = 0; at < said.size(); at += step)
+      directory.receive(7, Bytes(said).subspan(at, std::min(step, said.size() - at)));
+    ASSERT_EQ(directory.list(),
+              (std::vector<FederationExecutionInformation>{{"north", "Harbour", 1}}))
+        << "cut every " << step << " bytes";
   }
 }
 
@@ -160,8 +173,9 @@ TEST(FederationDirectory, WhoBreaksARuleOrIsSilentIsDroppedAndNobodyElse) {
   FederationDirectory directory;
   directory.offer(harbour());
   Drain drain;
-  const std::vector<std::vector<std::byte>> crimes{bytes({0, 0, 0, 0}), bytes({255, 255, 0, 0}), bytes({1, 0, 0, 0, 99}), bytes({1, 0, 0, 0, 1}), bytes({2, 0, 0, 0, 20, 9}),
-                                                   framed(UpdatesMessage{1, 1})};
+  const std::vector<std::vector<std::byte>> crimes{
+      bytes({0, 0, 0, 0}),    bytes({255, 255, 0, 0}),    bytes({1, 0, 0, 0, 99}),
+      bytes({1, 0, 0, 0, 1}), bytes({2, 0, 0, 0, 20, 9}), framed(UpdatesMessage{1, 1})};
   directory.connect(0);
   for (ConnectionId id = 1; id <= crimes.size(); ++id) {
     directory.connect(id);
@@ -180,11 +194,13 @@ TEST(FederationDirectory, WhoBreaksARuleOrIsSilentIsDroppedAndNobodyElse) {
 TEST(FederationDirectory, AStrangersQuestionsAreAnsweredOnceAFlushAndItGoesIfItAsksTooMuch) {
   FederationDirectory directory;
   Drain drain;
-  const auto list = framed(ListFederationExecutionsMessage{}), query = framed(QueryManagementMessage{});
+  const auto list = framed(ListFederationExecutionsMessage{}),
+             query = framed(QueryManagementMessage{});
   directory.connect(0);
   for (int i = 0; i < 20; ++i) directory.receive(0, list), directory.receive(0, query);
   directory.flush(drain);
-  EXPECT_EQ(drain.sent[0].size(), framed(FederationExecutionMessage{1, {}, {}, 0}).size() + framed(ReportEndMessage{}).size());
+  EXPECT_EQ(drain.sent[0].size(), framed(FederationExecutionMessage{1, {}, {}, 0}).size() +
+                                      framed(ReportEndMessage{}).size());
   EXPECT_TRUE(drain.dropped.empty());
   for (int i = 0; i < 1000; ++i) directory.receive(0, list);
   directory.flush(drain);

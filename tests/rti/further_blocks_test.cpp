@@ -1,4 +1,5 @@
-// A federate registers as many objects as it likes in its life: when a block of handles is used up, the RTI has given it a further one.
+// A federate registers as many objects as it likes in its life: when a block of handles is used up,
+// the RTI has given it a further one.
 #include <gtest/gtest.h>
 
 #include "rti/wire/message.h"
@@ -17,7 +18,9 @@ struct Life {
     owner.ambassador.publish_object_class_attributes(vessel, both);
     rig.settle();
   }
-  ObjectHandle place(std::string_view name = {}) { return owner.ambassador.register_object_instance(vessel, name); }
+  ObjectHandle place(std::string_view name = {}) {
+    return owner.ambassador.register_object_instance(vessel, name);
+  }
   /// Registers and deletes `count` objects, a few thousand to a round; true if each had a handle.
   bool come_and_go(std::uint32_t count) {
     bool are_all_there = true;
@@ -48,7 +51,9 @@ TEST(FurtherBlocks, LetAFederateRegisterMoreThanABlockHolds) {
   life.watcher.ambassador.subscribe_object_class_attributes(vessel, both);
   life.rig.settle();
   ASSERT_EQ(life.watcher.heard.objects.size(), 2u);
-  for (const ObjectHandle each : {first, later}) life.owner.ambassador.update_attribute_values(each, both, values_of(1.0f, 2.0f, 3.0f), {1.0, 0});
+  for (const ObjectHandle each : {first, later})
+    life.owner.ambassador.update_attribute_values(each, both, values_of(1.0f, 2.0f, 3.0f),
+                                                  {1.0, 0});
   life.rig.settle();
   EXPECT_EQ(life.watcher.heard.objects.at(first.value).updates, 1);
   EXPECT_EQ(life.watcher.heard.objects.at(later.value).updates, 1);
@@ -78,7 +83,8 @@ TEST(FurtherBlocks, LeaveTheLimitOfWhatIsThereAtOnce) {
   Station& owner = rig.join("owner");
   owner.ambassador.publish_object_class_attributes(vessel, both);
   std::vector<ObjectHandle> objects;
-  for (int i = 0; i < 100; ++i) objects.push_back(owner.ambassador.register_object_instance(vessel));
+  for (int i = 0; i < 100; ++i)
+    objects.push_back(owner.ambassador.register_object_instance(vessel));
   for (int i = 0; i < 50; ++i) {
     owner.ambassador.delete_object_instance(objects[static_cast<std::size_t>(i)]);
     owner.ambassador.register_object_instance(vessel);

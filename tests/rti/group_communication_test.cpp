@@ -46,11 +46,14 @@ TEST(MemberLists, AgreeWithSetsOverRandomComingsAndGoings) {
     const std::uint32_t what = random() % 10;
     if (what < 5) groups.join(group, federate), belongs.emplace(group, federate);
     else if (what < 9) groups.leave(group, federate), belongs.erase({group, federate});
-    else groups.remove_federate(federate), std::erase_if(belongs, [&](const auto& each) { return each.second == federate; });
+    else
+      groups.remove_federate(federate),
+          std::erase_if(belongs, [&](const auto& each) { return each.second == federate; });
     const std::uint32_t sender = random() % 12;
     Members expected, is = heard(groups, group, sender);
     for (std::uint32_t each = 0; each < 12; ++each) {
-      ASSERT_EQ(groups.is_member(group, each), belongs.contains({group, each})) << "seed " << seed << " step " << step;
+      ASSERT_EQ(groups.is_member(group, each), belongs.contains({group, each}))
+          << "seed " << seed << " step " << step;
       if (each != sender && belongs.contains({group, each})) expected.push_back(each);
     }
     std::ranges::sort(is);
@@ -62,9 +65,13 @@ TEST(MemberLists, AgreeWithSetsOverRandomComingsAndGoings) {
 class OneInTurn final : public GroupCommunication {
  public:
   void join(std::uint32_t group, std::uint32_t federate) override { lists_.join(group, federate); }
-  void leave(std::uint32_t group, std::uint32_t federate) override { lists_.leave(group, federate); }
+  void leave(std::uint32_t group, std::uint32_t federate) override {
+    lists_.leave(group, federate);
+  }
   void remove_federate(std::uint32_t federate) override { lists_.remove_federate(federate); }
-  bool is_member(std::uint32_t group, std::uint32_t federate) const override { return lists_.is_member(group, federate); }
+  bool is_member(std::uint32_t group, std::uint32_t federate) const override {
+    return lists_.is_member(group, federate);
+  }
   std::span<const std::uint32_t> receivers(std::uint32_t group, std::uint32_t sender) override {
     const auto all = lists_.receivers(group, sender);
     return all.empty() ? all : all.subspan(turn_++ % all.size(), 1);

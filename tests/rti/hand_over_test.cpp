@@ -1,4 +1,5 @@
-// Ownership over whole federations: random requests that cross each other on their way, federates that join, resign and die.
+// Ownership over whole federations: random requests that cross each other on their way, federates
+// that join, resign and die.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -8,7 +9,8 @@
 namespace rink::rti::testing {
 namespace {
 
-/// A sea on which ships change hands without end. Requests are sent before what they cross has arrived.
+/// A sea on which ships change hands without end. Requests are sent before what they cross has
+/// arrived.
 class Traders {
  public:
   explicit Traders(unsigned seed) : random_(seed) {
@@ -34,19 +36,24 @@ class Traders {
   /// What every federate believes, what the RTI answers, and what was promised must agree.
   void check() {
     rig.settle();
-    for (const std::uint64_t drops : rig.execution().counters().drops) ASSERT_EQ(drops, 0u) << "an honest federate was dropped";
+    for (const std::uint64_t drops : rig.execution().counters().drops)
+      ASSERT_EQ(drops, 0u) << "an honest federate was dropped";
     for (const ObjectHandle ship : ships_)
-      for (const AttributeHandle attribute : {position, speed, privilege_to_delete_object}) ASSERT_NO_FATAL_FAILURE(check(ship, attribute));
+      for (const AttributeHandle attribute : {position, speed, privilege_to_delete_object})
+        ASSERT_NO_FATAL_FAILURE(check(ship, attribute));
   }
   /// Everybody lets go of everything until nobody waits; then no wish may be left.
   void release_all() {
     for (int i = 0; i < 40; ++i) {
       for (Station* each : crew_)
         for (const ObjectHandle ship : ships_)
-          if (knows(*each, ship)) each->ambassador.unconditional_attribute_ownership_divestiture(ship, owned(*each, ship));
+          if (knows(*each, ship))
+            each->ambassador.unconditional_attribute_ownership_divestiture(ship,
+                                                                           owned(*each, ship));
       rig.settle();
     }
-    for (Station* each : crew_) ASSERT_TRUE(each->heard.pending.empty()) << "an acquisition was lost";
+    for (Station* each : crew_)
+      ASSERT_TRUE(each->heard.pending.empty()) << "an acquisition was lost";
   }
 
   Rig rig{Carrier::in_process};
@@ -57,7 +64,9 @@ class Traders {
     Station& station = rig.join("pilot " + std::to_string(++enlisted_));
     station.ambassador.publish_object_class_attributes(vessel, AttributeSet{position, speed});
     station.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{position, speed});
-    if (random_() % 2 == 0) station.ambassador.set_automatic_resign_directive(ResignAction::unconditionally_divest_attributes);
+    if (random_() % 2 == 0)
+      station.ambassador.set_automatic_resign_directive(
+          ResignAction::unconditionally_divest_attributes);
     crew_.push_back(&station);
     rig.settle();
   }
@@ -67,12 +76,16 @@ class Traders {
     else crew_.back()->link->close();
     crew_.pop_back();
     rig.settle();
-    std::erase_if(ships_, [this](ObjectHandle ship) { return std::none_of(crew_.begin(), crew_.end(), [&](Station* each) { return knows(*each, ship); }); });
+    std::erase_if(ships_, [this](ObjectHandle ship) {
+      return std::none_of(crew_.begin(), crew_.end(),
+                          [&](Station* each) { return knows(*each, ship); });
+    });
   }
   void add_ship(Station& station) {
     if (ships_.size() > 12) return;
     ships_.push_back(station.ambassador.register_object_instance(vessel));
-    station.ambassador.update_attribute_values(ships_.back(), AttributeSet{position, speed}, values_of(0.0f, 0.0f, 0.0f), {});
+    station.ambassador.update_attribute_values(ships_.back(), AttributeSet{position, speed},
+                                               values_of(0.0f, 0.0f, 0.0f), {});
   }
   bool knows(Station& station, ObjectHandle ship) {
     try {
@@ -96,16 +109,30 @@ class Traders {
     Ambassador& federate = station.ambassador;
     switch (operation) {
       case 0:
-      case 1: federate.attribute_ownership_acquisition(ship, set); return note_pending(station, ship, set);
-      case 2: federate.attribute_ownership_acquisition_if_available(ship, set); return note_pending(station, ship, set);
-      case 3: return federate.cancel_attribute_ownership_acquisition(ship, set);
-      case 4: return federate.unconditional_attribute_ownership_divestiture(ship, set & owned(station, ship));
+      case 1:
+        federate.attribute_ownership_acquisition(ship, set);
+        return note_pending(station, ship, set);
+      case 2:
+        federate.attribute_ownership_acquisition_if_available(ship, set);
+        return note_pending(station, ship, set);
+      case 3:
+        return federate.cancel_attribute_ownership_acquisition(ship, set);
+      case 4:
+        return federate.unconditional_attribute_ownership_divestiture(ship,
+                                                                      set & owned(station, ship));
       case 5:
-      case 6: return federate.negotiated_attribute_ownership_divestiture(ship, set & owned(station, ship));
-      case 7: return federate.confirm_divestiture(ship, set & owned(station, ship));
-      case 8: return federate.cancel_negotiated_attribute_ownership_divestiture(ship, set & owned(station, ship));
-      case 9: return federate.attribute_ownership_release_denied(ship, set & owned(station, ship));
-      default: return federate.attribute_ownership_divestiture_if_wanted(ship, set & owned(station, ship));
+      case 6:
+        return federate.negotiated_attribute_ownership_divestiture(ship,
+                                                                   set & owned(station, ship));
+      case 7:
+        return federate.confirm_divestiture(ship, set & owned(station, ship));
+      case 8:
+        return federate.cancel_negotiated_attribute_ownership_divestiture(
+            ship, set & owned(station, ship));
+      case 9:
+        return federate.attribute_ownership_release_denied(ship, set & owned(station, ship));
+      default:
+        return federate.attribute_ownership_divestiture_if_wanted(ship, set & owned(station, ship));
     }
   }
   void check(ObjectHandle ship, AttributeHandle attribute) {
@@ -117,14 +144,18 @@ class Traders {
       if (!each->ambassador.is_attribute_owned_by_federate(ship, attribute)) continue;
       ASSERT_EQ(owner, FederateHandle::none) << "two federates think they own it";
       owner = each->ambassador.federate().value;
-      ASSERT_FALSE(each->heard.pending.contains({ship.value, attribute.value})) << "nobody waits for what it owns";
+      ASSERT_FALSE(each->heard.pending.contains({ship.value, attribute.value}))
+          << "nobody waits for what it owns";
     }
     if (asker == nullptr) return;
     asker->ambassador.query_attribute_ownership(ship, attribute);
     rig.settle(1);
-    ASSERT_EQ(asker->heard.owners.at({ship.value, attribute.value}), owner) << "what its owner was told is what the RTI holds";
+    ASSERT_EQ(asker->heard.owners.at({ship.value, attribute.value}), owner)
+        << "what its owner was told is what the RTI holds";
     if (owner != FederateHandle::none) return;
-    for (Station* each : crew_) ASSERT_FALSE(each->heard.pending.contains({ship.value, attribute.value})) << "nobody waits for what is free";
+    for (Station* each : crew_)
+      ASSERT_FALSE(each->heard.pending.contains({ship.value, attribute.value}))
+          << "nobody waits for what is free";
   }
 
   std::mt19937 random_;
@@ -156,20 +187,26 @@ TEST(HandOver, OfAThousandBodiesTakesABlockEachWay) {
     each->ambassador.subscribe_object_class_attributes(vessel, AttributeSet{position, speed});
   }
   std::vector<ObjectHandle> bodies;
-  for (int i = 0; i < 1000; ++i) bodies.push_back(giver.ambassador.register_object_instance(vessel));
+  for (int i = 0; i < 1000; ++i)
+    bodies.push_back(giver.ambassador.register_object_instance(vessel));
   rig.settle();
   const auto settle_bytes = [&rig] {
-    const std::uint64_t before = rig.execution().counters().bytes_sent + rig.execution().counters().bytes_received;
+    const std::uint64_t before =
+        rig.execution().counters().bytes_sent + rig.execution().counters().bytes_received;
     rig.settle();
-    return rig.execution().counters().bytes_sent + rig.execution().counters().bytes_received - before;
+    return rig.execution().counters().bytes_sent + rig.execution().counters().bytes_received -
+           before;
   };
-  for (const ObjectHandle body : bodies) giver.ambassador.negotiated_attribute_ownership_divestiture(body, whole_vessel);
+  for (const ObjectHandle body : bodies)
+    giver.ambassador.negotiated_attribute_ownership_divestiture(body, whole_vessel);
   EXPECT_LE(settle_bytes(), 2u * (1000 + 64));  // to the RTI and on, a byte each
-  for (const ObjectHandle body : bodies) taker.ambassador.attribute_ownership_acquisition(body, whole_vessel);
+  for (const ObjectHandle body : bodies)
+    taker.ambassador.attribute_ownership_acquisition(body, whole_vessel);
   EXPECT_LE(settle_bytes(), 2u * (1000 + 64));
   for (const ObjectHandle body : bodies) giver.ambassador.confirm_divestiture(body, whole_vessel);
   rig.settle();
-  for (const ObjectHandle body : bodies) ASSERT_TRUE(taker.ambassador.is_attribute_owned_by_federate(body, position));
+  for (const ObjectHandle body : bodies)
+    ASSERT_TRUE(taker.ambassador.is_attribute_owned_by_federate(body, position));
   EXPECT_EQ(rig.execution().counters().ownership_notices_sent, 3000u);
 }
 

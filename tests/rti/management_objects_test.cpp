@@ -1,4 +1,5 @@
-// The management object model as object classes: found by subscribing, told when asked, when due and when it changes, and nothing at all while nobody subscribes.
+// The management object model as object classes: found by subscribing, told when asked, when due
+// and when it changes, and nothing at all while nobody subscribes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,17 +13,23 @@
 namespace rink::rti::testing {
 namespace {
 
-const ObjectClassHandle federate_class = *harbour().object_class("HLAobjectRoot.HLAmanager.HLAfederate");
-const ObjectClassHandle federation_class = *harbour().object_class("HLAobjectRoot.HLAmanager.HLAfederation");
+const ObjectClassHandle federate_class =
+    *harbour().object_class("HLAobjectRoot.HLAmanager.HLAfederate");
+const ObjectClassHandle federation_class =
+    *harbour().object_class("HLAobjectRoot.HLAmanager.HLAfederation");
 
-InteractionClassHandle manager_interaction(const std::string& name) { return *harbour().interaction_class("HLAinteractionRoot.HLAmanager." + name); }
+InteractionClassHandle manager_interaction(const std::string& name) {
+  return *harbour().interaction_class("HLAinteractionRoot.HLAmanager." + name);
+}
 
 /// Subscribes to all of the management object model, and reads what it hears.
 class Warden {
  public:
   explicit Warden(Rig& rig) : rig_(rig), station_(rig.join("warden")) {
-    station_.ambassador.subscribe_object_class_attributes(federate_class, harbour().attributes(federate_class));
-    station_.ambassador.subscribe_object_class_attributes(federation_class, harbour().attributes(federation_class));
+    station_.ambassador.subscribe_object_class_attributes(federate_class,
+                                                          harbour().attributes(federate_class));
+    station_.ambassador.subscribe_object_class_attributes(federation_class,
+                                                          harbour().attributes(federation_class));
     rig.settle();
   }
   Ambassador& ambassador() { return station_.ambassador; }
@@ -30,7 +37,9 @@ class Warden {
   /// The object of the federate of that name; none if there is none.
   ObjectHandle object_of(const std::string& name) const {
     for (const auto& [object, known] : station_.heard.objects)
-      if (known.object_class == federate_class && text(ObjectHandle{object}, "HLAfederateName") == name) return {object};
+      if (known.object_class == federate_class &&
+          text(ObjectHandle{object}, "HLAfederateName") == name)
+        return {object};
     return {};
   }
   ObjectHandle federation() const {
@@ -38,19 +47,27 @@ class Warden {
       if (known.object_class == federation_class) return {object};
     return {};
   }
-  std::int32_t count(const std::string& federate, const char* attribute) const { return reader(object_of(federate), attribute).count(); }
-  double time(const std::string& federate, const char* attribute) const { return reader(object_of(federate), attribute).time(); }
-  std::string text(ObjectHandle object, const char* attribute) const { return std::string(reader(object, attribute).text()); }
+  std::int32_t count(const std::string& federate, const char* attribute) const {
+    return reader(object_of(federate), attribute).count();
+  }
+  double time(const std::string& federate, const char* attribute) const {
+    return reader(object_of(federate), attribute).time();
+  }
+  std::string text(ObjectHandle object, const char* attribute) const {
+    return std::string(reader(object, attribute).text());
+  }
   ManagementReader reader(ObjectHandle object, const char* attribute) const {
     static const std::vector<std::byte> nothing;
     const auto known = station_.heard.objects.find(object.value);
     if (known == station_.heard.objects.end()) return ManagementReader(nothing);
-    const auto value = known->second.values.find(harbour().attribute(known->second.object_class, attribute)->value);
+    const auto value = known->second.values.find(
+        harbour().attribute(known->second.object_class, attribute)->value);
     return ManagementReader(value == known->second.values.end() ? nothing : value->second);
   }
   /// Asks for the current values of all that it knows.
   void ask() {
-    station_.ambassador.request_attribute_value_update(federate_class, harbour().attributes(federate_class));
+    station_.ambassador.request_attribute_value_update(federate_class,
+                                                       harbour().attributes(federate_class));
     rig_.settle();
   }
   void send(const std::string& name, const std::vector<std::byte>& parameters) {
@@ -84,9 +101,12 @@ TEST_P(ManagementObjects, TellWhatHasHappenedByTheStandardsNames) {
   coast.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{speed});
   coast.ambassador.subscribe_interaction_class(hail);
   rig.settle();
-  const ObjectHandle object = pilot.ambassador.register_object_instance(vessel), other = pilot.ambassador.register_object_instance(vessel), third = pilot.ambassador.register_object_instance(vessel);
+  const ObjectHandle object = pilot.ambassador.register_object_instance(vessel),
+                     other = pilot.ambassador.register_object_instance(vessel),
+                     third = pilot.ambassador.register_object_instance(vessel);
   for (int i = 0; i < 5; ++i) {
-    for (const ObjectHandle each : {object, other}) pilot.ambassador.update_attribute_values(each, AttributeSet{speed}, values_of(1.0f), {});
+    for (const ObjectHandle each : {object, other})
+      pilot.ambassador.update_attribute_values(each, AttributeSet{speed}, values_of(1.0f), {});
     rig.settle();
   }
   for (int i = 0; i < 3; ++i) pilot.ambassador.send_interaction(hail, bytes_of("ahoy"), {});
@@ -102,18 +122,23 @@ TEST_P(ManagementObjects, TellWhatHasHappenedByTheStandardsNames) {
   EXPECT_EQ(warden.count("pilot", "HLAobjectInstancesDiscovered"), 0);
   EXPECT_EQ(warden.count("coast", "HLAobjectInstancesDiscovered"), 3);
   EXPECT_EQ(warden.count("coast", "HLAobjectInstancesRemoved"), 1);
-  EXPECT_EQ(static_cast<std::uint64_t>(warden.count("coast", "HLAreflectionsReceived")), coast.ambassador.counters().updates_reflected);
+  EXPECT_EQ(static_cast<std::uint64_t>(warden.count("coast", "HLAreflectionsReceived")),
+            coast.ambassador.counters().updates_reflected);
   EXPECT_EQ(warden.count("coast", "HLAinteractionsReceived"), 3);
   EXPECT_EQ(warden.text(warden.object_of("coast"), "HLAfederateType"), "tester");
-  EXPECT_EQ(warden.reader(warden.object_of("coast"), "HLAfederateHandle").handle(), coast.ambassador.federate().value);
+  EXPECT_EQ(warden.reader(warden.object_of("coast"), "HLAfederateHandle").handle(),
+            coast.ambassador.federate().value);
   EXPECT_EQ(warden.count("coast", "HLAfederateState"), 1);
   EXPECT_EQ(warden.time("coast", "HLAGALT"), std::numeric_limits<double>::infinity());
   EXPECT_EQ(warden.text(warden.federation(), "HLAfederationName"), "rink");
   EXPECT_EQ(warden.text(warden.federation(), "HLAFOMmoduleDesignatorList"), "Harbour");
-  EXPECT_EQ(warden.reader(warden.federation(), "HLAfederatesInFederation").handles(), (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(warden.reader(warden.federation(), "HLAfederatesInFederation").handles(),
+            (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Carriers, ManagementObjects, ::testing::Values(Carrier::in_process, Carrier::tcp), [](const auto& carrier) { return name_of(carrier.param); });
+INSTANTIATE_TEST_SUITE_P(Carriers, ManagementObjects,
+                         ::testing::Values(Carrier::in_process, Carrier::tcp),
+                         [](const auto& carrier) { return name_of(carrier.param); });
 
 TEST(ManagementObjectModel, FollowsThoseWhoComeAndGo) {
   Rig rig(Carrier::in_process);
@@ -122,16 +147,19 @@ TEST(ManagementObjectModel, FollowsThoseWhoComeAndGo) {
   Station& guest = rig.join("guest");
   const ObjectHandle object = warden.object_of("guest");
   ASSERT_TRUE(object);
-  EXPECT_EQ(warden.reader(warden.federation(), "HLAfederatesInFederation").handles(), (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(warden.reader(warden.federation(), "HLAfederatesInFederation").handles(),
+            (std::vector<std::uint32_t>{0, 1}));
   guest.ambassador.resign();
   rig.settle();
   EXPECT_FALSE(warden.heard().objects.contains(object.value));
-  EXPECT_EQ(warden.reader(warden.federation(), "HLAfederatesInFederation").handles(), std::vector<std::uint32_t>{0});
+  EXPECT_EQ(warden.reader(warden.federation(), "HLAfederatesInFederation").handles(),
+            std::vector<std::uint32_t>{0});
 }
 
 TEST(ManagementObjectModel, ALostFederatesObjectIsRemoved) {
   Bare bare;
-  bare.witness.subscribe_object_class_attributes(federate_class, harbour().attributes(federate_class));
+  bare.witness.subscribe_object_class_attributes(federate_class,
+                                                 harbour().attributes(federate_class));
   bare.tick();
   bare.execution.connect(1);
   bare.execution.receive(1, frame_of(join_of("stranger")));
@@ -163,7 +191,8 @@ TEST(ManagementObjectModel, CostsNothingWhileNobodySubscribes) {
       pilot.ambassador.update_attribute_values(object, AttributeSet{speed}, values_of(1.0f), {});
       rig.settle();
     }
-    EXPECT_EQ(rig.execution().counters().management_updates, told) << "no period is set, and nobody asked";
+    EXPECT_EQ(rig.execution().counters().management_updates, told)
+        << "no period is set, and nobody asked";
     warden.ambassador().unsubscribe_object_class(federate_class);
     rig.settle();
     EXPECT_TRUE(warden.federation()) << "of which it still hears";
@@ -183,7 +212,9 @@ TEST(ManagementObjectModel, IsToldWhenAskedAndOnlyWhatChanged) {
   pilot.ambassador.send_interaction(hail, bytes_of("ahoy"), {});
   rig.settle();
   EXPECT_EQ(warden.count("pilot", "HLAinteractionsSent"), 0) << "not asked yet";
-  warden.ambassador().request_attribute_value_update(warden.object_of("pilot"), AttributeSet{*harbour().attribute(federate_class, "HLAinteractionsSent")});
+  warden.ambassador().request_attribute_value_update(
+      warden.object_of("pilot"),
+      AttributeSet{*harbour().attribute(federate_class, "HLAinteractionsSent")});
   rig.settle();
   EXPECT_EQ(warden.count("pilot", "HLAinteractionsSent"), 1);
   EXPECT_EQ(warden.count("coast", "HLAinteractionsReceived"), 0) << "nobody asked for that";
@@ -215,7 +246,8 @@ TEST(ManagementObjectModel, IsToldAtThePeriodThatHlaSetTimingSets) {
   EXPECT_EQ(told_at, (std::vector<int>{2, 4, 6}));
   warden.send("HLAfederate.HLAadjust.HLAsetTiming", timing(pilot.ambassador.federate(), 0));
   const std::uint64_t told = rig.execution().counters().management_updates;
-  for (rig.now = 7; rig.now < 12; ++rig.now) pilot.ambassador.send_interaction(hail, bytes_of("ahoy"), {}), rig.settle();
+  for (rig.now = 7; rig.now < 12; ++rig.now)
+    pilot.ambassador.send_interaction(hail, bytes_of("ahoy"), {}), rig.settle();
   EXPECT_EQ(rig.execution().counters().management_updates, told) << "0: no more reports";
 }
 
@@ -253,8 +285,10 @@ TEST(ManagementObjectModel, ReportsPublicationsSubscriptionsAndPoints) {
   pilot.ambassador.publish_interaction_class(hail);
   pilot.ambassador.subscribe_object_class_attributes(ferry, AttributeSet{position}, {}, false);
   pilot.ambassador.register_synchronization_point("anchored");
-  for (const char* each : {"HLAfederate.HLAreport.HLAreportObjectClassPublication", "HLAfederate.HLAreport.HLAreportInteractionPublication",
-                           "HLAfederate.HLAreport.HLAreportObjectClassSubscription", "HLAfederation.HLAreport.HLAreportSynchronizationPoints"})
+  for (const char* each : {"HLAfederate.HLAreport.HLAreportObjectClassPublication",
+                           "HLAfederate.HLAreport.HLAreportInteractionPublication",
+                           "HLAfederate.HLAreport.HLAreportObjectClassSubscription",
+                           "HLAfederation.HLAreport.HLAreportSynchronizationPoints"})
     warden.ambassador().subscribe_interaction_class(manager_interaction(each));
   rig.settle();
   const std::uint32_t number = pilot.ambassador.federate().value;
@@ -262,12 +296,19 @@ TEST(ManagementObjectModel, ReportsPublicationsSubscriptionsAndPoints) {
   warden.send("HLAfederate.HLArequest.HLArequestPublications", about);
   auto& heard = warden.heard().interactions;
   ASSERT_EQ(heard.size(), 2u);
-  EXPECT_EQ(heard[0].second, text_of(written([&](ManagementWriter to) { to.handle(number), to.count(1), to.handle(vessel.value), to.handles({speed.value}); })));
-  EXPECT_EQ(heard[1].second, text_of(written([&](ManagementWriter to) { to.handle(number), to.handles({hail.value}); })));
+  EXPECT_EQ(heard[0].second, text_of(written([&](ManagementWriter to) {
+              to.handle(number), to.count(1), to.handle(vessel.value), to.handles({speed.value});
+            })));
+  EXPECT_EQ(
+      heard[1].second,
+      text_of(written([&](ManagementWriter to) { to.handle(number), to.handles({hail.value}); })));
   heard.clear();
   warden.send("HLAfederate.HLArequest.HLArequestSubscriptions", about);
   ASSERT_EQ(heard.size(), 1u) << "to the other report nobody subscribes";
-  EXPECT_EQ(heard[0].second, text_of(written([&](ManagementWriter to) { to.handle(number), to.count(1), to.handle(ferry.value), to.count(0), to.handles({position.value}); })));
+  EXPECT_EQ(heard[0].second, text_of(written([&](ManagementWriter to) {
+              to.handle(number), to.count(1), to.handle(ferry.value), to.count(0),
+                  to.handles({position.value});
+            })));
   heard.clear();
   warden.send("HLAfederation.HLArequest.HLArequestSynchronizationPoints", {});
   ASSERT_EQ(heard.size(), 1u);
@@ -297,8 +338,10 @@ TEST(ManagementObjectModel, AutoProvideAsksOwnersWhenSomebodyDiscovers) {
   ambassador.register_object_instance(vessel);
   tick(), tick();
   EXPECT_EQ(owner.asked, 0) << "at first it is off";
-  bare.witness.publish_interaction_class(manager_interaction("HLAfederation.HLAadjust.HLAsetSwitches"));
-  bare.witness.send_interaction(manager_interaction("HLAfederation.HLAadjust.HLAsetSwitches"), written([](ManagementWriter to) { to.count(1); }), {});
+  bare.witness.publish_interaction_class(
+      manager_interaction("HLAfederation.HLAadjust.HLAsetSwitches"));
+  bare.witness.send_interaction(manager_interaction("HLAfederation.HLAadjust.HLAsetSwitches"),
+                                written([](ManagementWriter to) { to.count(1); }), {});
   ambassador.register_object_instance(vessel);
   tick(), tick(), tick();
   EXPECT_EQ(owner.asked, 1);
@@ -307,10 +350,22 @@ TEST(ManagementObjectModel, AutoProvideAsksOwnersWhenSomebodyDiscovers) {
 TEST(ManagementObjectModel, IsTheRtisToSpeakOf) {
   Rig rig(Carrier::in_process);
   Warden warden(rig);
-  EXPECT_EQ(error_thrown_by([&] { warden.ambassador().publish_object_class_attributes(federate_class, AttributeSet(1)); }), HlaError::unauthorized);
-  EXPECT_EQ(error_thrown_by([&] { warden.ambassador().publish_interaction_class(manager_interaction("HLAfederate.HLAreport.HLAreportObjectClassPublication")); }), HlaError::unauthorized);
-  EXPECT_EQ(error_thrown_by([&] { warden.ambassador().register_object_instance(federate_class); }), HlaError::object_class_not_published);
-  EXPECT_EQ(error_thrown_by([&] { warden.ambassador().attribute_ownership_acquisition(warden.object_of("warden"), AttributeSet(1)); }), HlaError::object_class_not_published);
+  EXPECT_EQ(error_thrown_by([&] {
+              warden.ambassador().publish_object_class_attributes(federate_class, AttributeSet(1));
+            }),
+            HlaError::unauthorized);
+  EXPECT_EQ(error_thrown_by([&] {
+              warden.ambassador().publish_interaction_class(
+                  manager_interaction("HLAfederate.HLAreport.HLAreportObjectClassPublication"));
+            }),
+            HlaError::unauthorized);
+  EXPECT_EQ(error_thrown_by([&] { warden.ambassador().register_object_instance(federate_class); }),
+            HlaError::object_class_not_published);
+  EXPECT_EQ(error_thrown_by([&] {
+              warden.ambassador().attribute_ownership_acquisition(warden.object_of("warden"),
+                                                                  AttributeSet(1));
+            }),
+            HlaError::object_class_not_published);
   warden.ambassador().query_attribute_ownership(warden.object_of("warden"), AttributeHandle{0});
   rig.settle();
   EXPECT_TRUE(warden.heard().lost.empty());
@@ -322,7 +377,11 @@ TEST(ManagementObjectModel, StrangersWhoForgeItAreDroppedAndNobodyElseNotices) {
     bare.execution.connect(1);
     bare.execution.receive(1, frame_of(join_of("stranger")));
     bare.tick();
-    bare.execution.receive(1, frame_of(PublishInteractionClassMessage{static_cast<std::uint16_t>(manager_interaction("HLAfederate.HLAadjust.HLAsetTiming").value), 1}));
+    bare.execution.receive(1,
+                           frame_of(PublishInteractionClassMessage{
+                               static_cast<std::uint16_t>(
+                                   manager_interaction("HLAfederate.HLAadjust.HLAsetTiming").value),
+                               1}));
     bare.execution.receive(1, frame_of(message));
     bare.tick();
     EXPECT_TRUE(bare.witness.is_joined());
@@ -332,11 +391,19 @@ TEST(ManagementObjectModel, StrangersWhoForgeItAreDroppedAndNobodyElseNotices) {
     return std::string("nothing");
   };
   const auto set_timing = [](Bytes parameters) {
-    return InteractionMessage{static_cast<std::uint16_t>(manager_interaction("HLAfederate.HLAadjust.HLAsetTiming").value), FederateHandle::none, {}, parameters};
+    return InteractionMessage{
+        static_cast<std::uint16_t>(manager_interaction("HLAfederate.HLAadjust.HLAsetTiming").value),
+        FederateHandle::none,
+        {},
+        parameters};
   };
-  const std::vector<std::byte> good = timing({1}, 5), nobody = timing({99}, 5), backwards = timing({1}, 5), cut = values_of(1);
-  EXPECT_EQ(drop_of(PublishObjectClassMessage{static_cast<std::uint16_t>(federate_class.value), 1}), "not owned");
-  EXPECT_EQ(drop_of(PublishInteractionClassMessage{static_cast<std::uint16_t>(manager_interaction("HLAfederate.HLAreport").value), 1}), "not owned");
+  const std::vector<std::byte> good = timing({1}, 5), nobody = timing({99}, 5),
+                               backwards = timing({1}, 5), cut = values_of(1);
+  EXPECT_EQ(drop_of(PublishObjectClassMessage{static_cast<std::uint16_t>(federate_class.value), 1}),
+            "not owned");
+  EXPECT_EQ(drop_of(PublishInteractionClassMessage{
+                static_cast<std::uint16_t>(manager_interaction("HLAfederate.HLAreport").value), 1}),
+            "not owned");
   EXPECT_EQ(drop_of(set_timing(good)), "nothing");
   EXPECT_EQ(drop_of(set_timing(nobody)), "malformed");
   EXPECT_EQ(drop_of(set_timing(cut)), "malformed");
@@ -351,20 +418,28 @@ TEST(ManagementObjectModel, NoFederatesModelRedefinesIt) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(complaint("<objectModel><objects><objectClass><name>HLAobjectRoot</name>\n<objectClass><name>HLAmanager</name></objectClass></objectClass></objects></objectModel>"),
+  EXPECT_EQ(complaint("<objectModel><objects><objectClass><name>HLAobjectRoot</"
+                      "name>\n<objectClass><name>HLAmanager</name></objectClass></objectClass></"
+                      "objects></objectModel>"),
             "own.xml:2: <objectClass> 'HLAmanager': names that begin with HLA are the standard's");
-  EXPECT_EQ(complaint("<objectModel><objects/><interactions><interactionClass><name>HLAinteractionRoot</name>\n<interactionClass><name>HLAmanager</name></interactionClass></interactionClass>"
-                      "</interactions></objectModel>"),
-            "own.xml:2: <interactionClass> 'HLAmanager': names that begin with HLA are the standard's");
+  EXPECT_EQ(
+      complaint(
+          "<objectModel><objects/><interactions><interactionClass><name>HLAinteractionRoot</"
+          "name>\n<interactionClass><name>HLAmanager</name></interactionClass></interactionClass>"
+          "</interactions></objectModel>"),
+      "own.xml:2: <interactionClass> 'HLAmanager': names that begin with HLA are the standard's");
 }
 
 TEST(ManagementObjectModel, StandsBehindAModelsOwnClassesAndIsNoPartOfItsHash) {
   EXPECT_FALSE(harbour().is_management(ferry));
   EXPECT_TRUE(harbour().is_management(federate_class));
-  const Fom bare = Fom::parse("<objectModel><objects><objectClass><name>Root</name></objectClass></objects></objectModel>", "bare.xml");
+  const Fom bare = Fom::parse(
+      "<objectModel><objects><objectClass><name>Root</name></objectClass></objects></objectModel>",
+      "bare.xml");
   EXPECT_EQ(bare.object_class("Root"), ObjectClassHandle{0});
   EXPECT_TRUE(bare.object_class("HLAobjectRoot.HLAmanager.HLAfederate"));
-  EXPECT_TRUE(bare.interaction_class("HLAinteractionRoot.HLAmanager.HLAfederate.HLAadjust.HLAsetTiming"));
+  EXPECT_TRUE(
+      bare.interaction_class("HLAinteractionRoot.HLAmanager.HLAfederate.HLAadjust.HLAsetTiming"));
 }
 
 }  // namespace

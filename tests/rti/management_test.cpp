@@ -13,7 +13,9 @@ namespace {
 struct Inspector : Recorder {
   std::vector<FederationReport> reports;
   int answers = 0;
-  void report_management(const std::vector<FederationReport>& all) override { reports = all, ++answers; }
+  void report_management(const std::vector<FederationReport>& all) override {
+    reports = all, ++answers;
+  }
   const FederateCounts& of(const std::string& name) const {
     static const FederateCounts nothing;
     for (const FederationReport& report : reports)
@@ -43,10 +45,12 @@ TEST_P(ManagementOver, CountsWhatEachFederateSentHeardAndOwns) {
   coast.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{speed});
   coast.ambassador.subscribe_interaction_class(hail);
   coast.ambassador.create_region();
-  const ObjectHandle object = pilot.ambassador.register_object_instance(vessel), other = pilot.ambassador.register_object_instance(vessel);
+  const ObjectHandle object = pilot.ambassador.register_object_instance(vessel),
+                     other = pilot.ambassador.register_object_instance(vessel);
   rig.settle();
   for (int i = 0; i < 5; ++i) {
-    pilot.ambassador.update_attribute_values(object, AttributeSet{speed}, values_of(1.0f * static_cast<float>(i)), {});
+    pilot.ambassador.update_attribute_values(object, AttributeSet{speed},
+                                             values_of(1.0f * static_cast<float>(i)), {});
     pilot.ambassador.update_attribute_values(other, AttributeSet{speed}, values_of(1.0f), {});
     rig.settle();
   }
@@ -68,11 +72,14 @@ TEST_P(ManagementOver, CountsWhatEachFederateSentHeardAndOwns) {
   EXPECT_EQ(heard.objects_in_scope, 2u);
   EXPECT_EQ(heard.regions, 1u);
   EXPECT_EQ(sent.objects_in_scope + sent.regions + heard.objects_owned, 0u);
-  EXPECT_EQ(sent.bytes_sent + heard.bytes_sent, rig.execution().counters().bytes_received - size_of_join("pilot") - size_of_join("coast"));
+  EXPECT_EQ(sent.bytes_sent + heard.bytes_sent, rig.execution().counters().bytes_received -
+                                                    size_of_join("pilot") - size_of_join("coast"));
   EXPECT_EQ(sent.bytes_received + heard.bytes_received, rig.execution().counters().bytes_sent);
 }
 
-INSTANTIATE_TEST_SUITE_P(Carriers, ManagementOver, ::testing::Values(Carrier::in_process, Carrier::tcp), [](const auto& carrier) { return name_of(carrier.param); });
+INSTANTIATE_TEST_SUITE_P(Carriers, ManagementOver,
+                         ::testing::Values(Carrier::in_process, Carrier::tcp),
+                         [](const auto& carrier) { return name_of(carrier.param); });
 
 /// Two ends without a transport.
 struct Line final : Outlet {

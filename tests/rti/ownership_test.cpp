@@ -1,4 +1,5 @@
-// The ownership state machine against one that goes attribute by attribute, over random requests of federates that come and go.
+// The ownership state machine against one that goes attribute by attribute, over random requests of
+// federates that come and go.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +16,8 @@ namespace rink::rti::testing {
 namespace {
 
 using Kind = OwnershipEvent::Kind;
-using Told = std::multiset<std::tuple<Kind, std::uint32_t, std::uint32_t>>;  ///< kind, federate, attribute
+using Told =
+    std::multiset<std::tuple<Kind, std::uint32_t, std::uint32_t>>;  ///< kind, federate, attribute
 
 /// The rules of clause 7 for one attribute, written down without sets or records.
 struct ReferenceAttribute {
@@ -28,7 +30,9 @@ struct ReferenceAttribute {
   std::vector<Claim> claims;
 
   bool is_claimed_by(std::uint32_t federate, bool is_if_available) const {
-    return std::any_of(claims.begin(), claims.end(), [&](const Claim& each) { return each.federate == federate && each.is_if_available == is_if_available; });
+    return std::any_of(claims.begin(), claims.end(), [&](const Claim& each) {
+      return each.federate == federate && each.is_if_available == is_if_available;
+    });
   }
   void remove(std::uint32_t federate) {
     std::erase_if(claims, [&](const Claim& each) { return each.federate == federate; });
@@ -46,7 +50,8 @@ struct ReferenceAttribute {
   void end(bool only_if_available, Tell tell) {
     for (const Claim& each : claims)
       if (each.is_if_available || !only_if_available) tell(Kind::unavailable, each.federate);
-    std::erase_if(claims, [&](const Claim& each) { return each.is_if_available || !only_if_available; });
+    std::erase_if(claims,
+                  [&](const Claim& each) { return each.is_if_available || !only_if_available; });
   }
   template <class Tell>
   void divest(Tell tell) {
@@ -79,7 +84,8 @@ struct ReferenceAttribute {
   }
   template <class Tell>
   void acquire_if_available(std::uint32_t federate, Tell tell) {
-    if (owner == federate || is_claimed_by(federate, false) || is_claimed_by(federate, true)) return;
+    if (owner == federate || is_claimed_by(federate, false) || is_claimed_by(federate, true))
+      return;
     if (owner == no_federate) return hand_to(federate, tell);
     if (!is_offered) return tell(Kind::unavailable, federate);
     if (claims.empty()) tell(Kind::confirmation_requested, owner);
@@ -88,7 +94,9 @@ struct ReferenceAttribute {
   template <class Tell>
   void cancel(std::uint32_t federate, Tell tell) {
     if (!is_claimed_by(federate, false)) return;
-    std::erase_if(claims, [&](const Claim& each) { return each.federate == federate && !each.is_if_available; });
+    std::erase_if(claims, [&](const Claim& each) {
+      return each.federate == federate && !each.is_if_available;
+    });
     tell(Kind::cancelled, federate);
   }
 };
@@ -117,7 +125,10 @@ struct Ledgers {
   template <class Act>
   void expect(std::uint32_t object, AttributeSet set, Act act) {
     for (std::uint32_t k = 0; k < attribute_max; ++k)
-      if (set.contains({k})) act(reference[object][k], [&](Kind kind, std::uint32_t federate) { expected.insert({kind, federate, k}); });
+      if (set.contains({k}))
+        act(reference[object][k], [&](Kind kind, std::uint32_t federate) {
+          expected.insert({kind, federate, k});
+        });
   }
   void leave(std::uint32_t federate) {
     ownership.forget_claims(federate);
@@ -130,19 +141,32 @@ struct Ledgers {
       expect(i, owned, [](ReferenceAttribute& each, auto tell) { each.divest(tell); });
     }
   }
-  void step(std::uint32_t operation, std::uint32_t federate, std::uint32_t object, AttributeSet wish) {
+  void step(std::uint32_t operation, std::uint32_t federate, std::uint32_t object,
+            AttributeSet wish) {
     const ObjectSlot slot = slots[object];
-    const AttributeSet set = wish & ownership.all(slot), own = set & ownership.owned_by(federate, slot);
+    const AttributeSet set = wish & ownership.all(slot),
+                       own = set & ownership.owned_by(federate, slot);
     switch (operation) {
-      case 0: take(ownership.acquire(federate, slot, set)); return expect(object, set, [&](auto& each, auto tell) { each.acquire(federate, tell); });
-      case 1: take(ownership.acquire_if_available(federate, slot, set)); return expect(object, set, [&](auto& each, auto tell) { each.acquire_if_available(federate, tell); });
-      case 2: take(ownership.cancel(federate, slot, set)); return expect(object, set, [&](auto& each, auto tell) { each.cancel(federate, tell); });
-      case 3: return leave(federate);
-      default: break;
+      case 0:
+        take(ownership.acquire(federate, slot, set));
+        return expect(object, set, [&](auto& each, auto tell) { each.acquire(federate, tell); });
+      case 1:
+        take(ownership.acquire_if_available(federate, slot, set));
+        return expect(object, set,
+                      [&](auto& each, auto tell) { each.acquire_if_available(federate, tell); });
+      case 2:
+        take(ownership.cancel(federate, slot, set));
+        return expect(object, set, [&](auto& each, auto tell) { each.cancel(federate, tell); });
+      case 3:
+        return leave(federate);
+      default:
+        break;
     }
     if (own.is_empty()) return;
     switch (operation) {
-      case 4: take(ownership.divest(federate, slot, own)); return expect(object, own, [](auto& each, auto tell) { each.divest(tell); });
+      case 4:
+        take(ownership.divest(federate, slot, own));
+        return expect(object, own, [](auto& each, auto tell) { each.divest(tell); });
       case 5: {
         const AttributeSet fresh = own.without(ownership.offered(slot));
         if (fresh.is_empty()) return;
@@ -155,7 +179,9 @@ struct Ledgers {
         take(ownership.withdraw_offer(federate, slot, offered));
         return expect(object, offered, [](auto& each, auto tell) { each.withdraw(tell); });
       }
-      case 7: take(ownership.deny_release(federate, slot, own)); return expect(object, own, [](auto& each, auto tell) { each.end(false, tell); });
+      case 7:
+        take(ownership.deny_release(federate, slot, own));
+        return expect(object, own, [](auto& each, auto tell) { each.end(false, tell); });
       default:
         take(ownership.give(federate, slot, own));
         return expect(object, own, [](auto& each, auto tell) {
@@ -179,10 +205,13 @@ struct Ledgers {
         const ReferenceAttribute& each = reference[i][k];
         ASSERT_EQ(ownership.owner_of(slots[i], {k}), each.owner);
         ASSERT_EQ(ownership.offered(slots[i]).contains({k}), each.is_offered);
-        ASSERT_EQ(ownership.confirming(slots[i]).contains({k}), each.is_offered && !each.claims.empty());
-        ASSERT_TRUE(each.owner != no_federate || each.claims.empty()) << "nobody waits for what is free";
+        ASSERT_EQ(ownership.confirming(slots[i]).contains({k}),
+                  each.is_offered && !each.claims.empty());
+        ASSERT_TRUE(each.owner != no_federate || each.claims.empty())
+            << "nobody waits for what is free";
         for (std::uint32_t f = 0; f < federates; ++f)
-          ASSERT_EQ(ownership.sought_by(f, slots[i]).contains({k}), each.is_claimed_by(f, false) || each.is_claimed_by(f, true));
+          ASSERT_EQ(ownership.sought_by(f, slots[i]).contains({k}),
+                    each.is_claimed_by(f, false) || each.is_claimed_by(f, true));
       }
     }
   }
@@ -218,7 +247,8 @@ TEST(Ownership, KeepsNothingOfObjectsThatBelongToOneFederateAndAreNotNegotiatedA
   EXPECT_EQ(ledgers.ownership.record_count(), 1u);
   ledgers.ownership.give(0, slot, all);
   EXPECT_EQ(ledgers.table[slot].owner, 5u);
-  EXPECT_EQ(ledgers.ownership.record_count(), 0u) << "a body that was handed over whole costs what it cost before";
+  EXPECT_EQ(ledgers.ownership.record_count(), 0u)
+      << "a body that was handed over whole costs what it cost before";
 }
 
 }  // namespace

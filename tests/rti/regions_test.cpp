@@ -1,4 +1,5 @@
-// Random federations of regions over one to four dimensions, against the standard's definition of overlap applied to every pair.
+// Random federations of regions over one to four dimensions, against the standard's definition of
+// overlap applied to every pair.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,14 +19,16 @@ struct Area {
   std::map<std::uint32_t, Range> set, committed;
 };
 
-/// IEEE 1516.1-2010, 9.1: two regions overlap if they have a dimension in common, and their ranges overlap in each such. [low, high) of whole numbers for the channel.
+/// IEEE 1516.1-2010, 9.1: two regions overlap if they have a dimension in common, and their ranges
+/// overlap in each such. [low, high) of whole numbers for the channel.
 bool overlap(const Area& a, const Area& b) {
   const DimensionSet common = a.dimensions & b.dimensions;
   if (common.is_empty() || a.committed.empty() || b.committed.empty()) return false;
   bool all = true;
   common.for_each([&](DimensionHandle each) {
     const Range &p = a.committed.at(each.value), &q = b.committed.at(each.value);
-    all = all && (each == channel ? p.low < q.high && q.low < p.high : p.low <= q.high && q.low <= p.high);
+    all = all &&
+          (each == channel ? p.low < q.high && q.low < p.high : p.low <= q.high && q.low <= p.high);
   });
   return all;
 }
@@ -33,10 +36,11 @@ bool overlap(const Area& a, const Area& b) {
 /// A pilot and what it did, as far as overlap depends on it.
 struct Planner : Pilot {
   std::deque<Area> areas;
-  std::map<std::uint32_t, std::map<std::uint32_t, AttributeSet>> updates;  ///< by object: attributes by the index of their area
+  std::map<std::uint32_t, std::map<std::uint32_t, AttributeSet>>
+      updates;  ///< by object: attributes by the index of their area
   std::vector<ObjectHandle> objects;
-  std::map<std::uint32_t, AttributeSet> subscriptions;                     ///< by the index of the area
-  std::vector<std::uint32_t> calls;                                        ///< areas in which it listens
+  std::map<std::uint32_t, AttributeSet> subscriptions;  ///< by the index of the area
+  std::vector<std::uint32_t> calls;                     ///< areas in which it listens
   AttributeSet everywhere;
 };
 
@@ -75,26 +79,36 @@ class Airspace : public Flights<Planner> {
     return set;  // position, radio or both
   }
   void change_subscription(Planner& pilot) {
-    const std::uint32_t area = pilot.areas.empty() || by_chance(3) ? add_area(pilot) : static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
+    const std::uint32_t area =
+        pilot.areas.empty() || by_chance(3)
+            ? add_area(pilot)
+            : static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
     const AttributeSet set = some_attributes();
     const AttributeRegions pair{set, {pilot.areas[area].handle}};
     AttributeSet& now = pilot.subscriptions[area];
     if (by_chance(6)) {
-      pilot.ambassador.subscribe_object_class_attributes_with_regions(aircraft, std::span(&pair, 1));
+      pilot.ambassador.subscribe_object_class_attributes_with_regions(aircraft,
+                                                                      std::span(&pair, 1));
       now = now | set;
     } else {
-      pilot.ambassador.unsubscribe_object_class_attributes_with_regions(aircraft, std::span(&pair, 1));
+      pilot.ambassador.unsubscribe_object_class_attributes_with_regions(aircraft,
+                                                                        std::span(&pair, 1));
       now = now.without(set);
     }
   }
   void change_listening(Planner& pilot) {
-    const std::uint32_t area = pilot.areas.empty() || by_chance(3) ? add_area(pilot) : static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
+    const std::uint32_t area =
+        pilot.areas.empty() || by_chance(3)
+            ? add_area(pilot)
+            : static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
     const auto found = std::ranges::find(pilot.calls, area);
     if (found == pilot.calls.end()) {
-      pilot.ambassador.subscribe_interaction_class_with_regions(call, std::span(&pilot.areas[area].handle, 1));
+      pilot.ambassador.subscribe_interaction_class_with_regions(
+          call, std::span(&pilot.areas[area].handle, 1));
       pilot.calls.push_back(area);
     } else {
-      pilot.ambassador.unsubscribe_interaction_class_with_regions(call, std::span(&pilot.areas[area].handle, 1));
+      pilot.ambassador.unsubscribe_interaction_class_with_regions(
+          call, std::span(&pilot.areas[area].handle, 1));
       pilot.calls.erase(found);
     }
   }
@@ -103,7 +117,8 @@ class Airspace : public Flights<Planner> {
       const std::uint32_t area = add_area(pilot);
       const AttributeSet set = some_attributes();
       const AttributeRegions pair{set, {pilot.areas[area].handle}};
-      const ObjectHandle object = pilot.ambassador.register_object_instance_with_regions(aircraft, std::span(&pair, 1));
+      const ObjectHandle object =
+          pilot.ambassador.register_object_instance_with_regions(aircraft, std::span(&pair, 1));
       pilot.objects.push_back(object);
       pilot.updates[object.value][area] = set;
       return;
@@ -116,7 +131,8 @@ class Airspace : public Flights<Planner> {
       pilot.objects.erase(pilot.objects.begin() + static_cast<std::ptrdiff_t>(at));
       return;
     }
-    const std::uint32_t area = static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
+    const std::uint32_t area =
+        static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
     const AttributeSet set = some_attributes();
     const AttributeRegions pair{set, {pilot.areas[area].handle}};
     AttributeSet& now = pilot.updates[object.value][area];
@@ -148,10 +164,13 @@ class Airspace : public Flights<Planner> {
       for (const auto& [area, attributes] : owner.updates.at(object.value)) {
         if (!attributes.contains(attribute)) continue;
         has_region = true;
-        for (const auto& [wanted, subscribed] : pilot.subscriptions) is_inside |= subscribed.contains(attribute) && overlap(owner.areas[area], pilot.areas[wanted]);
+        for (const auto& [wanted, subscribed] : pilot.subscriptions)
+          is_inside |=
+              subscribed.contains(attribute) && overlap(owner.areas[area], pilot.areas[wanted]);
       }
       if (!has_region)
-        for (const auto& [wanted, subscribed] : pilot.subscriptions) is_inside |= subscribed.contains(attribute);
+        for (const auto& [wanted, subscribed] : pilot.subscriptions)
+          is_inside |= subscribed.contains(attribute);
       if (is_inside) set.insert(attribute);
     }
     return set;
@@ -163,13 +182,17 @@ class Airspace : public Flights<Planner> {
           if (&pilot == &owner) continue;
           const auto known = pilot.heard.objects.find(object.value);
           const bool is_in_scope = known != pilot.heard.objects.end() && known->second.is_in_scope;
-          ASSERT_EQ(is_in_scope, !due(owner, object, pilot).is_empty()) << "object " << object.value;
+          ASSERT_EQ(is_in_scope, !due(owner, object, pilot).is_empty())
+              << "object " << object.value;
         }
   }
   /// Each owner says all of each object; each pilot must hear exactly the attributes that are due.
   void expect_updates_are_due(float value) {
     for (Planner& owner : pilots())
-      for (const ObjectHandle object : owner.objects) owner.ambassador.update_attribute_values(object, AttributeSet{where, radio, weight}, values_of(double{value}, double{value}, double{value}), {});
+      for (const ObjectHandle object : owner.objects)
+        owner.ambassador.update_attribute_values(
+            object, AttributeSet{where, radio, weight},
+            values_of(double{value}, double{value}, double{value}), {});
     for (Planner& pilot : pilots())
       for (auto& [object, known] : pilot.heard.objects) known.values.clear();
     tick();
@@ -187,17 +210,21 @@ class Airspace : public Flights<Planner> {
   void expect_calls_are_due() {
     for (Planner& sender : pilots()) {
       if (sender.areas.empty()) continue;
-      std::vector<std::uint32_t> areas{static_cast<std::uint32_t>(below(static_cast<int>(sender.areas.size())))};
-      if (by_chance(5)) areas.push_back(static_cast<std::uint32_t>(below(static_cast<int>(sender.areas.size()))));
+      std::vector<std::uint32_t> areas{
+          static_cast<std::uint32_t>(below(static_cast<int>(sender.areas.size())))};
+      if (by_chance(5))
+        areas.push_back(static_cast<std::uint32_t>(below(static_cast<int>(sender.areas.size()))));
       std::vector<RegionHandle> regions;
       for (const std::uint32_t area : areas) regions.push_back(sender.areas[area].handle);
       for (Planner& pilot : pilots()) pilot.heard.interactions.clear();
-      sender.ambassador.send_interaction_with_regions(call, values_of(std::uint8_t{1}), regions, {});
+      sender.ambassador.send_interaction_with_regions(call, values_of(std::uint8_t{1}), regions,
+                                                      {});
       tick();
       for (const Planner& pilot : pilots()) {
         bool is_due = false;
         for (const std::uint32_t area : areas)
-          for (const std::uint32_t listened : pilot.calls) is_due |= overlap(sender.areas[area], pilot.areas[listened]);
+          for (const std::uint32_t listened : pilot.calls)
+            is_due |= overlap(sender.areas[area], pilot.areas[listened]);
         ASSERT_EQ(!pilot.heard.interactions.empty(), is_due && &pilot != &sender);
       }
     }
@@ -231,14 +258,17 @@ TEST(Regions, AChangedRegionTakesEffectWithinOneTickInEveryDimension) {
     Airspace space(1, 2);
     Pilot &owner = space.pilots()[0], &watcher = space.pilots()[1];
     const DimensionSet all{x, y, altitude, channel};
-    const RegionHandle update = owner.ambassador.create_region(all), view = watcher.ambassador.create_region(all);
+    const RegionHandle update = owner.ambassador.create_region(all),
+                       view = watcher.ambassador.create_region(all);
     all.for_each([&](DimensionHandle each) {
       owner.ambassador.set_range_bounds(update, each, {1.0, 2.0});
       watcher.ambassador.set_range_bounds(view, each, {1.0, 2.0});
     });
-    const AttributeRegions published{AttributeSet{where}, {update}}, wanted{AttributeSet{where}, {view}};
+    const AttributeRegions published{AttributeSet{where}, {update}},
+        wanted{AttributeSet{where}, {view}};
     owner.ambassador.register_object_instance_with_regions(aircraft, std::span(&published, 1));
-    watcher.ambassador.subscribe_object_class_attributes_with_regions(aircraft, std::span(&wanted, 1));
+    watcher.ambassador.subscribe_object_class_attributes_with_regions(aircraft,
+                                                                      std::span(&wanted, 1));
     owner.ambassador.commit_region_modifications(update);
     watcher.ambassador.commit_region_modifications(view);
     space.tick();
@@ -283,7 +313,8 @@ TEST(Regions, OverThePlaneAloneNeedNoTestOutsideTheFilter) {
   std::vector<RegionBounds> bounds;
   for (int i = 0; i < 100; ++i) {
     bounds.push_back({owner.ambassador.create_region(), {}});
-    owner.ambassador.associate_regions_for_updates(owner.ambassador.register_object_instance(aircraft), bounds.back().region);
+    owner.ambassador.associate_regions_for_updates(
+        owner.ambassador.register_object_instance(aircraft), bounds.back().region);
   }
   for (int step = 0; step < 10; ++step) {
     for (RegionBounds& each : bounds) {
@@ -303,13 +334,16 @@ TEST(Regions, OverThePlaneAloneNeedNoTestOutsideTheFilter) {
 class Deaf final : public Interest {
  public:
   using Interest::Interest;
-  bool hears(std::uint32_t, std::uint16_t, std::uint32_t, std::span<const RegionHandle>) override { return false; }
+  bool hears(std::uint32_t, std::uint16_t, std::uint32_t, std::span<const RegionHandle>) override {
+    return false;
+  }
 };
 
 TEST(Regions, DataDistributionIsReplacedByTheUsersOwn) {
   int made = 0;
   FederationServices services;
-  services.data_distribution = [&](const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter) {
+  services.data_distribution = [&](const Fom& fom, const ObjectTable& objects,
+                                   const Ownership& ownership, std::unique_ptr<im::Filter> filter) {
     ++made;
     return std::make_unique<Deaf>(fom, objects, ownership, std::move(filter));
   };
@@ -360,19 +394,26 @@ TEST(Regions, WhoNamesDimensionsOrRegionsThatAreNoneIsDroppedAndNobodyElse) {
     EXPECT_EQ(std::ranges::count(outlet.dropped, ConnectionId{0}), 0);
     return std::ranges::count(outlet.dropped, ConnectionId{1}) == 1;
   };
-  EXPECT_FALSE(is_dropped(CreateRegionOverMessage{0, 3}, ModifyRangesMessage{0, 2, Bytes(zeros).first(2 * range.size())}));
+  EXPECT_FALSE(is_dropped(CreateRegionOverMessage{0, 3},
+                          ModifyRangesMessage{0, 2, Bytes(zeros).first(2 * range.size())}));
   EXPECT_TRUE(is_dropped(CreateRegionOverMessage{0, 4})) << "the harbour has two dimensions";
   EXPECT_TRUE(is_dropped(CreateRegionOverMessage{1, 1})) << "a gap";
   EXPECT_TRUE(is_dropped(CreateRegionOverMessage{0, 1}, CreateRegionOverMessage{0, 1})) << "in use";
-  EXPECT_TRUE(is_dropped(CreateRegionMessage{0}, ModifyRangesMessage{0, 1, range})) << "one range of two";
+  EXPECT_TRUE(is_dropped(CreateRegionMessage{0}, ModifyRangesMessage{0, 1, range}))
+      << "one range of two";
   EXPECT_TRUE(is_dropped(CreateRegionMessage{0}, ModifyRangesMessage{0, 0, {}}));
   EXPECT_TRUE(is_dropped(ModifyRangesMessage{5, 1, range}));
-  EXPECT_TRUE(is_dropped(CreateRegionOverMessage{0, 1}, ModifyRegionsMessage{1, zeros})) << "not over the plane";
-  EXPECT_TRUE(is_dropped(RegionalClassMessage{static_cast<std::uint16_t>(vessel.value), 1, 1, bytes})) << "no such region";
+  EXPECT_TRUE(is_dropped(CreateRegionOverMessage{0, 1}, ModifyRegionsMessage{1, zeros}))
+      << "not over the plane";
+  EXPECT_TRUE(
+      is_dropped(RegionalClassMessage{static_cast<std::uint16_t>(vessel.value), 1, 1, bytes}))
+      << "no such region";
   EXPECT_TRUE(is_dropped(RegionalClassMessage{999, 1, 0, {}}));
-  EXPECT_TRUE(is_dropped(RegionalInteractionMessage{static_cast<std::uint16_t>(hail.value), 1, 1, bytes.first(4)}));
+  EXPECT_TRUE(is_dropped(
+      RegionalInteractionMessage{static_cast<std::uint16_t>(hail.value), 1, 1, bytes.first(4)}));
   EXPECT_TRUE(is_dropped(AssociateRegionsMessage{12345, 1, 1, bytes}));
-  EXPECT_TRUE(is_dropped(InteractionWithinMessage{static_cast<std::uint16_t>(hail.value), {}, 1, bytes.first(4), {}}));
+  EXPECT_TRUE(is_dropped(
+      InteractionWithinMessage{static_cast<std::uint16_t>(hail.value), {}, 1, bytes.first(4), {}}));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A federation on either transport, pumped step by step, whose federates write down what they are told.
+// A federation on either transport, pumped step by step, whose federates write down what they are
+// told.
 #pragma once
 
 #include <cstring>
@@ -19,7 +20,8 @@
 
 namespace rink::rti::testing {
 
-/// A harbour: nothing to do with the game. Vessel has 8 + 4 bytes of fixed size, Ferry inherits and adds a text.
+/// A harbour: nothing to do with the game. Vessel has 8 + 4 bytes of fixed size, Ferry inherits and
+/// adds a text.
 inline constexpr const char* harbour_xml = R"(<?xml version="1.0"?>
 <objectModel>
   <modelIdentification><name>Harbour</name></modelIdentification>
@@ -60,17 +62,23 @@ inline const Fom& harbour() {
   static const Fom fom = Fom::parse(harbour_xml, "harbour.xml");
   return fom;
 }
-inline const ObjectClassHandle vessel = *harbour().object_class("Vessel"), ferry = *harbour().object_class("Ferry");
-inline const AttributeHandle position = *harbour().attribute(ferry, "position"), speed = *harbour().attribute(ferry, "speed"),
+inline const ObjectClassHandle vessel = *harbour().object_class("Vessel"),
+                               ferry = *harbour().object_class("Ferry");
+inline const AttributeHandle position = *harbour().attribute(ferry, "position"),
+                             speed = *harbour().attribute(ferry, "speed"),
                              destination = *harbour().attribute(ferry, "destination");
-inline const AttributeSet motion{position, speed}, whole_vessel{position, speed, privilege_to_delete_object};
-inline const InteractionClassHandle hail = *harbour().interaction_class("Hail"), mayday = *harbour().interaction_class("Mayday");
+inline const AttributeSet motion{position, speed},
+    whole_vessel{position, speed, privilege_to_delete_object};
+inline const InteractionClassHandle hail = *harbour().interaction_class("Hail"),
+                                    mayday = *harbour().interaction_class("Mayday");
 
 inline std::vector<std::byte> bytes_of(std::string_view text) {
   const auto* first = reinterpret_cast<const std::byte*>(text.data());
   return {first, first + text.size()};
 }
-inline std::string text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+inline std::string text_of(Bytes bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 template <class... Numbers>
 std::vector<std::byte> values_of(const Numbers&... numbers) {
   std::vector<std::byte> bytes((sizeof(Numbers) + ... + 0));
@@ -115,30 +123,45 @@ class Recorder : public FederateAmbassador {
   void announce_synchronization_point(std::string_view label, Bytes tag) override {
     log.push_back("announced " + std::string(label) + (tag.empty() ? "" : " with " + text_of(tag)));
   }
-  void federation_synchronized(std::string_view label, std::span<const FederateHandle> failed) override {
+  void federation_synchronized(std::string_view label,
+                               std::span<const FederateHandle> failed) override {
     log.push_back("synchronized " + std::string(label));
     for (const FederateHandle each : failed) log.back() += " without " + std::to_string(each.value);
   }
-  void synchronization_point_registration_succeeded(std::string_view label) override { log.push_back("registered " + std::string(label)); }
-  void synchronization_point_registration_failed(std::string_view label, SynchronizationFailure failure) override {
+  void synchronization_point_registration_succeeded(std::string_view label) override {
+    log.push_back("registered " + std::string(label));
+  }
+  void synchronization_point_registration_failed(std::string_view label,
+                                                 SynchronizationFailure failure) override {
     log.push_back("not registered " + std::string(label) + ": " + to_string(failure));
   }
-  void federation_execution_created(std::string_view federation, HlaError error) override { log.push_back("created " + std::string(federation) + to_string(error)); }
-  void federation_execution_destroyed(std::string_view federation, HlaError error) override { log.push_back("destroyed " + std::string(federation) + to_string(error)); }
-  void report_federation_executions(const std::vector<FederationExecutionInformation>& all) override {
-    log.push_back("listed");
-    for (const FederationExecutionInformation& each : all) log.back() += " " + each.federation + ":" + std::to_string(each.federates);
+  void federation_execution_created(std::string_view federation, HlaError error) override {
+    log.push_back("created " + std::string(federation) + to_string(error));
   }
-  void federate_joined(FederateHandle handle, std::string_view name, std::string_view) override { federates[handle.value] = name; }
-  void federate_resigned(FederateHandle handle, std::string_view name, std::string_view, ResignReason reason) override {
+  void federation_execution_destroyed(std::string_view federation, HlaError error) override {
+    log.push_back("destroyed " + std::string(federation) + to_string(error));
+  }
+  void report_federation_executions(
+      const std::vector<FederationExecutionInformation>& all) override {
+    log.push_back("listed");
+    for (const FederationExecutionInformation& each : all)
+      log.back() += " " + each.federation + ":" + std::to_string(each.federates);
+  }
+  void federate_joined(FederateHandle handle, std::string_view name, std::string_view) override {
+    federates[handle.value] = name;
+  }
+  void federate_resigned(FederateHandle handle, std::string_view name, std::string_view,
+                         ResignReason reason) override {
     federates.erase(handle.value);
     log.push_back(std::string(name) + " " + to_string(reason));
   }
-  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class, std::string_view name) override {
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class,
+                                std::string_view name) override {
     ++discoveries[object.value];
     objects[object.value] = {object_class, std::string(name), false, {}, 0, {}};
   }
-  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp& stamp) override {
+  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values,
+                                const Stamp& stamp) override {
     Known& known = objects.at(object.value);
     if (!known.is_in_scope) ++out_of_scope_updates;
     ++known.updates;
@@ -150,36 +173,68 @@ class Recorder : public FederateAmbassador {
     }
   }
   /// What it registered itself and gave away was never discovered.
-  /// One's own that was given up is never discovered: a vessel or a ferry, whose attributes begin with a vessel's.
-  void attributes_in_scope(ObjectHandle object) override { objects.try_emplace(object.value, Known{ferry, "", false, {}, 0, {}}).first->second.is_in_scope = true; }
-  void attributes_out_of_scope(ObjectHandle object) override { objects.at(object.value).is_in_scope = false; }
+  /// One's own that was given up is never discovered: a vessel or a ferry, whose attributes begin
+  /// with a vessel's.
+  void attributes_in_scope(ObjectHandle object) override {
+    objects.try_emplace(object.value, Known{ferry, "", false, {}, 0, {}})
+        .first->second.is_in_scope = true;
+  }
+  void attributes_out_of_scope(ObjectHandle object) override {
+    objects.at(object.value).is_in_scope = false;
+  }
   void remove_object_instance(ObjectHandle object) override {
     objects.erase(object.value);
     std::erase_if(pending, [object](const auto& each) { return each.first == object.value; });
   }
-  void receive_interaction(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle, const Stamp&) override {
+  void receive_interaction(InteractionClassHandle interaction_class, Bytes parameters,
+                           FederateHandle, const Stamp&) override {
     interactions.emplace_back(interaction_class.value, text_of(parameters));
   }
   int out_of_scope_updates = 0;
 
   // Ownership: what, object, attributes as bits, tag.
-  void request_attribute_ownership_assumption(ObjectHandle object, AttributeSet set, Bytes tag) override { note("assume", object, set, tag); }
-  void request_divestiture_confirmation(ObjectHandle object, AttributeSet set) override { note("confirm", object, set); }
-  void attribute_ownership_acquisition_notification(ObjectHandle object, AttributeSet set, Bytes tag) override { note("acquired", object, set, tag); }
-  void attribute_ownership_unavailable(ObjectHandle object, AttributeSet set) override { note("unavailable", object, set); }
-  void request_attribute_ownership_release(ObjectHandle object, AttributeSet set, Bytes tag) override { note("release", object, set, tag); }
-  void confirm_attribute_ownership_acquisition_cancellation(ObjectHandle object, AttributeSet set) override { note("cancelled", object, set); }
-  void inform_attribute_ownership(ObjectHandle object, AttributeHandle attribute, FederateHandle owner) override {
+  void request_attribute_ownership_assumption(ObjectHandle object, AttributeSet set,
+                                              Bytes tag) override {
+    note("assume", object, set, tag);
+  }
+  void request_divestiture_confirmation(ObjectHandle object, AttributeSet set) override {
+    note("confirm", object, set);
+  }
+  void attribute_ownership_acquisition_notification(ObjectHandle object, AttributeSet set,
+                                                    Bytes tag) override {
+    note("acquired", object, set, tag);
+  }
+  void attribute_ownership_unavailable(ObjectHandle object, AttributeSet set) override {
+    note("unavailable", object, set);
+  }
+  void request_attribute_ownership_release(ObjectHandle object, AttributeSet set,
+                                           Bytes tag) override {
+    note("release", object, set, tag);
+  }
+  void confirm_attribute_ownership_acquisition_cancellation(ObjectHandle object,
+                                                            AttributeSet set) override {
+    note("cancelled", object, set);
+  }
+  void inform_attribute_ownership(ObjectHandle object, AttributeHandle attribute,
+                                  FederateHandle owner) override {
     owners[{object.value, attribute.value}] = owner.value;
   }
-  void attribute_is_not_owned(ObjectHandle object, AttributeHandle attribute) override { owners[{object.value, attribute.value}] = FederateHandle::none; }
-  void attribute_ownership_divested(ObjectHandle object, AttributeSet set) override { note("divested", object, set); }
-  void attribute_ownership_kept(ObjectHandle object, AttributeSet set) override { note("kept", object, set); }
+  void attribute_is_not_owned(ObjectHandle object, AttributeHandle attribute) override {
+    owners[{object.value, attribute.value}] = FederateHandle::none;
+  }
+  void attribute_ownership_divested(ObjectHandle object, AttributeSet set) override {
+    note("divested", object, set);
+  }
+  void attribute_ownership_kept(ObjectHandle object, AttributeSet set) override {
+    note("kept", object, set);
+  }
   void note(const char* what, ObjectHandle object, AttributeSet set, Bytes tag = {}) {
     ownership.push_back({what, object.value, set.bits, text_of(tag)});
     for (std::uint32_t i = 0; i < attribute_max; ++i) {
       if (!set.contains({i}) || what == std::string_view("kept")) continue;
-      if (what == std::string_view("acquired") || what == std::string_view("unavailable") || what == std::string_view("cancelled")) pending.erase({object.value, i});
+      if (what == std::string_view("acquired") || what == std::string_view("unavailable") ||
+          what == std::string_view("cancelled"))
+        pending.erase({object.value, i});
     }
   }
   struct OwnershipNote {
@@ -189,12 +244,18 @@ class Recorder : public FederateAmbassador {
     friend bool operator==(const OwnershipNote&, const OwnershipNote&) = default;
   };
   std::vector<OwnershipNote> ownership;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> owners;  ///< as answered to queries, by object and attribute
-  std::set<std::pair<std::uint32_t, std::uint32_t>> pending;                ///< what the test noted as being acquired, until its end was told
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
+      owners;  ///< as answered to queries, by object and attribute
+  std::set<std::pair<std::uint32_t, std::uint32_t>>
+      pending;  ///< what the test noted as being acquired, until its end was told
 };
 
 enum class Carrier { in_process, tcp, virtual_network };
-inline std::string name_of(Carrier carrier) { return carrier == Carrier::tcp ? "tcp" : carrier == Carrier::virtual_network ? "virtual_network" : "in_process"; }
+inline std::string name_of(Carrier carrier) {
+  return carrier == Carrier::tcp               ? "tcp"
+         : carrier == Carrier::virtual_network ? "virtual_network"
+                                               : "in_process";
+}
 
 /// A federate with its record.
 struct Station {
@@ -207,8 +268,14 @@ struct Station {
 /// One federation execution and its federates. `settle` carries everything to its end.
 class Rig {
  public:
-  explicit Rig(Carrier carrier, FederationSettings settings = {}, TcpSettings tcp_settings = {}, const FederationServices& services = {})
-      : carrier_(carrier), execution_(harbour(), settings, services), host_(execution_), server_tcp_(tcp_settings), server_local_(network_), clients_local_(network_) {
+  explicit Rig(Carrier carrier, FederationSettings settings = {}, TcpSettings tcp_settings = {},
+               const FederationServices& services = {})
+      : carrier_(carrier),
+        execution_(harbour(), settings, services),
+        host_(execution_),
+        server_tcp_(tcp_settings),
+        server_local_(network_),
+        clients_local_(network_) {
     if (carrier == Carrier::tcp) port_ = server_tcp_.listen("127.0.0.1", 0);
     else if (carrier == Carrier::virtual_network) server_virtual_.listen("rti");
     else server_local_.listen("rti");
@@ -224,7 +291,7 @@ class Rig {
   /// A connected federate that has not asked to join.
   Station& connect(const Fom& fom = harbour()) {
     Station& station = stations_.emplace_back(fom);
-    const ConnectionId id = carrier_ == Carrier::tcp               ? clients_tcp_.connect("127.0.0.1", port_)
+    const ConnectionId id = carrier_ == Carrier::tcp ? clients_tcp_.connect("127.0.0.1", port_)
                             : carrier_ == Carrier::virtual_network ? clients_virtual_.connect("rti")
                                                                    : clients_local_.connect("rti");
     station.link = std::make_unique<FederateLink>(station.ambassador, client_transport(), id);
@@ -239,7 +306,8 @@ class Rig {
   }
   /// Federates speak, the RTI listens and answers, federates listen.
   void round() {
-    const auto wait = carrier_ == Carrier::tcp ? std::chrono::microseconds(300) : std::chrono::microseconds(0);
+    const auto wait =
+        carrier_ == Carrier::tcp ? std::chrono::microseconds(300) : std::chrono::microseconds(0);
     links_.flush(now);
     let_arrive();
     client_transport().poll(std::chrono::nanoseconds(0), links_);
@@ -260,11 +328,16 @@ class Rig {
 
  private:
   std::uint64_t traffic() const {
-    std::uint64_t sum = execution_.counters().bytes_sent + execution_.counters().bytes_received + execution_.counters().resigns;
-    for (const Station& station : stations_) sum += station.ambassador.counters().bytes_received + station.ambassador.counters().bytes_sent;
+    std::uint64_t sum = execution_.counters().bytes_sent + execution_.counters().bytes_received +
+                        execution_.counters().resigns;
+    for (const Station& station : stations_)
+      sum +=
+          station.ambassador.counters().bytes_received + station.ambassador.counters().bytes_sent;
     return sum;
   }
-  Transport& chosen(Transport& tcp, Transport& local, Transport& modelled) { return carrier_ == Carrier::tcp ? tcp : carrier_ == Carrier::virtual_network ? modelled : local; }
+  Transport& chosen(Transport& tcp, Transport& local, Transport& modelled) {
+    return carrier_ == Carrier::tcp ? tcp : carrier_ == Carrier::virtual_network ? modelled : local;
+  }
   /// Whatever the perfect virtual network carries is there at the instant of sending.
   void let_arrive() { virtual_.advance_to(virtual_.now_ns()); }
   Carrier carrier_;

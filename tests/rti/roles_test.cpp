@@ -1,4 +1,5 @@
-// What the host of a federation tells its filter: teams, owners and what is always relevant, of objects and federates that come and go.
+// What the host of a federation tells its filter: teams, owners and what is always relevant, of
+// objects and federates that come and go.
 #include <gtest/gtest.h>
 
 #include "tests/rti/rig.h"
@@ -15,7 +16,8 @@ FederationSettings under(const char* filter) {
 
 /// A pilot with vessels all over the sea, and watchers who look elsewhere.
 struct FilteredHarbour {
-  explicit FilteredHarbour(const char* filter) : rig(Carrier::in_process, under(filter)), pilot(rig.join("pilot")) {
+  explicit FilteredHarbour(const char* filter)
+      : rig(Carrier::in_process, under(filter)), pilot(rig.join("pilot")) {
     pilot.ambassador.publish_object_class_attributes(vessel, AttributeSet{position, speed});
   }
   RegionHandle place(Station& station, const im::Region& bounds) {
@@ -33,11 +35,16 @@ struct FilteredHarbour {
   ObjectHandle add_vessel(double at) { return add_vessel(place(pilot, {at, at, at, at})); }
   Station& add_watcher(const std::string& name) {
     Station& watcher = rig.join(name);
-    watcher.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{position, speed}, place(watcher, {90.0, 0.0, 99.0, 9.0}));
+    watcher.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{position, speed},
+                                                         place(watcher, {90.0, 0.0, 99.0, 9.0}));
     return watcher;
   }
-  void tell(ObjectHandle object, const im::Role& role) { rig.execution().set_object_role(object, role); }
-  void tell(const Station& station, const im::Role& role) { rig.execution().set_federate_role(station.ambassador.federate(), role); }
+  void tell(ObjectHandle object, const im::Role& role) {
+    rig.execution().set_object_role(object, role);
+  }
+  void tell(const Station& station, const im::Role& role) {
+    rig.execution().set_federate_role(station.ambassador.federate(), role);
+  }
   bool hears(const Station& station, ObjectHandle object) {
     const auto known = station.heard.objects.find(object.value);
     const bool is_heard = known != station.heard.objects.end() && known->second.is_in_scope;
@@ -50,19 +57,25 @@ struct FilteredHarbour {
 
 TEST(Roles, DecideWhoHearsOfWhatWhereverBothAre) {
   FilteredHarbour harbour("region or team or always");
-  const ObjectHandle friendly = harbour.add_vessel(10.0), foreign = harbour.add_vessel(20.0), lighthouse = harbour.add_vessel(30.0);
+  const ObjectHandle friendly = harbour.add_vessel(10.0), foreign = harbour.add_vessel(20.0),
+                     lighthouse = harbour.add_vessel(30.0);
   Station &watcher = harbour.add_watcher("watcher"), &other = harbour.add_watcher("other");
   harbour.rig.settle();
-  harbour.tell(friendly, {.team = 1}), harbour.tell(foreign, {.team = 2}), harbour.tell(lighthouse, {.is_always_relevant = true});
+  harbour.tell(friendly, {.team = 1}), harbour.tell(foreign, {.team = 2}),
+      harbour.tell(lighthouse, {.is_always_relevant = true});
   harbour.tell(watcher, {.team = 1}), harbour.tell(other, {.team = 2});
   harbour.rig.settle();
-  EXPECT_TRUE(harbour.hears(watcher, friendly) && harbour.hears(watcher, lighthouse) && !harbour.hears(watcher, foreign));
-  EXPECT_TRUE(harbour.hears(other, foreign) && harbour.hears(other, lighthouse) && !harbour.hears(other, friendly));
-  EXPECT_EQ(watcher.heard.objects.at(friendly.value).values.at(speed.value), values_of(5.0f)) << "with its state";
+  EXPECT_TRUE(harbour.hears(watcher, friendly) && harbour.hears(watcher, lighthouse) &&
+              !harbour.hears(watcher, foreign));
+  EXPECT_TRUE(harbour.hears(other, foreign) && harbour.hears(other, lighthouse) &&
+              !harbour.hears(other, friendly));
+  EXPECT_EQ(watcher.heard.objects.at(friendly.value).values.at(speed.value), values_of(5.0f))
+      << "with its state";
   harbour.tell(friendly, {.team = 2});
   harbour.tell(lighthouse, {});
   harbour.rig.settle();
-  EXPECT_TRUE(!harbour.hears(watcher, friendly) && !harbour.hears(watcher, lighthouse) && harbour.hears(other, friendly));
+  EXPECT_TRUE(!harbour.hears(watcher, friendly) && !harbour.hears(watcher, lighthouse) &&
+              harbour.hears(other, friendly));
 }
 
 TEST(Roles, MayBeSaidBeforeThereIsARegion) {
@@ -119,7 +132,7 @@ TEST(Roles, EndWithWhoHasThem) {
   const FederateHandle gone = first.ambassador.federate();
   first.ambassador.resign();
   harbour.rig.settle();
-  harbour.rig.execution().set_federate_role(gone, {.team = 1});   // no longer there
+  harbour.rig.execution().set_federate_role(gone, {.team = 1});  // no longer there
   harbour.rig.execution().set_federate_role({4711}, {.team = 1});
   harbour.rig.execution().set_object_role({4711}, {.team = 1});
   Station& second = harbour.add_watcher("second");
@@ -134,7 +147,8 @@ TEST(Roles, EndWithWhoHasThem) {
 }
 
 TEST(Roles, ShowAFederateWhatIsItsOwnUnderAnyFilter) {
-  for (const char* filter : {"region", "not none", "region and not region", "none and not owner", "grid with dwell(matches=3)"}) {
+  for (const char* filter : {"region", "not none", "region and not region", "none and not owner",
+                             "grid with dwell(matches=3)"}) {
     FilteredHarbour harbour(filter);
     Station &owner = harbour.add_watcher("owner"), &other = harbour.add_watcher("other");
     const ObjectHandle object = harbour.add_vessel(10.0);
@@ -145,9 +159,11 @@ TEST(Roles, ShowAFederateWhatIsItsOwnUnderAnyFilter) {
     harbour.rig.settle();
     EXPECT_TRUE(harbour.hears(owner, object)) << filter;
     EXPECT_EQ(harbour.hears(other, object), std::string(filter) == "none and not owner") << filter;
-    harbour.pilot.ambassador.update_attribute_values(object, AttributeSet{speed}, values_of(6.0f), {});
+    harbour.pilot.ambassador.update_attribute_values(object, AttributeSet{speed}, values_of(6.0f),
+                                                     {});
     harbour.rig.settle();
-    EXPECT_EQ(owner.heard.objects.at(object.value).values.at(speed.value), values_of(6.0f)) << filter;
+    EXPECT_EQ(owner.heard.objects.at(object.value).values.at(speed.value), values_of(6.0f))
+        << filter;
     harbour.tell(object, {.owner = 8});
     harbour.rig.settle();
     EXPECT_TRUE(harbour.hears(other, object)) << filter;

@@ -13,13 +13,15 @@ bool overlaps(const im::Region& a, const im::Region& b) {
 }
 
 im::Region middle_of(const im::Region& region) {
-  const double x = 0.5 * region.low_x + 0.5 * region.high_x, y = 0.5 * region.low_y + 0.5 * region.high_y;
+  const double x = 0.5 * region.low_x + 0.5 * region.high_x,
+               y = 0.5 * region.low_y + 0.5 * region.high_y;
   return {x, y, x, y};
 }
 
 struct Scheme {
   const char* filter;
-  bool is_exact;    ///< exactly the overlapping pairs; otherwise at least those whose vessel's middle is seen
+  bool is_exact;  ///< exactly the overlapping pairs; otherwise at least those whose vessel's middle
+                  ///< is seen
   Carrier carrier;
   std::size_t entry_room = FederationSettings().entry_bytes_per_flush_max;
 };
@@ -35,16 +37,20 @@ struct WatchedSea {
     settings.filter_settings.world = {0.0, 0.0, 100.0, 60.0};
     return settings;
   }
-  WatchedSea(const Scheme& scheme, unsigned seed) : rig(scheme.carrier, settings(scheme)), random(seed), pilot(rig.join("pilot")) {
+  WatchedSea(const Scheme& scheme, unsigned seed)
+      : rig(scheme.carrier, settings(scheme)), random(seed), pilot(rig.join("pilot")) {
     pilot.ambassador.publish_object_class_attributes(vessel, AttributeSet{position, speed});
     for (int i = 0; i < 6; ++i) {
       Station& watcher = rig.join("watcher " + std::to_string(i));
       const RegionHandle region = watcher.ambassador.create_region();
-      watcher.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{position, speed}, region);
+      watcher.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{position, speed},
+                                                           region);
       watchers.push_back({&watcher, region, {}, false});
     }
   }
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  }
   im::Region box(double half) {
     const double x = uniform(0.0, 100.0), y = uniform(0.0, 60.0);
     return {x - half, y - half, x + half, y + half};
@@ -91,7 +97,8 @@ struct WatchedSea {
     }
     if (uniform(0.0, 1.0) < 0.5) add_vessel();
     if (!vessels.empty() && uniform(0.0, 1.0) < 0.3) {
-      std::swap(vessels.back(), vessels[static_cast<std::size_t>(uniform(0.0, static_cast<double>(vessels.size()) - 0.01))]);
+      std::swap(vessels.back(), vessels[static_cast<std::size_t>(
+                                    uniform(0.0, static_cast<double>(vessels.size()) - 0.01))]);
       pilot.ambassador.delete_object_instance(vessels.back().object);
       if (vessels.back().region) pilot.ambassador.delete_region(vessels.back().region);
       vessels.pop_back();
@@ -99,7 +106,8 @@ struct WatchedSea {
     for (Vessel& each : vessels) {
       if (uniform(0.0, 1.0) < 0.3) continue;
       each.speed = static_cast<float>(uniform(0.0, 30.0));
-      pilot.ambassador.update_attribute_values(each.object, AttributeSet{position, speed}, values_of(0.0f, 0.0f, each.speed), {});
+      pilot.ambassador.update_attribute_values(each.object, AttributeSet{position, speed},
+                                               values_of(0.0f, 0.0f, each.speed), {});
     }
   }
 
@@ -116,22 +124,28 @@ TEST_P(Scope, FollowsRandomMovesAsBruteForceDoesAndInScopeStateIsTheOwners) {
   WatchedSea sea(GetParam(), seed);
   for (int i = 0; i < 40; ++i) sea.add_vessel();
   for (int step = 0; step < 60; ++step) {
-    for (int hasty = 0; GetParam().entry_room < 1000 && hasty < 3; ++hasty) sea.change(), sea.rig.round();  // while much is not told yet
+    for (int hasty = 0; GetParam().entry_room < 1000 && hasty < 3; ++hasty)
+      sea.change(), sea.rig.round();  // while much is not told yet
     sea.step();
     for (const WatchedSea::Watcher& watcher : sea.watchers) {
       const Recorder& heard = watcher.station->heard;
       for (const WatchedSea::Vessel& vessel : sea.vessels) {
-        const bool is_due = !vessel.region || (watcher.has_bounds && overlaps(vessel.bounds, watcher.bounds));
+        const bool is_due =
+            !vessel.region || (watcher.has_bounds && overlaps(vessel.bounds, watcher.bounds));
         const auto known = heard.objects.find(vessel.object.value);
         const bool is_in_scope = known != heard.objects.end() && known->second.is_in_scope;
         ASSERT_TRUE(is_in_scope == is_due || !GetParam().is_exact) << "step " << step;
-        ASSERT_TRUE(is_in_scope || !is_due || !overlaps(middle_of(vessel.bounds), watcher.bounds)) << "step " << step;
-        ASSERT_EQ(is_in_scope, sea.rig.execution().is_in_scope(watcher.station->ambassador.federate(), vessel.object));
+        ASSERT_TRUE(is_in_scope || !is_due || !overlaps(middle_of(vessel.bounds), watcher.bounds))
+            << "step " << step;
+        ASSERT_EQ(is_in_scope, sea.rig.execution().is_in_scope(
+                                   watcher.station->ambassador.federate(), vessel.object));
         if (!is_in_scope || vessel.speed == 0.0f) continue;  // never updated
         ASSERT_EQ(known->second.values.at(speed.value), values_of(vessel.speed)) << "step " << step;
       }
       for (const auto& [object, known] : heard.objects) {
-        const bool is_alive = std::any_of(sea.vessels.begin(), sea.vessels.end(), [&](const WatchedSea::Vessel& each) { return each.object.value == object; });
+        const bool is_alive = std::any_of(
+            sea.vessels.begin(), sea.vessels.end(),
+            [&](const WatchedSea::Vessel& each) { return each.object.value == object; });
         ASSERT_TRUE(is_alive) << "removed objects are gone, step " << step;
       }
       for (const auto& [object, count] : heard.discoveries) ASSERT_EQ(count, 1);
@@ -142,12 +156,20 @@ TEST_P(Scope, FollowsRandomMovesAsBruteForceDoesAndInScopeStateIsTheOwners) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Under, Scope,
-                         ::testing::Values(Scheme{"none", false, Carrier::in_process}, Scheme{"grid", false, Carrier::in_process},
-                                           Scheme{"region", true, Carrier::in_process}, Scheme{"region", true, Carrier::tcp},
-                                           Scheme{"region", true, Carrier::in_process, 100}, Scheme{"grid", false, Carrier::in_process, 1}),
+                         ::testing::Values(Scheme{"none", false, Carrier::in_process},
+                                           Scheme{"grid", false, Carrier::in_process},
+                                           Scheme{"region", true, Carrier::in_process},
+                                           Scheme{"region", true, Carrier::tcp},
+                                           Scheme{"region", true, Carrier::in_process, 100},
+                                           Scheme{"grid", false, Carrier::in_process, 1}),
                          [](const auto& scheme) {
-                           const std::string room = scheme.param.entry_room < 1000 ? "_" + std::to_string(scheme.param.entry_room) + "_bytes_of_entries_per_flush" : "";
-                           return std::string(scheme.param.filter) + "_" + name_of(scheme.param.carrier) + room;
+                           const std::string room =
+                               scheme.param.entry_room < 1000
+                                   ? "_" + std::to_string(scheme.param.entry_room) +
+                                         "_bytes_of_entries_per_flush"
+                                   : "";
+                           return std::string(scheme.param.filter) + "_" +
+                                  name_of(scheme.param.carrier) + room;
                          });
 
 TEST(ScopeWithoutMotion, AnObjectThatEntersBringsItsStateOnceAndOneThatLeavesSaysNoMore) {
@@ -184,7 +206,8 @@ TEST(ScopeWithoutMotion, AnObjectThatEntersBringsItsStateOnceAndOneThatLeavesSay
   EXPECT_EQ(heard.discoveries.at(object.value), 1);
 }
 
-/// 20,000 ferries, each some 60 bytes of name and 60 of state: twenty times what may wait for one who does not read.
+/// 20,000 ferries, each some 60 bytes of name and 60 of state: twenty times what may wait for one
+/// who does not read.
 TEST(ScopeWithoutMotion, WhoComesIntoALargeWorldIsToldItInAsManyFlushesAsItsQueueNeeds) {
   constexpr std::size_t queue_max = 64u << 10, room = 16u << 10;
   constexpr int ferries = 20'000;
@@ -195,11 +218,14 @@ TEST(ScopeWithoutMotion, WhoComesIntoALargeWorldIsToldItInAsManyFlushesAsItsQueu
   pilot.ambassador.publish_object_class_attributes(ferry, {position, destination});
   std::vector<ObjectHandle> registered;
   for (int i = 0; i < ferries; ++i) {
-    registered.push_back(pilot.ambassador.register_object_instance(ferry, "a ferry with a name of its own, which is number " + std::to_string(i)));
+    registered.push_back(pilot.ambassador.register_object_instance(
+        ferry, "a ferry with a name of its own, which is number " + std::to_string(i)));
     std::vector<std::byte> values = values_of(static_cast<float>(i), 0.0f);
-    const std::vector<std::byte> text = varying("somewhere that takes some words to say: " + std::to_string(i));
+    const std::vector<std::byte> text =
+        varying("somewhere that takes some words to say: " + std::to_string(i));
     values.insert(values.end(), text.begin(), text.end());
-    pilot.ambassador.update_attribute_values(registered.back(), {position, destination}, values, {});
+    pilot.ambassador.update_attribute_values(registered.back(), {position, destination}, values,
+                                             {});
     if (i % 500 == 0) rig.round();
   }
   rig.settle();
@@ -218,9 +244,11 @@ TEST(ScopeWithoutMotion, WhoComesIntoALargeWorldIsToldItInAsManyFlushesAsItsQueu
   EXPECT_GT(rig.execution().counters().entries_postponed, 19'000u);
   ASSERT_EQ(coast.heard.objects.size(), static_cast<std::size_t>(ferries));
   for (int i = 0; i < ferries; ++i) {
-    const Recorder::Known& known = coast.heard.objects.at(registered[static_cast<std::size_t>(i)].value);
+    const Recorder::Known& known =
+        coast.heard.objects.at(registered[static_cast<std::size_t>(i)].value);
     ASSERT_EQ(known.updates, 1);
-    ASSERT_EQ(known.values.at(destination.value), varying("somewhere that takes some words to say: " + std::to_string(i)));
+    ASSERT_EQ(known.values.at(destination.value),
+              varying("somewhere that takes some words to say: " + std::to_string(i)));
   }
 }
 
@@ -231,7 +259,8 @@ TEST(ScopeWithoutMotion, RegionsThatNameDifferentAttributesAddUp) {
   const RegionHandle near = coast.create_region();
   coast.subscribe_object_class_attributes(vessel, AttributeSet{position}, watcher.region);
   coast.subscribe_object_class_attributes(vessel, AttributeSet{speed}, near);
-  const std::array regions{RegionBounds{watcher.region, {0.0, 0.0, 100.0, 60.0}}, RegionBounds{near, {0.0, 0.0, 10.0, 10.0}}};
+  const std::array regions{RegionBounds{watcher.region, {0.0, 0.0, 100.0, 60.0}},
+                           RegionBounds{near, {0.0, 0.0, 10.0, 10.0}}};
   coast.commit_region_modifications(regions);
   const ObjectHandle object = pilot.register_object_instance(vessel);
   const RegionHandle region = pilot.create_region();
@@ -239,7 +268,8 @@ TEST(ScopeWithoutMotion, RegionsThatNameDifferentAttributesAddUp) {
   const auto go = [&](double x, float knots) {
     pilot.set_region(region, {x, 5.0, x, 5.0});
     pilot.commit_region_modifications(region);
-    pilot.update_attribute_values(object, AttributeSet{position, speed}, values_of(static_cast<float>(x), 5.0f, knots), {});
+    pilot.update_attribute_values(object, AttributeSet{position, speed},
+                                  values_of(static_cast<float>(x), 5.0f, knots), {});
     sea.rig.settle();
   };
   go(50.0, 1.0f);

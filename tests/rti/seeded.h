@@ -8,7 +8,9 @@
 
 namespace rink::rti::testing {
 
-inline double between(std::mt19937_64& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+inline double between(std::mt19937_64& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
 
 inline Nonce nonce_of(unsigned seed) {
   std::mt19937 random(seed);

@@ -1,4 +1,5 @@
-// What nobody hears is not sent, and nobody hears the difference: the same random federation twice, once with one more federate that listens to everything, so that nothing is spared.
+// What nobody hears is not sent, and nobody hears the difference: the same random federation twice,
+// once with one more federate that listens to everything, so that nothing is spared.
 #include <gtest/gtest.h>
 
 #include "tests/rti/scenes/sailors.h"
@@ -53,11 +54,13 @@ TEST(Sparing, NobodyHearsTheDifferenceOverRandomDeclarations) {
 void ask_all(Sea& sea, float value) {
   for (Sailor& sailor : sea.all) sailor.heard->history.clear();
   for (Sailor& sailor : sea.all)
-    for (std::uint32_t i = 0; i < sailor.objects.size(); ++i) Weather::update(sailor, *sailor.ambassador, i, harbour().attributes(ferry), value);
+    for (std::uint32_t i = 0; i < sailor.objects.size(); ++i)
+      Weather::update(sailor, *sailor.ambassador, i, harbour().attributes(ferry), value);
   sea.settle();
 }
 
-/// Updates cross subscriptions on their way: what is heard meanwhile may differ, what is known in the end, of all that is heard then, may not.
+/// Updates cross subscriptions on their way: what is heard meanwhile may differ, what is known in
+/// the end, of all that is heard then, may not.
 TEST(Sparing, ARaceOfSubscriptionsAndUpdatesEndsInTheSameState) {
   std::uint64_t updates = 0, compared = 0;
   for (unsigned seed = 101; seed <= 200; ++seed) {
@@ -82,9 +85,12 @@ TEST(Sparing, ARaceOfSubscriptionsAndUpdatesEndsInTheSameState) {
         ask_all(sea, static_cast<float>(-step));
       }
       for (std::size_t i = 0; i < sailor_count; ++i) {
-        ASSERT_EQ(spared.all[i].heard->history, unspared.all[i].heard->history) << "sailor " << i << ", step " << step;
+        ASSERT_EQ(spared.all[i].heard->history, unspared.all[i].heard->history)
+            << "sailor " << i << ", step " << step;
         for (const auto& [heard, values] : unspared.all[i].heard->history) {
-          ASSERT_EQ(states[0][i][heard], states[1][i][heard]) << "sailor " << i << ", object " << heard.first << ", attribute " << heard.second << ", step " << step;
+          ASSERT_EQ(states[0][i][heard], states[1][i][heard])
+              << "sailor " << i << ", object " << heard.first << ", attribute " << heard.second
+              << ", step " << step;
           ++compared;
         }
       }
@@ -105,7 +111,9 @@ TEST(Sparing, WhatNobodyHeardIsToldOnceAsTheNewestStateToWhoListensFirst) {
   rig.settle();
   const ObjectHandle fram = ambassador.register_object_instance(vessel, "Fram");
   for (int i = 0; i < 100; ++i) {
-    ambassador.update_attribute_values(fram, AttributeSet{speed}, testing::values_of(static_cast<float>(i)), {static_cast<double>(i), 7});
+    ambassador.update_attribute_values(fram, AttributeSet{speed},
+                                       testing::values_of(static_cast<float>(i)),
+                                       {static_cast<double>(i), 7});
     ambassador.send_interaction(hail, bytes_of("is anybody there?"), {});
   }
   const std::uint64_t before = rig.execution().counters().updates_received;
@@ -123,7 +131,8 @@ TEST(Sparing, WhatNobodyHeardIsToldOnceAsTheNewestStateToWhoListensFirst) {
   EXPECT_EQ(known.stamp, (Stamp{99.0, 7}));
   EXPECT_TRUE(coast.heard.interactions.empty());
   ambassador.send_interaction(hail, bytes_of("ahoy"), {});
-  ambassador.update_attribute_values(fram, AttributeSet{speed}, testing::values_of(1.0f), {100.0, 7});
+  ambassador.update_attribute_values(fram, AttributeSet{speed}, testing::values_of(1.0f),
+                                     {100.0, 7});
   rig.settle();
   EXPECT_EQ(known.values.at(speed.value), testing::values_of(1.0f));
   EXPECT_EQ(coast.heard.interactions.size(), 1u);
@@ -138,7 +147,8 @@ TEST(Sparing, TheDeathOfTheLastListenerStopsUpdatesAndAnotherOneStartsThemAgain)
   rig.settle();
   const ObjectHandle fram = pilot.ambassador.register_object_instance(vessel);
   const auto go = [&](float knots) {
-    pilot.ambassador.update_attribute_values(fram, AttributeSet{speed}, testing::values_of(knots), {});
+    pilot.ambassador.update_attribute_values(fram, AttributeSet{speed}, testing::values_of(knots),
+                                             {});
     rig.settle();
   };
   go(1.0f);
@@ -152,7 +162,8 @@ TEST(Sparing, TheDeathOfTheLastListenerStopsUpdatesAndAnotherOneStartsThemAgain)
   second.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{speed});
   rig.settle();
   EXPECT_EQ(second.heard.objects.at(fram.value).values.at(speed.value), testing::values_of(3.0f));
-  EXPECT_EQ(second.heard.objects.at(fram.value).updates, 1) << "nothing that was out of date was told first";
+  EXPECT_EQ(second.heard.objects.at(fram.value).updates, 1)
+      << "nothing that was out of date was told first";
 }
 
 TEST(Sparing, WhatOutlivesItsFederateIsNeverKeptBack) {
@@ -164,7 +175,8 @@ TEST(Sparing, WhatOutlivesItsFederateIsNeverKeptBack) {
   pilot.ambassador.update_attribute_values(fram, AttributeSet{speed}, testing::values_of(1.0f), {});
   EXPECT_EQ(pilot.ambassador.counters().updates_spared, 1u);
   pilot.ambassador.set_automatic_resign_directive(ResignAction::unconditionally_divest_attributes);
-  pilot.ambassador.update_attribute_values(fram, AttributeSet{position}, testing::values_of(2.0f, 3.0f), {});
+  pilot.ambassador.update_attribute_values(fram, AttributeSet{position},
+                                           testing::values_of(2.0f, 3.0f), {});
   EXPECT_EQ(pilot.ambassador.counters().updates_spared, 1u);
   rig.settle();
   EXPECT_EQ(rig.execution().counters().updates_received, 2u);
@@ -203,9 +215,11 @@ TEST(Sparing, MessagesInTimeStampOrderAlwaysTravelAndTakeWhatWasKeptBackWithThem
   pilot.ambassador.enable_time_regulation(1.0);
   rig.settle();
   const ObjectHandle object = pilot.ambassador.register_object_instance(ferry);
-  pilot.ambassador.update_attribute_values(object, AttributeSet{speed}, testing::values_of(1.0f), {});
+  pilot.ambassador.update_attribute_values(object, AttributeSet{speed}, testing::values_of(1.0f),
+                                           {});
   EXPECT_EQ(pilot.ambassador.counters().updates_spared, 1u);
-  pilot.ambassador.update_attribute_values(object, AttributeSet{destination}, varying("Oslo"), LogicalTime(2.0));
+  pilot.ambassador.update_attribute_values(object, AttributeSet{destination}, varying("Oslo"),
+                                           LogicalTime(2.0));
   rig.settle();
   EXPECT_EQ(rig.execution().counters().updates_received, 1u) << "the speed";
   EXPECT_EQ(rig.execution().counters().timed_received, 1u);

@@ -7,18 +7,26 @@
 namespace rink::rti::testing {
 namespace {
 
-std::string with_switches(const std::string& switches, std::string xml = harbour_xml) { return xml.insert(xml.find("<objects>"), "<switches>" + switches + "</switches>"); }
+std::string with_switches(const std::string& switches, std::string xml = harbour_xml) {
+  return xml.insert(xml.find("<objects>"), "<switches>" + switches + "</switches>");
+}
 
 TEST(Switches, SayHowAFederationBegins) {
-  const Fom fom = Fom::parse(with_switches(R"(<autoProvide isEnabled="true"/><attributeRelevanceAdvisory isEnabled="true"/><attributeScopeAdvisory isEnabled="false"/>
-<conveyProducingFederate isEnabled="true"/><serviceReporting isEnabled="false"/><automaticResignAction resignAction="UnconditionallyDivestAttributes"/>)"), "s.xml");
+  const Fom fom = Fom::parse(
+      with_switches(
+          R"(<autoProvide isEnabled="true"/><attributeRelevanceAdvisory isEnabled="true"/><attributeScopeAdvisory isEnabled="false"/>
+<conveyProducingFederate isEnabled="true"/><serviceReporting isEnabled="false"/><automaticResignAction resignAction="UnconditionallyDivestAttributes"/>)"),
+      "s.xml");
   EXPECT_TRUE(fom.switches().auto_provide);
   EXPECT_TRUE(fom.switches().attribute_relevance_advisory);
   EXPECT_FALSE(fom.switches().attribute_scope_advisory);
   EXPECT_TRUE(fom.switches().object_class_relevance_advisory) << "what is left out is as ever";
-  EXPECT_EQ(fom.switches().automatic_resign_action, ResignAction::unconditionally_divest_attributes);
+  EXPECT_EQ(fom.switches().automatic_resign_action,
+            ResignAction::unconditionally_divest_attributes);
   EXPECT_NE(fom.hash(), harbour().hash()) << "both ends must begin alike";
-  EXPECT_EQ(Fom::parse(with_switches(R"(<autoProvide isEnabled="false"/>)"), "s.xml").hash(), harbour().hash()) << "it says what is so anyway";
+  EXPECT_EQ(Fom::parse(with_switches(R"(<autoProvide isEnabled="false"/>)"), "s.xml").hash(),
+            harbour().hash())
+      << "it says what is so anyway";
 }
 
 TEST(Switches, AreRefusedByLineAndElement) {
@@ -30,19 +38,33 @@ TEST(Switches, AreRefusedByLineAndElement) {
     }
     return std::string("accepted");
   };
-  const std::string harbour_line = std::to_string(1 + std::count(harbour_xml, std::string_view(harbour_xml).data() + std::string_view(harbour_xml).find("<objects>"), '\n') + 1);
+  const std::string harbour_line =
+      std::to_string(1 +
+                     std::count(harbour_xml,
+                                std::string_view(harbour_xml).data() +
+                                    std::string_view(harbour_xml).find("<objects>"),
+                                '\n') +
+                     1);
   const std::string at = "s.xml:" + harbour_line + ": ";
-  EXPECT_EQ(complaint(R"(<autoProvide isEnabled="yes"/>)"), at + "<autoProvide> of <switches> has isEnabled \"yes\"; allowed are true, false");
-  EXPECT_EQ(complaint(R"(<autopilot isEnabled="true"/>)"), at + "<switches> holds <autopilot>, which is no switch of the standard");
-  EXPECT_EQ(complaint(R"(<serviceReporting isEnabled="true"/>)"), at + "<serviceReporting> can't be enabled: this RTI does not do that");
-  EXPECT_EQ(complaint(R"(<conveyProducingFederate isEnabled="false"/>)"), at + "<conveyProducingFederate> can't be disabled: whoever receives an interaction is always told its sender");
+  EXPECT_EQ(complaint(R"(<autoProvide isEnabled="yes"/>)"),
+            at + "<autoProvide> of <switches> has isEnabled \"yes\"; allowed are true, false");
+  EXPECT_EQ(complaint(R"(<autopilot isEnabled="true"/>)"),
+            at + "<switches> holds <autopilot>, which is no switch of the standard");
+  EXPECT_EQ(complaint(R"(<serviceReporting isEnabled="true"/>)"),
+            at + "<serviceReporting> can't be enabled: this RTI does not do that");
+  EXPECT_EQ(complaint(R"(<conveyProducingFederate isEnabled="false"/>)"),
+            at + "<conveyProducingFederate> can't be disabled: whoever receives an interaction is "
+                 "always told its sender");
   EXPECT_EQ(complaint(R"(<automaticResignAction resignAction="Explode"/>)"),
-            at + "<automaticResignAction> of <switches> has resignAction \"Explode\"; allowed are the standard's, such as CancelThenDeleteThenDivest");
+            at + "<automaticResignAction> of <switches> has resignAction \"Explode\"; allowed are "
+                 "the standard's, such as CancelThenDeleteThenDivest");
 }
 
 TEST(Switches, OfTwoModulesMustAgree) {
-  const std::string on = with_switches(R"(<autoProvide isEnabled="true"/>)"), off = with_switches(R"(<autoProvide isEnabled="false"/>)");
-  const std::array same{FomModule{on, "a.xml"}, FomModule{on, "b.xml"}}, different{FomModule{on, "a.xml"}, FomModule{off, "b.xml"}};
+  const std::string on = with_switches(R"(<autoProvide isEnabled="true"/>)"),
+                    off = with_switches(R"(<autoProvide isEnabled="false"/>)");
+  const std::array same{FomModule{on, "a.xml"}, FomModule{on, "b.xml"}},
+      different{FomModule{on, "a.xml"}, FomModule{off, "b.xml"}};
   EXPECT_TRUE(Fom::parse(same).switches().auto_provide);
   try {
     Fom::parse(different);
@@ -52,10 +74,14 @@ TEST(Switches, OfTwoModulesMustAgree) {
   }
 }
 
-/// Of a model with the switches, an owner of one vessel and a guest who sees it; then the owner is lost.
+/// Of a model with the switches, an owner of one vessel and a guest who sees it; then the owner is
+/// lost.
 TEST(Switches, AreThoseOfEachFederateAtFirst) {
-  const Fom fom = Fom::parse(with_switches(R"(<attributeRelevanceAdvisory isEnabled="true"/><attributeScopeAdvisory isEnabled="false"/>
-<automaticResignAction resignAction="UnconditionallyDivestAttributes"/>)"), "s.xml");
+  const Fom fom = Fom::parse(
+      with_switches(
+          R"(<attributeRelevanceAdvisory isEnabled="true"/><attributeScopeAdvisory isEnabled="false"/>
+<automaticResignAction resignAction="UnconditionallyDivestAttributes"/>)"),
+      "s.xml");
   struct Heard : Recorder {
     int scopes = 0, turned_on = 0;
     void attributes_in_scope(ObjectHandle) override { ++scopes; }
@@ -73,7 +99,8 @@ TEST(Switches, AreThoseOfEachFederateAtFirst) {
   Ambassador owner(fom, owner_heard), guest(fom, guest_heard);
   outlet.ends[0] = &owner, outlet.ends[1] = &guest;
   const auto tick = [&] {
-    for (ConnectionId id = 0; id < 2; ++id) execution.receive(id, outlet.ends[id]->outgoing()), outlet.ends[id]->clear_outgoing();
+    for (ConnectionId id = 0; id < 2; ++id)
+      execution.receive(id, outlet.ends[id]->outgoing()), outlet.ends[id]->clear_outgoing();
     execution.match();
     execution.flush(outlet);
   };

@@ -11,13 +11,17 @@ namespace {
 using Kind = WindowEvent::Kind;
 using Pace = EventQueue::Pace;
 
-/// "a+" is key a going down, "a-" going up; "*+" and "*-" the mouse's button, "~" a move, "c" a letter of a text.
+/// "a+" is key a going down, "a-" going up; "*+" and "*-" the mouse's button, "~" a move, "c" a
+/// letter of a text.
 void do_all(EventQueue& queue, const std::string& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const char letter = words[i];
     if (letter == '~') queue.push({.kind = Kind::mouse_move});
     else if (letter == 'c') queue.push({.kind = Kind::text, .character = 'c'});
-    else queue.push({.kind = letter == '*' ? Kind::mouse_button : Kind::key, .key = letter == '*' ? 0 : letter, .is_down = words[++i] == '+'});
+    else
+      queue.push({.kind = letter == '*' ? Kind::mouse_button : Kind::key,
+                  .key = letter == '*' ? 0 : letter,
+                  .is_down = words[++i] == '+'});
   }
 }
 
@@ -30,7 +34,10 @@ std::vector<std::string> frames_of(EventQueue& queue, Pace pace) {
     while (const auto event = queue.take(pace)) {
       if (event->kind == Kind::mouse_move) seen += '~';
       else if (event->kind == Kind::text) seen += 'c';
-      else seen += std::string(1, event->kind == Kind::mouse_button ? '*' : static_cast<char>(event->key)) + (event->is_down ? '+' : '-');
+      else
+        seen += std::string(
+                    1, event->kind == Kind::mouse_button ? '*' : static_cast<char>(event->key)) +
+                (event->is_down ? '+' : '-');
     }
   }
   frames.pop_back();

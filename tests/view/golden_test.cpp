@@ -1,4 +1,5 @@
-// Every screen against its golden image: a match that stands still, so that no image depends on how bodies move.
+// Every screen against its golden image: a match that stands still, so that no image depends on how
+// bodies move.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -39,16 +40,21 @@ class StillMatch final : public MatchSource {
   MatchSight sight_;
 };
 
-/// Decisions that a filter could have made of the crowd: bat 1012 and its like hear of what is within 2.5 m of their middle.
+/// Decisions that a filter could have made of the crowd: bat 1012 and its like hear of what is
+/// within 2.5 m of their middle.
 game::InterestSeen decided(const MatchSight& sight, std::uint32_t asked) {
   game::InterestSeen seen{.asked = asked, .cell_size = 1.25f, .views = {}, .heard = {}};
-  const auto gap = [](const Thing& a, const Thing& b) { return (a.position - b.position).cwiseAbs().maxCoeff(); };
+  const auto gap = [](const Thing& a, const Thing& b) {
+    return (a.position - b.position).cwiseAbs().maxCoeff();
+  };
   const Thing& there = sight.things[asked];
   for (const Thing& thing : sight.things) {
     if (thing.id != asked && gap(thing, there) < 2.5) seen.heard.push_back(thing.id);
     if (thing.kind != physics::BodyKind::bat) continue;
-    const auto x = static_cast<float>(thing.position.x()), y = static_cast<float>(thing.position.y());
-    seen.views.push_back({thing.id, gap(thing, there) < 2.5, x - 2.5f, y - 2.5f, x + 2.5f, y + 2.5f});
+    const auto x = static_cast<float>(thing.position.x()),
+               y = static_cast<float>(thing.position.y());
+    seen.views.push_back(
+        {thing.id, gap(thing, there) < 2.5, x - 2.5f, y - 2.5f, x + 2.5f, y + 2.5f});
     if (seen.views.back().hears && thing.id != asked) ++seen.hearer_count;
   }
   seen.view_count = static_cast<std::uint32_t>(seen.views.size());
@@ -86,7 +92,10 @@ class GoldenImages : public ::testing::Test {
     target_ = Target(size.width, size.height, 0);
   }
   void open(const MatchSight& sight, const Settings& settings = shared_camera()) {
-    application_ = std::make_unique<Application>(Surroundings{.make_match = [sight](const MatchWish&) { return std::make_unique<StillMatch>(sight); }}, settings);
+    application_ = std::make_unique<Application>(
+        Surroundings{.make_match =
+                         [sight](const MatchWish&) { return std::make_unique<StillMatch>(sight); }},
+        settings);
   }
   void play(const MatchSight& sight, const Settings& settings = shared_camera()) {
     open(sight, settings);
@@ -99,11 +108,15 @@ class GoldenImages : public ::testing::Test {
   }
 
   void frame(bool is_seen = true) {
-    application_->draw(*interface_, is_seen ? renderer_.get() : nullptr, size_, {target_.framebuffer(), 0, 0, size_.width, size_.height}, now_ += 1.0 / 60.0);
+    application_->draw(*interface_, is_seen ? renderer_.get() : nullptr, size_,
+                       {target_.framebuffer(), 0, 0, size_.width, size_.height},
+                       now_ += 1.0 / 60.0);
   }
   void tap(const char* key) {
     for (const bool is_down : {true, false}) {
-      hear({.kind = WindowEvent::Kind::key, .key = key_code_from_name(key).value(), .is_down = is_down});
+      hear({.kind = WindowEvent::Kind::key,
+            .key = key_code_from_name(key).value(),
+            .is_down = is_down});
       for (int i = 0; i < 3; ++i) frame(false);
     }
   }
@@ -111,13 +124,18 @@ class GoldenImages : public ::testing::Test {
   /// Down and up before anything is drawn, as a person's tap is where a frame takes long.
   void tap_within_a_frame(const char* key) {
     for (const bool is_down : {true, false})
-      hear({.kind = WindowEvent::Kind::key, .key = key_code_from_name(key).value(), .is_down = is_down});
+      hear({.kind = WindowEvent::Kind::key,
+            .key = key_code_from_name(key).value(),
+            .is_down = is_down});
   }
 
-  /// Other drivers round and sample otherwise: an edge here and there may differ, not a place or a colour.
+  /// Other drivers round and sample otherwise: an edge here and there may differ, not a place or a
+  /// colour.
   void expect_golden(const std::string& name) {
     frame(false), frame(false);
-    do frame();  // the first after a cut may be drawn as of a camera that moves, and what stands still becomes smooth by and by
+    do
+      frame();  // the first after a cut may be drawn as of a camera that moves, and what stands
+                // still becomes smooth by and by
     while (!renderer_->is_settled());
     frame();
     const Image seen = read_pixels(target_.framebuffer(), size_.width, size_.height);
@@ -131,9 +149,11 @@ class GoldenImages : public ::testing::Test {
     std::filesystem::create_directories(folder);
     write_png(folder + name + ".actual.png", seen);
     write_png(folder + name + ".difference.png", difference_image(seen, wanted));
-    ADD_FAILURE() << name << ": mean difference " << apart.mean << " (below 1.5), part of the pixels off by more than 32 is " << apart.part_above_32 << " (below 0.01), in the worst tile "
-                  << worst << "\nis      " << folder << name
-                  << ".actual.png\nmust be " << golden << "\napart   " << folder << name << ".difference.png";
+    ADD_FAILURE() << name << ": mean difference " << apart.mean
+                  << " (below 1.5), part of the pixels off by more than 32 is "
+                  << apart.part_above_32 << " (below 0.01), in the worst tile " << worst
+                  << "\nis      " << folder << name << ".actual.png\nmust be " << golden
+                  << "\napart   " << folder << name << ".difference.png";
   }
 
   static inline std::unique_ptr<OffscreenContext> context_;
@@ -192,8 +212,11 @@ TEST_F(GoldenImages, AreLeftForAMatchByAClickWithinOneFrame) {
 TEST_F(GoldenImages, MoveTheBatOfAKeyThatIsTappedWithinOneFrame) {
   const game::Scene scene = game::load_scene("match");
   const game::LocalMatchSettings settings{.times = {.countdown_s = 0.0}};
-  const auto make_match = [&](const MatchWish&) { return std::make_unique<game::LocalMatch>(scene, settings); };
-  application_ = std::make_unique<Application>(Surroundings{.make_match = make_match}, shared_camera());
+  const auto make_match = [&](const MatchWish&) {
+    return std::make_unique<game::LocalMatch>(scene, settings);
+  };
+  application_ =
+      std::make_unique<Application>(Surroundings{.make_match = make_match}, shared_camera());
   application_->play({.kind = MatchWish::Kind::two, .address = {}});
   application_->set_viewpoint(Viewpoint::side);
   for (int i = 0; i < 3; ++i) frame(false);
@@ -207,7 +230,10 @@ TEST_F(GoldenImages, MoveTheBatOfAKeyThatIsTappedWithinOneFrame) {
 TEST_F(GoldenImages, OfAMatchFromEveryViewpoint) {
   MatchSight sight = match_sight();
   sight.score = {3, 1};
-  for (const auto& [viewpoint, name] : {std::pair{Viewpoint::side, "side"}, {Viewpoint::left_end, "left_end"}, {Viewpoint::right_end, "right_end"}, {Viewpoint::above, "above"}}) {
+  for (const auto& [viewpoint, name] : {std::pair{Viewpoint::side, "side"},
+                                        {Viewpoint::left_end, "left_end"},
+                                        {Viewpoint::right_end, "right_end"},
+                                        {Viewpoint::above, "above"}}) {
     play(sight);
     application_->set_viewpoint(viewpoint);
     expect_golden(name);
@@ -253,7 +279,8 @@ TEST_F(GoldenImages, OfTheEnd) {
 TEST_F(GoldenImages, OfANetworkMatch) {
   MatchSight sight = match_sight();
   sight.own_team = game::Team::right;
-  sight.link = LinkFigures{.ping_ms = 42.0, .jitter_ms = 1.7, .loss = 0.01, .tick = 12345, .payload_bytes_per_s = 412.0};
+  sight.link = LinkFigures{
+      .ping_ms = 42.0, .jitter_ms = 1.7, .loss = 0.01, .tick = 12345, .payload_bytes_per_s = 412.0};
   sight.phase = Phase::away;
   sight.remaining_s = 17.3;
   play(sight);
@@ -310,8 +337,12 @@ TEST_F(GoldenImages, OfAReplay) {
   playing.advance(8.0);
   const test::TemporaryFolder folder("replay");
   const std::string file = (folder / "still.keys").string();
-  game::write_key_log(file, game::log_of(playing.game(), scene, game::scene_text("match"), playing.keys()));
-  application_ = std::make_unique<Application>(Surroundings{.make_match = [&](const MatchWish&) { return std::make_unique<game::ReplayMatch>(file); }}, Settings());
+  game::write_key_log(
+      file, game::log_of(playing.game(), scene, game::scene_text("match"), playing.keys()));
+  application_ = std::make_unique<Application>(
+      Surroundings{.make_match =
+                       [&](const MatchWish&) { return std::make_unique<game::ReplayMatch>(file); }},
+      Settings());
   application_->play({.kind = MatchWish::Kind::replay, .address = file});
   frame(false);
   tap("right");
@@ -326,9 +357,13 @@ TEST_F(GoldenImages, GoBackToTheMenuWhenTheConnectionIsLost) {
   sight.notice = "the host is gone";
   std::string told;
   int made = 0;
-  application_ = std::make_unique<Application>(Surroundings{.make_match = [&](const MatchWish&) { return std::make_unique<StillMatch>(made++ == 0 ? match_sight() : sight); },
-                                                            .tell = [&](const std::string& words) { told = words; }},
-                                               Settings());
+  application_ = std::make_unique<Application>(
+      Surroundings{.make_match =
+                       [&](const MatchWish&) {
+                         return std::make_unique<StillMatch>(made++ == 0 ? match_sight() : sight);
+                       },
+                   .tell = [&](const std::string& words) { told = words; }},
+      Settings());
   application_->play({.kind = MatchWish::Kind::join, .address = "localhost:1"});
   frame();
   EXPECT_TRUE(application_->is_in_menu());

@@ -12,7 +12,8 @@ namespace {
 using game::InterestSeen;
 using physics::BodyKind;
 
-/// Two bats, 3 and 7, and two pucks; the player of bat 7 hears of bat 3 and puck 8, that of bat 3 of bat 7.
+/// Two bats, 3 and 7, and two pucks; the player of bat 7 hears of bat 3 and puck 8, that of bat 3
+/// of bat 7.
 MatchSight decided_sight() {
   MatchSight sight;
   sight.field = {.length = 20.0, .width = 10.0};
@@ -20,9 +21,14 @@ MatchSight decided_sight() {
                   {3, BodyKind::bat, game::Team::right, {2.0, 2.0}, {0.0, 0.0}, {0.05, 0.15}},
                   {8, BodyKind::puck, game::Team::none, {11.0, 5.0}, {0.0, 0.0}, {0.04, 0.04}},
                   {9, BodyKind::puck, game::Team::none, {10.5, 5.0}, {0.0, 0.0}, {0.04, 0.04}}};
-  sight.interest = InterestSeen{.asked = 7, .cell_size = 0.5f, .view_count = 2, .heard_count = 2, .hearer_count = 1,
-                                .views = {{7, false, 8.0f, 3.0f, 12.0f, 7.0f}, {3, true, 0.0f, 0.0f, 4.0f, 4.0f}},
-                                .heard = {3, 8}};
+  sight.interest = InterestSeen{
+      .asked = 7,
+      .cell_size = 0.5f,
+      .view_count = 2,
+      .heard_count = 2,
+      .hearer_count = 1,
+      .views = {{7, false, 8.0f, 3.0f, 12.0f, 7.0f}, {3, true, 0.0f, 0.0f, 4.0f, 4.0f}},
+      .heard = {3, 8}};
   return sight;
 }
 
@@ -36,20 +42,26 @@ TEST(InterestOverlay, ShowsWhatWasDecidedEvenWhereGeometryWouldSayOtherwise) {
   const std::ptrdiff_t on_unheard = std::ranges::count(overlay.discs, 10.5, &OverlayDisc::x);
   EXPECT_EQ(on_unheard, 0) << "puck 9 lies in the region, but its player was not told of it";
   EXPECT_EQ(std::ranges::count(overlay.discs, 11.0, &OverlayDisc::x), 1);
-  EXPECT_EQ(std::ranges::count(overlay.discs, 2.0, &OverlayDisc::x), 2) << "bat 3 is heard of and hears";
+  EXPECT_EQ(std::ranges::count(overlay.discs, 2.0, &OverlayDisc::x), 2)
+      << "bat 3 is heard of and hears";
 }
 
 /// Three bats of which two are played: the report has a region of each player, and no other.
 TEST(InterestOverlay, CountsThePlayersWhoAreThereAndNotTheBats) {
   MatchSight sight = decided_sight();
-  sight.things.push_back({12, BodyKind::bat, game::Team::left, {15.0, 5.0}, {0.0, 0.0}, {0.05, 0.15}});
-  const std::vector<std::string> played{"grid: cells of 0.5 m, regions of 2 players", "bat 7 (purple): 1 of 2 players hear of it (orange)",
-                                        "its player hears of 2 of 5 bodies (green)", "Tab or a click asks of another, I hides this"};
+  sight.things.push_back(
+      {12, BodyKind::bat, game::Team::left, {15.0, 5.0}, {0.0, 0.0}, {0.05, 0.15}});
+  const std::vector<std::string> played{"grid: cells of 0.5 m, regions of 2 players",
+                                        "bat 7 (purple): 1 of 2 players hear of it (orange)",
+                                        "its player hears of 2 of 5 bodies (green)",
+                                        "Tab or a click asks of another, I hides this"};
   EXPECT_EQ(interest_overlay(sight, {}).lines, played);
   sight.interest->asked = 12;
   sight.interest->heard.clear();
   sight.interest->heard_count = sight.interest->hearer_count = 0;
-  const std::vector<std::string> free{played[0], "bat 12 (purple): 0 of 2 players hear of it (orange)", "nobody plays it", played[3]};
+  const std::vector<std::string> free{played[0],
+                                      "bat 12 (purple): 0 of 2 players hear of it (orange)",
+                                      "nobody plays it", played[3]};
   EXPECT_EQ(interest_overlay(sight, {}).lines, free);
 }
 
@@ -57,7 +69,8 @@ TEST(InterestOverlay, IsEmptyUnlessSomethingWasToldAndItIsWanted) {
   MatchSight sight = decided_sight();
   for (const bool is_told : {true, false}) {
     const Overlay overlay = interest_overlay(sight, {.is_shown = !is_told});
-    EXPECT_TRUE(overlay.rectangles.empty() && overlay.discs.empty() && overlay.lines.empty() && overlay.cell_size == 0.0);
+    EXPECT_TRUE(overlay.rectangles.empty() && overlay.discs.empty() && overlay.lines.empty() &&
+                overlay.cell_size == 0.0);
     sight.interest.reset();
   }
 }
@@ -77,7 +90,8 @@ TEST(InterestOverlay, AsksOfBatsInTurnOrOfWhatWasPicked) {
 TEST(InterestOverlay, AsksOfTheNearestThingUnderAClickInWhateverOrderTheyCome) {
   MatchSight sight;
   for (const bool is_nearest_first : {true, false}) {
-    sight.things = {{.id = 1, .position = {1.0, 1.0}, .half_extent = {0.1, 0.1}}, {.id = 2, .position = {1.5, 1.0}, .half_extent = {0.1, 0.1}}};
+    sight.things = {{.id = 1, .position = {1.0, 1.0}, .half_extent = {0.1, 0.1}},
+                    {.id = 2, .position = {1.5, 1.0}, .half_extent = {0.1, 0.1}}};
     if (!is_nearest_first) std::swap(sight.things[0], sight.things[1]);
     EXPECT_EQ(thing_at(sight, {1.2, 1.0}, 0.5), 1u);
     EXPECT_EQ(thing_at(sight, {1.3, 1.0}, 0.5), 2u);

@@ -41,11 +41,16 @@ TEST_F(LocalMatches, CountDownWhileTheGameStandsStill) {
 TEST_F(LocalMatches, MoveTheBatInTheFrameAfterTheKey) {
   LocalMatch match(match_scene(), {.times = {.countdown_s = 0.0}});
   frames(match, 3);
-  const auto bat = [&] { return *std::ranges::find_if(match.sight().things, [](const Thing& thing) { return thing.kind == physics::BodyKind::bat && thing.team == Team::right; }); };
+  const auto bat = [&] {
+    return *std::ranges::find_if(match.sight().things, [](const Thing& thing) {
+      return thing.kind == physics::BodyKind::bat && thing.team == Team::right;
+    });
+  };
   const double before = bat().position.y();
   match.press(1, Key::up, true);
   frames(match, 2);
-  const double after_one_frame = 0.5 * 8.0 * frame * frame;  // thrust of the scene; drag takes a few per cent
+  const double after_one_frame =
+      0.5 * 8.0 * frame * frame;  // thrust of the scene; drag takes a few per cent
   EXPECT_NEAR(bat().position.y() - before, after_one_frame, 0.05 * after_one_frame);
 }
 
@@ -67,7 +72,8 @@ TEST_F(LocalMatches, TakeNoSimulatedTimeForAPauseAndCountDownAfterIt) {
 }
 
 TEST_F(LocalMatches, AreWonByTheFifthGoalAndPlayedAgainWhenAsked) {
-  LocalMatch match(match_scene(), {.players = {"chaser-expert", "chaser-beginner"}, .times = {.countdown_s = 0.0}});
+  LocalMatch match(match_scene(), {.players = {"chaser-expert", "chaser-beginner"},
+                                   .times = {.countdown_s = 0.0}});
   ASSERT_TRUE(wait(match, 900.0, [&] { return match.sight().phase == MatchPhase::over; }));
   const Score score = match.sight().score;
   EXPECT_EQ(std::max(score.left, score.right), 5u);
@@ -81,7 +87,8 @@ TEST_F(LocalMatches, AreWonByTheFifthGoalAndPlayedAgainWhenAsked) {
 
 /// What hands pressed is in the keys, so that a log of them is the match.
 TEST_F(LocalMatches, CanBePlayedAgainFromTheirKeys) {
-  LocalMatch match(match_scene(), {.players = {Playing::hand, "chaser"}, .times = {.countdown_s = 0.0}});
+  LocalMatch match(match_scene(),
+                   {.players = {Playing::hand, "chaser"}, .times = {.countdown_s = 0.0}});
   frames(match, 2);
   for (int i = 0; i < 40; ++i) {
     match.press(0, static_cast<Key>(i % 4), i % 3 != 0);

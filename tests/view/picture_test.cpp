@@ -16,46 +16,74 @@ MatchSight bat_and_puck() {
   sight.field = table;
   sight.goals_to_win = 5;
   sight.phase = Phase::playing;
-  sight.things.push_back({.id = 0, .kind = physics::BodyKind::bat, .team = game::Team::left, .position = {0.25, 0.6}, .half_extent = {0.03, 0.1}});
-  sight.things.push_back({.id = 1, .kind = physics::BodyKind::puck, .position = {1.2, 0.6}, .half_extent = {0.04, 0.04}});
+  sight.things.push_back({.id = 0,
+                          .kind = physics::BodyKind::bat,
+                          .team = game::Team::left,
+                          .position = {0.25, 0.6},
+                          .half_extent = {0.03, 0.1}});
+  sight.things.push_back({.id = 1,
+                          .kind = physics::BodyKind::puck,
+                          .position = {1.2, 0.6},
+                          .half_extent = {0.04, 0.04}});
   return sight;
 }
 
-Sight seen(Viewpoint viewpoint, double aspect = wide) { return Sight(camera_of(table, {.viewpoint = viewpoint}, aspect), static_cast<float>(aspect)); }
+Sight seen(Viewpoint viewpoint, double aspect = wide) {
+  return Sight(camera_of(table, {.viewpoint = viewpoint}, aspect), static_cast<float>(aspect));
+}
 
 TEST(Cameras, ShowTheWholeTableWhateverTheWindowsShape) {
   for (const double aspect : {4.0 / 3.0, wide, 21.0 / 9.0})
-    for (const Viewpoint viewpoint : {Viewpoint::left_end, Viewpoint::right_end, Viewpoint::side, Viewpoint::above})
+    for (const Viewpoint viewpoint :
+         {Viewpoint::left_end, Viewpoint::right_end, Viewpoint::side, Viewpoint::above})
       for (const float x : {0.0f, 2.4f})
         for (const float y : {0.0f, 1.2f}) {
           const Eigen::Vector2f at = seen(viewpoint, aspect).project({x, y, 0.0f});
-          EXPECT_LT(std::max(std::abs(at.x()), std::abs(at.y())), 1.0f) << "viewpoint " << static_cast<int>(viewpoint) << ", aspect " << aspect << ", corner " << x << ' ' << y;
+          EXPECT_LT(std::max(std::abs(at.x()), std::abs(at.y())), 1.0f)
+              << "viewpoint " << static_cast<int>(viewpoint) << ", aspect " << aspect << ", corner "
+              << x << ' ' << y;
         }
 }
 
 TEST(Cameras, PutTheOwnEndNearAndTheOtherFar) {
-  EXPECT_LT(seen(Viewpoint::left_end).project({0.2f, 0.6f, 0.0f}).y(), seen(Viewpoint::left_end).project({2.2f, 0.6f, 0.0f}).y());
-  EXPECT_GT(seen(Viewpoint::right_end).project({0.2f, 0.6f, 0.0f}).y(), seen(Viewpoint::right_end).project({2.2f, 0.6f, 0.0f}).y());
+  EXPECT_LT(seen(Viewpoint::left_end).project({0.2f, 0.6f, 0.0f}).y(),
+            seen(Viewpoint::left_end).project({2.2f, 0.6f, 0.0f}).y());
+  EXPECT_GT(seen(Viewpoint::right_end).project({0.2f, 0.6f, 0.0f}).y(),
+            seen(Viewpoint::right_end).project({2.2f, 0.6f, 0.0f}).y());
 }
 
 TEST(Cameras, FindThePlaceOnTheTableThatAPointOfTheWindowShows) {
-  for (const Viewpoint viewpoint : {Viewpoint::left_end, Viewpoint::right_end, Viewpoint::side, Viewpoint::above}) {
+  for (const Viewpoint viewpoint :
+       {Viewpoint::left_end, Viewpoint::right_end, Viewpoint::side, Viewpoint::above}) {
     const Sight sight = seen(viewpoint);
-    const Eigen::Vector2f place(0.7f, 0.9f), back = sight.on_table(sight.project({place.x(), place.y(), 0.0f}));
+    const Eigen::Vector2f place(0.7f, 0.9f),
+        back = sight.on_table(sight.project({place.x(), place.y(), 0.0f}));
     EXPECT_LT((back - place).norm(), 1e-5f) << static_cast<int>(viewpoint);
   }
 }
 
-/// The claim of seen_from: whatever the viewpoint, the field's key moves the bat in the window where the player's key points.
+/// The claim of seen_from: whatever the viewpoint, the field's key moves the bat in the window
+/// where the player's key points.
 TEST(Keys, MoveTheBatWhereTheyPointFromEveryEnd) {
-  for (const Viewpoint viewpoint : {Viewpoint::left_end, Viewpoint::right_end, Viewpoint::side, Viewpoint::above})
+  for (const Viewpoint viewpoint :
+       {Viewpoint::left_end, Viewpoint::right_end, Viewpoint::side, Viewpoint::above})
     for (const game::Key key : game::all_keys) {
       const game::Key on_field = seen_from(viewpoint, key);
-      const auto way = [](game::Key k) { return Vector3(k == game::Key::right ? 0.1f : k == game::Key::left ? -0.1f : 0.0f, k == game::Key::up ? 0.1f : k == game::Key::down ? -0.1f : 0.0f, 0.0f); };
+      const auto way = [](game::Key k) {
+        return Vector3(k == game::Key::right  ? 0.1f
+                       : k == game::Key::left ? -0.1f
+                                              : 0.0f,
+                       k == game::Key::up     ? 0.1f
+                       : k == game::Key::down ? -0.1f
+                                              : 0.0f,
+                       0.0f);
+      };
       const Vector3 middle(1.2f, 0.6f, 0.0f);
       const Sight sight = seen(viewpoint);
-      const Eigen::Vector2f moved = sight.project(middle + way(on_field)) - sight.project(middle), wanted = way(key).head<2>();
-      EXPECT_GT(moved.normalized().dot(wanted.normalized()), 0.9f) << static_cast<int>(viewpoint) << ' ' << game::key_name(key);
+      const Eigen::Vector2f moved = sight.project(middle + way(on_field)) - sight.project(middle),
+                            wanted = way(key).head<2>();
+      EXPECT_GT(moved.normalized().dot(wanted.normalized()), 0.9f)
+          << static_cast<int>(viewpoint) << ' ' << game::key_name(key);
     }
 }
 
@@ -72,7 +100,8 @@ TEST(Pictures, AreAPureFunctionOfTheSight) {
 TEST(Pictures, TurnTheScoreWithTheEndItIsReadFrom) {
   MatchSight sight = bat_and_puck();
   sight.score = {3, 1};
-  const Scoreboard left = picture_of(sight, {}, {.viewpoint = Viewpoint::left_end}, wide).board, right = picture_of(sight, {}, {.viewpoint = Viewpoint::right_end}, wide).board;
+  const Scoreboard left = picture_of(sight, {}, {.viewpoint = Viewpoint::left_end}, wide).board,
+                   right = picture_of(sight, {}, {.viewpoint = Viewpoint::right_end}, wide).board;
   EXPECT_EQ(left.first, 3u);
   EXPECT_EQ(right.first, 1u);
   EXPECT_TRUE(left.is_left_first);
@@ -93,7 +122,9 @@ TEST(Pictures, SayInEveryPhaseWhatIsGoingOn) {
   MatchSight sight = bat_and_puck();
   const auto says = [&](const std::string& words) {
     const Picture picture = picture_of(sight, {}, {}, wide);
-    return std::ranges::any_of(picture.texts, [&](const Text& text) { return text.words.find(words) != std::string::npos; });
+    return std::ranges::any_of(picture.texts, [&](const Text& text) {
+      return text.words.find(words) != std::string::npos;
+    });
   };
   sight.phase = Phase::countdown, sight.remaining_s = 1.4;
   EXPECT_TRUE(says("2"));

@@ -13,8 +13,8 @@
 #include "game/control/key_log.h"
 #include "game/model/scene_file.h"
 #include "game/net/scene_choice.h"
-#include "game/view/render/image_file.h"
 #include "game/view/picture_of.h"
+#include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
 #include "loadgen/run/process.h"
 #include "rti/transport/tcp/tcp.h"
@@ -49,10 +49,15 @@ class PlayCommand : public ::testing::Test {
 
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   /// The exit status; what was said on standard error is in `said_`.
-  int play(const std::string& arguments, const std::string& script = {}, const std::string& further = {}) {
+  int play(const std::string& arguments, const std::string& script = {},
+           const std::string& further = {}) {
     std::ofstream(file("script")) << script;
-    const std::string command = "cd " + folder_.path().string() + " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.path().string() + " XDG_DATA_HOME=" + folder_.path().string() + " " + test::binary_folder() + "/bin/rink-play " + arguments +
-                                (script.empty() ? "" : " --offscreen --size 640x360 --script script") + further + " 2>err";
+    const std::string command =
+        "cd " + folder_.path().string() +
+        " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.path().string() +
+        " XDG_DATA_HOME=" + folder_.path().string() + " " + test::binary_folder() +
+        "/bin/rink-play " + arguments +
+        (script.empty() ? "" : " --offscreen --size 640x360 --script script") + further + " 2>err";
     const int status = std::system(command.c_str());
     said_ = test::text_of(file("err"));
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -83,7 +88,10 @@ struct Played {
     }
     game.advance(log.until.value());
     for (const physics::Event& event : game.events())
-      touches += event.kind == physics::EventKind::puck_bat && (event.body == bot || event.other == bot) ? 1 : 0;
+      touches +=
+          event.kind == physics::EventKind::puck_bat && (event.body == bot || event.other == bot)
+              ? 1
+              : 0;
     goals = game.score().left + game.score().right;
     is_as_recorded = game.hash() == log.hash;
   }
@@ -93,16 +101,20 @@ struct Played {
   bool is_as_recorded = false;
 };
 
-/// The person holds a key for a second and then stands: all else is the bot's. Countdown to 3.9 s, pause at 16 s, all in
-/// frames of 1/60 s.
+/// The person holds a key for a second and then stands: all else is the bot's. Countdown to 3.9 s,
+/// pause at 16 s, all in frames of 1/60 s.
 TEST_F(PlayCommand, PlaysAgainstEachBotFromTheMenuToThePauseAndBack) {
   std::uint32_t goals = 0;
   for (int bot = 0; bot < 3; ++bot) {
-    const std::string downs = bot == 0 ? "" : bot == 1 ? "0.6 tap down\n" : "0.6 tap down\n0.7 tap down\n";
-    const std::string script = "0.2 tap down\n0.4 tap enter\n" + downs + "0.8 tap enter\n5 down w\n6 up w\n" +
-                               "16 tap escape\n16.2 tap down\n16.3 tap down\n16.5 tap enter\n17 end\n";
+    const std::string downs = bot == 0   ? ""
+                              : bot == 1 ? "0.6 tap down\n"
+                                         : "0.6 tap down\n0.7 tap down\n";
+    const std::string script =
+        "0.2 tap down\n0.4 tap enter\n" + downs + "0.8 tap enter\n5 down w\n6 up w\n" +
+        "16 tap escape\n16.2 tap down\n16.3 tap down\n16.5 tap enter\n17 end\n";
     ASSERT_EQ(play("--records kept-" + std::to_string(bot), script), 0) << said_;
-    ASSERT_TRUE(std::filesystem::exists(file("kept-" + std::to_string(bot) + "/match-1.keys"))) << "bot " << bot;
+    ASSERT_TRUE(std::filesystem::exists(file("kept-" + std::to_string(bot) + "/match-1.keys")))
+        << "bot " << bot;
     const Played played(file("kept-" + std::to_string(bot) + "/match-1.keys"));
     EXPECT_TRUE(played.is_as_recorded);
     EXPECT_NEAR(*played.log.until, 12.1, 0.3) << "it was stopped where the script says";
@@ -116,8 +128,13 @@ TEST_F(PlayCommand, PlaysAgainstEachBotFromTheMenuToThePauseAndBack) {
 
 /// Each tap begins and ends in one frame; the menus see them one after the other.
 TEST_F(PlayCommand, SeesKeysThatAreDownAndUpWithinOneFrame) {
-  const auto tap = [](const std::string& key) { return "0.3 down " + key + "\n0.3 up " + key + "\n"; };
-  ASSERT_EQ(play("--records kept", tap("down") + tap("enter") + tap("down") + tap("enter") + "5 down w\n5 up w\n6 end\n"), 0) << said_;
+  const auto tap = [](const std::string& key) {
+    return "0.3 down " + key + "\n0.3 up " + key + "\n";
+  };
+  ASSERT_EQ(play("--records kept", tap("down") + tap("enter") + tap("down") + tap("enter") +
+                                       "5 down w\n5 up w\n6 end\n"),
+            0)
+      << said_;
   const Played played(file("kept/match-1.keys"));
   EXPECT_EQ(played.own_keys, 2);
   ASSERT_FALSE(played.log.events.empty());
@@ -130,27 +147,39 @@ TEST_F(PlayCommand, SeesKeysThatAreDownAndUpWithinOneFrame) {
 
 /// Bats of a crowd that nobody plays stand where the scene put them, each in its team's colour.
 TEST_F(PlayCommand, ShowsAWatcherEveryBatOfARunningServerWhereItIs) {
-  loadgen::Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "crowd", "--bat-count", "6", "--puck-count", "1", "--seed", "3", "--port", "0"}, {});
+  loadgen::Process server(
+      test::binary_folder() + "/bin/rink-serve",
+      {"--scene", "crowd", "--bat-count", "6", "--puck-count", "1", "--seed", "3", "--port", "0"},
+      {});
   std::optional<std::string> place;
-  for (int i = 0; i < 500 && !place; ++i) server.attend(std::chrono::milliseconds(10)), place = server.line_after("listening on ");
+  for (int i = 0; i < 500 && !place; ++i)
+    server.attend(std::chrono::milliseconds(10)), place = server.line_after("listening on ");
   ASSERT_TRUE(place) << server.last_words();
-  ASSERT_EQ(play("--camera above --watch " + *place, "1.5 tap i\n2 picture watched.png\n2.1 end\n"), 0) << said_;
+  ASSERT_EQ(play("--camera above --watch " + *place, "1.5 tap i\n2 picture watched.png\n2.1 end\n"),
+            0)
+      << said_;
   EXPECT_EQ(said_, "");
   const Image picture = read_png(file("watched.png"));
-  const game::Game game(game::chosen_scene({.scene = "crowd", .bat_count = 6, .puck_count = 1, .seed = 3}));
+  const game::Game game(
+      game::chosen_scene({.scene = "crowd", .bat_count = 6, .puck_count = 1, .seed = 3}));
   const physics::Field& field = game.world().spec().field;
   const double aspect = static_cast<double>(picture.width) / picture.height;
-  const Sight sight(camera_of(field, {.viewpoint = Viewpoint::above}, aspect), static_cast<float>(aspect));
+  const Sight sight(camera_of(field, {.viewpoint = Viewpoint::above}, aspect),
+                    static_cast<float>(aspect));
   for (std::uint32_t player = 0; player < 6; ++player) {
     const Vector2 at = game.position(*game.bat(player));
-    const Eigen::Vector2f window = sight.project({static_cast<float>(at.x()), static_cast<float>(at.y()), 0.0f});
+    const Eigen::Vector2f window =
+        sight.project({static_cast<float>(at.x()), static_cast<float>(at.y()), 0.0f});
     const auto pixel_at = [&](int dx, int dy) {
-      const int x = static_cast<int>((0.5 * static_cast<double>(window.x()) + 0.5) * picture.width) + dx;
-      const int y = static_cast<int>((0.5 - 0.5 * static_cast<double>(window.y())) * picture.height) + dy;
+      const int x =
+          static_cast<int>((0.5 * static_cast<double>(window.x()) + 0.5) * picture.width) + dx;
+      const int y =
+          static_cast<int>((0.5 - 0.5 * static_cast<double>(window.y())) * picture.height) + dy;
       return static_cast<std::size_t>((y * picture.width + x) * picture.channels);
     };
     const bool is_red = game.entity(*game.bat(player)).team == game::Team::left;
-    int most = -255;  // by how much the team's colour is stronger than the other's, in the pixels about the middle
+    int most = -255;  // by how much the team's colour is stronger than the other's, in the pixels
+                      // about the middle
     for (int dx = -2; dx <= 2; ++dx)
       for (int dy = -2; dy <= 2; ++dy) {
         const std::size_t pixel = pixel_at(dx, dy);
@@ -183,8 +212,11 @@ TEST_F(PlayCommand, GoesOnWhereNothingCanBeKept) {
 
 TEST_F(PlayCommand, KeepsTheRecordWhenItIsInterrupted) {
   std::ofstream(file("script")) << "4 picture playing.png\n1000000 end\n";
-  const std::string command = "cd " + folder_.path().string() + " && { " + test::binary_folder() + "/bin/rink-play --bot club --offscreen --size 320x240 --records kept --script script & } 2>err\n" +
-                              "for i in $(seq 200); do [ -e playing.png ] && break; sleep 0.05; done; kill -INT $!; wait $!";
+  const std::string command = "cd " + folder_.path().string() + " && { " + test::binary_folder() +
+                              "/bin/rink-play --bot club --offscreen --size 320x240 --records kept "
+                              "--script script & } 2>err\n" +
+                              "for i in $(seq 200); do [ -e playing.png ] && break; sleep 0.05; "
+                              "done; kill -INT $!; wait $!";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));
@@ -192,7 +224,11 @@ TEST_F(PlayCommand, KeepsTheRecordWhenItIsInterrupted) {
 
 TEST_F(PlayCommand, SavesAKeyThatWasBoundAnew) {
   // Settings are the sixth entry; the first button is the left player's left key.
-  ASSERT_EQ(play("", "0.2 tap down\n0.3 tap down\n0.4 tap down\n0.5 tap down\n0.6 tap down\n0.7 tap enter\n0.9 tap space\n1.1 tap j\n1.4 end\n"), 0) << said_;
+  ASSERT_EQ(play("",
+                 "0.2 tap down\n0.3 tap down\n0.4 tap down\n0.5 tap down\n0.6 tap down\n0.7 tap "
+                 "enter\n0.9 tap space\n1.1 tap j\n1.4 end\n"),
+            0)
+      << said_;
   std::ostringstream words;
   words << std::ifstream(file("rink/play.toml")).rdbuf();
   EXPECT_THAT(words.str(), HasSubstr("[keys.left]\nleft = \"j\"\n"));
@@ -213,18 +249,22 @@ TEST_F(PlayCommand, NeedsADisplayUnlessItDrawsOffscreen) {
 
 TEST_F(PlayCommand, SaysWhyAMatchCannotBePlayedAndGoesOnInTheMenu) {
   std::ofstream(file("altered.keys")) << "rink-keys 1\nscene match\n";
-  const std::pair<const char*, const char*> cases[] = {{"--join 127.0.0.1:1", "Connection refused"},
-                                                       {"--join nowhere", "'nowhere' is not ADDRESS:PORT"},
-                                                       {"--peer 127.0.0.1:1", "no peer answers at 127.0.0.1:1: refused"},
-                                                       {"--peer 10.1.2.3:4800", "--peer-listen ADDRESS:0 is missing: with peers on other machines"},
-                                                       {"--peer-listen 0.0.0.0:0", "nobody can connect to 0.0.0.0"},
-                                                       {"--peer-listen 127.0.0.1:0 --window 0.5", "expected shorter ones"},
-                                                       {"--peer-listen 127.0.0.1:0 --record no/folder", "--record: cannot write 'no/folder'"},
-                                                       {"--replay altered.keys", "altered.keys"},
-                                                       {"--replay missing.keys", "missing.keys"}};
+  const std::pair<const char*, const char*> cases[] = {
+      {"--join 127.0.0.1:1", "Connection refused"},
+      {"--join nowhere", "'nowhere' is not ADDRESS:PORT"},
+      {"--peer 127.0.0.1:1", "no peer answers at 127.0.0.1:1: refused"},
+      {"--peer 10.1.2.3:4800", "--peer-listen ADDRESS:0 is missing: with peers on other machines"},
+      {"--peer-listen 0.0.0.0:0", "nobody can connect to 0.0.0.0"},
+      {"--peer-listen 127.0.0.1:0 --window 0.5", "expected shorter ones"},
+      {"--peer-listen 127.0.0.1:0 --record no/folder", "--record: cannot write 'no/folder'"},
+      {"--replay altered.keys", "altered.keys"},
+      {"--replay missing.keys", "missing.keys"}};
   for (const auto& [arguments, words] : cases) {
     // Who asks for a peer asks for five seconds, lest it come too early.
-    EXPECT_EQ(play(arguments, std::string(arguments) == "--peer 127.0.0.1:1" ? "5.8 end\n" : "0.3 end\n"), 0) << arguments;
+    EXPECT_EQ(
+        play(arguments, std::string(arguments) == "--peer 127.0.0.1:1" ? "5.8 end\n" : "0.3 end\n"),
+        0)
+        << arguments;
     EXPECT_THAT(said_, HasSubstr(words)) << arguments;
   }
   rti::TcpTransport other;
@@ -235,7 +275,10 @@ TEST_F(PlayCommand, SaysWhyAMatchCannotBePlayedAndGoesOnInTheMenu) {
 TEST_F(PlayCommand, RecordsAMatchThatItsReplayShowsAsItWas) {
   ASSERT_EQ(play("--bot expert --records kept", "3.5 down w\n5 up w\n6 end\n"), 0) << said_;
   ASSERT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));
-  EXPECT_EQ(play("--replay kept/match-1.keys", "1 picture a.png\n1.2 tap right\n1.4 tap space\n1.6 picture b.png\n"), 0) << said_;
+  EXPECT_EQ(play("--replay kept/match-1.keys",
+                 "1 picture a.png\n1.2 tap right\n1.4 tap space\n1.6 picture b.png\n"),
+            0)
+      << said_;
   EXPECT_EQ(said_, "");
   EXPECT_GT(difference(read_png(file("a.png")), read_png(file("b.png"))).mean, 0.05);
 }
@@ -243,12 +286,24 @@ TEST_F(PlayCommand, RecordsAMatchThatItsReplayShowsAsItWas) {
 TEST_F(PlayCommand, IsOneOfTwoPeersWhoseRecordIsTheGameThatOneEnginePlays) {
   const test::ReservedPort port;
   std::ofstream(file("second")) << "4.5 down w\n4.9 up w\n9 end\n";
-  const std::string joining = "cd " + folder_.path().string() + " && (for i in $(seq 100); do grep -q listening first_out 2>/dev/null && break; sleep 0.05; done; " + test::binary_folder() +
-                              "/bin/rink-play --offscreen --size 320x240 --scene arena --bats 8 --peer 127.0.0.1:" + port.text() + " --record second.keys --script second >second_out 2>&1; echo $? >second_status) &";
+  const std::string joining =
+      "cd " + folder_.path().string() +
+      " && (for i in $(seq 100); do grep -q listening first_out 2>/dev/null && break; sleep 0.05; "
+      "done; " +
+      test::binary_folder() +
+      "/bin/rink-play --offscreen --size 320x240 --scene arena --bats 8 --peer 127.0.0.1:" +
+      port.text() +
+      " --record second.keys --script second >second_out 2>&1; echo $? >second_status) &";
   ASSERT_EQ(std::system(joining.c_str()), 0);
-  ASSERT_EQ(play("--scene arena --bats 8 --peer-listen 127.0.0.1:" + port.text() + " --until 2.5 --record first.keys", "4.6 down a\n5 up a\n7 picture over.png\n7.5 end\n", " >first_out"), 0) << said_;
-  for (int i = 0; i < 200 && !std::filesystem::exists(file("second_status")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  const std::string first = test::text_of(file("first_out")), second = test::text_of(file("second_out"));
+  ASSERT_EQ(play("--scene arena --bats 8 --peer-listen 127.0.0.1:" + port.text() +
+                     " --until 2.5 --record first.keys",
+                 "4.6 down a\n5 up a\n7 picture over.png\n7.5 end\n", " >first_out"),
+            0)
+      << said_;
+  for (int i = 0; i < 200 && !std::filesystem::exists(file("second_status")); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const std::string first = test::text_of(file("first_out")),
+                    second = test::text_of(file("second_out"));
   const game::KeyLog log = game::read_key_log(std::filesystem::path(file("first.keys")));
   EXPECT_EQ(log.events, game::read_key_log(std::filesystem::path(file("second.keys"))).events);
   EXPECT_EQ(log.events.size(), 4u) << first << second << said_;
@@ -256,7 +311,8 @@ TEST_F(PlayCommand, IsOneOfTwoPeersWhoseRecordIsTheGameThatOneEnginePlays) {
   for (const game::InputEvent& event : log.events) one.submit(event);
   one.advance(2.5);
   char hash[40];
-  std::snprintf(hash, sizeof hash, "hash %016llx, 4 keys", static_cast<unsigned long long>(one.hash()));
+  std::snprintf(hash, sizeof hash, "hash %016llx, 4 keys",
+                static_cast<unsigned long long>(one.hash()));
   EXPECT_THAT(first, HasSubstr(hash));
   EXPECT_THAT(second, HasSubstr(hash));
 }
@@ -266,13 +322,19 @@ class PlayCommandLong : public PlayCommand {};
 TEST_F(PlayCommandLong, TwoWindowsPlayOneMatchUntilTheHostVanishes) {
   const test::ReservedPort port;
   std::ofstream(file("joining")) << "4.8 picture joined.png\n9 end\n";
-  const std::string joining = "cd " + folder_.path().string() + " && (sleep 1; " + test::binary_folder() + "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port.text() + " --script joining 2>joined_err; echo $? >joined_status) &";
+  const std::string joining =
+      "cd " + folder_.path().string() + " && (sleep 1; " + test::binary_folder() +
+      "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port.text() +
+      " --script joining 2>joined_err; echo $? >joined_status) &";
   ASSERT_EQ(std::system(joining.c_str()), 0);
-  ASSERT_EQ(play("--host " + port.text() + " --records kept", "5.8 picture hosted.png\n7 end\n"), 0) << said_;
-  for (int i = 0; i < 200 && !std::filesystem::exists(file("joined_status")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  ASSERT_EQ(play("--host " + port.text() + " --records kept", "5.8 picture hosted.png\n7 end\n"), 0)
+      << said_;
+  for (int i = 0; i < 200 && !std::filesystem::exists(file("joined_status")); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_THAT(test::text_of(file("joined_err")), HasSubstr("The match cannot go on"));
   EXPECT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));
-  EXPECT_GT(difference(read_png(file("joined.png")), read_png(file("hosted.png"))).mean, 1.0) << "each sees it from the own end";
+  EXPECT_GT(difference(read_png(file("joined.png")), read_png(file("hosted.png"))).mean, 1.0)
+      << "each sees it from the own end";
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(Script, StepsComeInOrderOfTimeAndATapIsTwoOfThem) {
-  const auto steps = parse_script("# a comment\n2 picture a b.png\n1 tap enter  # press\n\n1.5 text hi\n3 end\n", "s");
+  const auto steps = parse_script(
+      "# a comment\n2 picture a b.png\n1 tap enter  # press\n\n1.5 text hi\n3 end\n", "s");
   ASSERT_EQ(steps.size(), 5u);
   EXPECT_TRUE(steps[0].events.at(0).is_down);
   EXPECT_DOUBLE_EQ(steps[1].time, 1.05);
@@ -30,7 +31,9 @@ TEST(Script, EachStepIsDueOnce) {
 }
 
 TEST(Script, AWrongLineIsNamed) {
-  for (const char* text : {"0 end\nsoon down a\n", "0 end\n-1 down a\n", "0 end\nnan down a\n", "0 end\n1 hold a\n", "0 end\n1 down hyper\n", "0 end\n1 picture\n"}) try {
+  for (const char* text : {"0 end\nsoon down a\n", "0 end\n-1 down a\n", "0 end\nnan down a\n",
+                           "0 end\n1 hold a\n", "0 end\n1 down hyper\n", "0 end\n1 picture\n"})
+    try {
       parse_script(text, "my.script");
       ADD_FAILURE() << text;
     } catch (const ScriptError& error) {

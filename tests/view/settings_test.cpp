@@ -1,4 +1,5 @@
-// Settings that people edit by hand: what is right counts, what is wrong is said and stays as it was.
+// Settings that people edit by hand: what is right counts, what is wrong is said and stays as it
+// was.
 #include "game/view/settings.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +20,8 @@ using ::testing::Optional;
 
 TEST(Settings, ReadBackWhatTheyWrite) {
   Settings settings;
-  settings.keys[0] = {*key_code_from_name("j"), *key_code_from_name("l"), *key_code_from_name("I"), *key_code_from_name("Left Shift")};
+  settings.keys[0] = {*key_code_from_name("j"), *key_code_from_name("l"), *key_code_from_name("I"),
+                      *key_code_from_name("Left Shift")};
   settings.is_muted = true;
   settings.volume = 0.25;
   const ReadSettings read = parse_settings(settings_text(settings), "play.toml");
@@ -38,17 +40,26 @@ TEST(Settings, EveryKeyHasOneNameAndTheNameOneKey) {
 }
 
 TEST(Settings, AnUnknownKeyNameIsSaidWithFileAndLineAndTheOthersCount) {
-  const ReadSettings read = parse_settings("mute = true\n[keys.left]\nup = \"hyper\"\ndown = \"x\"\n", "my/play.toml");
-  EXPECT_THAT(read.troubles, ElementsAre(AllOf(HasSubstr("my/play.toml:3"), HasSubstr("'hyper'"), HasSubstr("stays 'w'"))));
+  const ReadSettings read =
+      parse_settings("mute = true\n[keys.left]\nup = \"hyper\"\ndown = \"x\"\n", "my/play.toml");
+  EXPECT_THAT(read.troubles, ElementsAre(AllOf(HasSubstr("my/play.toml:3"), HasSubstr("'hyper'"),
+                                               HasSubstr("stays 'w'"))));
   EXPECT_TRUE(read.settings.is_muted);
   EXPECT_EQ(read.settings.keys[0][2], *key_code_from_name("w"));
   EXPECT_EQ(read.settings.keys[0][3], *key_code_from_name("x"));
 }
 
 TEST(Settings, TroublesComeInTheOrderOfTheirLinesAndNoMoreThanFitOnAScreen) {
-  const ReadSettings read = parse_settings("zoom = 1\n[keys.left]\nup = 7\nleft = \"hyper\"\n[keys.right]\nup = \"?\"\nforward = 1\nback = 1\n", "play.toml");
-  EXPECT_THAT(read.troubles, ElementsAre(HasSubstr("play.toml:1: there is no setting 'zoom'"), AllOf(HasSubstr("play.toml:3: expected the name of a key in quotes"), HasSubstr("stays 'w'")),
-                                         HasSubstr("play.toml:4: there is no key 'hyper'"), HasSubstr("play.toml:6: there is no key '?'"), HasSubstr("and 2 more")));
+  const ReadSettings read = parse_settings(
+      "zoom = 1\n[keys.left]\nup = 7\nleft = \"hyper\"\n[keys.right]\nup = \"?\"\nforward = "
+      "1\nback = 1\n",
+      "play.toml");
+  EXPECT_THAT(read.troubles,
+              ElementsAre(HasSubstr("play.toml:1: there is no setting 'zoom'"),
+                          AllOf(HasSubstr("play.toml:3: expected the name of a key in quotes"),
+                                HasSubstr("stays 'w'")),
+                          HasSubstr("play.toml:4: there is no key 'hyper'"),
+                          HasSubstr("play.toml:6: there is no key '?'"), HasSubstr("and 2 more")));
 }
 
 TEST(Settings, AFileWithTroublesIsKeptWhenNewSettingsAreWritten) {
@@ -79,7 +90,9 @@ TEST(Settings, OneKeyCannotMeanTwoThings) {
 }
 
 TEST(Settings, WhatIsNoTomlOrNoSettingIsSaidAndDefaultsGoOn) {
-  for (const char* text : {"volume = ", "volume = 7\n", "mute = 1\n", "colour = \"red\"\n", "[keys.middle]\nup = \"a\"\n", "[keys.left]\nforward = \"a\"\n", "\xff\xfe"}) {
+  for (const char* text :
+       {"volume = ", "volume = 7\n", "mute = 1\n", "colour = \"red\"\n",
+        "[keys.middle]\nup = \"a\"\n", "[keys.left]\nforward = \"a\"\n", "\xff\xfe"}) {
     const ReadSettings read = parse_settings(text, "play.toml");
     EXPECT_THAT(read.troubles, ElementsAre(HasSubstr("play.toml:"))) << text;
     EXPECT_EQ(read.settings, Settings()) << text;

@@ -25,9 +25,20 @@ inline MatchSight match_sight() {
 inline MatchSight crowd_sight() {
   MatchSight sight;
   sight.field = {.length = 20.0, .width = 10.0, .goal_width = 0.6};
-  for (std::uint32_t i = 0; i < 1000; ++i) sight.things.push_back({i, physics::BodyKind::puck, game::Team::none, {0.25 + 0.39 * (i % 50), 0.3 + 0.48 * (i / 50)}, {0.0, 0.0}, {0.04, 0.04}});
+  for (std::uint32_t i = 0; i < 1000; ++i)
+    sight.things.push_back({i,
+                            physics::BodyKind::puck,
+                            game::Team::none,
+                            {0.25 + 0.39 * (i % 50), 0.3 + 0.48 * (i / 50)},
+                            {0.0, 0.0},
+                            {0.04, 0.04}});
   for (std::uint32_t i = 0; i < 40; ++i)
-    sight.things.push_back({1000 + i, physics::BodyKind::bat, i % 2 == 0 ? game::Team::left : game::Team::right, {1.0 + 2.4 * (i % 8), 1.07 + 1.92 * (i / 8)}, {0.0, 0.0}, {0.05, 0.15}});
+    sight.things.push_back({1000 + i,
+                            physics::BodyKind::bat,
+                            i % 2 == 0 ? game::Team::left : game::Team::right,
+                            {1.0 + 2.4 * (i % 8), 1.07 + 1.92 * (i / 8)},
+                            {0.0, 0.0},
+                            {0.05, 0.15}});
   sight.phase = Phase::playing;
   return sight;
 }

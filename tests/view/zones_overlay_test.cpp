@@ -9,7 +9,8 @@ namespace {
 MatchSight shared_sight() {
   MatchSight sight;
   sight.field.length = 4.0, sight.field.width = 2.0;
-  for (std::uint32_t id = 0; id < 4; ++id) sight.things.push_back({.id = id, .position = {0.5 + id, 1.0}, .half_extent = {0.3, 0.4}});
+  for (std::uint32_t id = 0; id < 4; ++id)
+    sight.things.push_back({.id = id, .position = {0.5 + id, 1.0}, .half_extent = {0.3, 0.4}});
   sight.own_thing = 1;
   sight.zones.emplace();
   sight.zones->own_peer = 1, sight.zones->halo = 0.25, sight.zones->own_count = 7;
@@ -23,7 +24,8 @@ TEST(ZonesOverlay, ShowsEachZoneTheOwnHaloWithinTheFieldAndWhoseBodiesAreOthers)
   ASSERT_EQ(overlay.rectangles.size(), 3u);
   EXPECT_GT(overlay.rectangles[1].fill.alpha, overlay.rectangles[0].fill.alpha) << "the own one";
   const OverlayRectangle& halo = overlay.rectangles[2];
-  EXPECT_EQ(std::tuple(halo.low_x, halo.low_y, halo.high_x, halo.high_y), std::tuple(1.75, 0.0, 4.0, 2.0));
+  EXPECT_EQ(std::tuple(halo.low_x, halo.low_y, halo.high_x, halo.high_y),
+            std::tuple(1.75, 0.0, 4.0, 2.0));
   EXPECT_EQ(overlay.discs.size(), 3u) << "the own bat, which is a ghost, and one told of";
   EXPECT_THAT(overlay.lines[0], testing::HasSubstr("peer 1 has 7 bodies and 1 ghosts"));
 }

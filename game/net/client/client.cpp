@@ -14,10 +14,14 @@ namespace rink::game {
 Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettings& settings)
     : model_(model), settings_(settings), mirror_(model), ambassador_(fom, *this) {
   if (settings.extrapolates) mirror_.extrapolate();
-  ambassador_.join(settings.federation, settings.name, settings.only_watches ? watcher_federate_type : player_federate_type);
+  ambassador_.join(settings.federation, settings.name,
+                   settings.only_watches ? watcher_federate_type : player_federate_type);
   // In one frame with the join, so that the server cannot offer a seat before we listen.
-  for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.publish_interaction_class(interaction);
-  for (const rti::InteractionClassHandle interaction : {model_.seat, model_.pace}) ambassador_.subscribe_interaction_class(interaction);
+  for (const rti::InteractionClassHandle interaction :
+       {model_.key_down, model_.key_up, model_.update})
+    ambassador_.publish_interaction_class(interaction);
+  for (const rti::InteractionClassHandle interaction : {model_.seat, model_.pace})
+    ambassador_.subscribe_interaction_class(interaction);
   ambassador_.subscribe_object_class_attributes(model_.field, {model_.extent, model_.drag});
   ambassador_.subscribe_object_class_attributes(model_.score, {model_.goals});
   if (settings.only_watches) {
@@ -25,9 +29,11 @@ Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettin
     ambassador_.subscribe_interaction_class(model_.interest);
   }
   if (!settings.plays_match) return;
-  for (const rti::InteractionClassHandle interaction : {model_.pause, model_.rematch, model_.ping}) ambassador_.publish_interaction_class(interaction);
+  for (const rti::InteractionClassHandle interaction : {model_.pause, model_.rematch, model_.ping})
+    ambassador_.publish_interaction_class(interaction);
   ambassador_.subscribe_interaction_class(model_.pong);
-  ambassador_.subscribe_object_class_attributes(model_.match, {model_.match_state, model_.match_scene, model_.match_tick});
+  ambassador_.subscribe_object_class_attributes(
+      model_.match, {model_.match_state, model_.match_scene, model_.match_tick});
 }
 
 void Client::join_refused(rti::Refusal refusal, std::string_view why) {
@@ -41,7 +47,8 @@ void Client::connection_lost(std::string_view why) {
   trouble_ = why;
 }
 
-void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle, const rti::Stamp& stamp) {
+void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters,
+                                 rti::FederateHandle, const rti::Stamp& stamp) {
   if (interaction == model_.pong) {
     pong_ = Pong{stamp.tag, stamp.time};
     return;
@@ -69,15 +76,20 @@ void Client::subscribe_once_seated() {
     view_ = ambassador_.create_region();
     look_around(seat_->position);
   }
-  ambassador_.subscribe_object_class_attributes(model_.entity, {model_.shape, model_.input, model_.position, model_.trajectory, model_.snapshot}, view_);
+  ambassador_.subscribe_object_class_attributes(
+      model_.entity,
+      {model_.shape, model_.input, model_.position, model_.trajectory, model_.snapshot}, view_);
   if (settings_.only_watches) state_ = State::playing;
 }
 
 void Client::look_around(const Position& centre) {
   centre_ = centre;
   const Extent& field = *mirror_.field();
-  const double half_side = view_half_side(settings_.view_area, settings_.view_fraction, field.length, field.width) + settings_.view_margin;
-  view_bounds_ = {centre.x - half_side, centre.y - half_side, centre.x + half_side, centre.y + half_side};
+  const double half_side =
+      view_half_side(settings_.view_area, settings_.view_fraction, field.length, field.width) +
+      settings_.view_margin;
+  view_bounds_ = {centre.x - half_side, centre.y - half_side, centre.x + half_side,
+                  centre.y + half_side};
   ambassador_.set_region(view_, view_bounds_);
   ambassador_.commit_region_modifications(view_);
 }
@@ -85,10 +97,12 @@ void Client::look_around(const Position& centre) {
 void Client::follow_bat(double instant) {
   if (!settings_.declares_regions) return;
   const MirroredEntity* own = bat();
-  if (state_ >= State::refused || !ambassador_.is_joined() || own == nullptr || !own->is_placed) return;
+  if (state_ >= State::refused || !ambassador_.is_joined() || own == nullptr || !own->is_placed)
+    return;
   const Position there = rounded(own->position_at(instant));
   if (there == centre_) return;
-  const double moved = std::max(std::abs(double(there.x) - double(centre_.x)), std::abs(double(there.y) - double(centre_.y)));
+  const double moved = std::max(std::abs(double(there.x) - double(centre_.x)),
+                                std::abs(double(there.y) - double(centre_.y)));
   if (moved < 0.5 * settings_.view_margin) return;
   look_around(there);
 }
@@ -100,7 +114,9 @@ void Client::send_key(rti::InteractionClassHandle interaction, Key key, double i
   assert(state_ == State::playing && !settings_.only_watches);
   const KeyCharacter character{static_cast<std::uint8_t>(key_character(key))};
   encode(encoded_, character);
-  if (is_time_managed() && is_synchronous()) ambassador_.send_interaction(interaction, encoded_, rti::LogicalTime(ambassador_.clock().earliest()));
+  if (is_time_managed() && is_synchronous())
+    ambassador_.send_interaction(interaction, encoded_,
+                                 rti::LogicalTime(ambassador_.clock().earliest()));
   else ambassador_.send_interaction(interaction, encoded_, {.time = instant, .tag = 0});
   ++keys_sent_;
 }
@@ -112,7 +128,9 @@ void Client::pause(bool is_wanted) {
 
 void Client::ask_rematch() { ambassador_.send_interaction(model_.rematch, {}, {}); }
 
-void Client::ping(std::uint64_t number) { ambassador_.send_interaction(model_.ping, {}, {.time = 0.0, .tag = number}); }
+void Client::ping(std::uint64_t number) {
+  ambassador_.send_interaction(model_.ping, {}, {.time = 0.0, .tag = number});
+}
 
 void Client::inspect(rti::ObjectHandle object) {
   assert(settings_.only_watches);
@@ -131,16 +149,19 @@ void Client::announce_synchronization_point(std::string_view label, rti::Bytes) 
   reach_barrier_once_ready();
 }
 
-/// The barrier is reached with the own bat in sight, so that nothing of the start-up falls into the measured time.
+/// The barrier is reached with the own bat in sight, so that nothing of the start-up falls into the
+/// measured time.
 void Client::reach_barrier_once_ready() {
   const MirroredEntity* own = bat();
-  if (state_ == State::seated && own != nullptr && own->in_scope && own->is_placed) state_ = State::ready;
+  if (state_ == State::seated && own != nullptr && own->in_scope && own->is_placed)
+    state_ = State::ready;
   if (state_ != State::ready || !is_time_kept()) return;
   if (is_called_) {
     ambassador_.synchronization_point_achieved(start_barrier);
     is_called_ = false;
   } else if (own->stamp.tag != 0 || mirror_.has_match()) {
-    state_ = State::playing;  // joined late, and ticks are due already; or a match waits for its players
+    state_ =
+        State::playing;  // joined late, and ticks are due already; or a match waits for its players
   }
 }
 
@@ -148,7 +169,8 @@ void Client::federation_synchronized(std::string_view label, std::span<const rti
   if (label == start_barrier && state_ == State::ready) state_ = State::playing;
 }
 
-void Client::discover_object_instance(rti::ObjectHandle object, rti::ObjectClassHandle object_class, std::string_view name) {
+void Client::discover_object_instance(rti::ObjectHandle object, rti::ObjectClassHandle object_class,
+                                      std::string_view name) {
   mirror_.discover(object, object_class);
   if (seat_ && name == bat_name(seat_->bat)) bat_ = object;
 }
@@ -158,14 +180,16 @@ bool Client::is_state_on_entry(rti::ObjectHandle object) const {
   return entity != nullptr && !entity->is_placed;
 }
 
-void Client::reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) {
+void Client::reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes,
+                                      rti::Bytes values, const rti::Stamp& stamp) {
   if (before_next_stamp && stamp != mirror_.newest()) before_next_stamp();
   const bool is_news = on_news && stamp != news_ && !is_state_on_entry(object);
   mirror_.reflect(object, attributes, values, stamp);
   if (is_news) on_news(news_ = stamp);
   if (is_watched_) heard_.updates.push_back({object, static_cast<std::uint32_t>(values.size())});
   if (state_ == State::joining) subscribe_once_seated();
-  if ((state_ == State::seated || state_ == State::ready) && object == bat_) reach_barrier_once_ready();
+  if ((state_ == State::seated || state_ == State::ready) && object == bat_)
+    reach_barrier_once_ready();
 }
 
 void Client::attributes_in_scope(rti::ObjectHandle object) { set_scope(object, true); }

@@ -1,4 +1,5 @@
-// The client federate: sends its player's keys, keeps its interest around its bat, and mirrors what it is told.
+// The client federate: sends its player's keys, keeps its interest around its bat, and mirrors what
+// it is told.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +20,22 @@ namespace rink::game {
 struct ClientSettings {
   std::string federation = "rink";
   std::string name;             ///< of the federate; "bat-17" asks for that bat
-  double view_fraction = 0.05;  ///< area of the square view around the bat, as a fraction of the field's; at least 1: everything
+  double view_fraction = 0.05;  ///< area of the square view around the bat, as a fraction of the
+                                ///< field's; at least 1: everything
   double view_area = 0.0;       ///< area of the view [m^2] instead; 0: as the fraction says
-  /// How far the declared region reaches beyond the view on each side [m]. It is declared anew when the bat is half of that from its middle: the other half
-  /// covers what the bat moves until the RTI has heard of it.
+  /// How far the declared region reaches beyond the view on each side [m]. It is declared anew when
+  /// the bat is half of that from its middle: the other half covers what the bat moves until the
+  /// RTI has heard of it.
   double view_margin = 0.0;
-  /// Whether the view is declared as a region that follows the bat. Without it the subscription is to the default region, that is everything: for a scheme
-  /// that looks at no places (`none`), under which declarations would be bytes for nothing.
+  /// Whether the view is declared as a region that follows the bat. Without it the subscription is
+  /// to the default region, that is everything: for a scheme that looks at no places (`none`),
+  /// under which declarations would be bytes for nothing.
   bool declares_regions = true;
-  /// Whether entities that are told positions alone are shown ahead by the velocity between the last two; without it, as in the paper, where they were told last.
+  /// Whether entities that are told positions alone are shown ahead by the velocity between the
+  /// last two; without it, as in the paper, where they were told last.
   bool extrapolates = true;
-  bool plays_match = false;  ///< a hosted one: hears of it, may stop it and ask for another
-  bool only_watches = false; ///< takes no bat; sees the whole field
+  bool plays_match = false;   ///< a hosted one: hears of it, may stop it and ask for another
+  bool only_watches = false;  ///< takes no bat; sees the whole field
 };
 
 /// What a watched client was told since it was last asked, in order of arrival.
@@ -59,8 +64,9 @@ class Client : public rti::FederateAmbassador {
   rti::Ambassador& ambassador() { return ambassador_; }
   const rti::Ambassador& ambassador() const { return ambassador_; }
 
-  /// Sends KeyDown or KeyUp; counts it in `keys_sent`. Only while playing. In a hosted match the key is to take effect at the simulated `instant` [s] if that is still
-  /// to come when it arrives there; else at its arrival, as in every other game.
+  /// Sends KeyDown or KeyUp; counts it in `keys_sent`. Only while playing. In a hosted match the
+  /// key is to take effect at the simulated `instant` [s] if that is still to come when it arrives
+  /// there; else at its arrival, as in every other game.
   void press(Key key, double instant = 0.0);
   void release(Key key, double instant = 0.0);
   /// Of a hosted match: stops it or has it go on, asks for another, asks the server for its time.
@@ -69,24 +75,31 @@ class Client : public rti::FederateAmbassador {
   void ping(std::uint64_t number);
   /// Of one who only watches: asks what the server's filter decides of `object`.
   void inspect(rti::ObjectHandle object);
-  /// Synchronous mode: says that this player's turn is done; under time management it then asks to advance to the next tick, so only while has_turn() (asserted).
+  /// Synchronous mode: says that this player's turn is done; under time management it then asks to
+  /// advance to the next tick, so only while has_turn() (asserted).
   void end_turn();
-  /// True while the server waits for this player's turn, as far as it has told; false of one that ticks by its own timer.
+  /// True while the server waits for this player's turn, as far as it has told; false of one that
+  /// ticks by its own timer.
   bool has_turn() const { return has_turn_; }
   bool is_synchronous() const { return pace_ && pace_->is_synchronous != 0; }
   bool is_time_managed() const { return pace_ && pace_->is_time_managed != 0; }
   /// Synchronous mode: the simulated instant [s] of the newest tick that was heard of.
   double turn_s() const { return turn_s_; }
-  /// Moves the interest region to where the bat was last seen; call it after each batch received. Sends nothing if the bat did not move (by half the margin).
+  /// Moves the interest region to where the bat was last seen; call it after each batch received.
+  /// Sends nothing if the bat did not move (by half the margin).
   void follow_bat() { follow_bat(mirror_.newest().time); }
-  /// The same to where the bat is believed to be at simulated `instant` [s]: one on a trajectory moves without being heard of.
+  /// The same to where the bat is believed to be at simulated `instant` [s]: one on a trajectory
+  /// moves without being heard of.
   void follow_bat(double instant);
 
-  /// Called before the first update with another stamp than the newest is applied: the mirror then holds all that was true at the newest, and will not again.
+  /// Called before the first update with another stamp than the newest is applied: the mirror then
+  /// holds all that was true at the newest, and will not again.
   std::function<void()> before_next_stamp;
 
-  /// Called after an update is applied, with its stamp, if the update before it had another: so a batch calls it once, and each of several that are read at once does.
-  /// The state of an entity that comes into scope is no news of its stamp, which is its owner's newest and may be of a tick long before; it calls nothing.
+  /// Called after an update is applied, with its stamp, if the update before it had another: so a
+  /// batch calls it once, and each of several that are read at once does. The state of an entity
+  /// that comes into scope is no news of its stamp, which is its owner's newest and may be of a
+  /// tick long before; it calls nothing.
   std::function<void(const rti::Stamp&)> on_news;
 
   /// Makes the client keep what it hears, for who measures it; off at first.
@@ -104,8 +117,11 @@ class Client : public rti::FederateAmbassador {
   /// The own bat as last heard of; null before the first update.
   const MirroredEntity* bat() const { return mirror_.find(bat_); }
   /// The bat that was given to this player, once it was.
-  std::optional<std::uint32_t> bat_number() const { return seat_ ? std::optional(seat_->bat) : std::nullopt; }
-  /// The server's answer to ping(): which, and when it arrived on the server's real clock [s]; given once.
+  std::optional<std::uint32_t> bat_number() const {
+    return seat_ ? std::optional(seat_->bat) : std::nullopt;
+  }
+  /// The server's answer to ping(): which, and when it arrived on the server's real clock [s];
+  /// given once.
   struct Pong {
     std::uint64_t number = 0;
     double server_s = 0.0;
@@ -116,19 +132,25 @@ class Client : public rti::FederateAmbassador {
   std::uint32_t keys_sent() const { return keys_sent_; }
   const Mirror& mirror() const { return mirror_; }
   /// All that it keeps: itself, tables and buffers [bytes].
-  std::size_t memory_bytes() const { return sizeof *this + mirror_.memory_bytes() + ambassador_.memory_bytes() + encoded_.capacity(); }
+  std::size_t memory_bytes() const {
+    return sizeof *this + mirror_.memory_bytes() + ambassador_.memory_bytes() + encoded_.capacity();
+  }
 
  private:
   void join_refused(rti::Refusal refusal, std::string_view why) override;
   void connection_lost(std::string_view why) override;
   void announce_synchronization_point(std::string_view label, rti::Bytes tag) override;
-  void federation_synchronized(std::string_view label, std::span<const rti::FederateHandle> failed) override;
-  void discover_object_instance(rti::ObjectHandle object, rti::ObjectClassHandle object_class, std::string_view name) override;
-  void reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) override;
+  void federation_synchronized(std::string_view label,
+                               std::span<const rti::FederateHandle> failed) override;
+  void discover_object_instance(rti::ObjectHandle object, rti::ObjectClassHandle object_class,
+                                std::string_view name) override;
+  void reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes,
+                                rti::Bytes values, const rti::Stamp& stamp) override;
   void attributes_in_scope(rti::ObjectHandle object) override;
   void attributes_out_of_scope(rti::ObjectHandle object) override;
   void remove_object_instance(rti::ObjectHandle object) override;
-  void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp& stamp) override;
+  void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters,
+                           rti::FederateHandle sender, const rti::Stamp& stamp) override;
 
   void time_regulation_enabled(rti::LogicalTime time) override;
   void time_constrained_enabled(rti::LogicalTime time) override;
@@ -157,7 +179,7 @@ class Client : public rti::FederateAmbassador {
   std::optional<SeatOffer> seat_;
   std::optional<Pace> pace_;
   bool has_turn_ = false;
-  bool awaits_bounds_ = false;    ///< asked how far the server's time is
+  bool awaits_bounds_ = false;  ///< asked how far the server's time is
   std::uint64_t grants_ = 0;
   double galt_ = 0.0, turn_s_ = 0.0;
   std::optional<Pong> pong_;
@@ -166,7 +188,7 @@ class Client : public rti::FederateAmbassador {
   im::Region view_bounds_;
   std::vector<std::byte> encoded_;
   Heard heard_;
-  rti::Stamp news_;         ///< of the newest update that was no state on entry
+  rti::Stamp news_;  ///< of the newest update that was no state on entry
   bool is_watched_ = false;
   bool is_called_ = false;  ///< to the start barrier
   std::uint32_t keys_sent_ = 0;

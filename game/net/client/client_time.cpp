@@ -1,4 +1,5 @@
-// A client that takes turns, or keeps logical time with the server: what it asks for after each tick.
+// A client that takes turns, or keeps logical time with the server: what it asks for after each
+// tick.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -9,7 +10,8 @@
 namespace rink::game {
 namespace {
 
-/// So often a client on the server's timer asks how far the server is. Who can't ask for one tick after the other as fast as they come would else fall back for ever.
+/// So often a client on the server's timer asks how far the server is. Who can't ask for one tick
+/// after the other as fast as they come would else fall back for ever.
 constexpr std::uint64_t ticks_per_question = 8;
 
 }  // namespace
@@ -25,9 +27,11 @@ void Client::receive_pace(rti::Bytes parameters, const rti::Stamp& stamp) {
     pass_if_absent();
   }
   if (!is_first || !is_time_managed()) return;
-  ambassador_.enable_asynchronous_delivery();  // discoveries and the RTI's own news need not wait for a tick
+  ambassador_.enable_asynchronous_delivery();  // discoveries and the RTI's own news need not wait
+                                               // for a tick
   if (is_synchronous()) {
-    for (const rti::InteractionClassHandle each : {model_.key_down, model_.key_up, model_.update}) ambassador_.change_interaction_order_type(each, rti::Order::timestamp);
+    for (const rti::InteractionClassHandle each : {model_.key_down, model_.key_up, model_.update})
+      ambassador_.change_interaction_order_type(each, rti::Order::timestamp);
     ambassador_.enable_time_regulation(TickGrid{pace_->ticks_per_second}.lookahead());
   }
   ambassador_.enable_time_constrained();
@@ -36,7 +40,8 @@ void Client::receive_pace(rti::Bytes parameters, const rti::Stamp& stamp) {
 /// True unless it should keep logical time and can't yet.
 bool Client::is_time_kept() const {
   const rti::FederateClock& clock = ambassador_.clock();
-  return !is_time_managed() || (clock.is_constrained() && (!is_synchronous() || clock.is_regulating()));
+  return !is_time_managed() ||
+         (clock.is_constrained() && (!is_synchronous() || clock.is_regulating()));
 }
 
 void Client::time_regulation_enabled(rti::LogicalTime) { begin_time(); }
@@ -49,7 +54,8 @@ void Client::begin_time() {
   reach_barrier_once_ready();
 }
 
-/// Who waits for turns is never ahead by more than one tick; who does not may be ahead by any number, which then come together.
+/// Who waits for turns is never ahead by more than one tick; who does not may be ahead by any
+/// number, which then come together.
 void Client::ask_for_tick() {
   const TickGrid grid{pace_->ticks_per_second};
   std::uint64_t tick = grid.next(ambassador_.clock().time());
@@ -75,7 +81,8 @@ void Client::time_advance_grant(rti::LogicalTime now) {
   }
 }
 
-/// The answer comes after the grant if that could be given at once, which is when there may be more to ask for.
+/// The answer comes after the grant if that could be given at once, which is when there may be more
+/// to ask for.
 void Client::time_bounds(double galt, double) {
   awaits_bounds_ = false;
   galt_ = std::isfinite(galt) ? galt : 0.0;

@@ -7,10 +7,13 @@
 
 namespace rink::game {
 
-JoinedMatch::JoinedMatch(const std::string& place, const NetworkMatchSettings& settings, const std::string& key_file)
+JoinedMatch::JoinedMatch(const std::string& place, const NetworkMatchSettings& settings,
+                         const std::string& key_file)
     : fom_(load_rink_fom(fom_file())),
       model_(fom_),
-      gate_(transport_, {.key_file = key_file, .role = rti::Role::federate, .federation = settings.federation}, [this] { return now_s_; }),
+      gate_(transport_,
+            {.key_file = key_file, .role = rti::Role::federate, .federation = settings.federation},
+            [this] { return now_s_; }),
       match_(fom_, model_, gate_.transport(), connect(transport_, place), settings) {}
 
 JoinedMatch::~JoinedMatch() { match_.leave(now_s_); }

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "game/match/match_source.h"
-#include "game/net/gate.h"
 #include "game/net/client/network_match.h"
+#include "game/net/gate.h"
 #include "game/replication/object_model.h"
 #include "rti/fom/fom.h"
 #include "rti/transport/tcp/tcp.h"
@@ -15,16 +15,20 @@ namespace rink::game {
 
 class JoinedMatch final : public MatchSource {
  public:
-  /// `place`: HOST:PORT. Throws std::invalid_argument or rti::TransportError with what is wrong with it; that nobody listens there shows later, as a match that is lost.
-  /// With a key file, both ends prove that they have the same.
-  JoinedMatch(const std::string& place, const NetworkMatchSettings& settings, const std::string& key_file = "");
+  /// `place`: HOST:PORT. Throws std::invalid_argument or rti::TransportError with what is wrong
+  /// with it; that nobody listens there shows later, as a match that is lost. With a key file, both
+  /// ends prove that they have the same.
+  JoinedMatch(const std::string& place, const NetworkMatchSettings& settings,
+              const std::string& key_file = "");
   /// Takes leave of the server.
   ~JoinedMatch() override;
 
   void advance(double now_s) override { match_.advance(now_s_ = now_s); }
   const MatchSight& sight() const override { return match_.sight(); }
   std::uint32_t hand_count() const override { return match_.hand_count(); }
-  void press(std::uint32_t hand, Key key, bool is_down) override { match_.press(hand, key, is_down); }
+  void press(std::uint32_t hand, Key key, bool is_down) override {
+    match_.press(hand, key, is_down);
+  }
   void pause(bool is_wanted) override { match_.pause(is_wanted); }
   void rematch() override { match_.rematch(); }
   void inspect(std::uint32_t thing) override { match_.inspect(thing); }

@@ -19,15 +19,19 @@ namespace rink::game {
 
 struct NetworkMatchSettings {
   std::string federation = "rink", name = "player";
-  bool only_watches = false;  ///< takes no bat; any federation of Rink can be watched, one that hosts no matches too
+  bool only_watches = false;  ///< takes no bat; any federation of Rink can be watched, one that
+                              ///< hosts no matches too
 };
 
-/// Owns the client federate and its link, and shows what they hear of as PredictedRink foretells it (docs/play.md). Reads no clock. A server that is gone, refuses, or says what is no match
-/// ends in the phase `lost`, with the reason as `notice`.
+/// Owns the client federate and its link, and shows what they hear of as PredictedRink foretells it
+/// (docs/play.md). Reads no clock. A server that is gone, refuses, or says what is no match ends in
+/// the phase `lost`, with the reason as `notice`.
 class NetworkMatch final : public MatchSource {
  public:
-  /// `connection` was opened by `transport`, which is polled here and has no other listener; it and the two others must outlive the match.
-  NetworkMatch(const rti::Fom& fom, const ObjectModel& model, rti::Transport& transport, rti::ConnectionId connection, const NetworkMatchSettings& settings);
+  /// `connection` was opened by `transport`, which is polled here and has no other listener; it and
+  /// the two others must outlive the match.
+  NetworkMatch(const rti::Fom& fom, const ObjectModel& model, rti::Transport& transport,
+               rti::ConnectionId connection, const NetworkMatchSettings& settings);
 
   void advance(double now_s) override;
   const MatchSight& sight() const override { return sight_; }
@@ -47,7 +51,9 @@ class NetworkMatch final : public MatchSource {
   /// The scene that is played; null before it is known.
   const Scene* scene() const { return scene_ ? &*scene_ : nullptr; }
   /// The player whose bat this is, once it is known.
-  std::optional<std::uint32_t> player() const { return settings_.only_watches ? std::nullopt : client_.bat_number(); }
+  std::optional<std::uint32_t> player() const {
+    return settings_.only_watches ? std::nullopt : client_.bat_number();
+  }
 
  private:
   struct PressedKey {
@@ -81,21 +87,21 @@ class NetworkMatch final : public MatchSource {
   NewsDelay news_;
   std::optional<Scene> scene_;
   std::optional<PredictedRink> rink_;
-  MatchState state_;                 ///< as last heard
-  std::uint32_t match_number_ = 0;   ///< that rink_ foretells
+  MatchState state_;                ///< as last heard
+  std::uint32_t match_number_ = 0;  ///< that rink_ foretells
   std::uint64_t heard_updates_ = 0;
-  std::uint32_t caught_up_ = 0;      ///< stamps, in this frame
+  std::uint32_t caught_up_ = 0;  ///< stamps, in this frame
   std::vector<PressedKey> pressed_;
-  std::vector<Thing> all_things_;    ///< of the scene
+  std::vector<Thing> all_things_;  ///< of the scene
   MatchSight sight_;
   NoiseDetector noises_;
   GoalWatch goals_;
   double now_s_ = 0.0, delay_ = 0.0;
-  double heard_s_ = 0.0;             ///< real time of the newest stamp
+  double heard_s_ = 0.0;  ///< real time of the newest stamp
   double counted_s_ = 0.0, bytes_per_s_ = 0.0;
   std::uint64_t counted_bytes_ = 0;
   std::optional<std::uint32_t> inspected_;  ///< wanted since the last advance
-  double inspected_s_ = 0.0;               ///< when the server was last asked
+  double inspected_s_ = 0.0;                ///< when the server was last asked
   std::string trouble_;
   std::optional<double> joined_s_;  ///< real time
   bool has_left_ = false;

@@ -1,4 +1,5 @@
-// What a network match shows, made of what is foretold, what is mirrored, and how the connection does.
+// What a network match shows, made of what is foretold, what is mirrored, and how the connection
+// does.
 #include <algorithm>
 #include <utility>
 
@@ -12,7 +13,8 @@ void NetworkMatch::show(double now_s) {
   show_state(now_s);
   show_interest(now_s);
   sight_.notice = trouble_.empty() && !joined_s_ ? "connecting ..." : trouble_;
-  if (trouble_.empty() && state_.is_unrecorded && sight_.phase != MatchPhase::playing) sight_.notice = "The host could not record the last match";
+  if (trouble_.empty() && state_.is_unrecorded && sight_.phase != MatchPhase::playing)
+    sight_.notice = "The host could not record the last match";
   show_link(now_s);
   goals_.look(sight_, now_s, scene_ ? scene_->rules.face_off_delay : 0.0);
   noises_.listen(sight_);
@@ -27,7 +29,10 @@ void NetworkMatch::show_bodies() {
       sight_.things[thing++].velocity = body.velocity;
     }
   sight_.time = rink_->now();
-  const auto is_scored = [&](const Thing& each) { return each.kind == physics::BodyKind::puck && (each.position.x() < 0.0 || each.position.x() > sight_.field.length); };
+  const auto is_scored = [&](const Thing& each) {
+    return each.kind == physics::BodyKind::puck &&
+           (each.position.x() < 0.0 || each.position.x() > sight_.field.length);
+  };
   if (state_.phase != MatchPhase::over) std::erase_if(sight_.things, is_scored);
 }
 
@@ -40,12 +45,14 @@ void NetworkMatch::show_mirror(double now_s) {
   sight_.time = mirror.newest().time + (mirror.newest().time > 0.0 ? now_s - heard_s_ : 0.0);
   sight_.things.clear();
   for (const MirroredEntity& entity : mirror.entities()) {
-    if (!entity.in_scope || !entity.is_placed) continue;  // a budget may say later where it is, and what
+    if (!entity.in_scope || !entity.is_placed)
+      continue;  // a budget may say later where it is, and what
     sight_.things.push_back({.id = entity.object.value,
                              .kind = static_cast<physics::BodyKind>(entity.shape.kind),
                              .team = static_cast<Team>(entity.shape.team),
                              .position = entity.position_at(sight_.time),
-                             .half_extent = {static_cast<double>(entity.shape.half_length), static_cast<double>(entity.shape.half_width)}});
+                             .half_extent = {static_cast<double>(entity.shape.half_length),
+                                             static_cast<double>(entity.shape.half_width)}});
   }
 }
 
@@ -57,9 +64,12 @@ void NetworkMatch::show_state(double now_s) {
   if (!trouble_.empty()) sight_.phase = MatchPhase::lost;
   else if (client_.state() != Client::State::playing) sight_.phase = MatchPhase::waiting;
   else if (!client_.mirror().has_match()) sight_.phase = MatchPhase::playing;
-  else if (state_.phase == MatchPhase::countdown && rink_ && rink_->now() > state_.clock_simulated_s) sight_.phase = MatchPhase::playing;  // it is foreseen
+  else if (state_.phase == MatchPhase::countdown && rink_ &&
+           rink_->now() > state_.clock_simulated_s)
+    sight_.phase = MatchPhase::playing;  // it is foreseen
   const bool is_counted = sight_.phase == MatchPhase::countdown || sight_.phase == MatchPhase::away;
-  sight_.remaining_s = is_counted && clock_.is_set() ? std::max(0.0, state_.until_s - clock_.arrival(now_s)) : 0.0;
+  sight_.remaining_s =
+      is_counted && clock_.is_set() ? std::max(0.0, state_.until_s - clock_.arrival(now_s)) : 0.0;
   const std::optional<std::uint32_t> own = player();
   if (!own || *own > 1) return;
   sight_.own_team = *own == 0 ? Team::left : Team::right;
@@ -72,7 +82,9 @@ void NetworkMatch::show_interest(double now_s) {
   if (auto told = client_.take_interest(); told && inspected_) sight_.interest = std::move(told);
   const std::optional<std::uint32_t> wanted = std::exchange(inspected_, std::nullopt);
   if (!wanted) sight_.interest.reset();
-  if (!wanted || sight_.phase != MatchPhase::playing || client_.mirror().has_match() || now_s < inspected_s_ + 0.1) return;
+  if (!wanted || sight_.phase != MatchPhase::playing || client_.mirror().has_match() ||
+      now_s < inspected_s_ + 0.1)
+    return;
   client_.inspect(rti::ObjectHandle{*wanted});
   inspected_s_ = now_s;
 }
@@ -80,11 +92,18 @@ void NetworkMatch::show_interest(double now_s) {
 void NetworkMatch::show_link(double now_s) {
   const rti::AmbassadorCounters& counters = client_.ambassador().counters();
   if (now_s - counted_s_ >= 1.0) {
-    bytes_per_s_ = counted_s_ == 0.0 ? 0.0 : static_cast<double>(counters.bytes_received - counted_bytes_) / (now_s - counted_s_);
+    bytes_per_s_ =
+        counted_s_ == 0.0
+            ? 0.0
+            : static_cast<double>(counters.bytes_received - counted_bytes_) / (now_s - counted_s_);
     counted_s_ = now_s;
     counted_bytes_ = counters.bytes_received;
   }
-  LinkFigures figures{.ping_ms = 1e3 * clock_.ping_s(), .jitter_ms = 1e3 * clock_.jitter_s(), .loss = clock_.loss(), .tick = counters.frames_received, .payload_bytes_per_s = bytes_per_s_};
+  LinkFigures figures{.ping_ms = 1e3 * clock_.ping_s(),
+                      .jitter_ms = 1e3 * clock_.jitter_s(),
+                      .loss = clock_.loss(),
+                      .tick = counters.frames_received,
+                      .payload_bytes_per_s = bytes_per_s_};
   if (rink_) {
     figures.lead_ms = 1e3 * delay_;
     figures.corrections = rink_->own_corrections().visible_count;

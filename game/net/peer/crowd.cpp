@@ -10,19 +10,26 @@ namespace rink::game {
 
 /// 0 is nothing.
 std::uint8_t input_of(const InputEvent& event) {
-  return static_cast<std::uint8_t>(1 + 2 * static_cast<unsigned>(event.key) + (event.kind == InputKind::key_down ? 1 : 0));
+  return static_cast<std::uint8_t>(1 + 2 * static_cast<unsigned>(event.key) +
+                                   (event.kind == InputKind::key_down ? 1 : 0));
 }
 
 InputEvent event_of(std::uint8_t input, double time, std::uint32_t player) {
   const unsigned number = (input - 1u) % 8;
-  return {time, player, number % 2 == 1 ? InputKind::key_down : InputKind::key_up, static_cast<Key>(number / 2)};
+  return {time, player, number % 2 == 1 ? InputKind::key_down : InputKind::key_up,
+          static_cast<Key>(number / 2)};
 }
 
-Crowd::Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds, std::uint64_t seed, std::uint32_t first, std::uint32_t count, double from, double until) {
+Crowd::Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds,
+             std::uint64_t seed, std::uint32_t first, std::uint32_t count, double from,
+             double until) {
   assert(count == 0 || !kinds.empty());
   for (std::uint32_t number = first; number < first + count; ++number) {
     const Bat& bat = scene.bodies.bats[number];
-    Bot bot{.bat = start.bat(number)->index, .controller = BatController(bat.thrust), .player = nullptr, .plan = {}};
+    Bot bot{.bat = start.bat(number)->index,
+            .controller = BatController(bat.thrust),
+            .player = nullptr,
+            .plan = {}};
     const std::string& kind = kinds[number % kinds.size()];
     const PlayerSeat seat{.number = number, .team = bat.team, .half_extent = bat.body.half_extent};
     if (kind == "random") bot.plan = random_player_plan(seed, number, until);
@@ -35,13 +42,15 @@ Crowd::Crowd(const Scene& scene, const Game& start, const std::vector<std::strin
 std::uint32_t Crowd::pucks_wanted(const Scene& scene, const std::vector<std::string>& kinds) {
   std::uint32_t wanted = 0;
   for (const std::string& kind : kinds)
-    if (kind != "random" && !scene.bodies.bats.empty()) wanted = std::max(wanted, make_player(kind, rules_of(scene, 0), {}, 1)->pucks_wanted());
+    if (kind != "random" && !scene.bodies.bats.empty())
+      wanted = std::max(wanted, make_player(kind, rules_of(scene, 0), {}, 1)->pucks_wanted());
   return wanted;
 }
 
 void Crowd::act(peer::Session& session) {
   for (const peer::Glimpse& glimpse : session.peer().glimpses()) {
-    const auto bot = std::find_if(bots_.begin(), bots_.end(), [&](const Bot& one) { return one.bat == glimpse.bat; });
+    const auto bot = std::find_if(bots_.begin(), bots_.end(),
+                                  [&](const Bot& one) { return one.bat == glimpse.bat; });
     if (bot == bots_.end() || glimpse.time <= bot->decided) continue;
     bot->decided = glimpse.time;
     decide(session, *bot, glimpse);
@@ -51,19 +60,27 @@ void Crowd::act(peer::Session& session) {
 void Crowd::decide(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse) {
   if (!bot.player) {
     for (; bot.next < bot.plan.size() && bot.plan[bot.next].time <= glimpse.time; ++bot.next)
-      press(session, bot, glimpse, bot.plan[bot.next].key, bot.plan[bot.next].kind == InputKind::key_down);
+      press(session, bot, glimpse, bot.plan[bot.next].key,
+            bot.plan[bot.next].kind == InputKind::key_down);
     return;
   }
   seen_.clear();
   const std::size_t count = std::min<std::size_t>(glimpse.pucks.size(), bot.player->pucks_wanted());
   for (const peer::Glimpse::Puck& puck : std::span(glimpse.pucks).first(count))
-    seen_.push_back({.id = puck.number, .kind = physics::BodyKind::puck, .position = puck.position, .velocity = puck.velocity, .half_extent = Vector2::Constant(puck.radius)});
-  const KeysHeld wanted = bot.player->decide({.position = glimpse.position, .velocity = glimpse.velocity, .pucks = seen_}, glimpse.time);
+    seen_.push_back({.id = puck.number,
+                     .kind = physics::BodyKind::puck,
+                     .position = puck.position,
+                     .velocity = puck.velocity,
+                     .half_extent = Vector2::Constant(puck.radius)});
+  const KeysHeld wanted = bot.player->decide(
+      {.position = glimpse.position, .velocity = glimpse.velocity, .pucks = seen_}, glimpse.time);
   for (const Key key : all_keys)
-    if (wanted.is_down(key) != bot.controller.keys().is_down(key)) press(session, bot, glimpse, key, wanted.is_down(key));
+    if (wanted.is_down(key) != bot.controller.keys().is_down(key))
+      press(session, bot, glimpse, key, wanted.is_down(key));
 }
 
-void Crowd::press(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse, Key key, bool is_down) {
+void Crowd::press(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse, Key key,
+                  bool is_down) {
   bot.controller.press(key, is_down);
   const InputEvent event{0.0, 0, is_down ? InputKind::key_down : InputKind::key_up, key};
   session.press(glimpse, {bot.bat, bot.controller.thrust(), input_of(event)});

@@ -1,4 +1,5 @@
-// The bots that one peer plays: they see what the owners of their bats show them, and their keys go back there.
+// The bots that one peer plays: they see what the owners of their bats show them, and their keys go
+// back there.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +13,25 @@
 
 namespace rink::game {
 
-/// What a live player did, as a number of peer::Key::input, and back; `time` and `player` are left out.
+/// What a live player did, as a number of peer::Key::input, and back; `time` and `player` are left
+/// out.
 std::uint8_t input_of(const InputEvent& event);
 InputEvent event_of(std::uint8_t input, double time, std::uint32_t player);
 
-/// Players of the scene's bats from `first` on, `count` of them; bat k is played by kind k modulo their number, as by rink simulate.
+/// Players of the scene's bats from `first` on, `count` of them; bat k is played by kind k modulo
+/// their number, as by rink simulate.
 class Crowd {
  public:
-  /// `kinds`: "random" or one of player_kinds(), at least one unless `count` is 0 (asserted). From when to `until` random players are to press keys [s].
-  Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds, std::uint64_t seed, std::uint32_t first, std::uint32_t count, double from, double until);
+  /// `kinds`: "random" or one of player_kinds(), at least one unless `count` is 0 (asserted). From
+  /// when to `until` random players are to press keys [s].
+  Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds,
+        std::uint64_t seed, std::uint32_t first, std::uint32_t count, double from, double until);
 
   /// How many pucks the one of these kinds wants to see who wants to see most.
   static std::uint32_t pucks_wanted(const Scene& scene, const std::vector<std::string>& kinds);
 
-  /// After a commit of `session`'s peer: whoever is shown something decides, and the keys are on their way.
+  /// After a commit of `session`'s peer: whoever is shown something decides, and the keys are on
+  /// their way.
   void act(peer::Session& session);
   std::uint64_t presses() const { return presses_; }
 
@@ -36,7 +42,7 @@ class Crowd {
     std::unique_ptr<Player> player;  ///< nobody: random
     std::vector<InputEvent> plan;    ///< of a random player
     std::size_t next = 0;
-    double decided = -1.0;           ///< the last instant [s]
+    double decided = -1.0;  ///< the last instant [s]
   };
   void press(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse, Key key, bool is_down);
   void decide(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse);

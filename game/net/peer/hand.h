@@ -1,4 +1,5 @@
-// Between the window in which a person plays and the peer that plays for it, which live in two threads: keys one way, what there is to see the other. Nobody waits for the other.
+// Between the window in which a person plays and the peer that plays for it, which live in two
+// threads: keys one way, what there is to see the other. Nobody waits for the other.
 #pragma once
 
 #include <atomic>
@@ -20,7 +21,8 @@ struct HandPress {
   double instant = 0.0;
 };
 
-/// Question `number` was there when the keys were taken that are felt at `felt_at` [s, simulated] at the earliest.
+/// Question `number` was there when the keys were taken that are felt at `felt_at` [s, simulated]
+/// at the earliest.
 struct HandAnswer {
   std::uint64_t number = 0;
   double felt_at = 0.0;
@@ -35,9 +37,13 @@ class Hand {
 
  public:
   // The window's side.
-  void press(const HandPress& press) { locked([&] { presses_.push_back(press); }); }
+  void press(const HandPress& press) {
+    locked([&] { presses_.push_back(press); });
+  }
   /// When would what is pressed now be felt?
-  void ask(std::uint64_t number) { locked([&] { question_ = number; }); }
+  void ask(std::uint64_t number) {
+    locked([&] { question_ = number; });
+  }
   std::optional<HandAnswer> take_answer() {
     return locked([&] { return std::exchange(answer_, std::nullopt); });
   }
@@ -61,14 +67,22 @@ class Hand {
       return std::exchange(presses_, {});
     });
   }
-  void show(PeerSight sight) { locked([&] { sight_ = std::move(sight); }); }
+  void show(PeerSight sight) {
+    locked([&] { sight_ = std::move(sight); });
+  }
   void set_stage(PeerStage::Step step, const std::string& words, double begins_in_s = 0.0) {
     locked([&] { stage_.step = step, stage_.words = words, stage_.begins_in_s = begins_in_s; });
   }
-  void set_player(std::uint32_t player) { locked([&] { stage_.player = player; }); }
-  void notice(const std::string& what) { locked([&] { stage_.notice = what, ++stage_.notice_count; }); }
+  void set_player(std::uint32_t player) {
+    locked([&] { stage_.player = player; });
+  }
+  void notice(const std::string& what) {
+    locked([&] { stage_.notice = what, ++stage_.notice_count; });
+  }
   /// For the standard output.
-  void say(const std::string& words) { locked([&] { words_ += words; }); }
+  void say(const std::string& words) {
+    locked([&] { words_ += words; });
+  }
   bool wants_to_leave() const { return wants_to_leave_; }
 
  private:

@@ -8,8 +8,8 @@
 
 #include "game/control/game.h"
 #include "game/net/peer/hand.h"
-#include "game/net/peer/shared_game.h"
 #include "game/net/peer/interest/viewer.h"
+#include "game/net/peer/shared_game.h"
 
 namespace rink::game {
 
@@ -37,7 +37,8 @@ class HandPlayer final : public Onlooker {
   void count_felt(const peer::Session& session);
   PeerSight sight_of(const peer::Session& session) const;
   void add_told(PeerSight& sight) const;
-  void add_bodies(const peer::Peer& peer, const std::vector<std::uint32_t>& bodies, KnownBody::Source source, PeerSight& sight) const;
+  void add_bodies(const peer::Peer& peer, const std::vector<std::uint32_t>& bodies,
+                  KnownBody::Source source, PeerSight& sight) const;
 
   const SharedGame& game_;
   Hand& hand_;
@@ -46,7 +47,7 @@ class HandPlayer final : public Onlooker {
   std::vector<HandPress> waiting_;  ///< until somebody shows the bat
   std::deque<Sent> sent_;
   std::uint64_t presses_ = 0;
-  std::size_t lost_ = 0;            ///< peers
+  std::size_t lost_ = 0;  ///< peers
   double since_ = 0.0;
 };
 

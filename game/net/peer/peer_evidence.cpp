@@ -12,9 +12,16 @@ using Json = nlohmann::ordered_json;
 constexpr int version = 1;
 
 Json json_of(const PeerLoad& load) {
-  return {{"instant_s", load.instant_s}, {"bytes", load.bytes}, {"messages", load.messages}, {"bytes_sent", load.bytes_sent}, {"bytes_received", load.bytes_received},
-          {"writes", load.writes},       {"segments", load.segments}, {"acknowledgements", load.acknowledgements},
-          {"kernel_segments", load.kernel_segments}, {"events", load.events}};
+  return {{"instant_s", load.instant_s},
+          {"bytes", load.bytes},
+          {"messages", load.messages},
+          {"bytes_sent", load.bytes_sent},
+          {"bytes_received", load.bytes_received},
+          {"writes", load.writes},
+          {"segments", load.segments},
+          {"acknowledgements", load.acknowledgements},
+          {"kernel_segments", load.kernel_segments},
+          {"events", load.events}};
 }
 
 PeerLoad load_in(const nlohmann::json& json) {
@@ -22,14 +29,17 @@ PeerLoad load_in(const nlohmann::json& json) {
   load.instant_s = json.at("instant_s");
   load.bytes = json.at("bytes"), load.messages = json.at("messages");
   load.bytes_sent = json.at("bytes_sent"), load.bytes_received = json.at("bytes_received");
-  load.writes = json.at("writes"), load.segments = json.at("segments"), load.events = json.at("events");
-  load.acknowledgements = json.at("acknowledgements"), load.kernel_segments = json.at("kernel_segments");
+  load.writes = json.at("writes"), load.segments = json.at("segments"),
+  load.events = json.at("events");
+  load.acknowledgements = json.at("acknowledgements"),
+  load.kernel_segments = json.at("kernel_segments");
   return load;
 }
 
 void write_player(EvidenceWriter& writer, const PlayerEvidence& player) {
   Json changes = Json::array();
-  for (const PlayerEvidence::ScopeChange& change : player.changes) changes.push_back({change.instant_s, change.body, change.is_in});
+  for (const PlayerEvidence::ScopeChange& change : player.changes)
+    changes.push_back({change.instant_s, change.body, change.is_in});
   writer.line({{"bat", player.bat}, {"samples", player.samples.size()}, {"changes", changes}});
   for (const PlayerEvidence::Sample& sample : player.samples) {
     Json beliefs = Json::array();
@@ -37,10 +47,14 @@ void write_player(EvidenceWriter& writer, const PlayerEvidence& player) {
       const PlayerEvidence::Belief& belief = player.beliefs[k];
       Json entry{belief.body, belief.bytes};
       if (belief.is_in_scope)
-        for (const physics::Vector2& place : {belief.matched, belief.displayed}) entry.push_back(place.x()), entry.push_back(place.y());
+        for (const physics::Vector2& place : {belief.matched, belief.displayed})
+          entry.push_back(place.x()), entry.push_back(place.y());
       beliefs.push_back(std::move(entry));
     }
-    writer.line({{"displayed_s", sample.displayed_s}, {"matched_s", sample.matched_s}, {"window_s", sample.window_s}, {"bodies", beliefs}});
+    writer.line({{"displayed_s", sample.displayed_s},
+                 {"matched_s", sample.matched_s},
+                 {"window_s", sample.window_s},
+                 {"bodies", beliefs}});
   }
 }
 
@@ -48,16 +62,24 @@ PlayerEvidence read_player(EvidenceReader& reader) {
   PlayerEvidence player;
   const nlohmann::json head = reader.next();
   player.bat = head.at("bat");
-  for (const nlohmann::json& change : head.at("changes")) player.changes.push_back({change.at(0), change.at(1), change.at(2)});
+  for (const nlohmann::json& change : head.at("changes"))
+    player.changes.push_back({change.at(0), change.at(1), change.at(2)});
   for (std::size_t k = 0; k < head.at("samples").get<std::size_t>(); ++k) {
     const nlohmann::json line = reader.next();
     const std::size_t first = player.beliefs.size();
     for (const nlohmann::json& entry : line.at("bodies")) {
-      PlayerEvidence::Belief belief{.body = entry.at(0), .bytes = entry.at(1), .is_in_scope = entry.size() > 2};
-      if (belief.is_in_scope) belief.matched = {entry.at(2).get<double>(), entry.at(3).get<double>()}, belief.displayed = {entry.at(4).get<double>(), entry.at(5).get<double>()};
+      PlayerEvidence::Belief belief{
+          .body = entry.at(0), .bytes = entry.at(1), .is_in_scope = entry.size() > 2};
+      if (belief.is_in_scope)
+        belief.matched = {entry.at(2).get<double>(), entry.at(3).get<double>()},
+        belief.displayed = {entry.at(4).get<double>(), entry.at(5).get<double>()};
       player.beliefs.push_back(belief);
     }
-    player.samples.push_back({.displayed_s = line.at("displayed_s"), .matched_s = line.at("matched_s"), .window_s = line.at("window_s"), .first = first, .last = player.beliefs.size()});
+    player.samples.push_back({.displayed_s = line.at("displayed_s"),
+                              .matched_s = line.at("matched_s"),
+                              .window_s = line.at("window_s"),
+                              .first = first,
+                              .last = player.beliefs.size()});
   }
   return player;
 }
@@ -70,10 +92,13 @@ PeerEvidence read_lines(EvidenceReader& reader) {
   evidence.begin = load_in(header.at("begin")), evidence.end = load_in(header.at("end"));
   for (const nlohmann::json& event : header.at("events")) {
     const auto kind = event.at(0).get<unsigned>();
-    if (kind > static_cast<unsigned>(PeerEvidence::Kind::known)) reader.refuse("an event of kind 0 to 2");
-    evidence.events.push_back({static_cast<PeerEvidence::Kind>(kind), event.at(1), event.at(2), event.at(3)});
+    if (kind > static_cast<unsigned>(PeerEvidence::Kind::known))
+      reader.refuse("an event of kind 0 to 2");
+    evidence.events.push_back(
+        {static_cast<PeerEvidence::Kind>(kind), event.at(1), event.at(2), event.at(3)});
   }
-  for (const nlohmann::json& decision : header.at("decisions")) evidence.decisions.push_back({decision.at(0), decision.at(1), decision.at(2)});
+  for (const nlohmann::json& decision : header.at("decisions"))
+    evidence.decisions.push_back({decision.at(0), decision.at(1), decision.at(2)});
   if (header.at("is_watched").get<bool>()) evidence.player = read_player(reader);
   return evidence;
 }
@@ -83,10 +108,18 @@ PeerEvidence read_lines(EvidenceReader& reader) {
 void write_evidence(const std::string& file, const PeerEvidence& evidence) {
   EvidenceWriter writer(file);
   Json events = Json::array(), decisions = Json::array();
-  for (const PeerEvidence::Event& event : evidence.events) events.push_back({static_cast<unsigned>(event.kind), event.due_s, event.instant_s, event.felt});
-  for (const PeerEvidence::Decision& decision : evidence.decisions) decisions.push_back({decision.instant_s, decision.peer, decision.bodies});
-  writer.line({{"rink-peer-evidence", version}, {"peer", evidence.peer}, {"peers", evidence.peer_count}, {"is_watched", evidence.player.has_value()}, {"begin", json_of(evidence.begin)},
-               {"end", json_of(evidence.end)}, {"events", events}, {"decisions", decisions}});
+  for (const PeerEvidence::Event& event : evidence.events)
+    events.push_back({static_cast<unsigned>(event.kind), event.due_s, event.instant_s, event.felt});
+  for (const PeerEvidence::Decision& decision : evidence.decisions)
+    decisions.push_back({decision.instant_s, decision.peer, decision.bodies});
+  writer.line({{"rink-peer-evidence", version},
+               {"peer", evidence.peer},
+               {"peers", evidence.peer_count},
+               {"is_watched", evidence.player.has_value()},
+               {"begin", json_of(evidence.begin)},
+               {"end", json_of(evidence.end)},
+               {"events", events},
+               {"decisions", decisions}});
   if (evidence.player) write_player(writer, *evidence.player);
   writer.finish();
 }
@@ -96,7 +129,8 @@ PeerEvidence read_peer_evidence(const std::string& file) {
   try {
     return read_lines(reader);
   } catch (const nlohmann::json::exception& error) {
-    reader.refuse(std::string("a peer's evidence as docs/metrics.md describes it (") + error.what() + ")");
+    reader.refuse(std::string("a peer's evidence as docs/metrics.md describes it (") +
+                  error.what() + ")");
   }
 }
 

@@ -11,15 +11,19 @@
 namespace rink::game {
 namespace {
 
-constexpr double foretold_longest_s = 0.5;  ///< without news, after which the picture stands and says so
-constexpr double time_bend = 0.5;           ///< how much slower or faster than real time the others' time may run while its delay changes
+constexpr double foretold_longest_s =
+    0.5;                           ///< without news, after which the picture stands and says so
+constexpr double time_bend = 0.5;  ///< how much slower or faster than real time the others' time
+                                   ///< may run while its delay changes
 constexpr double notice_s = 8.0;
-/// m from the own bat: beyond, nothing can come near it before there is news. More than PredictedRink::crowd_reach, so that a body is in the others' time before it is lost sight of.
+/// m from the own bat: beyond, nothing can come near it before there is news. More than
+/// PredictedRink::crowd_reach, so that a body is in the others' time before it is lost sight of.
 constexpr double near_reach = 1.2;
 
 KeysHeld keys_of(const Vector2& thrust) {
   KeysHeld held;
-  held.set(Key::right, thrust.x() > 0.0), held.set(Key::left, thrust.x() < 0.0), held.set(Key::up, thrust.y() > 0.0), held.set(Key::down, thrust.y() < 0.0);
+  held.set(Key::right, thrust.x() > 0.0), held.set(Key::left, thrust.x() < 0.0),
+      held.set(Key::up, thrust.y() > 0.0), held.set(Key::down, thrust.y() < 0.0);
   return held;
 }
 
@@ -31,7 +35,11 @@ Vector2 PeerMatch::Known::at(double instant) const {
   return before.time <= instant ? before.at(instant).position : motion.position;
 }
 
-PeerMatch::PeerMatch(const SharedGame& game, Hand& hand) : game_(game), hand_(hand), known_(game.start().world().body_count()), sight_(rink::game::sight_of(game.scene())) {
+PeerMatch::PeerMatch(const SharedGame& game, Hand& hand)
+    : game_(game),
+      hand_(hand),
+      known_(game.start().world().body_count()),
+      sight_(rink::game::sight_of(game.scene())) {
   std::uint32_t pucks = 0;
   for (const Entity& entity : game.start().entities()) {
     Known& known = known_[entity.id.index];
@@ -39,7 +47,11 @@ PeerMatch::PeerMatch(const SharedGame& game, Hand& hand) : game_(game), hand_(ha
     if (entity.kind == physics::BodyKind::bat) known.number = *entity.player;
     if (entity.kind == physics::BodyKind::puck) known.number = pucks++;
     known.motion = known.before = game.start().world().motion(entity.id);
-    all_things_.push_back({.id = entity.id.index, .kind = entity.kind, .team = entity.team, .position = game.start().position(entity.id), .half_extent = entity.half_extent});
+    all_things_.push_back({.id = entity.id.index,
+                           .kind = entity.kind,
+                           .team = entity.team,
+                           .position = game.start().position(entity.id),
+                           .half_extent = entity.half_extent});
   }
   sight_.things = all_things_;
   sight_.can_rematch = false;
@@ -57,7 +69,8 @@ void PeerMatch::advance(double now_s) {
     hear(std::move(*news));
     heard_s_ = now_s;
   }
-  if (const auto answer = hand_.take_answer()) clock_.answered(answer->number, answer->felt_at, now_s);
+  if (const auto answer = hand_.take_answer())
+    clock_.answered(answer->number, answer->felt_at, now_s);
   clock_.advance(now_s);
   if (is_playing())
     if (const auto question = clock_.ask(now_s)) hand_.ask(*question);
@@ -76,14 +89,18 @@ void PeerMatch::hear(PeerSight news) {
 
 ToldRink PeerMatch::told() {
   const Scene& scene = game_.scene();
-  ToldRink all{.time = news_->time, .bats = std::vector<ToldBody>(scene.bodies.bats.size()), .pucks = std::vector<ToldBody>(scene.bodies.pucks.size()), .own_felt = news_->own_felt};
+  ToldRink all{.time = news_->time,
+               .bats = std::vector<ToldBody>(scene.bodies.bats.size()),
+               .pucks = std::vector<ToldBody>(scene.bodies.pucks.size()),
+               .own_felt = news_->own_felt};
   for (std::vector<ToldBody>* bodies : {&all.bats, &all.pucks})
     for (ToldBody& body : *bodies) body.is_known = false;
   for (const KnownBody& body : news_->bodies) tell(body, all);
   for (Known& known : known_)
     if (known.window != news_->window) known.is_near = false;
   ToldBody& own = all.bats[known_[news_->own_bat].number];
-  if (!own.is_known) own = {.position = news_->own_position, .velocity = news_->own_velocity, .held = {}};
+  if (!own.is_known)
+    own = {.position = news_->own_position, .velocity = news_->own_velocity, .held = {}};
   own.held = news_->own_held;
   return all;
 }
@@ -100,14 +117,19 @@ void PeerMatch::tell(const KnownBody& body, ToldRink& all) {
   if (known.is_near && !was_near) known.near_since = news_->time;
   ToldBody& told = (known.kind == physics::BodyKind::bat ? all.bats : all.pucks)[known.number];
   const physics::Motion now = body.motion.at(std::max(news_->time, body.motion.time));
-  told = {.position = place, .velocity = now.velocity, .held = keys_of(body.thrust), .is_in_play = body.is_in_play, .is_known = known.is_near};
+  told = {.position = place,
+          .velocity = now.velocity,
+          .held = keys_of(body.thrust),
+          .is_in_play = body.is_in_play,
+          .is_known = known.is_near};
 }
 
 void PeerMatch::predict(double now_s) {
   if (!rink_) return;
   const bool does_run = is_playing() && clock_.is_set();
   const double instant = does_run ? clock_.arrival(now_s) : rink_->told_time();
-  const double now = std::clamp(instant, rink_->now(), std::max(rink_->now(), rink_->told_time() + foretold_longest_s));
+  const double now = std::clamp(instant, rink_->now(),
+                                std::max(rink_->now(), rink_->told_time() + foretold_longest_s));
   if (does_run) press_keys(now);
   move_delay(now_s - now_s_);
   rink_->advance(now, delay_);
@@ -122,7 +144,8 @@ void PeerMatch::press_keys(double instant) {
 }
 
 void PeerMatch::move_delay(double dt) {
-  const double wanted = is_playing() ? news_delay_.delay().value_or(3.0 * (news_->time - news_->since)) : 0.0;
+  const double wanted =
+      is_playing() ? news_delay_.delay().value_or(3.0 * (news_->time - news_->since)) : 0.0;
   delay_ = std::clamp(wanted, std::max(0.0, delay_ - time_bend * dt), delay_ + time_bend * dt);
 }
 
@@ -139,14 +162,19 @@ void PeerMatch::show_things() {
   sight_.things.clear();
   for (const Thing& thing : all_things_)
     if (thing.kind == physics::BodyKind::post) sight_.things.push_back(thing);
-    else if (known_[thing.id].window == news_->window || thing.id == news_->own_bat) show_thing(thing.id);
-  const auto is_scored = [&](const Thing& thing) { return thing.kind == physics::BodyKind::puck && (thing.position.x() < 0.0 || thing.position.x() > sight_.field.length); };
+    else if (known_[thing.id].window == news_->window || thing.id == news_->own_bat)
+      show_thing(thing.id);
+  const auto is_scored = [&](const Thing& thing) {
+    return thing.kind == physics::BodyKind::puck &&
+           (thing.position.x() < 0.0 || thing.position.x() > sight_.field.length);
+  };
   std::erase_if(sight_.things, is_scored);
   sight_.zones = news_->zones;
   sight_.score = {news_->goals_left, news_->goals_right};
 }
 
-/// Whoever is near is foretold; all others are on their paths, in the others' time, as far as these are known.
+/// Whoever is near is foretold; all others are on their paths, in the others' time, as far as these
+/// are known.
 void PeerMatch::show_thing(std::uint32_t body) {
   const Known& known = known_[body];
   const double others = rink_->now() - delay_;
@@ -154,10 +182,12 @@ void PeerMatch::show_thing(std::uint32_t body) {
   if (!is_own && !known.is_in_play) return;
   Thing thing = all_things_[body];
   if (is_own || (known.is_near && known.near_since <= others)) {
-    const ShownBody& shown = (known.kind == physics::BodyKind::bat ? rink_->bats() : rink_->pucks())[known.number];
+    const ShownBody& shown =
+        (known.kind == physics::BodyKind::bat ? rink_->bats() : rink_->pucks())[known.number];
     thing.position = shown.position, thing.velocity = shown.velocity;
   } else {
-    thing.position = known.at(std::min(others, news_->time)), thing.velocity = known.motion.velocity;
+    thing.position = known.at(std::min(others, news_->time)),
+    thing.velocity = known.motion.velocity;
   }
   sight_.things.push_back(thing);
 }
@@ -165,11 +195,21 @@ void PeerMatch::show_thing(std::uint32_t body) {
 void PeerMatch::show_stage(double now_s) {
   using Step = PeerStage::Step;
   switch (stage_.step) {
-    case Step::gathering: sight_.phase = MatchPhase::waiting; break;
-    case Step::countdown: sight_.phase = MatchPhase::countdown; break;
-    case Step::playing: sight_.phase = MatchPhase::playing; break;
-    case Step::over: sight_.phase = MatchPhase::over; break;
-    case Step::lost: sight_.phase = MatchPhase::lost; break;
+    case Step::gathering:
+      sight_.phase = MatchPhase::waiting;
+      break;
+    case Step::countdown:
+      sight_.phase = MatchPhase::countdown;
+      break;
+    case Step::playing:
+      sight_.phase = MatchPhase::playing;
+      break;
+    case Step::over:
+      sight_.phase = MatchPhase::over;
+      break;
+    case Step::lost:
+      sight_.phase = MatchPhase::lost;
+      break;
   }
   sight_.remaining_s = std::max(0.0, stage_.begins_in_s - (now_s - stage_s_));
   sight_.notice = stage_.words;
@@ -177,11 +217,15 @@ void PeerMatch::show_stage(double now_s) {
   const double silent_s = now_s - std::max(heard_s_, stage_s_);
   if (is_playing() && silent_s > foretold_longest_s) {
     char words[96];
-    std::snprintf(words, sizeof words, "The game stands: for %.1f s no window has been agreed upon with the other peers", silent_s);
+    std::snprintf(words, sizeof words,
+                  "The game stands: for %.1f s no window has been agreed upon with the other peers",
+                  silent_s);
     sight_.notice = words;
   }
   const auto& [left, right] = sight_.score;
-  if (stage_.step == Step::over && sight_.goals_to_win && std::max(left, right) >= *sight_.goals_to_win) sight_.winner = left > right ? Team::left : Team::right;
+  if (stage_.step == Step::over && sight_.goals_to_win &&
+      std::max(left, right) >= *sight_.goals_to_win)
+    sight_.winner = left > right ? Team::left : Team::right;
   if (!stage_.player) return;
   const Bat& own = game_.scene().bodies.bats[*stage_.player];
   sight_.own_thing = game_.start().bat(*stage_.player)->index;
@@ -191,10 +235,17 @@ void PeerMatch::show_stage(double now_s) {
 void PeerMatch::show_link(double now_s) {
   if (!news_) return;
   if (now_s - counted_s_ >= 1.0) {
-    bytes_per_s_ = counted_s_ == 0.0 ? 0.0 : static_cast<double>(news_->bytes_sent - counted_bytes_) / (now_s - counted_s_);
+    bytes_per_s_ = counted_s_ == 0.0 ? 0.0
+                                     : static_cast<double>(news_->bytes_sent - counted_bytes_) /
+                                           (now_s - counted_s_);
     counted_s_ = now_s, counted_bytes_ = news_->bytes_sent;
   }
-  LinkFigures figures{.ping_ms = 1e3 * clock_.ping_s(), .jitter_ms = 1e3 * clock_.jitter_s(), .loss = 0.0, .tick = news_->window, .payload_bytes_per_s = bytes_per_s_, .lead_ms = 1e3 * delay_};
+  LinkFigures figures{.ping_ms = 1e3 * clock_.ping_s(),
+                      .jitter_ms = 1e3 * clock_.jitter_s(),
+                      .loss = 0.0,
+                      .tick = news_->window,
+                      .payload_bytes_per_s = bytes_per_s_,
+                      .lead_ms = 1e3 * delay_};
   figures.corrections = rink_->own_corrections().visible_count;
   figures.last_correction_mm = 1e3 * rink_->own_corrections().last_visible;
   sight_.link = figures;

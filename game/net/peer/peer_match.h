@@ -16,8 +16,9 @@
 
 namespace rink::game {
 
-/// Shows what the peer on the other side of `hand` has and is told, and the own bat at the instant at which a key that is pressed now is felt (docs/play.md, "Among peers"). Never
-/// waits for a window, and reads no clock.
+/// Shows what the peer on the other side of `hand` has and is told, and the own bat at the instant
+/// at which a key that is pressed now is felt (docs/play.md, "Among peers"). Never waits for a
+/// window, and reads no clock.
 class PeerMatch final : public MatchSource {
  public:
   /// Both must outlive it.
@@ -39,11 +40,11 @@ class PeerMatch final : public MatchSource {
   /// What a body of the scene is, and what was told of it last.
   struct Known {
     physics::BodyKind kind = physics::BodyKind::post;
-    std::uint32_t number = 0;             ///< among its kind
-    std::uint64_t window = 0;             ///< of the news that told of it last; 0: none yet
+    std::uint32_t number = 0;  ///< among its kind
+    std::uint64_t window = 0;  ///< of the news that told of it last; 0: none yet
     bool is_in_play = true, is_near = false;
-    double near_since = 0.0;              ///< s: since then it is foretold
-    physics::Motion motion, before;       ///< the newest, and that of the window before
+    double near_since = 0.0;         ///< s: since then it is foretold
+    physics::Motion motion, before;  ///< the newest, and that of the window before
     Vector2 at(double instant) const;
   };
   struct PressedKey {
@@ -78,7 +79,7 @@ class PeerMatch final : public MatchSource {
   NoiseDetector noises_;
   GoalWatch goals_;
   double now_s_ = 0.0, delay_ = 0.0;
-  double heard_s_ = 0.0;           ///< real time of the newest news
+  double heard_s_ = 0.0;  ///< real time of the newest news
   double stage_s_ = 0.0, notice_s_ = -1e9;
   std::uint32_t notice_count_ = 0;
   double counted_s_ = 0.0, bytes_per_s_ = 0.0;

@@ -5,17 +5,22 @@
 
 namespace rink::game {
 
-namespace {
+namespace {}  // namespace
 
-}  // namespace
-
-PeerNode::PeerNode(const SharedGame& game, const InterestSettings& settings, const peer::Division& division, peer::PeerNumber number, Send send)
+PeerNode::PeerNode(const SharedGame& game, const InterestSettings& settings,
+                   const peer::Division& division, peer::PeerNumber number, Send send)
     : rate_hz_(settings.rate_hz),
       division_(division),
       send_(std::move(send)),
       peer_(game.peer(division, number, 1.0 / settings.rate_hz)),
-      play_(*peer_, division.peer_count(), [this](peer::PeerNumber to, peer::Subject about, std::vector<std::uint8_t> bytes) { say(to, traffic_of(about), std::move(bytes)); }),
-      interest_(game.start(), settings, *peer_, division_, [this](peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> bytes) { say(to, about, std::move(bytes)); }) {
+      play_(*peer_, division.peer_count(),
+            [this](peer::PeerNumber to, peer::Subject about, std::vector<std::uint8_t> bytes) {
+              say(to, traffic_of(about), std::move(bytes));
+            }),
+      interest_(game.start(), settings, *peer_, division_,
+                [this](peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> bytes) {
+                  say(to, about, std::move(bytes));
+                }) {
   play_.on_final = [this] { finish(); };
   play_.on_commit = [this] {
     interest_.note_places();
@@ -52,7 +57,8 @@ void PeerNode::finish() {
 }
 
 bool PeerNode::hear(peer::PeerNumber from, Traffic about, std::vector<std::uint8_t> content) {
-  const bool is_of_windows = about == Traffic::halo || about == Traffic::claims || about == Traffic::agreement;
+  const bool is_of_windows =
+      about == Traffic::halo || about == Traffic::claims || about == Traffic::agreement;
   if (!is_of_windows) return interest_.hear(from, about, std::as_bytes(std::span(content)));
   play_.hear(from, std::move(content));
   return true;

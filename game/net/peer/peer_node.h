@@ -1,4 +1,5 @@
-// One peer with a player: its windows, what its player presses, where that looks and what it knows. No clock, no socket; time and messages are handed in.
+// One peer with a player: its windows, what its player presses, where that looks and what it knows.
+// No clock, no socket; time and messages are handed in.
 #pragma once
 
 #include <cstdint>
@@ -6,25 +7,29 @@
 #include <memory>
 #include <vector>
 
-#include "game/net/peer/shared_game.h"
 #include "game/net/peer/interest/shared_interest.h"
+#include "game/net/peer/shared_game.h"
 #include "game/net/peer/traffic.h"
 #include "game/peer/window_play.h"
 
 namespace rink::game {
 
-/// Keys are those of the shared game, which all know; what the player presses is sent for the record (SharedInterest).
+/// Keys are those of the shared game, which all know; what the player presses is sent for the
+/// record (SharedInterest).
 class PeerNode {
  public:
   using Send = SharedInterest::Send;
-  PeerNode(const SharedGame& game, const InterestSettings& settings, const peer::Division& division, peer::PeerNumber number, Send send);
+  PeerNode(const SharedGame& game, const InterestSettings& settings, const peer::Division& division,
+           peer::PeerNumber number, Send send);
   PeerNode(const PeerNode&) = delete;
   PeerNode& operator=(const PeerNode&) = delete;
 
-  /// The own bodies' states at the end of a window stand; and, when all has come that others tell of it, the whole picture of it does.
+  /// The own bodies' states at the end of a window stand; and, when all has come that others tell
+  /// of it, the whole picture of it does.
   std::function<void()> on_final, on_commit;
 
-  /// The instant of the next window's end has come: it is played now, or as soon as the one before it is done. Throws peer::ProtocolError, as `hear` does.
+  /// The instant of the next window's end has come: it is played now, or as soon as the one before
+  /// it is done. Throws peer::ProtocolError, as `hear` does.
   void due();
   /// False for what is no message of its kind.
   bool hear(peer::PeerNumber from, Traffic about, std::vector<std::uint8_t> content);
@@ -53,7 +58,9 @@ class PeerNode {
   std::unique_ptr<peer::Peer> peer_;
   peer::WindowPlay play_;
   SharedInterest interest_;
-  std::uint32_t begun_ = 0, final_ = 0, waiting_ = 0;      ///< windows; the last: whose end has come, and that are not played yet
+  std::uint32_t begun_ = 0, final_ = 0,
+                waiting_ =
+                    0;  ///< windows; the last: whose end has come, and that are not played yet
   TrafficBytes sent_{}, messages_sent_{};
 };
 

@@ -7,7 +7,8 @@ namespace rink::game {
 
 namespace {
 
-constexpr double window_s = 0.05;  ///< over which updates are counted for a sample: that of the bots of a server
+constexpr double window_s =
+    0.05;  ///< over which updates are counted for a sample: that of the bots of a server
 
 }  // namespace
 
@@ -15,31 +16,46 @@ void PlayerWitness::note_commit(double instant_s, double matched_s) {
   matched_s_ = matched_s;
   interest_.list_scope(listed_);
   std::sort(listed_.begin(), listed_.end());
-  const auto note = [&](const std::vector<std::uint32_t>& these, const std::vector<std::uint32_t>& others, bool is_in) {
+  const auto note = [&](const std::vector<std::uint32_t>& these,
+                        const std::vector<std::uint32_t>& others, bool is_in) {
     for (const std::uint32_t body : these)
-      if (!std::binary_search(others.begin(), others.end(), body)) evidence_.changes.push_back({instant_s, body, is_in});
+      if (!std::binary_search(others.begin(), others.end(), body))
+        evidence_.changes.push_back({instant_s, body, is_in});
   };
   note(scope_, listed_, false);
   note(listed_, scope_, true);
   scope_ = listed_;
   matched_.clear();
-  for (const std::uint32_t body : scope_) matched_.push_back(interest_.position_at(body, matched_s_));
-  for (const PlayerPicture::Heard& heard : interest_.picture().heard()) received_.push_back({instant_s, heard});
+  for (const std::uint32_t body : scope_)
+    matched_.push_back(interest_.position_at(body, matched_s_));
+  for (const PlayerPicture::Heard& heard : interest_.picture().heard())
+    received_.push_back({instant_s, heard});
   interest_.picture().forget_heard();
-  std::erase_if(received_, [&](const auto& heard) { return heard.first <= instant_s - 2.0 * window_s; });
+  std::erase_if(received_,
+                [&](const auto& heard) { return heard.first <= instant_s - 2.0 * window_s; });
 }
 
 void PlayerWitness::sample(double instant_s) {
   std::erase_if(received_, [&](const auto& heard) { return heard.first <= instant_s - window_s; });
   const std::size_t first = evidence_.beliefs.size();
   for (std::size_t k = 0; k < scope_.size(); ++k)
-    evidence_.beliefs.push_back({.body = scope_[k], .bytes = 0, .is_in_scope = true, .matched = matched_[k], .displayed = interest_.position_at(scope_[k], instant_s)});
+    evidence_.beliefs.push_back({.body = scope_[k],
+                                 .bytes = 0,
+                                 .is_in_scope = true,
+                                 .matched = matched_[k],
+                                 .displayed = interest_.position_at(scope_[k], instant_s)});
   for (const auto& [heard_s, heard] : received_) {
     const auto place = std::lower_bound(scope_.begin(), scope_.end(), heard.body);
-    if (place != scope_.end() && *place == heard.body) evidence_.beliefs[first + static_cast<std::size_t>(place - scope_.begin())].bytes += heard.bytes;
+    if (place != scope_.end() && *place == heard.body)
+      evidence_.beliefs[first + static_cast<std::size_t>(place - scope_.begin())].bytes +=
+          heard.bytes;
     else evidence_.beliefs.push_back({.body = heard.body, .bytes = heard.bytes});
   }
-  evidence_.samples.push_back({.displayed_s = instant_s, .matched_s = matched_s_, .window_s = window_s, .first = first, .last = evidence_.beliefs.size()});
+  evidence_.samples.push_back({.displayed_s = instant_s,
+                               .matched_s = matched_s_,
+                               .window_s = window_s,
+                               .first = first,
+                               .last = evidence_.beliefs.size()});
 }
 
 }  // namespace rink::game

@@ -24,9 +24,10 @@ struct PlayerEvidence {
     physics::Vector2 matched{0.0, 0.0}, displayed{0.0, 0.0};  ///< m, at the sample's two instants
   };
   struct Sample {
-    double displayed_s = 0.0, matched_s = 0.0;  ///< now, and the end of the last window of which all is known
+    double displayed_s = 0.0,
+           matched_s = 0.0;  ///< now, and the end of the last window of which all is known
     double window_s = 0.0;
-    std::size_t first = 0, last = 0;            ///< in `beliefs`
+    std::size_t first = 0, last = 0;  ///< in `beliefs`
   };
   std::uint32_t bat = 0;
   std::vector<ScopeChange> changes;
@@ -37,7 +38,9 @@ struct PlayerEvidence {
 class PlayerWitness {
  public:
   /// `interest` must outlive it.
-  explicit PlayerWitness(SharedInterest& interest) : interest_(interest) { evidence_.bat = interest.bat(); }
+  explicit PlayerWitness(SharedInterest& interest) : interest_(interest) {
+    evidence_.bat = interest.bat();
+  }
 
   /// At `instant_s` all is known of the window that ended at `matched_s`.
   void note_commit(double instant_s, double matched_s);

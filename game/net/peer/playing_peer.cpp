@@ -11,8 +11,8 @@
 #include "game/net/address.h"
 #include "game/net/interrupt.h"
 #include "game/net/peer/hand_player.h"
-#include "game/net/peer/meeting/listening_place.h"
 #include "game/net/peer/interest/viewing_options.h"
+#include "game/net/peer/meeting/listening_place.h"
 
 namespace rink::game {
 
@@ -32,17 +32,29 @@ std::uint64_t unguessable_number() {
 }  // namespace
 
 PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)())
-    : settings_(settings), record_file_("--record", settings.record), now_s_(now_s), game_(scene_of(settings), {}), match_(game_, hand_) {
+    : settings_(settings),
+      record_file_("--record", settings.record),
+      now_s_(now_s),
+      game_(scene_of(settings), {}),
+      match_(game_, hand_) {
   settings_.terms.interest.always = relevant_kinds_of(game_.scene()).bits();
-  if (game_.bat_count() == 0) throw SceneError("scene '" + settings.scene + "' has no bats: expected one that can be played");
-  if (game_.has_keys()) throw SceneError("scene '" + settings.scene + "' has keys already, and nobody can play beside them");
+  if (game_.bat_count() == 0)
+    throw SceneError("scene '" + settings.scene + "' has no bats: expected one that can be played");
+  if (game_.has_keys())
+    throw SceneError("scene '" + settings.scene +
+                     "' has keys already, and nobody can play beside them");
   if (settings.join.empty()) game_.require_window(settings.terms.window);
-  Place place = listening_place(settings.listen, settings.join, true, {.listen = "--peer-listen", .join = "--peer"});
+  Place place = listening_place(settings.listen, settings.join, true,
+                                {.listen = "--peer-listen", .join = "--peer"});
   place.port = sockets_.listen(place.address, place.port);
   hand_.say("listening on " + place.text() + "\n");
   place_ = place;
   meet();
-  hand_.set_stage(PeerStage::Step::gathering, settings.join.empty() ? "this peer listens on " + place.text() + "; there will be " + std::to_string(settings.terms.peer_count) : "asking the peer at " + settings.join);
+  hand_.set_stage(PeerStage::Step::gathering, settings.join.empty()
+                                                  ? "this peer listens on " + place.text() +
+                                                        "; there will be " +
+                                                        std::to_string(settings.terms.peer_count)
+                                                  : "asking the peer at " + settings.join);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -50,9 +62,14 @@ PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)())
 void PlayingPeer::meet() {
   const Guest self{.place = place_, .bat_count = 1, .hand_count = 1, .token = unguessable_number()};
   const auto must_end = [this] { return is_interrupted != 0 || hand_.wants_to_leave(); };
-  meeting_ = std::make_unique<Meeting>(
-      sockets_,
-      MeetingSettings{.self = self, .bats = game_.bat_count(), .luggage = game_.luggage(), .session = unguessable_number(), .patience_s = settings_.patience_s, .must_end = must_end}, now_s_);
+  meeting_ = std::make_unique<Meeting>(sockets_,
+                                       MeetingSettings{.self = self,
+                                                       .bats = game_.bat_count(),
+                                                       .luggage = game_.luggage(),
+                                                       .session = unguessable_number(),
+                                                       .patience_s = settings_.patience_s,
+                                                       .must_end = must_end},
+                                       now_s_);
 }
 
 PlayingPeer::~PlayingPeer() {
@@ -69,7 +86,9 @@ void PlayingPeer::run() {
     for (int tries = 1; !share_or_come_again(tries); ++tries) {
     }
   } catch (const Parting& parting) {
-    end_badly(parting.status() == ExitStatus::interrupted ? FarewellKind::interrupted : FarewellKind::trouble, parting.what());
+    end_badly(parting.status() == ExitStatus::interrupted ? FarewellKind::interrupted
+                                                          : FarewellKind::trouble,
+              parting.what());
   } catch (const std::exception& error) {  // peer::Halt, peer::ProtocolError, a transport's
     end_badly(FarewellKind::trouble, error.what());
   }
@@ -78,7 +97,8 @@ void PlayingPeer::run() {
 /// False if it was sent away before it was in, and may try again.
 bool PlayingPeer::share_or_come_again(int tries) {
   constexpr int tries_max = 10;
-  constexpr auto pause = std::chrono::milliseconds(200);  // in which those who play on may agree on who is there
+  constexpr auto pause =
+      std::chrono::milliseconds(200);  // in which those who play on may agree on who is there
   try {
     share();
     return true;
@@ -97,13 +117,20 @@ void PlayingPeer::share() {
   } else {
     const auto [address, port] = address_and_port("--peer", settings_.join);
     meeting_->join({address, port});
-    hand_.set_stage(PeerStage::Step::gathering, "peer " + std::to_string(meeting_->number()) + " of " + std::to_string(meeting_->terms().peer_count));
+    hand_.set_stage(PeerStage::Step::gathering, "peer " + std::to_string(meeting_->number()) +
+                                                    " of " +
+                                                    std::to_string(meeting_->terms().peer_count));
   }
   const bool is_late = !meeting_->members().empty();
   if (!is_late) meeting_->gather();
   const Terms& terms = meeting_->terms();
-  if (terms.is_seated) throw Parting(ExitStatus::not_admitted, "the peers there are seated, and their players' keys are known: nobody can play at a window");
-  const Viewing viewing = make_viewing(game_, *meeting_, {.view_fraction = settings_.view_fraction, .evidence = {}, .always = {}}, now_s_);
+  if (terms.is_seated)
+    throw Parting(ExitStatus::not_admitted,
+                  "the peers there are seated, and their players' keys are known: nobody can play "
+                  "at a window");
+  const Viewing viewing = make_viewing(
+      game_, *meeting_, {.view_fraction = settings_.view_fraction, .evidence = {}, .always = {}},
+      now_s_);
   const Guest self = meeting_->guests()[meeting_->number()];
   hand_.set_player(self.first_bat);
   if (!is_late) hand_.set_stage(PeerStage::Step::countdown, "", settings_.countdown_s);
@@ -112,7 +139,9 @@ void PlayingPeer::share() {
   hand_.set_stage(PeerStage::Step::playing, "");
   HandPlayer player(game_, self.first_bat, hand_);
   player.viewer = viewing.viewer.get();
-  if (player.viewer == nullptr) hand_.notice("The first peer names no --scheme: what lies beyond the halo is not told, and not seen");
+  if (player.viewer == nullptr)
+    hand_.notice(
+        "The first peer names no --scheme: what lies beyond the halo is not told, and not seen");
   player.bytes_sent = [this] { return meeting_->bytes_sent(); };
   Manner manner;
   std::optional<double> start_s;  // of the simulated time
@@ -126,15 +155,20 @@ void PlayingPeer::share() {
   manner.tell = [this](const std::string& what) { hand_.notice(what); };
   manner.onlooker = &player;
   manner.listener = viewing.viewer.get();
-  const PlayedPart part = game_.play(terms, meeting_->guests(), meeting_->number(), *meeting_, manner);
+  const PlayedPart part =
+      game_.play(terms, meeting_->guests(), meeting_->number(), *meeting_, manner);
   meeting_->leave({});
   end(part);
 }
 
 void PlayingPeer::end(const PlayedPart& part) {
-  if (part.has_left) return hand_.set_stage(PeerStage::Step::over, part.was_last ? "nobody was left to go on" : "all that this peer had is with others");
+  if (part.has_left)
+    return hand_.set_stage(PeerStage::Step::over, part.was_last
+                                                      ? "nobody was left to go on"
+                                                      : "all that this peer had is with others");
   char words[160];
-  std::snprintf(words, sizeof words, "The game is over at %g s: hash %016" PRIx64 ", %zu keys", part.time, part.hash, part.keys.size());
+  std::snprintf(words, sizeof words, "The game is over at %g s: hash %016" PRIx64 ", %zu keys",
+                part.time, part.hash, part.keys.size());
   std::string trouble;
   try {
     write_record(part);
@@ -146,7 +180,9 @@ void PlayingPeer::end(const PlayedPart& part) {
 }
 
 void PlayingPeer::write_record(const PlayedPart& part) {
-  if (!settings_.record.empty()) write_key_log(std::filesystem::path(settings_.record), game_.record_of(part, scene_text(settings_.scene)));
+  if (!settings_.record.empty())
+    write_key_log(std::filesystem::path(settings_.record),
+                  game_.record_of(part, scene_text(settings_.scene)));
 }
 
 }  // namespace rink::game

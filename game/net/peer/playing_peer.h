@@ -1,4 +1,5 @@
-// A whole peer with a person at it: connections, windows and record in a thread of its own, and beside it what its window shows.
+// A whole peer with a person at it: connections, windows and record in a thread of its own, and
+// beside it what its window shows.
 #pragma once
 
 #include <functional>
@@ -6,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "game/net/peer/meeting/greetings.h"
 #include "game/net/peer/hand.h"
+#include "game/net/peer/meeting/greetings.h"
 #include "game/net/peer/meeting/meeting.h"
 #include "game/net/peer/peer_match.h"
 #include "game/net/peer/shared_game.h"
@@ -19,18 +20,20 @@ namespace rink::game {
 struct PlayingPeerSettings {
   std::string scene = "match";  ///< see load_scene; the same for all peers
   std::uint32_t bats = 0;       ///< scaled to so many, if not 0
-  std::string join;             ///< HOST:PORT of any peer that is there; empty: become the first one
-  std::string listen;           ///< ADDRESS:PORT where others reach this one; may be empty if there is `join`, of peers on this machine
-  Terms terms;                  ///< a first peer's to say
-  double patience_s = 10.0;     ///< with peers that say nothing
+  std::string join;          ///< HOST:PORT of any peer that is there; empty: become the first one
+  std::string listen;        ///< ADDRESS:PORT where others reach this one; may be empty if there is
+                             ///< `join`, of peers on this machine
+  Terms terms;               ///< a first peer's to say
+  double patience_s = 10.0;  ///< with peers that say nothing
   double countdown_s = 3.0;
-  double view_fraction = 1.0;   ///< of the field's area, about the own bat; from 1 on everything
-  std::string record;           ///< everybody's keys go to this file in the end; empty: nowhere
+  double view_fraction = 1.0;  ///< of the field's area, about the own bat; from 1 on everything
+  std::string record;          ///< everybody's keys go to this file in the end; empty: nowhere
 };
 
 class PlayingPeer final : public MatchSource {
  public:
-  /// `now_s` is the clock by which windows are played. What goes wrong with others later shows as a match that is lost. Throws std::exception with what is wrong with the settings.
+  /// `now_s` is the clock by which windows are played. What goes wrong with others later shows as a
+  /// match that is lost. Throws std::exception with what is wrong with the settings.
   PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)());
   /// Hands over what it owns, which takes two windows, or a few seconds if nobody answers.
   ~PlayingPeer() override;
@@ -38,7 +41,9 @@ class PlayingPeer final : public MatchSource {
   void advance(double now_s) override { match_.advance(now_s); }
   const MatchSight& sight() const override { return match_.sight(); }
   std::uint32_t hand_count() const override { return match_.hand_count(); }
-  void press(std::uint32_t hand, Key key, bool is_down) override { match_.press(hand, key, is_down); }
+  void press(std::uint32_t hand, Key key, bool is_down) override {
+    match_.press(hand, key, is_down);
+  }
   void pause(bool is_wanted) override { match_.pause(is_wanted); }
   void rematch() override { match_.rematch(); }
 

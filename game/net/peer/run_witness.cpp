@@ -10,9 +10,7 @@
 
 namespace rink::game {
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 void RunWitness::CountedMail::send(peer::PeerNumber to, std::vector<std::uint8_t> content) {
   bytes[static_cast<std::size_t>(about)] += frame_head + content.size();
@@ -20,15 +18,23 @@ void RunWitness::CountedMail::send(peer::PeerNumber to, std::vector<std::uint8_t
   meeting_.send(to, std::move(content));
 }
 
-RunWitness::RunWitness(const SharedGame& game, const InterestSettings& settings, Meeting& meeting, const SamplingSettings& sampling, double (*now_s)())
-    : Viewer(game, settings, meeting), meeting_(meeting), sampling_(sampling), now_s_(now_s), rate_hz_(settings.rate_hz), mail_(meeting), bats_(settings.bats) {
+RunWitness::RunWitness(const SharedGame& game, const InterestSettings& settings, Meeting& meeting,
+                       const SamplingSettings& sampling, double (*now_s)())
+    : Viewer(game, settings, meeting),
+      meeting_(meeting),
+      sampling_(sampling),
+      now_s_(now_s),
+      rate_hz_(settings.rate_hz),
+      mail_(meeting),
+      bats_(settings.bats) {
   evidence_.peer = meeting.number(), evidence_.peer_count = meeting.terms().peer_count;
   const std::vector<std::uint32_t> players = sampled_players(sampling);
   for (const std::uint32_t player : players)
     for (peer::PeerNumber peer = 0; peer < bats_.size(); ++peer)
       if (bats_[peer] == game.start().bat(player)->index) watched_.push_back(peer);
   decisions_ = sampled_instants(sampling, 1);
-  if (std::find(watched_.begin(), watched_.end(), meeting.number()) != watched_.end()) samples_ = sampled_instants(sampling, 2);
+  if (std::find(watched_.begin(), watched_.end(), meeting.number()) != watched_.end())
+    samples_ = sampled_instants(sampling, 2);
   const std::optional<std::uint32_t> own = game.start().entity({bats_[meeting.number()]}).player;
   for (const InputEvent& key : game.keys())
     if (own && key.player == *own && key.time < sampling.until_s) keys_.push_back(key.time);
@@ -41,7 +47,8 @@ void RunWitness::begin(const peer::Session& session) {
   session_ = &session;
   if (!samples_.empty()) player_.emplace(interest());
   on_final = [this] {
-    if (const std::uint32_t felt = interest().felt(); std::exchange(felt_, felt) != felt) evidence_.events.push_back({PeerEvidence::Kind::final, simulated_s(), simulated_s(), felt});
+    if (const std::uint32_t felt = interest().felt(); std::exchange(felt_, felt) != felt)
+      evidence_.events.push_back({PeerEvidence::Kind::final, simulated_s(), simulated_s(), felt});
   };
   on_commit = [this] {
     const double end_s = static_cast<double>(windows()) / rate_hz_, now_s = simulated_s();
@@ -57,7 +64,9 @@ void RunWitness::when_sending(peer::Subject about) { mail_.about = traffic_of(ab
 /// Does what is due, and says when it wants to be called again.
 double RunWitness::attend() {
   constexpr double never = std::numeric_limits<double>::infinity();
-  const auto next = [](const std::vector<double>& instants, std::size_t k) { return k < instants.size() ? instants[k] : never; };
+  const auto next = [](const std::vector<double>& instants, std::size_t k) {
+    return k < instants.size() ? instants[k] : never;
+  };
   const double now_s = simulated_s();
   if (!has_begun_ && now_s >= sampling_.from_s) has_begun_ = true, evidence_.begin = load();
   if (!has_ended_ && now_s >= sampling_.until_s) has_ended_ = true, evidence_.end = load();
@@ -65,10 +74,14 @@ double RunWitness::attend() {
     interest().press();
     evidence_.events.push_back({PeerEvidence::Kind::key, keys_[next_key_], simulated_s(), 0});
   }
-  for (; next(decisions_, next_decision_) <= now_s; ++next_decision_) note_decisions(decisions_[next_decision_]);
-  for (; player_ && next(samples_, next_sample_) <= now_s; ++next_sample_) player_->sample(simulated_s());
-  const double begins_s = has_begun_ ? never : sampling_.from_s, ends_s = has_ended_ ? never : sampling_.until_s;
-  return start_s_ + std::min({next(keys_, next_key_), next(decisions_, next_decision_), next(samples_, next_sample_), begins_s, ends_s});
+  for (; next(decisions_, next_decision_) <= now_s; ++next_decision_)
+    note_decisions(decisions_[next_decision_]);
+  for (; player_ && next(samples_, next_sample_) <= now_s; ++next_sample_)
+    player_->sample(simulated_s());
+  const double begins_s = has_begun_ ? never : sampling_.from_s,
+               ends_s = has_ended_ ? never : sampling_.until_s;
+  return start_s_ + std::min({next(keys_, next_key_), next(decisions_, next_decision_),
+                              next(samples_, next_sample_), begins_s, ends_s});
 }
 
 /// Who is to be told of which own body, by the latest decision.
@@ -89,8 +102,10 @@ PeerLoad RunWitness::load() const {
     load.bytes[k] = mail_.bytes[k] + sent()[k] + (frame_head + 1) * messages_sent()[k];
   }
   const rti::TransportCounters counters = meeting_.transported();
-  load.bytes_sent = counters.bytes_sent, load.bytes_received = counters.bytes_received, load.writes = counters.writes, load.segments = counters.segments_sent;
-  load.acknowledgements = counters.acknowledgements_sent, load.kernel_segments = counters.kernel_segments_sent.value_or(counters.segments_sent);
+  load.bytes_sent = counters.bytes_sent, load.bytes_received = counters.bytes_received,
+  load.writes = counters.writes, load.segments = counters.segments_sent;
+  load.acknowledgements = counters.acknowledgements_sent,
+  load.kernel_segments = counters.kernel_segments_sent.value_or(counters.segments_sent);
   const peer::PeerCounters played = session_->counters().peer;
   load.events = played.own_events + played.ghost_events;
   return load;

@@ -1,4 +1,5 @@
-// A viewer that takes evidence: it presses its player's keys when they are due, and notes what the peer sent, when it knew what, and what its player saw.
+// A viewer that takes evidence: it presses its player's keys when they are due, and notes what the
+// peer sent, when it knew what, and what its player saw.
 #pragma once
 
 #include <array>
@@ -6,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "game/net/peer/interest/viewer.h"
 #include "game/net/peer/meeting/meeting.h"
 #include "game/net/peer/peer_evidence.h"
-#include "game/net/peer/interest/viewer.h"
 #include "game/net/sampling.h"
 
 namespace rink::game {
@@ -17,7 +18,8 @@ namespace rink::game {
 class RunWitness final : public Viewer {
  public:
   /// All must outlive it. `sampling` says who is watched when, the same at all peers.
-  RunWitness(const SharedGame& game, const InterestSettings& settings, Meeting& meeting, const SamplingSettings& sampling, double (*now_s)());
+  RunWitness(const SharedGame& game, const InterestSettings& settings, Meeting& meeting,
+             const SamplingSettings& sampling, double (*now_s)());
   ~RunWitness() override;
 
   /// To be used instead of the meeting's, so that what is sent is counted.
@@ -36,7 +38,9 @@ class RunWitness final : public Viewer {
    public:
     explicit CountedMail(Meeting& meeting) : meeting_(meeting) {}
     void send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
-    std::vector<std::uint8_t> receive(peer::PeerNumber from) override { return meeting_.receive(from); }
+    std::vector<std::uint8_t> receive(peer::PeerNumber from) override {
+      return meeting_.receive(from);
+    }
     void part(peer::PeerNumber peer, bool is_lost) override { meeting_.part(peer, is_lost); }
     Traffic about = Traffic::claims;
     TrafficBytes bytes{}, messages{};
@@ -58,7 +62,7 @@ class RunWitness final : public Viewer {
   const peer::Session* session_ = nullptr;
   PeerEvidence evidence_;
   std::optional<PlayerWitness> player_;
-  std::vector<std::uint32_t> bats_;           ///< by peer
+  std::vector<std::uint32_t> bats_;  ///< by peer
   std::vector<peer::PeerNumber> watched_;
   std::vector<double> keys_, samples_, decisions_;
   std::size_t next_key_ = 0, next_sample_ = 0, next_decision_ = 0;
@@ -66,7 +70,8 @@ class RunWitness final : public Viewer {
   std::uint32_t felt_ = 0;
 };
 
-/// All agree on when they begin, the first one saying it when all are ready: the instant [s of the clock], one message late at the others. Throws Parting.
+/// All agree on when they begin, the first one saying it when all are ready: the instant [s of the
+/// clock], one message late at the others. Throws Parting.
 double start_together(Meeting& meeting, double (*now_s)());
 
 }  // namespace rink::game

@@ -20,34 +20,53 @@ namespace rink::game {
 
 namespace {
 
-std::vector<InputEvent> merged(std::vector<InputEvent> keys, const std::vector<InputEvent>& further) {
+std::vector<InputEvent> merged(std::vector<InputEvent> keys,
+                               const std::vector<InputEvent>& further) {
   keys.insert(keys.end(), further.begin(), further.end());
-  std::stable_sort(keys.begin(), keys.end(), [](const InputEvent& a, const InputEvent& b) { return std::tuple(a.time, a.player) < std::tuple(b.time, b.player); });
+  std::stable_sort(keys.begin(), keys.end(), [](const InputEvent& a, const InputEvent& b) {
+    return std::tuple(a.time, a.player) < std::tuple(b.time, b.player);
+  });
   return keys;
 }
 
 bool has_goals(const Scene& scene) { return scene.world.field.goal_width > 0.0; }
 
-BatController controller_of(const Scene& scene, std::uint32_t player) { return BatController(scene.bodies.bats[player].thrust); }
+BatController controller_of(const Scene& scene, std::uint32_t player) {
+  return BatController(scene.bodies.bats[player].thrust);
+}
 
 /// Tells the user who is gone, and who came.
 class Membership {
  public:
-  Membership(const peer::Session& session, const Manner& manner) : session_(session), manner_(manner), members_(session.members()), lost_(session.lost().size()) {}
+  Membership(const peer::Session& session, const Manner& manner)
+      : session_(session),
+        manner_(manner),
+        members_(session.members()),
+        lost_(session.lost().size()) {}
 
   void tell() {
-    if (!manner_.tell || session_.has_left() || (session_.members() == members_ && session_.lost().size() == lost_)) return;
+    if (!manner_.tell || session_.has_left() ||
+        (session_.members() == members_ && session_.lost().size() == lost_))
+      return;
     for (const peer::PeerNumber peer : members_)
-      if (!is_in(session_.members(), peer) && !is_in(session_.lost(), peer)) manner_.tell("peer " + std::to_string(peer) + " has left in good order");
+      if (!is_in(session_.members(), peer) && !is_in(session_.lost(), peer))
+        manner_.tell("peer " + std::to_string(peer) + " has left in good order");
     for (const peer::PeerNumber peer : session_.members())
-      if (!is_in(members_, peer)) manner_.tell("peer " + std::to_string(peer) + " joins at " + std::to_string(session_.peer().now()) + " s");
+      if (!is_in(members_, peer))
+        manner_.tell("peer " + std::to_string(peer) + " joins at " +
+                     std::to_string(session_.peer().now()) + " s");
     members_ = session_.members();
-    const std::string who = members_.size() == 1 ? "this peer goes on alone" : std::to_string(members_.size()) + " peers go on";
-    if (std::exchange(lost_, session_.lost().size()) != session_.lost().size()) manner_.tell(session_.last_loss() + ": " + who + " from " + std::to_string(session_.peer().now()) + " s");
+    const std::string who = members_.size() == 1 ? "this peer goes on alone"
+                                                 : std::to_string(members_.size()) + " peers go on";
+    if (std::exchange(lost_, session_.lost().size()) != session_.lost().size())
+      manner_.tell(session_.last_loss() + ": " + who + " from " +
+                   std::to_string(session_.peer().now()) + " s");
   }
 
  private:
-  static bool is_in(const std::vector<peer::PeerNumber>& sorted, peer::PeerNumber peer) { return std::binary_search(sorted.begin(), sorted.end(), peer); }
+  static bool is_in(const std::vector<peer::PeerNumber>& sorted, peer::PeerNumber peer) {
+    return std::binary_search(sorted.begin(), sorted.end(), peer);
+  }
 
   const peer::Session& session_;
   const Manner& manner_;
@@ -57,14 +76,17 @@ class Membership {
 
 }  // namespace
 
-SharedGame::SharedGame(Scene scene, const std::vector<InputEvent>& recorded) : scene_(std::move(scene)), keys_(merged(scene_.keys, recorded)), start_(scene_) {
+SharedGame::SharedGame(Scene scene, const std::vector<InputEvent>& recorded)
+    : scene_(std::move(scene)), keys_(merged(scene_.keys, recorded)), start_(scene_) {
   for (const Entity& entity : start_.entities()) {
     extent_max_ = std::max(extent_max_, entity.half_extent.maxCoeff());
     speed_max_ = std::max(speed_max_, start_.velocity(entity.id).norm());
   }
   for (const InputEvent& key : keys_)
     if (key.kind == InputKind::enter || key.kind == InputKind::leave)
-      throw SceneError("player " + std::to_string(key.player) + (key.kind == InputKind::enter ? " enters" : " leaves") + " at " + std::to_string(key.time) +
+      throw SceneError("player " + std::to_string(key.player) +
+                       (key.kind == InputKind::enter ? " enters" : " leaves") + " at " +
+                       std::to_string(key.time) +
                        " s, and peers cannot yet add or remove bats: expected keys alone");
 }
 
@@ -81,7 +103,10 @@ void SharedGame::forget_start() {
 
 Luggage SharedGame::luggage() const {
   StateHash keys;
-  for (const InputEvent& key : keys_) keys.add(key.time), keys.add(std::uint64_t{key.player} << 32 | static_cast<std::uint64_t>(key.kind) << 8 | static_cast<std::uint64_t>(key.key));
+  for (const InputEvent& key : keys_)
+    keys.add(key.time),
+        keys.add(std::uint64_t{key.player} << 32 | static_cast<std::uint64_t>(key.kind) << 8 |
+                 static_cast<std::uint64_t>(key.key));
   return {.self_test = peer::self_test_hash(), .scene = fingerprint(scene_), .keys = keys.value()};
 }
 
@@ -93,8 +118,11 @@ peer::Cuts SharedGame::cuts(peer::PeerNumber peer_count) const {
   return peer::Cuts::by_count(scene_.world.field, std::move(places), peer_count);
 }
 
-/// Two large bodies side by side, and what the fastest of them fly in a window; peers widen or narrow it as they go.
-double SharedGame::first_halo(double window) const { return 4.0 * extent_max_ + 2.0 * speed_max_ * window + 1e-3; }
+/// Two large bodies side by side, and what the fastest of them fly in a window; peers widen or
+/// narrow it as they go.
+double SharedGame::first_halo(double window) const {
+  return 4.0 * extent_max_ + 2.0 * speed_max_ * window + 1e-3;
+}
 
 /// As Game's: on the spot of the side that conceded, or at the nearest free place.
 std::optional<peer::GoalRules> SharedGame::goal_rules(double window) const {
@@ -102,20 +130,27 @@ std::optional<peer::GoalRules> SharedGame::goal_rules(double window) const {
   const MatchRules& rules = scene_.rules;
   const double shortest = std::min(rules.face_off_delay, Game::placement_retry);
   if (window > shortest)
-    throw SceneError("scene '" + scene_.name + "' has pucks come back " + std::to_string(shortest) + " s after they could not, or after a goal, and windows are " + std::to_string(window) + " s long: expected shorter ones");
+    throw SceneError("scene '" + scene_.name + "' has pucks come back " + std::to_string(shortest) +
+                     " s after they could not, or after a goal, and windows are " +
+                     std::to_string(window) + " s long: expected shorter ones");
   const physics::Field field = scene_.world.field;
   const double from_end = rules.face_off_distance * field.length;
   return peer::GoalRules{.goals_to_win = rules.goals_to_win,
                          .face_off_delay = rules.face_off_delay,
                          .placement_retry = Game::placement_retry,
-                         .places = [field, from_end](bool is_left, double radius, std::size_t first, std::size_t count) {
-                           return places_for_disc(field, {is_left ? from_end : field.length - from_end, field.width / 2}, radius, first, count);
+                         .places = [field, from_end](bool is_left, double radius, std::size_t first,
+                                                     std::size_t count) {
+                           return places_for_disc(
+                               field,
+                               {is_left ? from_end : field.length - from_end, field.width / 2},
+                               radius, first, count);
                          }};
 }
 
 std::vector<peer::Key> SharedGame::thrusts() const {
   std::vector<BatController> players;
-  for (std::uint32_t k = 0; k < start_.player_count(); ++k) players.push_back(controller_of(scene_, k));
+  for (std::uint32_t k = 0; k < start_.player_count(); ++k)
+    players.push_back(controller_of(scene_, k));
   std::vector<peer::Key> keys;
   for (const InputEvent& event : keys_) {
     players[event.player].press(event.key, event.kind == InputKind::key_down);
@@ -124,50 +159,72 @@ std::vector<peer::Key> SharedGame::thrusts() const {
   return keys;
 }
 
-std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> keys, double until, const peer::Scoring& scoring) const {
+std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> keys, double until,
+                               const peer::Scoring& scoring) const {
   std::vector<BatController> players;
   std::vector<const BatController*> hands;
-  for (std::uint32_t k = 0; k < start_.player_count(); ++k) players.push_back(controller_of(scene_, k));
+  for (std::uint32_t k = 0; k < start_.player_count(); ++k)
+    players.push_back(controller_of(scene_, k));
   for (const InputEvent& event : keys)
-    if (event.time <= until) players[event.player].press(event.key, event.kind == InputKind::key_down);
+    if (event.time <= until)
+      players[event.player].press(event.key, event.kind == InputKind::key_down);
   for (const BatController& player : players) hands.push_back(&player);
   std::vector<Entity> all(start_.entities().begin(), start_.entities().end());
-  for (auto number = static_cast<std::uint32_t>(all.size()); number < forgotten_; ++number) all.push_back({.id = {number}, .player = std::nullopt});
+  for (auto number = static_cast<std::uint32_t>(all.size()); number < forgotten_; ++number)
+    all.push_back({.id = {number}, .player = std::nullopt});
   StateHash hash = begun_game_hash(world, all, hands, {scoring.left, scoring.right});
-  for (const peer::FaceOff& due : scoring.face_offs) hash.add(due.time), hash.add(std::uint64_t{due.puck});
+  for (const peer::FaceOff& due : scoring.face_offs)
+    hash.add(due.time), hash.add(std::uint64_t{due.puck});
   return hash.value();
 }
 
 /// Those who begin.
-std::vector<peer::Player> SharedGame::players(const Terms& terms, std::span<const Guest> guests) const {
+std::vector<peer::Player> SharedGame::players(const Terms& terms,
+                                              std::span<const Guest> guests) const {
   std::vector<peer::Player> players;
   std::vector<std::uint8_t> is_taken(start_.player_count(), 0);
-  for (peer::PeerNumber number = 0; number < std::min<std::size_t>(terms.peer_count, guests.size()); ++number) {
-    for (std::uint64_t player = guests[number].first_bat, end = player + guests[number].bat_count; player < end; ++player)
+  for (peer::PeerNumber number = 0; number < std::min<std::size_t>(terms.peer_count, guests.size());
+       ++number) {
+    for (std::uint64_t player = guests[number].first_bat, end = player + guests[number].bat_count;
+         player < end; ++player)
       if (player >= is_taken.size() || std::exchange(is_taken[player], std::uint8_t{1}) != 0)
-        throw peer::ProtocolError("peer " + std::to_string(number) + " plays bat " + std::to_string(player) + ", which is taken or not there");
-    players.push_back({number, guests[number].first_bat, guests[number].bat_count, guests[number].puck_count, guests[number].hand_count});
+        throw peer::ProtocolError("peer " + std::to_string(number) + " plays bat " +
+                                  std::to_string(player) + ", which is taken or not there");
+    players.push_back({number, guests[number].first_bat, guests[number].bat_count,
+                       guests[number].puck_count, guests[number].hand_count});
   }
   return players;
 }
 
 std::vector<peer::Seat> SharedGame::seats(const peer::Player& player) const {
-  if (player.bat_count > start_.player_count() || player.first_bat > start_.player_count() - player.bat_count)
-    throw peer::ProtocolError("peer " + std::to_string(player.peer) + " plays bats that are not there");
+  if (player.bat_count > start_.player_count() ||
+      player.first_bat > start_.player_count() - player.bat_count)
+    throw peer::ProtocolError("peer " + std::to_string(player.peer) +
+                              " plays bats that are not there");
   std::vector<peer::Seat> seats;
   for (std::uint32_t k = player.first_bat; k < player.first_bat + player.bat_count; ++k) {
     const bool is_hand = k < player.first_bat + player.hand_count;
-    seats.push_back({.bat = start_.bat(k)->index, .peer = player.peer, .period = is_hand ? 0.0 : decision_period, .phase = decision_phase(k), .puck_count = player.puck_count});
+    seats.push_back({.bat = start_.bat(k)->index,
+                     .peer = player.peer,
+                     .period = is_hand ? 0.0 : decision_period,
+                     .phase = decision_phase(k),
+                     .puck_count = player.puck_count});
   }
   return seats;
 }
 
-std::unique_ptr<peer::Peer> SharedGame::peer(const peer::Division& division, peer::PeerNumber number, double window) const {
-  if (has_goals(scene_)) throw SceneError("scene '" + scene_.name + "' has goals (field.goal_width), which only peers of a session count: expected a scene without, such as arena");
+std::unique_ptr<peer::Peer> SharedGame::peer(const peer::Division& division,
+                                             peer::PeerNumber number, double window) const {
+  if (has_goals(scene_))
+    throw SceneError("scene '" + scene_.name +
+                     "' has goals (field.goal_width), which only peers of a session count: "
+                     "expected a scene without, such as arena");
   const physics::World& whole = start_.world();
-  auto peer = std::make_unique<peer::Peer>(whole.spec(), division, number, whole.body_count(), first_halo(window));
+  auto peer = std::make_unique<peer::Peer>(whole.spec(), division, number, whole.body_count(),
+                                           first_halo(window));
   peer->validate_by(peer::Validator(whole));
-  for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer->consider(body, physics::Portion::state_in(whole, body));
+  for (std::uint32_t body = 0; body < whole.body_count(); ++body)
+    peer->consider(body, physics::Portion::state_in(whole, body));
   for (const peer::Key& key : thrusts()) peer->press_first(key);
   return peer;
 }
@@ -177,18 +234,32 @@ std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Arrivals> lo
   std::vector<InputEvent> keys;
   for (const peer::Arrivals& log : logs)
     for (const peer::Key& key : log.keys) {
-      if (!start_.is_there({key.bat}) || !start_.entity({key.bat}).player || key.input == 0) throw peer::ProtocolError("a log has keys of body " + std::to_string(key.bat) + ", which nobody plays");
+      if (!start_.is_there({key.bat}) || !start_.entity({key.bat}).player || key.input == 0)
+        throw peer::ProtocolError("a log has keys of body " + std::to_string(key.bat) +
+                                  ", which nobody plays");
       keys.push_back(event_of(key.input, key.time, *start_.entity({key.bat}).player));
     }
   return merged(keys_, keys);
 }
 
-PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const {
-  peer::SessionSettings settings{.number = number, .peer_count = terms.peer_count, .halo = first_halo(terms.window), .is_mirrored = terms.is_mirrored, .end_of = {}};
-  constexpr double rounding = 1e-9;  // a third of a second is no whole number of windows of a thirtieth otherwise
-  const auto count = settings.window_count = static_cast<std::uint64_t>(std::max(1.0, std::ceil(terms.until / terms.window - rounding)));
-  // The last window ends at `until`, the one that is prepared then, and never played, one window later.
-  settings.end_of = [terms, count](std::uint64_t k) { return k == count ? terms.until : k > count ? terms.until + terms.window : static_cast<double>(k) * terms.window; };
+PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests,
+                            peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const {
+  peer::SessionSettings settings{.number = number,
+                                 .peer_count = terms.peer_count,
+                                 .halo = first_halo(terms.window),
+                                 .is_mirrored = terms.is_mirrored,
+                                 .end_of = {}};
+  constexpr double rounding =
+      1e-9;  // a third of a second is no whole number of windows of a thirtieth otherwise
+  const auto count = settings.window_count =
+      static_cast<std::uint64_t>(std::max(1.0, std::ceil(terms.until / terms.window - rounding)));
+  // The last window ends at `until`, the one that is prepared then, and never played, one window
+  // later.
+  settings.end_of = [terms, count](std::uint64_t k) {
+    return k == count  ? terms.until
+           : k > count ? terms.until + terms.window
+                       : static_cast<double>(k) * terms.window;
+  };
   settings.balance_windows = terms.balance_windows;
   settings.keys = thrusts();
   settings.goals = goal_rules(terms.window);
@@ -197,18 +268,30 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   if (manner.listener != nullptr) {
     settings.hooks.when_played = [&manner] { manner.listener->when_played(); };
     settings.hooks.when_told = [&manner] { manner.listener->when_told(); };
-    settings.hooks.when_sending = [&manner](peer::Subject about) { manner.listener->when_sending(about); };
+    settings.hooks.when_sending = [&manner](peer::Subject about) {
+      manner.listener->when_sending(about);
+    };
   }
-  if (terms.is_seated && terms.peer_count > start_.player_count()) throw peer::ProtocolError("there are more peers than bats, and each is to have one in its zone");
-  const Guest self = guests[number];  // while a newcomer waits to be let in, others come, and the list grows
+  if (terms.is_seated && terms.peer_count > start_.player_count())
+    throw peer::ProtocolError(
+        "there are more peers than bats, and each is to have one in its zone");
+  const Guest self =
+      guests[number];  // while a newcomer waits to be let in, others come, and the list grows
   if (manner.members.empty()) settings.players = players(terms, guests);
   std::optional<peer::Session> made;
-  if (manner.members.empty()) made.emplace(start_.world(), terms.is_seated ? seated_division(start_, terms.peer_count).cuts : cuts(terms.peer_count), std::move(settings), mail, manner.when_taken);
+  if (manner.members.empty())
+    made.emplace(
+        start_.world(),
+        terms.is_seated ? seated_division(start_, terms.peer_count).cuts : cuts(terms.peer_count),
+        std::move(settings), mail, manner.when_taken);
   else made.emplace(start_.world(), std::move(settings), mail, manner.members);
   peer::Session& session = *made;
-  Crowd crowd(scene_, start_, manner.players, scene_.seed, self.first_bat + self.hand_count, self.bat_count - self.hand_count, session.peer().now(), terms.until);
+  Crowd crowd(scene_, start_, manner.players, scene_.seed, self.first_bat + self.hand_count,
+              self.bat_count - self.hand_count, session.peer().now(), terms.until);
   Membership membership(session, manner);
-  if (!manner.members.empty() && manner.tell) manner.tell("peer " + std::to_string(number) + " is in from " + std::to_string(session.peer().now()) + " s");
+  if (!manner.members.empty() && manner.tell)
+    manner.tell("peer " + std::to_string(number) + " is in from " +
+                std::to_string(session.peer().now()) + " s");
   if (manner.listener != nullptr) manner.listener->begin(session);
   while (!session.is_over()) {
     if (manner.before_window) manner.before_window(session.peer().now());
@@ -224,7 +307,8 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   PlayedPart part;
   part.has_left = session.has_left();
   // The members of the last window are without one who left in good order.
-  part.was_last = part.has_left && session.members().size() == 1 && session.members().front() == number;
+  part.was_last =
+      part.has_left && session.members().size() == 1 && session.members().front() == number;
   if (!session.has_left()) end(session, part);
   part.has_left = session.has_left();
   membership.tell();
@@ -233,7 +317,8 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   part.may_have_split = session.may_have_split();
   part.lost = session.lost();
   part.time = session.peer().now();
-  part.owned = session.peer().owned().size(), part.ghosts = session.peer().ghosts().size(), part.halo = session.peer().halo();
+  part.owned = session.peer().owned().size(), part.ghosts = session.peer().ghosts().size(),
+  part.halo = session.peer().halo();
   part.presses = crowd.presses();
   return part;
 }
@@ -246,7 +331,9 @@ KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_te
   log.events = part.keys;
   // Whoever has the scene has these.
   for (const InputEvent& scripted : scene_.keys)
-    if (const auto found = std::find(log.events.begin(), log.events.end(), scripted); found != log.events.end()) log.events.erase(found);
+    if (const auto found = std::find(log.events.begin(), log.events.end(), scripted);
+        found != log.events.end())
+      log.events.erase(found);
   return log;
 }
 

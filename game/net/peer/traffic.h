@@ -8,17 +8,23 @@
 
 namespace rink::game {
 
-/// `halo`: states that are handed over at a window's end. `claims`, `agreement`: what proves a window, and the verdicts on it. `interest`: where players look. `updates`: what they
-/// are told of bodies beyond the halo. `keys`: key presses on their way to the bat's owner, and how many it has felt.
+/// `halo`: states that are handed over at a window's end. `claims`, `agreement`: what proves a
+/// window, and the verdicts on it. `interest`: where players look. `updates`: what they are told of
+/// bodies beyond the halo. `keys`: key presses on their way to the bat's owner, and how many it has
+/// felt.
 enum class Traffic : std::uint8_t { halo, claims, agreement, interest, updates, keys };
 inline constexpr std::size_t traffic_count = 6;
-inline constexpr std::array<const char*, traffic_count> traffic_names{"halo", "claims", "agreement", "interest", "updates", "keys"};
+inline constexpr std::array<const char*, traffic_count> traffic_names{
+    "halo", "claims", "agreement", "interest", "updates", "keys"};
 
 inline Traffic traffic_of(peer::Subject about) {
   switch (about) {
-    case peer::Subject::claims: return Traffic::claims;
-    case peer::Subject::verdict: return Traffic::agreement;
-    case peer::Subject::arrivals: break;
+    case peer::Subject::claims:
+      return Traffic::claims;
+    case peer::Subject::verdict:
+      return Traffic::agreement;
+    case peer::Subject::arrivals:
+      break;
   }
   return Traffic::halo;
 }

@@ -1,19 +1,31 @@
-// Teams are the sides of the table, owners the players by number; who holds keys looks where they push him.
+// Teams are the sides of the table, owners the players by number; who holds keys looks where they
+// push him.
 #include "game/net/server/acquaint.h"
 
 namespace rink::game {
 namespace {
 
-std::uint32_t team_number(Team team) { return team == Team::none ? im::Role::none : static_cast<std::uint32_t>(team); }
+std::uint32_t team_number(Team team) {
+  return team == Team::none ? im::Role::none : static_cast<std::uint32_t>(team);
+}
 
 }  // namespace
 
 void acquaint(const Server& server, rti::FederationExecution& federation) {
   for (const auto& [object, entity] : server.registered())
-    federation.set_object_role(object, {.team = team_number(entity.team), .owner = entity.player.value_or(im::Role::none), .is_always_relevant = server.is_always_relevant(entity.kind)});
-  for (const auto& [federate, player] : server.seated()) federation.set_federate_role(federate, {.team = team_number(server.game().entity(*server.game().bat(player)).team), .owner = player});
+    federation.set_object_role(object,
+                               {.team = team_number(entity.team),
+                                .owner = entity.player.value_or(im::Role::none),
+                                .is_always_relevant = server.is_always_relevant(entity.kind)});
+  for (const auto& [federate, player] : server.seated())
+    federation.set_federate_role(
+        federate, {.team = team_number(server.game().entity(*server.game().bat(player)).team),
+                   .owner = player});
   const im::Traits traits = federation.filter().traits();
-  if (traits.uses_headings) server.for_each_heading([&](rti::FederateHandle federate, const Vector2& to) { federation.set_federate_heading(federate, {to.x(), to.y()}); });
+  if (traits.uses_headings)
+    server.for_each_heading([&](rti::FederateHandle federate, const Vector2& to) {
+      federation.set_federate_heading(federate, {to.x(), to.y()});
+    });
   if (!traits.uses_flights) return;
   // One clock for all matches, which filters may not see go back.
   federation.set_time(server.earlier() + server.game().now());

@@ -27,10 +27,14 @@ void cut(InterestSeen& seen) {
 
 }  // namespace
 
-InterestSeen interest_report(const Server& server, const rti::FederationExecution& execution, rti::ObjectHandle asked) {
+InterestSeen interest_report(const Server& server, const rti::FederationExecution& execution,
+                             rti::ObjectHandle asked) {
   std::vector<rti::SubscribedRegion> regions;
   execution.list_subscribed_regions(regions);
-  InterestSeen seen{.asked = asked.value, .cell_size = static_cast<float>(execution.filter().cell_size()), .views = {}, .heard = {}};
+  InterestSeen seen{.asked = asked.value,
+                    .cell_size = static_cast<float>(execution.filter().cell_size()),
+                    .views = {},
+                    .heard = {}};
   for (const auto& [federate, bounds] : regions) {
     const rti::ObjectHandle bat = server.bat_of(federate);
     if (!bat) continue;  // who only watches is no part of the experiment

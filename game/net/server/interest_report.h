@@ -7,7 +7,10 @@
 
 namespace rink::game {
 
-/// As of the last match of `execution`, which `server` is part of. Things are called by their objects' handles. Takes a pass over federates and one over the scope of the one that plays `asked`.
-InterestSeen interest_report(const Server& server, const rti::FederationExecution& execution, rti::ObjectHandle asked);
+/// As of the last match of `execution`, which `server` is part of. Things are called by their
+/// objects' handles. Takes a pass over federates and one over the scope of the one that plays
+/// `asked`.
+InterestSeen interest_report(const Server& server, const rti::FederationExecution& execution,
+                             rti::ObjectHandle asked);
 
 }  // namespace rink::game

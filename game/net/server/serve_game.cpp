@@ -11,7 +11,11 @@ namespace rink::game {
 
 ServedGame served_game(const ServeOptions& options) {
   ServedGame played;
-  played.choice = {.scene = options.scene, .bats = options.bats, .bat_count = options.bat_count, .puck_count = options.puck_count, .seed = options.seed};
+  played.choice = {.scene = options.scene,
+                   .bats = options.bats,
+                   .bat_count = options.bat_count,
+                   .puck_count = options.puck_count,
+                   .seed = options.seed};
   played.scene = chosen_scene(played.choice);
   if (!options.keys.empty()) {
     KeyLog log = read_key_log(options.keys);
@@ -26,7 +30,8 @@ ServedGame served_game(const ServeOptions& options) {
 }
 
 KeyLog record_of(const ServedGame& played, const Server& server) {
-  KeyLog log = log_of(server.game(), played.scene, scene_text(played.choice.scene), server.record());
+  KeyLog log =
+      log_of(server.game(), played.scene, scene_text(played.choice.scene), server.record());
   log.scene = played.choice.scene;
   if (played.choice.bat_count > 0) log.bat_count = played.choice.bat_count;
   if (played.choice.puck_count > 0) log.puck_count = played.choice.puck_count;

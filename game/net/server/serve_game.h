@@ -16,9 +16,11 @@ namespace rink::game {
 struct ServedGame {
   SceneChoice choice;
   Scene scene;
-  std::optional<std::vector<InputEvent>> replay;  ///< that moves the bats instead of the players' keys
-  std::vector<std::uint8_t> state;                ///< the saved game to begin from, as read; empty: the scene's beginning
-  std::optional<Game> begun;                      ///< the same as a game
+  std::optional<std::vector<InputEvent>>
+      replay;  ///< that moves the bats instead of the players' keys
+  std::vector<std::uint8_t>
+      state;  ///< the saved game to begin from, as read; empty: the scene's beginning
+  std::optional<Game> begun;  ///< the same as a game
 };
 
 /// Throws SceneError naming the file that cannot be read or does not fit the scene.

@@ -1,4 +1,5 @@
-// rink serve: the server federate and, beside it, the RTI with its filter, on a real-time or synchronous tick.
+// rink serve: the server federate and, beside it, the RTI with its filter, on a real-time or
+// synchronous tick.
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -16,14 +17,13 @@
 #include "game/control/match_records.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
+#include "game/net/evidence.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
-#include "game/net/evidence.h"
 #include "game/net/fom_file.h"
+#include "game/net/gate.h"
 #include "game/net/interrupt.h"
 #include "game/net/scene_choice.h"
-#include "game/version/version.h"
-#include "rti/second_core.h"
 #include "game/net/server/serve_game.h"
 #include "game/net/server/serve_options.h"
 #include "game/net/server/serve_report.h"
@@ -33,12 +33,13 @@
 #include "game/net/speak_as.h"
 #include "game/replication/names.h"
 #include "game/replication/trajectory_codec.h"
+#include "game/version/version.h"
 #include "rti/federation_execution.h"
 #include "rti/federation_file.h"
-#include "rti/wire/message.h"
-#include "game/net/gate.h"
+#include "rti/second_core.h"
 #include "rti/transport/socket_transport.h"
 #include "rti/transport/staggered_transport.h"
+#include "rti/wire/message.h"
 
 namespace {
 
@@ -49,13 +50,18 @@ using Json = nlohmann::ordered_json;
 constexpr double not_started_s = 0.0;
 
 /// The clock of every process of this machine that the stamps refer to [s].
-double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
+double now_s() {
+  return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                        std::chrono::steady_clock::now().time_since_epoch())
+                                        .count());
+}
 
 /// What the run cost, summed over the measured ticks.
 struct Costs {
   std::uint64_t ticks = 0, ticks_on_time = 0;
   double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, send_max_s = 0.0;
-  double from_s = 0.0, span_s = 0.0;  ///< the measured span: when it began on the clock, and its length
+  double from_s = 0.0,
+         span_s = 0.0;  ///< the measured span: when it began on the clock, and its length
   bool has_ended = false;
   game::ServingCounts begin, end;
 };
@@ -63,24 +69,42 @@ struct Costs {
 /// The server process: the clients' transport, the wall clock, and the loop that ticks.
 class ServerProcess {
  public:
-  ServerProcess(const game::ServeOptions& options, const rti::Fom& fom, const game::ServedGame& played, const std::string& federation)
+  ServerProcess(const game::ServeOptions& options, const rti::Fom& fom,
+                const game::ServedGame& played, const std::string& federation)
       : options_(options),
         begin_s_(played.begun ? played.begun->now() : 0.0),
         sockets_(options.transport),
         serving_(fom, played.scene,
-                 {.federation = federation, .policy = options.policy, .threshold = options.threshold,
-                  .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .is_synchronous = options.pace == "synchronous",
-                  .is_time_managed = options.is_time_managed, .replay = played.replay, .hosting = hosting_of(options), .key_limit_per_s = options.key_limit_per_s,
+                 {.federation = federation,
+                  .policy = options.policy,
+                  .threshold = options.threshold,
+                  .sweep_ticks = options.sweep_ticks,
+                  .tick_s = 1.0 / options.rate_hz,
+                  .is_synchronous = options.pace == "synchronous",
+                  .is_time_managed = options.is_time_managed,
+                  .replay = played.replay,
+                  .hosting = hosting_of(options),
+                  .key_limit_per_s = options.key_limit_per_s,
                   .always_relevant = game::relevant_kinds_of(played.scene, options.always),
                   .begun = played.begun ? &*played.begun : nullptr},
-                 game::federation_of(options, played.scene, federation, options.has_second_core ? &second_core_.emplace() : nullptr), now_s, [this] { return simulated_now(); }),
+                 game::federation_of(options, played.scene, federation,
+                                     options.has_second_core ? &second_core_.emplace() : nullptr),
+                 now_s, [this] { return simulated_now(); }),
         staggered_(sockets_.get(), options.spread / options.rate_hz, now_s),
-        gate_(staggered_, {.key_file = options.key_file, .federation = federation, .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}}, now_s),
+        gate_(staggered_,
+              {.key_file = options.key_file,
+               .federation = federation,
+               .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}},
+              now_s),
         server_(serving_.server()),
         records_(options.record) {
     serving_.host().add(gate_.transport());
     if (!options.evidence.empty())
-      serving_.collect_evidence({.seed = options.seed, .clients = options.clients, .from_s = begin_s_ + options.warm_up_s, .until_s = begin_s_ + options.duration_s}, options.rate_hz);
+      serving_.collect_evidence({.seed = options.seed,
+                                 .clients = options.clients,
+                                 .from_s = begin_s_ + options.warm_up_s,
+                                 .until_s = begin_s_ + options.duration_s},
+                                options.rate_hz);
   }
 
   /// Says at once if matches cannot be recorded; they can be played all the same.
@@ -94,7 +118,8 @@ class ServerProcess {
   void end();
 
   const game::Server& server() const { return server_; }
-  /// Whom the federation file lists and who has not come, as a clause of a complaint; empty if none.
+  /// Whom the federation file lists and who has not come, as a clause of a complaint; empty if
+  /// none.
   std::string missing() const;
   Json report() const;
   /// What the run was and what its filter decided, if `--evidence` asked for it.
@@ -104,7 +129,12 @@ class ServerProcess {
 
  private:
   static std::optional<game::Hosting> hosting_of(const game::ServeOptions& options);
-  double simulated_now() const { return start_s_ == 0.0 ? begin_s_ : (options_.pace == "synchronous" ? server_.game().now() : begin_s_ + std::max(0.0, now_s() - start_s_)); }
+  double simulated_now() const {
+    return start_s_ == 0.0
+               ? begin_s_
+               : (options_.pace == "synchronous" ? server_.game().now()
+                                                 : begin_s_ + std::max(0.0, now_s() - start_s_));
+  }
   void wait(double seconds);
   void exchange_until(double until_s);
   void await_turns();
@@ -129,7 +159,9 @@ class ServerProcess {
 
 std::optional<game::Hosting> ServerProcess::hosting_of(const game::ServeOptions& options) {
   if (options.hosted.empty()) return std::nullopt;
-  return game::Hosting{.times = {.countdown_s = options.countdown_s, .patience_s = options.absence_s}, .scene_text = game::scene_text(options.scene)};
+  return game::Hosting{
+      .times = {.countdown_s = options.countdown_s, .patience_s = options.absence_s},
+      .scene_text = game::scene_text(options.scene)};
 }
 
 void ServerProcess::exchange_until(double until_s) {
@@ -145,19 +177,26 @@ void ServerProcess::await_turns() {
   }
 }
 
-/// The clock of the RTI goes on whatever the players do: frozen while they made their way to the barrier, it let the server's own federate hear nothing for so long that it
-/// took the RTI for dead, and its next update was refused with "join first". With datagrams, which nothing holds back, crowds took that long.
+/// The clock of the RTI goes on whatever the players do: frozen while they made their way to the
+/// barrier, it let the server's own federate hear nothing for so long that it took the RTI for
+/// dead, and its next update was refused with "join first". With datagrams, which nothing holds
+/// back, crowds took that long.
 void ServerProcess::wait(double seconds) {
   game::TickCosts uncounted;
   serving_.exchange(seconds);
-  if (server_.is_joined() && server_.trouble().empty()) serving_.send(begin_s_, not_started_s, uncounted);
+  if (server_.is_joined() && server_.trouble().empty())
+    serving_.send(begin_s_, not_started_s, uncounted);
   serving_.host().advance_clock(now_s());
 }
 
 bool ServerProcess::start() {
   const double give_up_s = now_s() + options_.patience_s;
-  const auto may_wait = [&] { return !game::is_interrupted && server_.trouble().empty() && now_s() <= give_up_s; };
-  const auto are_all_there = [&] { return server_.is_joined() && server_.player_count() >= options_.clients; };
+  const auto may_wait = [&] {
+    return !game::is_interrupted && server_.trouble().empty() && now_s() <= give_up_s;
+  };
+  const auto are_all_there = [&] {
+    return server_.is_joined() && server_.player_count() >= options_.clients;
+  };
   while (!are_all_there() && may_wait()) wait(0.02);
   if (!are_all_there()) return false;
   server_.call_to_start();
@@ -166,8 +205,10 @@ bool ServerProcess::start() {
 }
 
 void ServerProcess::tick(std::uint64_t number, bool is_counted) {
-  const double period_s = 1.0 / options_.rate_hz, elapsed_s = static_cast<double>(number) * period_s;
-  const double simulated_s = options_.hosted.empty() ? begin_s_ + elapsed_s : server_.follow_match(elapsed_s);
+  const double period_s = 1.0 / options_.rate_hz,
+               elapsed_s = static_cast<double>(number) * period_s;
+  const double simulated_s =
+      options_.hosted.empty() ? begin_s_ + elapsed_s : server_.follow_match(elapsed_s);
   const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + elapsed_s;
   const game::TickCosts tick = serving_.tick(simulated_s, due_s);
   keep_records();
@@ -184,14 +225,16 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
 void ServerProcess::run() {
   constexpr double lead_s = 0.1;  // so that the first tick is not late
   start_s_ = now_s() + lead_s;
-  const std::uint64_t last = options_.duration_s > 0.0 ? static_cast<std::uint64_t>(std::floor(options_.duration_s * options_.rate_hz + 1e-9)) : ~0ull;
+  const std::uint64_t last =
+      options_.duration_s > 0.0
+          ? static_cast<std::uint64_t>(std::floor(options_.duration_s * options_.rate_hz + 1e-9))
+          : ~0ull;
   bool is_measuring = false;
-  for (std::uint64_t number = 0; number <= last && !game::is_interrupted && server_.trouble().empty(); ++number) {
+  for (std::uint64_t number = 0;
+       number <= last && !game::is_interrupted && server_.trouble().empty(); ++number) {
     const double simulated_s = static_cast<double>(number) / options_.rate_hz;
-    if (options_.pace == "synchronous")
-      await_turns();
-    else
-      exchange_until(start_s_ + simulated_s);
+    if (options_.pace == "synchronous") await_turns();
+    else exchange_until(start_s_ + simulated_s);
     if (game::is_interrupted || !server_.trouble().empty()) break;
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
@@ -214,7 +257,8 @@ void ServerProcess::end_span() {
 
 std::string ServerProcess::missing() const {
   std::vector<std::string> absent = options_.members;
-  for (const rti::FederateReport& each : serving_.execution().report().federates) std::erase(absent, each.name);
+  for (const rti::FederateReport& each : serving_.execution().report().federates)
+    std::erase(absent, each.name);
   std::string names;
   for (const std::string& each : absent) names += (names.empty() ? "; missing: " : ", ") + each;
   return names;
@@ -230,15 +274,18 @@ void ServerProcess::end() {
 
 void ServerProcess::try_records() {
   if (options_.hosted.empty()) return;
-  if (const auto trouble = records_.test()) spdlog::error("{}; matches are played without a record", *trouble);
+  if (const auto trouble = records_.test())
+    spdlog::error("{}; matches are played without a record", *trouble);
 }
 
 /// Once: who sends too much could fill the terminal as well.
 void ServerProcess::report_flood() {
   const game::ServerCounters& counters = server_.counters();
   if (counters.keys_over_limit == 0 || std::exchange(is_flood_reported_, true)) return;
-  spdlog::warn("the player of {} sends more than {:g} key changes a second (--key-limit): what is more is not felt",
-               game::bat_name(counters.player_over_limit), options_.key_limit_per_s);
+  spdlog::warn(
+      "the player of {} sends more than {:g} key changes a second (--key-limit): what is more is "
+      "not felt",
+      game::bat_name(counters.player_over_limit), options_.key_limit_per_s);
 }
 
 /// Players are told on their screens if there is none.
@@ -295,7 +342,11 @@ Json ServerProcess::report() const {
 game::ExitStatus show_status(const game::ServeOptions& options) try {
   const auto [address, port] = game::address_and_port("--status", options.status);
   do {
-    const game::StatusAnswer answer = game::ask_status({.address = address, .port = port, .transport = options.transport, .key_file = options.key_file}, now_s);
+    const game::StatusAnswer answer = game::ask_status({.address = address,
+                                                        .port = port,
+                                                        .transport = options.transport,
+                                                        .key_file = options.key_file},
+                                                       now_s);
     if (!answer.reports) {
       spdlog::error("--status: {}: {}", options.status, answer.trouble);
       return game::ExitStatus::no_server;
@@ -303,7 +354,8 @@ game::ExitStatus show_status(const game::ServeOptions& options) try {
     std::fputs(game::status_table(*answer.reports).c_str(), stdout);
     std::fflush(stdout);
     const double next_s = now_s() + options.every_s;
-    while (options.every_s > 0.0 && !game::is_interrupted && now_s() < next_s) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    while (options.every_s > 0.0 && !game::is_interrupted && now_s() < next_s)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
   } while (options.every_s > 0.0 && !game::is_interrupted);
   return game::ExitStatus::ok;
 } catch (const rti::TransportError& error) {
@@ -332,11 +384,16 @@ game::ExitStatus serve(game::ServeOptions& options) {
   Json report = process.report();
   // Both before the players leave, for the hash is of now.
   std::optional<game::ServerEvidence> evidence = process.evidence(played);
-  const game::KeyLog log = options.record.empty() || !options.hosted.empty() ? game::KeyLog{} : game::record_of(played, process.server());
+  const game::KeyLog log = options.record.empty() || !options.hosted.empty()
+                               ? game::KeyLog{}
+                               : game::record_of(played, process.server());
   if (report["lost_federates"] != 0 || report["dropped_connections"] != 0)
-    spdlog::warn("{} federates were lost, {} connections dropped", report["lost_federates"].get<std::uint64_t>(), report["dropped_connections"].get<std::uint64_t>());
+    spdlog::warn("{} federates were lost, {} connections dropped",
+                 report["lost_federates"].get<std::uint64_t>(),
+                 report["dropped_connections"].get<std::uint64_t>());
   if (report["keys_over_limit"] != 0)
-    spdlog::warn("{} key changes above --key-limit were not felt", report["keys_over_limit"].get<std::uint64_t>());
+    spdlog::warn("{} key changes above --key-limit were not felt",
+                 report["keys_over_limit"].get<std::uint64_t>());
   process.end();
   game::add_totals(report, process.totals());
   if (!options.report.empty()) game::write_file(options.report, report.dump(2));
@@ -348,8 +405,12 @@ game::ExitStatus serve(game::ServeOptions& options) {
     return game::ExitStatus::failed;
   }
   if (!is_complete) {
-    if (came < options.clients) spdlog::error("{} of {} players came within {} s{}", came, options.clients, options.patience_s, missing);
-    else spdlog::error("{} players came, but not all were ready to start within {} s", came, options.patience_s);
+    if (came < options.clients)
+      spdlog::error("{} of {} players came within {} s{}", came, options.clients,
+                    options.patience_s, missing);
+    else
+      spdlog::error("{} players came, but not all were ready to start within {} s", came,
+                    options.patience_s);
     return game::ExitStatus::nobody_came;
   }
   return game::ExitStatus::ok;
@@ -362,8 +423,11 @@ game::ExitStatus serve_or_explain(game::ServeOptions& options) {
   } catch (const rti::TransportError& error) {
     spdlog::error("{}", error.what());
     using Kind = rti::TransportError::Kind;
-    if (error.kind() == Kind::in_use || error.kind() == Kind::no_such_address || error.kind() == Kind::no_permission) return game::ExitStatus::address_in_use;
-    return error.kind() == Kind::too_many_files ? game::ExitStatus::too_few_files : game::ExitStatus::failed;
+    if (error.kind() == Kind::in_use || error.kind() == Kind::no_such_address ||
+        error.kind() == Kind::no_permission)
+      return game::ExitStatus::address_in_use;
+    return error.kind() == Kind::too_many_files ? game::ExitStatus::too_few_files
+                                                : game::ExitStatus::failed;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
     return game::ExitStatus::bad_input;

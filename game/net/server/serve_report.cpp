@@ -17,12 +17,14 @@ ServingCounts counts_of(const Serving& serving, const rti::TransportCounters& cl
   const im::Filter& filter = serving.execution().filter();
   std::vector<im::StageCount> stages;
   filter.list_counts(stages);
-  return {serving.execution().counters(), clients, filter.counters(), std::move(stages), serving.server().game().world().counters()};
+  return {serving.execution().counters(), clients, filter.counters(), std::move(stages),
+          serving.server().game().world().counters()};
 }
 
 Json counted_report(const Serving& serving, const ServingCounts& first, const ServingCounts& last) {
   const rti::FederationCounters &begin = first.federation, &end = last.federation;
-  const rti::FederationCounters now = serving.execution().counters();  // who is dropped after the span is dropped, too
+  const rti::FederationCounters now =
+      serving.execution().counters();  // who is dropped after the span is dropped, too
   const Server& server = serving.server();
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, server.game().hash());
@@ -33,36 +35,54 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
               {"bytes_received", last.transport.bytes_received - first.transport.bytes_received},
               {"writes_sent", last.transport.writes - first.transport.writes},
               {"segments_sent", last.transport.segments_sent - first.transport.segments_sent},
-              {"state_bytes_sent", end.update_bytes_sent - begin.update_bytes_sent + end.entry_bytes_sent - begin.entry_bytes_sent},
-              {"entry_bytes_sent", end.entry_bytes_sent - begin.entry_bytes_sent},  // of these, the states of what came into scope
+              {"state_bytes_sent", end.update_bytes_sent - begin.update_bytes_sent +
+                                       end.entry_bytes_sent - begin.entry_bytes_sent},
+              {"entry_bytes_sent",
+               end.entry_bytes_sent -
+                   begin.entry_bytes_sent},  // of these, the states of what came into scope
               {"updates_put_off", end.updates_put_off - begin.updates_put_off},
               {"updates_caught_up", end.updates_caught_up - begin.updates_caught_up},
-              {"key_bytes_received", end.interaction_bytes_sent - begin.interaction_bytes_sent},  // the RTI hands them on to the server
-              {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
+              {"key_bytes_received",
+               end.interaction_bytes_sent -
+                   begin.interaction_bytes_sent},  // the RTI hands them on to the server
+              {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent -
+                                    begin.interactions_sent},
               {"scope_entries", end.scope_entries - begin.scope_entries},
               {"scope_exits", end.scope_exits - begin.scope_exits},
               {"physics_events", last.physics.events() - first.physics.events()},
               {"filter_regions_moved", last.filter.regions_moved - first.filter.regions_moved},
               {"filter_pairs_tested", last.filter.pairs_tested - first.filter.pairs_tested},
               {"lost_federates", server.counters().federates_lost},
-              {"dropped_connections", std::accumulate(now.drops.begin(), now.drops.end(), std::uint64_t{0}) + serving.host().closed_by_full_queue()},
+              {"dropped_connections",
+               std::accumulate(now.drops.begin(), now.drops.end(), std::uint64_t{0}) +
+                   serving.host().closed_by_full_queue()},
               {"keys_received", server.counters().keys_received},
               {"keys_applied", server.counters().keys_applied},
               {"keys_refused", server.counters().keys_refused},
               {"keys_over_limit", server.counters().keys_over_limit}};
-  report["acknowledgements_sent"] = last.transport.acknowledgements_sent - first.transport.acknowledgements_sent;
-  const auto segments = [](const rti::TransportCounters& counters) { return counters.kernel_segments_sent.value_or(counters.segments_sent); };
-  report["kernel_segments_sent"] = segments(last.transport) - segments(first.transport);  // without a kernel as many as by our own count
+  report["acknowledgements_sent"] =
+      last.transport.acknowledgements_sent - first.transport.acknowledgements_sent;
+  const auto segments = [](const rti::TransportCounters& counters) {
+    return counters.kernel_segments_sent.value_or(counters.segments_sent);
+  };
+  report["kernel_segments_sent"] =
+      segments(last.transport) -
+      segments(first.transport);  // without a kernel as many as by our own count
   // Stages are in the order in which they stand; of two of a kind each has its own entry.
   for (std::size_t i = 0; i < last.stages.size(); ++i) {
     const im::StageCount& stage = last.stages[i];
-    report["filter_stages"].push_back({{"stage", stage.stage}, {"counted", stage.what}, {"count", stage.count - (i < first.stages.size() ? first.stages[i].count : 0)}});
+    report["filter_stages"].push_back(
+        {{"stage", stage.stage},
+         {"counted", stage.what},
+         {"count", stage.count - (i < first.stages.size() ? first.stages[i].count : 0)}});
   }
   return report;
 }
 
 void add_totals(Json& report, const rti::TransportCounters& total) {
-  const auto or_null = [](const std::optional<std::uint64_t>& count) { return count ? Json(*count) : Json(nullptr); };
+  const auto or_null = [](const std::optional<std::uint64_t>& count) {
+    return count ? Json(*count) : Json(nullptr);
+  };
   report["total_bytes_sent"] = total.bytes_sent;
   report["total_bytes_received"] = total.bytes_received;
   report["kernel_bytes_sent"] = or_null(total.kernel_bytes_sent);

@@ -19,10 +19,13 @@ struct ServingCounts {
 
 ServingCounts counts_of(const Serving& serving, const rti::TransportCounters& clients);
 
-/// The part of a server's report that no clock has a say in: what the game has come to, and what was counted from `begin` to `end`.
-nlohmann::ordered_json counted_report(const Serving& serving, const ServingCounts& begin, const ServingCounts& end);
+/// The part of a server's report that no clock has a say in: what the game has come to, and what
+/// was counted from `begin` to `end`.
+nlohmann::ordered_json counted_report(const Serving& serving, const ServingCounts& begin,
+                                      const ServingCounts& end);
 
-/// Adds what the connections carried from first to last, as counted here and by the kernel; null where no kernel had a part in it.
+/// Adds what the connections carried from first to last, as counted here and by the kernel; null
+/// where no kernel had a part in it.
 void add_totals(nlohmann::ordered_json& report, const rti::TransportCounters& total);
 
 }  // namespace rink::game

@@ -18,31 +18,46 @@ constexpr std::size_t body_max = rti::object_block / 2;
 
 /// Throws if no matches of `scene` can be hosted as the options say.
 void require_match(const ServeOptions& options, const Scene& scene) {
-  if (const auto objection = match_objection(scene)) throw std::runtime_error("scene '" + options.scene + "' cannot be hosted: " + *objection);
-  if (scene_text(options.scene).size() > SceneText::size_max) throw std::runtime_error("scene '" + options.scene + "' is too long a text to be sent to players");
+  if (const auto objection = match_objection(scene))
+    throw std::runtime_error("scene '" + options.scene + "' cannot be hosted: " + *objection);
+  if (scene_text(options.scene).size() > SceneText::size_max)
+    throw std::runtime_error("scene '" + options.scene +
+                             "' is too long a text to be sent to players");
   if (!options.keys.empty() || options.pace != "realtime" || options.is_time_managed)
-    throw std::runtime_error("a hosted match is played by its players in real time: --keys, --pace and --time-management cannot be given");
+    throw std::runtime_error(
+        "a hosted match is played by its players in real time: --keys, --pace and "
+        "--time-management cannot be given");
 }
 
-/// Throws if a scheme is given a size of cells that it does not take: a sweep of it would compare equal runs.
+/// Throws if a scheme is given a size of cells that it does not take: a sweep of it would compare
+/// equal runs.
 void require_cells(const ServeOptions& options) {
   if (options.cell_size == 0.0 || im::takes_cell_size(options.scheme)) return;
   std::string having;
   for (const std::string& name : im::filter_names())
     if (im::takes_cell_size(name)) having += (having.empty() ? "" : ", ") + name;
-  throw std::runtime_error("--cell-size: the scheme " + options.scheme + " has no cells whose size it leaves open; schemes with cells are " + having);
+  throw std::runtime_error("--cell-size: the scheme " + options.scheme +
+                           " has no cells whose size it leaves open; schemes with cells are " +
+                           having);
 }
 
-/// Throws if something is said to be always relevant to a scheme that does not ask: a comparison of it would compare equal runs.
+/// Throws if something is said to be always relevant to a scheme that does not ask: a comparison of
+/// it would compare equal runs.
 void require_always(const ServeOptions& options) {
-  if (!options.always.empty() && !im::names_scheme(options.scheme, "always")) throw std::runtime_error("--always: the scheme " + options.scheme + " does not name always; one that does is " + options.scheme + " or always");
+  if (!options.always.empty() && !im::names_scheme(options.scheme, "always"))
+    throw std::runtime_error("--always: the scheme " + options.scheme +
+                             " does not name always; one that does is " + options.scheme +
+                             " or always");
 }
 
 /// Throws if what else is asked for begins at the scene's beginning.
 void require_beginning(const ServeOptions& options) {
   if (options.from_state.empty()) return;
-  if (!options.hosted.empty() || options.pace != "realtime" || options.is_time_managed || !options.record.empty())
-    throw std::runtime_error("--from-state: a hosted match, --pace synchronous, --time-management and --record begin with the scene and can't be given with it");
+  if (!options.hosted.empty() || options.pace != "realtime" || options.is_time_managed ||
+      !options.record.empty())
+    throw std::runtime_error(
+        "--from-state: a hosted match, --pace synchronous, --time-management and --record begin "
+        "with the scene and can't be given with it");
 }
 
 }  // namespace
@@ -56,19 +71,23 @@ void host_by_default(const CLI::App& app, ServeOptions& options) {
 }
 
 rti::FederationFile follow_federation_file(ServeOptions& options) {
-  if (options.federation_file.empty()) return {.federation = "rink", .fom = {fom_file()}, .nodes = {}};
+  if (options.federation_file.empty())
+    return {.federation = "rink", .fom = {fom_file()}, .nodes = {}};
   const rti::FederationFile file = rti::load_federation_file(options.federation_file);
   options.address = file.nodes.front().address;
   options.port = file.nodes.front().port;
   options.members = file.members();
   const auto count = static_cast<std::uint32_t>(options.members.size());
   if (count > 0 && options.clients > 0 && options.clients != count)
-    throw std::runtime_error("--clients: " + std::to_string(options.clients) + " players, but '" + options.federation_file + "' lists " + std::to_string(count) + ", who are waited for");
+    throw std::runtime_error("--clients: " + std::to_string(options.clients) + " players, but '" +
+                             options.federation_file + "' lists " + std::to_string(count) +
+                             ", who are waited for");
   if (count > 0) options.clients = count;
   return file;
 }
 
-rti::FederationSettings federation_of(const ServeOptions& options, const Scene& scene, const std::string& federation, im::Worker* worker) {
+rti::FederationSettings federation_of(const ServeOptions& options, const Scene& scene,
+                                      const std::string& federation, im::Worker* worker) {
   rti::FederationSettings settings = federation_settings(scene, options.scheme, options.cell_size);
   settings.match_worker = worker;
   settings.federation = federation;
@@ -80,17 +99,23 @@ rti::FederationSettings federation_of(const ServeOptions& options, const Scene& 
 void require_room(const ServeOptions& options, const Scene& scene) {
   const Bodies& bodies = scene.bodies;
   if (options.clients > bodies.bats.size())
-    throw std::runtime_error("--clients: " + std::to_string(options.clients) + " players, but scene '" + options.scene + "' has " + std::to_string(bodies.bats.size()) +
-                             " bats; allowed is at most as many");
+    throw std::runtime_error(
+        "--clients: " + std::to_string(options.clients) + " players, but scene '" + options.scene +
+        "' has " + std::to_string(bodies.bats.size()) + " bats; allowed is at most as many");
   const std::size_t body_count = bodies.bats.size() + bodies.pucks.size() + bodies.posts.size();
   if (body_count > body_max)
-    throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) + " bodies; allowed is at most " + std::to_string(body_max));
+    throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) +
+                             " bodies; allowed is at most " + std::to_string(body_max));
   require_cells(options);
   require_always(options);
   require_beginning(options);
   if (options.spread > 0.0 && (options.pace != "realtime" || options.transport == "udp"))
-    throw std::runtime_error("--spread staggers what goes by streams in real time: --pace synchronous and --transport udp can't be given with it");
-  if (!options.evidence.empty() && options.duration_s == 0.0) throw std::runtime_error("--evidence: what is to be sampled is drawn beforehand; it needs a --duration above 0");
+    throw std::runtime_error(
+        "--spread staggers what goes by streams in real time: --pace synchronous and --transport "
+        "udp can't be given with it");
+  if (!options.evidence.empty() && options.duration_s == 0.0)
+    throw std::runtime_error(
+        "--evidence: what is to be sampled is drawn beforehand; it needs a --duration above 0");
   require_writable("--report", options.report);
   if (options.hosted.empty()) require_writable("--record", options.record);
   else require_match(options, scene);

@@ -23,9 +23,10 @@ struct StatusQuestion {
   std::string transport = "tcp", key_file{}, federation = "rink";
 };
 
-/// Asks by a connection of its own, without joining, so any object model will do, and waits for `patience_s` [s] of `now_s`. Throws what setting up a socket and
-/// reading a key file throw.
-StatusAnswer ask_status(const StatusQuestion& question, const std::function<double()>& now_s, double patience_s = 3.0);
+/// Asks by a connection of its own, without joining, so any object model will do, and waits for
+/// `patience_s` [s] of `now_s`. Throws what setting up a socket and reading a key file throw.
+StatusAnswer ask_status(const StatusQuestion& question, const std::function<double()>& now_s,
+                        double patience_s = 3.0);
 
 /// A paragraph for each federation, a line for each of its federates.
 std::string status_table(const std::vector<rti::FederationReport>& reports);

@@ -1,4 +1,5 @@
-// The part of a server that who watches may ask what interest management decided; no tick of it costs anything before somebody asks.
+// The part of a server that who watches may ask what interest management decided; no tick of it
+// costs anything before somebody asks.
 #include <algorithm>
 
 #include "game/net/interest_codec.h"
@@ -18,7 +19,8 @@ void Server::tell_interest(rti::FederateHandle federate, InterestSeen seen) {
   std::vector<std::byte> bytes;
   rti::Writer writer(bytes);
   exchange(writer, seen);
-  ambassador_.send_directed_interaction(model_.interest, federate, bytes, {.time = game_.now(), .tag = 0});
+  ambassador_.send_directed_interaction(model_.interest, federate, bytes,
+                                        {.time = game_.now(), .tag = 0});
   ++counters_.inspections_answered;
 }
 

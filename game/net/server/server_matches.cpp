@@ -1,4 +1,5 @@
-// The part of the server that hosts matches: begins them, follows their rules, answers who asks for the time, and keeps their records.
+// The part of the server that hosts matches: begins them, follows their rules, answers who asks for
+// the time, and keeps their records.
 #include <algorithm>
 #include <cassert>
 
@@ -10,13 +11,16 @@
 namespace rink::game {
 
 void Server::announce_match() {
-  for (const rti::InteractionClassHandle interaction : {model_.pause, model_.rematch, model_.ping}) ambassador_.subscribe_interaction_class(interaction);
+  for (const rti::InteractionClassHandle interaction : {model_.pause, model_.rematch, model_.ping})
+    ambassador_.subscribe_interaction_class(interaction);
   ambassador_.publish_interaction_class(model_.pong);
-  ambassador_.publish_object_class_attributes(model_.match, {model_.match_state, model_.match_scene, model_.match_tick});
+  ambassador_.publish_object_class_attributes(
+      model_.match, {model_.match_state, model_.match_scene, model_.match_tick});
   match_ = ambassador_.register_object_instance(model_.match, "match");
   std::vector<std::byte> bytes;
   const SceneText scene{std::as_bytes(std::span(hosting_->scene_text))};
-  ambassador_.update_attribute_values(match_, {model_.match_scene, model_.match_tick}, encode(bytes, scene, TickPeriod{tick_s_}), {});
+  ambassador_.update_attribute_values(match_, {model_.match_scene, model_.match_tick},
+                                      encode(bytes, scene, TickPeriod{tick_s_}), {});
   publish_match({});
 }
 
@@ -26,10 +30,12 @@ void Server::publish_match(const rti::Stamp& stamp) {
   if (published_match_ == state) return;
   published_match_ = state;
   std::vector<std::byte> bytes;
-  ambassador_.update_attribute_values(match_, {model_.match_state}, encode(bytes, *published_match_), stamp);
+  ambassador_.update_attribute_values(match_, {model_.match_state},
+                                      encode(bytes, *published_match_), stamp);
 }
 
-/// Simulated time as players count on it; a countdown's end is foreseen, so that keys that are stamped for the first instants of play are not late.
+/// Simulated time as players count on it; a countdown's end is foreseen, so that keys that are
+/// stamped for the first instants of play are not late.
 double Server::simulated_at_clock(double now) const {
   return std::max(flow_ ? simulated_at(flow_->state(), now) : now, game_.now());
 }
@@ -69,7 +75,8 @@ void Server::answer(rti::FederateHandle sender, std::uint64_t number) {
   is_urgent_ = true;
 }
 
-void Server::receive_wish(Seat& seat, rti::InteractionClassHandle interaction, rti::Bytes parameters) {
+void Server::receive_wish(Seat& seat, rti::InteractionClassHandle interaction,
+                          rti::Bytes parameters) {
   if (!flow_) return;
   PauseWish wish;
   if (interaction == model_.rematch) flow_->ask_rematch(seat.player, now_());
@@ -80,13 +87,18 @@ void Server::receive_wish(Seat& seat, rti::InteractionClassHandle interaction, r
 void Server::release_keys(Seat& seat) {
   if (!are_keys_felt()) return;
   for (const Key key : all_keys)
-    if (seat.held.is_down(key)) submit({.time = next_on(key_grid, std::max(simulated_now(), seat.last_key_s)), .player = seat.player, .kind = InputKind::key_up, .key = key});
+    if (seat.held.is_down(key))
+      submit({.time = next_on(key_grid, std::max(simulated_now(), seat.last_key_s)),
+              .player = seat.player,
+              .kind = InputKind::key_up,
+              .key = key});
   seat.held = {};
 }
 
 bool Server::are_keys_felt() const {
   if (is_replay_) return false;
-  return !flow_ || (flow_->state().phase != MatchPhase::waiting && flow_->state().phase != MatchPhase::over);
+  return !flow_ ||
+         (flow_->state().phase != MatchPhase::waiting && flow_->state().phase != MatchPhase::over);
 }
 
 }  // namespace rink::game

@@ -6,29 +6,41 @@
 namespace rink::game {
 
 ServerWitness::ServerWitness(const SamplingSettings& settings, double rate_hz)
-    : settings_(settings), tick_s_(1.0 / rate_hz), players_(sampled_players(settings)), instants_(sampled_instants(settings, 1)) {
+    : settings_(settings),
+      tick_s_(1.0 / rate_hz),
+      players_(sampled_players(settings)),
+      instants_(sampled_instants(settings, 1)) {
   evidence_.clients = settings.clients;
   evidence_.rate_hz = rate_hz;
   evidence_.from_s = settings.from_s;
   evidence_.until_s = settings.until_s;
-  evidence_.ticks.reserve(static_cast<std::size_t>(std::min((settings.until_s - settings.from_s) * rate_hz + 2.0, 1e6)));
+  evidence_.ticks.reserve(static_cast<std::size_t>(
+      std::min((settings.until_s - settings.from_s) * rate_hz + 2.0, 1e6)));
 }
 
-void ServerWitness::look(const Server& server, const rti::FederationExecution& execution, const ServerEvidence::Tick& tick) {
+void ServerWitness::look(const Server& server, const rti::FederationExecution& execution,
+                         const ServerEvidence::Tick& tick) {
   name_objects(server);
   evidence_.end_s = tick.simulated_s;
-  const bool is_measured = tick.simulated_s >= settings_.from_s && tick.simulated_s < settings_.until_s;
+  const bool is_measured =
+      tick.simulated_s >= settings_.from_s && tick.simulated_s < settings_.until_s;
   if (is_measured && evidence_.ticks.size() < settings_.record_max) evidence_.ticks.push_back(tick);
-  for (; next_instant_ < instants_.size() && instants_[next_instant_] < tick.simulated_s + tick_s_; ++next_instant_)
-    if (instants_[next_instant_] >= tick.simulated_s) note_decisions(server, execution, instants_[next_instant_]);
+  for (; next_instant_ < instants_.size() && instants_[next_instant_] < tick.simulated_s + tick_s_;
+       ++next_instant_)
+    if (instants_[next_instant_] >= tick.simulated_s)
+      note_decisions(server, execution, instants_[next_instant_]);
 }
 
-/// All that is there at first, then who came; a bat that comes back is another body and another object.
+/// All that is there at first, then who came; a bat that comes back is another body and another
+/// object.
 void ServerWitness::name_objects(const Server& server) {
-  const auto name = [&](const Entity& entity) { evidence_.objects.push_back({server.object(entity.id).value, entity.id.index}); };
+  const auto name = [&](const Entity& entity) {
+    evidence_.objects.push_back({server.object(entity.id).value, entity.id.index});
+  };
   if (!are_named_) {
     for (const Entity& entity : server.game().entities()) name(entity);
-    evidence_.in_scope.reserve(std::min(settings_.record_max, instants_.size() * players_.size() * evidence_.objects.size()));
+    evidence_.in_scope.reserve(std::min(
+        settings_.record_max, instants_.size() * players_.size() * evidence_.objects.size()));
   } else {
     for (const Entity& entity : server.game().spawned())
       if (server.game().is_there(entity.id)) name(entity);
@@ -36,10 +48,12 @@ void ServerWitness::name_objects(const Server& server) {
   are_named_ = true;
 }
 
-void ServerWitness::note_decisions(const Server& server, const rti::FederationExecution& execution, double instant_s) {
+void ServerWitness::note_decisions(const Server& server, const rti::FederationExecution& execution,
+                                   double instant_s) {
   if (players_.empty()) return;
   const std::size_t largest = std::max<std::size_t>(1, instants_.size() * evidence_.objects.size());
-  const std::size_t at_once = std::clamp<std::size_t>(settings_.record_max / largest, 1, players_.size());
+  const std::size_t at_once =
+      std::clamp<std::size_t>(settings_.record_max / largest, 1, players_.size());
   for (std::size_t i = 0; i < at_once; ++i, ++next_player_) {
     const std::uint32_t player = players_[next_player_ % players_.size()];
     const auto federate = server.federate_of(player);
@@ -58,14 +72,17 @@ ServerEvidence ServerWitness::evidence(const Server& server) const {
   result.state_hash = server.game().hash();
   result.keys = server.record();
   for (const ServerEvidence::Decision& decision : result.decisions)
-    std::sort(result.in_scope.begin() + static_cast<std::ptrdiff_t>(decision.first), result.in_scope.begin() + static_cast<std::ptrdiff_t>(decision.last));
+    std::sort(result.in_scope.begin() + static_cast<std::ptrdiff_t>(decision.first),
+              result.in_scope.begin() + static_cast<std::ptrdiff_t>(decision.last));
   return result;
 }
 
 std::size_t ServerWitness::memory_bytes() const {
   const ServerEvidence& held = evidence_;
-  return held.ticks.capacity() * sizeof(ServerEvidence::Tick) + held.objects.capacity() * sizeof(ServerEvidence::Naming) +
-         held.decisions.capacity() * sizeof(ServerEvidence::Decision) + held.in_scope.capacity() * sizeof(std::uint32_t);
+  return held.ticks.capacity() * sizeof(ServerEvidence::Tick) +
+         held.objects.capacity() * sizeof(ServerEvidence::Naming) +
+         held.decisions.capacity() * sizeof(ServerEvidence::Decision) +
+         held.in_scope.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace rink::game

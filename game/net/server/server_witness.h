@@ -1,4 +1,5 @@
-// Watches a server while it runs: keeps what evidence needs in memory and leaves the writing for afterwards.
+// Watches a server while it runs: keeps what evidence needs in memory and leaves the writing for
+// afterwards.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +11,24 @@
 
 namespace rink::game {
 
-/// A sampled tick costs one pass over the scope of a few players; all others a few words. Memory is bounded by SamplingSettings::record_max.
+/// A sampled tick costs one pass over the scope of a few players; all others a few words. Memory is
+/// bounded by SamplingSettings::record_max.
 class ServerWitness {
  public:
   ServerWitness(const SamplingSettings& settings, double rate_hz);
 
   /// To be called after every tick, the filter's decision made.
-  void look(const Server& server, const rti::FederationExecution& execution, const ServerEvidence::Tick& tick);
-  /// Everything so far, with the keys and the hash of the game as it is now. Who ran the server adds choice, scheme and policy.
+  void look(const Server& server, const rti::FederationExecution& execution,
+            const ServerEvidence::Tick& tick);
+  /// Everything so far, with the keys and the hash of the game as it is now. Who ran the server
+  /// adds choice, scheme and policy.
   ServerEvidence evidence(const Server& server) const;
   std::size_t memory_bytes() const;
 
  private:
   void name_objects(const Server& server);
-  void note_decisions(const Server& server, const rti::FederationExecution& execution, double instant_s);
+  void note_decisions(const Server& server, const rti::FederationExecution& execution,
+                      double instant_s);
 
   SamplingSettings settings_;
   double tick_s_;

@@ -13,7 +13,9 @@
 namespace rink::game {
 namespace {
 
-std::chrono::nanoseconds nanoseconds(double seconds) { return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9)); }
+std::chrono::nanoseconds nanoseconds(double seconds) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
+}
 
 /// Adds the time since it was made or last read to a sum.
 class Stopwatch {
@@ -32,7 +34,8 @@ class Stopwatch {
 
 }  // namespace
 
-Serving::Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& server, const rti::FederationSettings& federation, Clock now_s, Clock simulated_now)
+Serving::Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& server,
+                 const rti::FederationSettings& federation, Clock now_s, Clock simulated_now)
     : now_s_(std::move(now_s)),
       execution_(fom, federation),
       host_(execution_),
@@ -60,8 +63,11 @@ TickCosts Serving::tick(double simulated_s, double due_s) {
   server_.simulate(simulated_s);
   watch.add_to(costs.physics_s);
   send(simulated_s, due_s, costs);
-  for (const Server::Inspecting& each : server_.take_inspections()) server_.tell_interest(each.federate, interest_report(server_, execution_, each.object));
-  if (witness_) witness_->look(server_, execution_, {simulated_s, costs.physics_s, costs.filter_s, costs.send_s});
+  for (const Server::Inspecting& each : server_.take_inspections())
+    server_.tell_interest(each.federate, interest_report(server_, execution_, each.object));
+  if (witness_)
+    witness_->look(server_, execution_,
+                   {simulated_s, costs.physics_s, costs.filter_s, costs.send_s});
   host_.advance_clock(now_s_());
   return costs;
 }
@@ -73,8 +79,11 @@ std::optional<ServerEvidence> Serving::evidence() const {
 
 void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
   Stopwatch watch(now_s_);
-  const bool is_hosting = server_.match() != nullptr;  // players of matches ask for the time instead, and are spared the bytes of the tag
-  server_.publish({.time = simulated_s, .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
+  const bool is_hosting =
+      server_.match() !=
+      nullptr;  // players of matches ask for the time instead, and are spared the bytes of the tag
+  server_.publish({.time = simulated_s,
+                   .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
   link_.flush(now_s_());
   host_.poll({});
   acquaint(server_, execution_);
@@ -85,12 +94,17 @@ void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
   watch.add_to(costs.send_s);
 }
 
-rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme, double cell_size) {
+rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme,
+                                            double cell_size) {
   rti::FederationSettings settings;
   settings.filter = scheme;
-  settings.filter_settings = {.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width}, .cell_size = cell_size};
+  settings.filter_settings = {
+      .world = {0.0, 0.0, scene.world.field.length, scene.world.field.width},
+      .cell_size = cell_size};
   settings.filter_settings.drag = scene.world.puck_drag;
-  for (const Post& post : scene.bodies.posts) settings.filter_settings.posts.push_back({post.body.position.x(), post.body.position.y(), post.body.radius});
+  for (const Post& post : scene.bodies.posts)
+    settings.filter_settings.posts.push_back(
+        {post.body.position.x(), post.body.position.y(), post.body.radius});
   return settings;
 }
 

@@ -1,4 +1,5 @@
-// The server's side of a federation without its process: game, RTI and the link between them; whoever owns a clock drives it.
+// The server's side of a federation without its process: game, RTI and the link between them;
+// whoever owns a clock drives it.
 #pragma once
 
 #include <functional>
@@ -18,14 +19,16 @@ struct TickCosts {
   double physics_s = 0.0, filter_s = 0.0, send_s = 0.0;
 };
 
-/// Owns the federation execution and the server federate beside it. Reads no clock: `now_s` [s] is handed in, the wall's or a virtual one; the clients come by
-/// whatever transports `host` is given.
+/// Owns the federation execution and the server federate beside it. Reads no clock: `now_s` [s] is
+/// handed in, the wall's or a virtual one; the clients come by whatever transports `host` is given.
 class Serving {
  public:
   using Clock = std::function<double()>;
 
-  /// `now_s` measures costs and silence; `simulated_now` tells the simulated instant at which a key arrives. `fom` must outlive it.
-  Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& server, const rti::FederationSettings& federation, Clock now_s, Clock simulated_now);
+  /// `now_s` measures costs and silence; `simulated_now` tells the simulated instant at which a key
+  /// arrives. `fom` must outlive it.
+  Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& server,
+          const rti::FederationSettings& federation, Clock now_s, Clock simulated_now);
 
   rti::FederationHost& host() { return host_; }
   const rti::FederationHost& host() const { return host_; }
@@ -34,20 +37,25 @@ class Serving {
   Server& server() { return server_; }
   const Server& server() const { return server_; }
 
-  /// Takes in and hands on what came, for at most `longest_wait_s`. Interactions go on at once, not with the tick, so that keys are stamped when they arrive.
+  /// Takes in and hands on what came, for at most `longest_wait_s`. Interactions go on at once, not
+  /// with the tick, so that keys are stamped when they arrive.
   void exchange(double longest_wait_s);
 
-  /// One tick: plays up to `simulated_s` [s], publishes, matches and flushes. `due_s` [s] is the instant on the owner's clock at which it was due, 0 before the
-  /// start; clients get it as the stamp's tag, unless they play hosted matches.
+  /// One tick: plays up to `simulated_s` [s], publishes, matches and flushes. `due_s` [s] is the
+  /// instant on the owner's clock at which it was due, 0 before the start; clients get it as the
+  /// stamp's tag, unless they play hosted matches.
   TickCosts tick(double simulated_s, double due_s);
 
   /// Watches every tick from now on.
-  void collect_evidence(const SamplingSettings& settings, double rate_hz) { witness_.emplace(settings, rate_hz); }
+  void collect_evidence(const SamplingSettings& settings, double rate_hz) {
+    witness_.emplace(settings, rate_hz);
+  }
   /// What was seen, if evidence was asked for; scene, scheme and policy are its owner's to add.
   std::optional<ServerEvidence> evidence() const;
   std::size_t evidence_bytes() const { return witness_ ? witness_->memory_bytes() : 0; }
 
-  /// Publishes, matches and flushes what is there, without playing: what leaves the server in one tick, one write per destination.
+  /// Publishes, matches and flushes what is there, without playing: what leaves the server in one
+  /// tick, one write per destination.
   void send(double simulated_s, double due_s, TickCosts& costs);
 
  private:
@@ -62,7 +70,9 @@ class Serving {
   std::optional<ServerWitness> witness_;
 };
 
-/// A federation under the filter `scheme` over the scene's field and among its posts; `cell_size` [m] is for schemes that have cells, 0 leaves it to them.
-rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme, double cell_size);
+/// A federation under the filter `scheme` over the scene's field and among its posts; `cell_size`
+/// [m] is for schemes that have cells, 0 leaves it to them.
+rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme,
+                                            double cell_size);
 
 }  // namespace rink::game

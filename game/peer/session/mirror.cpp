@@ -6,7 +6,9 @@
 namespace rink::peer {
 
 bool Mirror::add(PartChange change) {
-  const std::optional<std::uint64_t> step = last_ ? std::optional(last_->step) : base_ ? std::optional(base_->step) : std::nullopt;
+  const std::optional<std::uint64_t> step = last_   ? std::optional(last_->step)
+                                            : base_ ? std::optional(base_->step)
+                                                    : std::nullopt;
   if (!change.is_whole && (!step || change.step != *step + 1)) return false;
   apply();
   last_ = std::move(change);
@@ -22,7 +24,8 @@ void Mirror::apply() {
   for (const std::uint32_t body : change.gone) part.bodies.erase(body);
   for (const auto& [body, state] : change.bodies) part.bodies[body] = state;
   for (const Flown& flown : change.flown)
-    if (const auto kept = part.bodies.find(flown.number); kept != part.bodies.end()) flown.write_to(kept->second.flight);
+    if (const auto kept = part.bodies.find(flown.number); kept != part.bodies.end())
+      flown.write_to(kept->second.flight);
   part.holds = std::move(change.holds);
   part.keys = std::move(change.keys);
   part.log.insert(part.log.end(), change.log.begin(), change.log.end());

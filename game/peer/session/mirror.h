@@ -13,22 +13,26 @@ namespace rink::peer {
 
 /// How a peer's own part differs from what it was a step before.
 struct PartChange {
-  std::uint64_t step = 0;            ///< that it leads to
-  double time = 0.0;                 ///< then [s]
-  bool is_whole = false;             ///< `bodies` and `log` are all, nothing is kept
+  std::uint64_t step = 0;  ///< that it leads to
+  double time = 0.0;       ///< then [s]
+  bool is_whole = false;   ///< `bodies` and `log` are all, nothing is kept
   std::vector<Arrivals::Body> bodies;
-  std::vector<Flown> flown{};        ///< of those that are kept
-  std::vector<std::uint32_t> gone;   ///< to other owners
-  std::vector<Hold> holds;           ///< all of them
-  std::vector<Key> keys;             ///< of live players, still to take effect: all
-  std::vector<Key> log;              ///< of live players, that took effect
+  std::vector<Flown> flown{};       ///< of those that are kept
+  std::vector<std::uint32_t> gone;  ///< to other owners
+  std::vector<Hold> holds;          ///< all of them
+  std::vector<Key> keys;            ///< of live players, still to take effect: all
+  std::vector<Key> log;             ///< of live players, that took effect
 };
 
 template <class Stream>
 bool exchange(Stream& stream, PartChange& change) {
-  return stream.numbers(change.step, change.time) && stream.truth(change.is_whole) && exchange_list(stream, change.bodies) && exchange_list(stream, change.flown) && stream.size(change.gone) &&
-         std::all_of(change.gone.begin(), change.gone.end(), [&](std::uint32_t& body) { return stream.number(body); }) && exchange_list(stream, change.holds) &&
-         exchange_list(stream, change.keys) && exchange_list(stream, change.log);
+  return stream.numbers(change.step, change.time) && stream.truth(change.is_whole) &&
+         exchange_list(stream, change.bodies) && exchange_list(stream, change.flown) &&
+         stream.size(change.gone) &&
+         std::all_of(change.gone.begin(), change.gone.end(),
+                     [&](std::uint32_t& body) { return stream.number(body); }) &&
+         exchange_list(stream, change.holds) && exchange_list(stream, change.keys) &&
+         exchange_list(stream, change.log);
 }
 std::vector<std::uint8_t> written(PartChange message);
 bool read(std::span<const std::uint8_t> bytes, PartChange& message);

@@ -8,7 +8,9 @@
 namespace rink::peer {
 
 void Scoring::count(std::vector<Goal> goals, const GoalRules& rules) {
-  std::sort(goals.begin(), goals.end(), [](const Goal& a, const Goal& b) { return std::tuple(a.time, a.puck) < std::tuple(b.time, b.puck); });
+  std::sort(goals.begin(), goals.end(), [](const Goal& a, const Goal& b) {
+    return std::tuple(a.time, a.puck) < std::tuple(b.time, b.puck);
+  });
   for (const Goal& goal : goals) {
     if (is_over) return;
     std::uint32_t& scored = goal.is_left ? right : left;
@@ -20,12 +22,15 @@ void Scoring::count(std::vector<Goal> goals, const GoalRules& rules) {
 }
 
 double Scoring::next_after(double time) const {
-  const auto due = std::find_if(face_offs.begin(), face_offs.end(), [time](const FaceOff& one) { return one.time > time; });
+  const auto due = std::find_if(face_offs.begin(), face_offs.end(),
+                                [time](const FaceOff& one) { return one.time > time; });
   return due == face_offs.end() ? std::numeric_limits<double>::infinity() : due->time;
 }
 
 void Scoring::schedule(const FaceOff& due) {
-  const auto is_before = [](const FaceOff& a, const FaceOff& b) { return std::tuple(a.time, a.puck) < std::tuple(b.time, b.puck); };
+  const auto is_before = [](const FaceOff& a, const FaceOff& b) {
+    return std::tuple(a.time, a.puck) < std::tuple(b.time, b.puck);
+  };
   face_offs.insert(std::upper_bound(face_offs.begin(), face_offs.end(), due, is_before), due);
 }
 

@@ -12,22 +12,34 @@ namespace rink::peer {
 Whole Whole::of(const physics::World& world) {
   Whole whole{.spec = world.spec(), .body_count = world.body_count()};
   if (whole.spec.field.goal_width == 0.0) return whole;
-  for (std::uint32_t body = 0; body < whole.body_count; ++body) whole.puck_radii.push_back(world.kind({body}) == physics::BodyKind::puck ? world.radius({body}) : 0.0);
+  for (std::uint32_t body = 0; body < whole.body_count; ++body)
+    whole.puck_radii.push_back(world.kind({body}) == physics::BodyKind::puck ? world.radius({body})
+                                                                             : 0.0);
   return whole;
 }
 
-Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail, const std::function<void()>& when_taken)
-    : settings_(std::move(settings)), mail_(mail), whole_(Whole::of(whole)), validator_(whole), now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts}, before_(now_),
+Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings,
+                 Mail& mail, const std::function<void()>& when_taken)
+    : settings_(std::move(settings)),
+      mail_(mail),
+      whole_(Whole::of(whole)),
+      validator_(whole),
+      now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts},
+      before_(now_),
       division_(cuts.division(settings_.peer_count)) {
   std::iota(now_.members.begin(), now_.members.end(), PeerNumber{0});
   now_.slots = now_.next_number = settings_.peer_count;
   now_.players = settings_.players;
-  for (const Player& player : now_.players) now_.bats_taken = std::max(now_.bats_taken, player.first_bat + player.bat_count);
+  for (const Player& player : now_.players)
+    now_.bats_taken = std::max(now_.bats_taken, player.first_bat + player.bat_count);
   before_ = now_;
   make_room(now_.slots);
   std::vector<Arrivals::Body> near;
   for (std::uint32_t body = 0; body < whole_.body_count; ++body)
-    if (division_.is_near(settings_.number, Box::around(whole.position({body}), whole.half_extent({body})), settings_.halo) || division_.owner_of(whole.position({body})) == settings_.number)
+    if (division_.is_near(settings_.number,
+                          Box::around(whole.position({body}), whole.half_extent({body})),
+                          settings_.halo) ||
+        division_.owner_of(whole.position({body})) == settings_.number)
       near.push_back({body, physics::Portion::state_in(whole, body)});
   if (settings_.is_mirrored) keep_first_parts(whole);
   if (when_taken) when_taken();
@@ -56,9 +68,17 @@ void Session::halt(const std::string& what) const {
 void Session::keep_first_parts(const physics::World& whole) {
   for (const PeerNumber peer : now_.members) {
     if (peer != settings_.number && mirror_of(peer, now_) != settings_.number) continue;
-    PartChange part{.step = 0, .time = 0.0, .is_whole = true, .bodies = {}, .gone = {}, .holds = {}, .keys = {}, .log = {}};
+    PartChange part{.step = 0,
+                    .time = 0.0,
+                    .is_whole = true,
+                    .bodies = {},
+                    .gone = {},
+                    .holds = {},
+                    .keys = {},
+                    .log = {}};
     for (std::uint32_t body = 0; body < whole_.body_count; ++body)
-      if (division_.owner_of(whole.position({body})) == peer) part.bodies.push_back({body, physics::Portion::state_in(whole, body)});
+      if (division_.owner_of(whole.position({body})) == peer)
+        part.bodies.push_back({body, physics::Portion::state_in(whole, body)});
     mirrors_[peer].add(std::move(part));
   }
 }
@@ -85,18 +105,21 @@ Message Session::heard(PeerNumber from) {
   }
 }
 
-/// Likewise, and held against the scene: the states in it are those of that instant [s]. What goes to the own peer, it looks at itself.
+/// Likewise, and held against the scene: the states in it are those of that instant [s]. What goes
+/// to the own peer, it looks at itself.
 template <class Message>
 Message Session::checked(PeerNumber from, double now) {
   Message message = heard<Message>(from);
-  if (const std::string fault = validator_.fault_of(message, now); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
+  if (const std::string fault = validator_.fault_of(message, now); !fault.empty())
+    give_up(from, "peer " + std::to_string(from) + " " + fault);
   return message;
 }
 
 /// Nothing is played any more from the bodies in them, so their contacts are left out.
 Arrivals Session::last_words(PeerNumber from) {
   Arrivals part = heard<Arrivals>(from);
-  if (const std::string fault = validator_.fault_of(part.keys); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
+  if (const std::string fault = validator_.fault_of(part.keys); !fault.empty())
+    give_up(from, "peer " + std::to_string(from) + " " + fault);
   return part;
 }
 
@@ -148,15 +171,24 @@ void Session::play_stretch() {
     peer_->divide(division_);
     counters_.shifts += next.slots == now_.slots && next.cuts.peers() == now_.cuts.peers();
   };
-  // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way, unless there are goals to tell of.
-  const auto agree_all = [&] { settings_.is_mirrored || settings_.goals ? exchange([&](PeerNumber) { return peer_->verdict(); }) : peer::agree(*peer_, settings_.peer_count, mail_); };
-  const auto exchange_all = [&](auto&& make, const std::function<void()>& meanwhile) { exchange(make, meanwhile); };
-  const bool is_cut = peer_->end() < settings_.end_of(now_.window + 1);  // then the window goes on after it
+  // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way,
+  // unless there are goals to tell of.
+  const auto agree_all = [&] {
+    settings_.is_mirrored || settings_.goals
+        ? exchange([&](PeerNumber) { return peer_->verdict(); })
+        : peer::agree(*peer_, settings_.peer_count, mail_);
+  };
+  const auto exchange_all = [&](auto&& make, const std::function<void()>& meanwhile) {
+    exchange(make, meanwhile);
+  };
+  const bool is_cut =
+      peer_->end() < settings_.end_of(now_.window + 1);  // then the window goes on after it
   WindowHooks hooks = is_cut ? WindowHooks{} : settings_.hooks;
   hooks.when_final = enter_next;
   play_steps(*peer_, next_end, exchange_all, agree_all, hooks);
   if (settings_.goals) face_off(next);
-  // A puck that found no place is due again, where rounding can put that a little before the end of the window.
+  // A puck that found no place is due again, where rounding can put that a little before the end of
+  // the window.
   if (const double end = stretch_end(next); end != next_end) peer_->end_at(end);
   if (settings_.is_mirrored) {
     PartChange change = peer_->change(false);
@@ -174,7 +206,8 @@ void Session::play_stretch() {
   is_newcomer_ = false;
 }
 
-/// Who was let in gets a zone, who wished to leave hands its own over, and who had none in this stretch is not waited for any more.
+/// Who was let in gets a zone, who wished to leave hands its own over, and who had none in this
+/// stretch is not waited for any more.
 State Session::after_stretch() const {
   State next = now_;
   ++next.step;
@@ -185,20 +218,25 @@ State Session::after_stretch() const {
   give_zones(next);
   for (const PeerNumber peer : now_.members) {
     const std::vector<PeerNumber> zoned = next.cuts.peers();
-    if (next.has(peer) && peer_->verdict_of(peer).leaves && State::is_in(zoned, peer) && zoned.size() > 1) next.cuts = next.cuts.without(peer), ++next.zones;
+    if (next.has(peer) && peer_->verdict_of(peer).leaves && State::is_in(zoned, peer) &&
+        zoned.size() > 1)
+      next.cuts = next.cuts.without(peer), ++next.zones;
   }
   if (settings_.is_mirrored) admit(next);
   if (settings_.balance_windows > 0) balance(next);
   return next;
 }
 
-/// By what all have told all since zones changed last. What differs by chance alone, three standard deviations of a Poisson number, moves nothing.
+/// By what all have told all since zones changed last. What differs by chance alone, three standard
+/// deviations of a Poisson number, moves nothing.
 void Session::balance(State& next) const {
   constexpr double tolerance = 1.1, deviations = 3.0;
   next.events.resize(now_.slots, 0.0);
-  for (const PeerNumber peer : now_.members) next.events[peer] += static_cast<double>(peer_->verdict_of(peer).events);
+  for (const PeerNumber peer : now_.members)
+    next.events[peer] += static_cast<double>(peer_->verdict_of(peer).events);
   if (++next.counted_windows < settings_.balance_windows && next.zones == now_.zones) return;
-  const double all = std::accumulate(next.events.begin(), next.events.end(), 0.0), mean = all / static_cast<double>(next.members.size());
+  const double all = std::accumulate(next.events.begin(), next.events.end(), 0.0),
+               mean = all / static_cast<double>(next.members.size());
   if (next.zones == now_.zones && mean > 0.0) {
     auto shifted = next.cuts.balanced(next.events, tolerance + deviations / std::sqrt(mean));
     if (shifted) next.cuts = std::move(*shifted), ++next.zones;
@@ -207,13 +245,15 @@ void Session::balance(State& next) const {
   next.events.clear();
 }
 
-/// The own part is kept here and by another, and those of others here, as they are with the step that leads to `next`.
+/// The own part is kept here and by another, and those of others here, as they are with the step
+/// that leads to `next`.
 void Session::mirror(const State& next, PartChange change) {
   change.step = next.step;
   mirrors_[settings_.number].add(change);
   const auto to = next.has(settings_.number) ? mirror_of(settings_.number, next) : std::nullopt;
   if (to) {
-    if (!change.is_whole && (to != mirror_of(settings_.number, now_) || now_.is_fresh(settings_.number))) {
+    if (!change.is_whole &&
+        (to != mirror_of(settings_.number, now_) || now_.is_fresh(settings_.number))) {
       change = peer_->change(true);
       change.step = next.step;
       change.log = mirrors_[settings_.number].log();
@@ -223,9 +263,12 @@ void Session::mirror(const State& next, PartChange change) {
     mail_.send(*to, std::move(bytes));
   }
   for (const PeerNumber from : next.members) {
-    if (from == settings_.number || !now_.has(from) || mirror_of(from, next) != settings_.number) continue;
+    if (from == settings_.number || !now_.has(from) || mirror_of(from, next) != settings_.number)
+      continue;
     auto kept = checked<PartChange>(from, next.time);
-    if (kept.step != next.step || !mirrors_[from].add(std::move(kept))) give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " + std::to_string(next.step));
+    if (kept.step != next.step || !mirrors_[from].add(std::move(kept)))
+      give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " +
+                        std::to_string(next.step));
   }
 }
 

@@ -1,4 +1,5 @@
-// One peer's part from its first window to the last, though others are lost, leave or join on the way.
+// One peer's part from its first window to the last, though others are lost, leave or join on the
+// way.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,8 @@
 
 namespace rink::peer {
 
-/// What a peer says when somebody is gone: the last step that it has, and all who are gone as far as it knows.
+/// What a peer says when somebody is gone: the last step that it has, and all who are gone as far
+/// as it knows.
 struct Loss {
   std::uint64_t word = 0x73736f4c6b6e6952ULL;  ///< tells it from all other messages: "RinkLoss"
   std::uint64_t step = 0;
@@ -25,34 +27,44 @@ struct Loss {
 
 template <class Stream>
 bool exchange(Stream& stream, Loss& loss) {
-  return stream.number(loss.word) && loss.word == Loss{}.word && stream.number(loss.step) && exchange_numbers(stream, loss.gone) && exchange_numbers(stream, loss.finished);
+  return stream.number(loss.word) && loss.word == Loss{}.word && stream.number(loss.step) &&
+         exchange_numbers(stream, loss.gone) && exchange_numbers(stream, loss.finished);
 }
 std::vector<std::uint8_t> written(Loss message);
 bool read(std::span<const std::uint8_t> bytes, Loss& message);
 
-/// The same for all peers but for `number`; of newcomers, `peer_count`, `players` and `halo` say nothing.
+/// The same for all peers but for `number`; of newcomers, `peer_count`, `players` and `halo` say
+/// nothing.
 struct SessionSettings {
-  PeerNumber number = 0, peer_count = 1;    ///< so many begin
-  double halo = 1.0;                        ///< where it begins [m]
-  bool is_mirrored = true;                  ///< whether each part is kept by another peer, too; otherwise a loss ends all
+  PeerNumber number = 0, peer_count = 1;  ///< so many begin
+  double halo = 1.0;                      ///< where it begins [m]
+  bool is_mirrored =
+      true;  ///< whether each part is kept by another peer, too; otherwise a loss ends all
   std::uint64_t window_count = 1;
   std::function<double(std::uint64_t)> end_of;  ///< window 1, 2, ..., `window_count` + 1 [s]
-  std::uint32_t balance_windows = 0;        ///< after so many windows zones shift toward equal events per peer; 0: they stay
-  std::vector<Key> keys{};                  ///< that all know from the start, of all bats
-  std::optional<GoalRules> goals{};         ///< of a field that has some; windows must be shorter than the delay and the retry. The session is over with the window in which a side wins.
-  std::vector<Player> players{};            ///< of those who begin
-  std::uint32_t bat_count = 0;              ///< that can be played
+  std::uint32_t balance_windows =
+      0;  ///< after so many windows zones shift toward equal events per peer; 0: they stay
+  std::vector<Key> keys{};  ///< that all know from the start, of all bats
+  std::optional<GoalRules>
+      goals{};  ///< of a field that has some; windows must be shorter than the delay and the retry.
+                ///< The session is over with the window in which a side wins.
+  std::vector<Player> players{};  ///< of those who begin
+  std::uint32_t bat_count = 0;    ///< that can be played
   std::function<std::vector<Seat>(const Player&)> seats_of{};
-  WindowHooks hooks{};                      ///< for what goes on beside the windows; its `when_final` is the session's own
+  WindowHooks
+      hooks{};  ///< for what goes on beside the windows; its `when_final` is the session's own
 };
 
 /// What a session has to know of all bodies, wherever they are.
 struct Whole {
   physics::WorldSpec spec;
   std::uint32_t body_count = 0;
-  std::vector<double> puck_radii{};  ///< m, by body, 0 of all that are no pucks; empty where there are no goals, for nobody else's pucks matter then
+  std::vector<double> puck_radii{};  ///< m, by body, 0 of all that are no pucks; empty where there
+                                     ///< are no goals, for nobody else's pucks matter then
   static Whole of(const physics::World& world);
-  bool has_puck(std::uint32_t body) const { return body < puck_radii.size() && puck_radii[body] > 0.0; }
+  bool has_puck(std::uint32_t body) const {
+    return body < puck_radii.size() && puck_radii[body] > 0.0;
+  }
 };
 
 struct SessionCounters {
@@ -63,16 +75,22 @@ struct SessionCounters {
   std::uint64_t entry_bytes = 0;                       ///< sent to newcomers
 };
 
-/// Plays in steps: a step ends a window, or a recovery. Nobody is more than one step ahead of anybody else, since each step needs a message from everyone, so all can go back to
-/// the last step that all have. docs/peer-to-peer.md, "Loss of a peer" and "Joining while others play".
+/// Plays in steps: a step ends a window, or a recovery. Nobody is more than one step ahead of
+/// anybody else, since each step needs a message from everyone, so all can go back to the last step
+/// that all have. docs/peer-to-peer.md, "Loss of a peer" and "Joining while others play".
 class Session {
  public:
-  /// `whole` is at its start. It is asked for no more once `when_taken` is called, if that is not empty, before there is room for the own part: whoever needs memory may give it up there.
-  Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail, const std::function<void()>& when_taken = {});
-  /// Of a newcomer, who is a candidate and has been told of these members: waits until it is one of them. Throws SentAway if it does not get that far, until its first window is over.
-  Session(const physics::World& whole, SessionSettings settings, Mail& mail, std::vector<PeerNumber> members);
+  /// `whole` is at its start. It is asked for no more once `when_taken` is called, if that is not
+  /// empty, before there is room for the own part: whoever needs memory may give it up there.
+  Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail,
+          const std::function<void()>& when_taken = {});
+  /// Of a newcomer, who is a candidate and has been told of these members: waits until it is one of
+  /// them. Throws SentAway if it does not get that far, until its first window is over.
+  Session(const physics::World& whole, SessionSettings settings, Mail& mail,
+          std::vector<PeerNumber> members);
 
-  /// Plays a window, or recovers and plays one that was undone: then `window` may be what it was, or less. Throws Halt, ProtocolError, and what the mail throws.
+  /// Plays a window, or recovers and plays one that was undone: then `window` may be what it was,
+  /// or less. Throws Halt, ProtocolError, and what the mail throws.
   void advance();
   /// How many windows are final.
   std::uint64_t window() const { return now_.window; }
@@ -81,18 +99,21 @@ class Session {
   /// After it: goals, and pucks that were still to come back.
   const Scoring& scoring() const { return now_.scoring; }
 
-  /// The own bodies go to others with the next window, and with the one after that this peer is no longer needed. It must be mirrored.
+  /// The own bodies go to others with the next window, and with the one after that this peer is no
+  /// longer needed. It must be mirrored.
   void leave() { wishes_to_leave_ = true; }
   bool has_left() const { return has_left_; }
-  /// It went on after a loss after which others may have gone on too, on their own: what it has in the end is the state of one part.
+  /// It went on after a loss after which others may have gone on too, on their own: what it has in
+  /// the end is the state of one part.
   bool may_have_split() const { return may_have_split_; }
 
   /// An own player's key, as Peer::press.
   void press(const Glimpse& seen, const Press& press);
   Peer& peer() { return *peer_; }
   const Peer& peer() const { return *peer_; }
-  /// When all is over: everybody's bodies and, as keys, everybody's log, by peer. It is too late to leave then; but who had handed over its zone already may still do so on the way
-  /// (then: nothing).
+  /// When all is over: everybody's bodies and, as keys, everybody's log, by peer. It is too late to
+  /// leave then; but who had handed over its zone already may still do so on the way (then:
+  /// nothing).
   std::vector<Arrivals> end();
 
   SessionCounters counters() const;
@@ -125,7 +146,10 @@ class Session {
   [[noreturn]] void give_up(PeerNumber peer, const std::string& what) const;
   void play_window();
   void play_stretch();
-  bool is_complete() const { return now_.window == settings_.window_count || (now_.scoring.is_over && now_.time == settings_.end_of(now_.window)); }
+  bool is_complete() const {
+    return now_.window == settings_.window_count ||
+           (now_.scoring.is_over && now_.time == settings_.end_of(now_.window));
+  }
   State after_stretch() const;
   void balance(State& next) const;
   void mirror(const State& next, PartChange change);
@@ -177,16 +201,17 @@ class Session {
   State now_, before_;
   Division division_;
   std::optional<Peer> peer_;
-  std::vector<Mirror> mirrors_;       // by peer: of those that are mirrored here, and the own part
-  std::vector<Key> log_;              // of an own part that nobody mirrors
-  std::vector<Sent> sent_;            // of the last windows
+  std::vector<Mirror> mirrors_;  // by peer: of those that are mirrored here, and the own part
+  std::vector<Key> log_;         // of an own part that nobody mirrors
+  std::vector<Sent> sent_;       // of the last windows
   std::vector<PeerNumber> gone_, finished_;  // lost, sorted; and of these, who left in good order
   std::vector<std::optional<Loss>> losses_;  // the last that each peer told
   std::string last_loss_;
-  std::vector<Arrivals> parts_;       // everybody's, in the end
-  PeerNumber teller_ = 0;             // of a newcomer: whose entry it took
-  std::vector<Newcomer> asking_;      // here, of whom nothing was decided yet
-  bool must_recover_ = false, wishes_to_leave_ = false, has_left_ = false, is_newcomer_ = false, may_have_split_ = false;
+  std::vector<Arrivals> parts_;   // everybody's, in the end
+  PeerNumber teller_ = 0;         // of a newcomer: whose entry it took
+  std::vector<Newcomer> asking_;  // here, of whom nothing was decided yet
+  bool must_recover_ = false, wishes_to_leave_ = false, has_left_ = false, is_newcomer_ = false,
+       may_have_split_ = false;
   SessionCounters counters_;
 };
 

@@ -1,4 +1,5 @@
-// Between stretches of a window: who has scored, and where the pucks come back. docs/peer-to-peer.md, "Goals".
+// Between stretches of a window: who has scored, and where the pucks come back.
+// docs/peer-to-peer.md, "Goals".
 #include <algorithm>
 #include <bit>
 
@@ -6,8 +7,11 @@
 
 namespace rink::peer {
 
-/// A window ends where it is to, but is cut where a puck comes back. `state` is where the next stretch begins, with which what is due there comes back.
-double Session::stretch_end(const State& state) const { return std::min(settings_.end_of(state.window + 1), state.scoring.next_after(state.time)); }
+/// A window ends where it is to, but is cut where a puck comes back. `state` is where the next
+/// stretch begins, with which what is due there comes back.
+double Session::stretch_end(const State& state) const {
+  return std::min(settings_.end_of(state.window + 1), state.scoring.next_after(state.time));
+}
 
 /// By what all have said with their verdicts, when these are final.
 void Session::count_goals(State& next) const {
@@ -16,9 +20,12 @@ void Session::count_goals(State& next) const {
   for (const PeerNumber peer : now_.members) {
     for (const Goal& goal : peer_->verdict_of(peer).goals) {
       const auto is_of_it = [&](const auto& other) { return other.puck == goal.puck; };
-      const bool can_be = whole_.has_puck(goal.puck) && goal.time >= now_.time - 1e-9 && goal.time <= next.time + 1e-9 &&
-                          std::none_of(goals.begin(), goals.end(), is_of_it) && std::none_of(now_.scoring.face_offs.begin(), now_.scoring.face_offs.end(), is_of_it);
-      if (!can_be) give_up(peer, "peer " + std::to_string(peer) + " tells of a goal that cannot be");
+      const bool can_be =
+          whole_.has_puck(goal.puck) && goal.time >= now_.time - 1e-9 &&
+          goal.time <= next.time + 1e-9 && std::none_of(goals.begin(), goals.end(), is_of_it) &&
+          std::none_of(now_.scoring.face_offs.begin(), now_.scoring.face_offs.end(), is_of_it);
+      if (!can_be)
+        give_up(peer, "peer " + std::to_string(peer) + " tells of a goal that cannot be");
       goals.push_back(goal);
     }
   }
@@ -30,11 +37,13 @@ void Session::face_off(State& next) {
   while (next.scoring.next() <= next.time) {
     const FaceOff due = next.scoring.face_offs.front();
     next.scoring.face_offs.erase(next.scoring.face_offs.begin());
-    if (!put_back(due)) next.scoring.schedule({due.time + settings_.goals->placement_retry, due.puck, due.is_left});
+    if (!put_back(due))
+      next.scoring.schedule({due.time + settings_.goals->placement_retry, due.puck, due.is_left});
   }
 }
 
-/// Each knows whom it has, and together they know all: a place is free if it is for everybody. False if none is.
+/// Each knows whom it has, and together they know all: a place is free if it is for everybody.
+/// False if none is.
 bool Session::put_back(const FaceOff& due) {
   constexpr std::size_t asked = 64;
   const double radius = whole_.puck_radii[due.puck];
@@ -55,7 +64,8 @@ bool Session::put_back(const FaceOff& due) {
   }
 }
 
-/// What everybody has said: which places are taken for anybody. `word` has the puck afterwards, whoever owns it.
+/// What everybody has said: which places are taken for anybody. `word` has the puck afterwards,
+/// whoever owns it.
 std::uint64_t Session::agree_on(FaceOffWord& word) {
   for (const PeerNumber to : now_.members)
     if (to != settings_.number) mail_.send(to, written(word));
@@ -64,11 +74,13 @@ std::uint64_t Session::agree_on(FaceOffWord& word) {
     if (from == settings_.number) continue;
     const auto told = checked<FaceOffWord>(from, peer_->now());
     if (told.puck != word.puck || (!told.body.empty() && told.body.front().number != word.puck))
-      give_up(from, "peer " + std::to_string(from) + " tells of puck " + std::to_string(told.puck) + " where puck " + std::to_string(word.puck) + " is due");
+      give_up(from, "peer " + std::to_string(from) + " tells of puck " + std::to_string(told.puck) +
+                        " where puck " + std::to_string(word.puck) + " is due");
     taken |= told.taken;
     if (word.body.empty()) word.body = told.body;
   }
-  if (word.body.empty()) throw ProtocolError("nobody has puck " + std::to_string(word.puck) + ", which is due");
+  if (word.body.empty())
+    throw ProtocolError("nobody has puck " + std::to_string(word.puck) + ", which is due");
   return taken;
 }
 

@@ -1,4 +1,5 @@
-// Who is let in while others play: decided by the verdicts of a final window, the same everywhere. docs/peer-to-peer.md, "Joining while others play".
+// Who is let in while others play: decided by the verdicts of a final window, the same everywhere.
+// docs/peer-to-peer.md, "Joining while others play".
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -9,10 +10,14 @@ namespace rink::peer {
 
 namespace {
 
-bool is_among(const std::vector<PeerNumber>& peers, PeerNumber peer) { return std::find(peers.begin(), peers.end(), peer) != peers.end(); }
+bool is_among(const std::vector<PeerNumber>& peers, PeerNumber peer) {
+  return std::find(peers.begin(), peers.end(), peer) != peers.end();
+}
 
 const Candidate* find(const std::vector<Candidate>& candidates, std::uint64_t token) {
-  const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& one) { return one.newcomer.token == token; });
+  const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& one) {
+    return one.newcomer.token == token;
+  });
   return found == candidates.end() ? nullptr : &*found;
 }
 
@@ -22,10 +27,13 @@ const Candidate* find(const std::vector<Candidate>& candidates, std::uint64_t to
 void Session::announce() {
   for (Newcomer& newcomer : mail_.callers()) asking_.push_back(std::move(newcomer));
   Admission said;
-  said.asking.assign(asking_.begin(), asking_.begin() + static_cast<std::ptrdiff_t>(std::min(asking_.size(), Admission::asking_max)));
+  said.asking.assign(asking_.begin(),
+                     asking_.begin() + static_cast<std::ptrdiff_t>(
+                                           std::min(asking_.size(), Admission::asking_max)));
   for (const Candidate& candidate : now_.candidates) {
     if (mail_.reaches(candidate.number)) said.reached.push_back(candidate.number);
-    if (candidate.sponsor == settings_.number && mail_.has_given_up(candidate.number)) said.withdrawn.push_back(candidate.number);
+    if (candidate.sponsor == settings_.number && mail_.has_given_up(candidate.number))
+      said.withdrawn.push_back(candidate.number);
   }
   peer_->announce(std::move(said));
 }
@@ -38,7 +46,8 @@ void Session::give_zones(State& next) const {
     PeerNumber busiest = 0;
     for (const PeerNumber peer : next.cuts.peers()) {
       const double counted = peer < now_.events.size() ? now_.events[peer] : 0.0;
-      const std::pair load(counted + static_cast<double>(peer_->verdict_of(peer).events), next.cuts.area_of(peer));
+      const std::pair load(counted + static_cast<double>(peer_->verdict_of(peer).events),
+                           next.cuts.area_of(peer));
       if (!most || load > *most) most = load, busiest = peer;
     }
     next.cuts = next.cuts.with(newcomer, busiest);
@@ -48,30 +57,45 @@ void Session::give_zones(State& next) const {
 
 /// Why a newcomer cannot be a candidate at the step that leads to `next`.
 std::optional<std::string> Session::objection(const State& next, const Newcomer& newcomer) const {
-  if (next.window + 3 > settings_.window_count || next.scoring.is_over) return "the game is about to end";
-  if (next.members.size() + next.candidates.size() >= members_max) return "there are " + std::to_string(members_max) + " peers already";
-  if (next.next_number >= numbers_max) return "this session has let in " + std::to_string(numbers_max) + " peers, and gives no more numbers";
+  if (next.window + 3 > settings_.window_count || next.scoring.is_over)
+    return "the game is about to end";
+  if (next.members.size() + next.candidates.size() >= members_max)
+    return "there are " + std::to_string(members_max) + " peers already";
+  if (next.next_number >= numbers_max)
+    return "this session has let in " + std::to_string(numbers_max) +
+           " peers, and gives no more numbers";
   const std::uint32_t free = settings_.bat_count - std::min(settings_.bat_count, next.bats_taken);
   if (newcomer.bat_count > free)
-    return "it wants to play " + std::to_string(newcomer.bat_count) + " bats, of " + std::to_string(settings_.bat_count) + " here " + std::to_string(free) + " are free";
+    return "it wants to play " + std::to_string(newcomer.bat_count) + " bats, of " +
+           std::to_string(settings_.bat_count) + " here " + std::to_string(free) + " are free";
   return std::nullopt;
 }
 
 /// New candidates, those who are candidates no more, and one of them who becomes a member.
 void Session::admit(State& next) const {
   const std::vector<PeerNumber> zoned = next.cuts.peers();
-  const auto stays = [&](PeerNumber sponsor) { return next.has(sponsor) && State::is_in(zoned, sponsor); };
+  const auto stays = [&](PeerNumber sponsor) {
+    return next.has(sponsor) && State::is_in(zoned, sponsor);
+  };
   const auto is_reached = [&](PeerNumber candidate) {
-    return std::all_of(now_.members.begin(), now_.members.end(), [&](PeerNumber peer) { return !next.has(peer) || is_among(peer_->verdict_of(peer).admission.reached, candidate); });
+    return std::all_of(now_.members.begin(), now_.members.end(), [&](PeerNumber peer) {
+      return !next.has(peer) || is_among(peer_->verdict_of(peer).admission.reached, candidate);
+    });
   };
   std::erase_if(next.admitted, [&](const Candidate& one) { return !next.has(one.number); });
-  std::erase_if(next.candidates, [&](const Candidate& one) { return !stays(one.sponsor) || is_among(peer_->verdict_of(one.sponsor).admission.withdrawn, one.number); });
+  std::erase_if(next.candidates, [&](const Candidate& one) {
+    return !stays(one.sponsor) ||
+           is_among(peer_->verdict_of(one.sponsor).admission.withdrawn, one.number);
+  });
   if (next.window + 2 > settings_.window_count || next.scoring.is_over) next.candidates.clear();
-  const auto first = std::find_if(next.candidates.begin(), next.candidates.end(), [&](const Candidate& one) { return is_reached(one.number); });
+  const auto first = std::find_if(next.candidates.begin(), next.candidates.end(),
+                                  [&](const Candidate& one) { return is_reached(one.number); });
   if (first != next.candidates.end()) {
-    next.members.insert(std::upper_bound(next.members.begin(), next.members.end(), first->number), first->number);
+    next.members.insert(std::upper_bound(next.members.begin(), next.members.end(), first->number),
+                        first->number);
     next.fresh = {first->number};
-    next.players.push_back({first->number, first->first_bat, first->newcomer.bat_count, first->newcomer.puck_count, first->newcomer.hand_count});
+    next.players.push_back({first->number, first->first_bat, first->newcomer.bat_count,
+                            first->newcomer.puck_count, first->newcomer.hand_count});
     next.zones += first->number >= next.slots;  // so that all make room for it
     next.slots = std::max(next.slots, first->number + 1);
     next.admitted.push_back(std::move(*first));
@@ -98,9 +122,11 @@ void Session::greet(const State& next) {
     for (const Seat& seat : settings_.seats_of(next.players.back())) peer_->seat(seat);
   }
   for (const Candidate& one : now_.candidates)
-    if (!find(next.candidates, one.newcomer.token) && !next.has(one.number)) mail_.admit(one.number, false);
+    if (!find(next.candidates, one.newcomer.token) && !next.has(one.number))
+      mail_.admit(one.number, false);
   for (const Candidate& one : next.candidates)
-    if (!find(now_.candidates, one.newcomer.token)) mail_.expect(one, one.sponsor == settings_.number, next);
+    if (!find(now_.candidates, one.newcomer.token))
+      mail_.expect(one, one.sponsor == settings_.number, next);
   for (const Newcomer& newcomer : peer_->verdict().admission.asking) {
     if (!find(next.candidates, newcomer.token)) {
       const auto reason = objection(next, newcomer);
@@ -110,18 +136,27 @@ void Session::greet(const State& next) {
   }
 }
 
-Session::Session(const physics::World& whole, SessionSettings settings, Mail& mail, std::vector<PeerNumber> members)
-    : settings_(std::move(settings)), mail_(mail), whole_(Whole::of(whole)), validator_(whole),
-      now_{.cuts = Cuts::whole(whole.spec().field)}, before_(now_), division_(now_.division()), is_newcomer_(true) {
+Session::Session(const physics::World& whole, SessionSettings settings, Mail& mail,
+                 std::vector<PeerNumber> members)
+    : settings_(std::move(settings)),
+      mail_(mail),
+      whole_(Whole::of(whole)),
+      validator_(whole),
+      now_{.cuts = Cuts::whole(whole.spec().field)},
+      before_(now_),
+      division_(now_.division()),
+      is_newcomer_(true) {
   assert(settings_.is_mirrored && !members.empty());
   enter_late(std::move(members));
 }
 
-/// At the end of a window, or within the next one where that is cut, and two windows before all is over.
+/// At the end of a window, or within the next one where that is cut, and two windows before all is
+/// over.
 bool Session::is_in_time(const State& state) const {
   if (settings_.window_count < 2 || state.window > settings_.window_count - 2) return false;
   const double begin = state.window == 0 ? 0.0 : settings_.end_of(state.window);
-  return state.time == begin || (settings_.goals && state.time > begin && state.time < settings_.end_of(state.window + 1));
+  return state.time == begin ||
+         (settings_.goals && state.time > begin && state.time < settings_.end_of(state.window + 1));
 }
 
 /// From whoever of these tells it first. Who is gone before is gone.
@@ -132,15 +167,21 @@ std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
       Loss loss;
       if (read(bytes, entry)) {
         const State& state = entry.state;
-        const bool has_pucks = std::all_of(state.scoring.face_offs.begin(), state.scoring.face_offs.end(), [&](const FaceOff& due) { return whole_.has_puck(due.puck); });
-        if (!state.is_sound_for(settings_.number) || !has_pucks || !state.has(from.front()) || !is_in_time(state))
-          throw ProtocolError("peer " + std::to_string(from.front()) + " tells of a beginning that cannot be");
+        const bool has_pucks =
+            std::all_of(state.scoring.face_offs.begin(), state.scoring.face_offs.end(),
+                        [&](const FaceOff& due) { return whole_.has_puck(due.puck); });
+        if (!state.is_sound_for(settings_.number) || !has_pucks || !state.has(from.front()) ||
+            !is_in_time(state))
+          throw ProtocolError("peer " + std::to_string(from.front()) +
+                              " tells of a beginning that cannot be");
         // Of those who are gone, too: it says what is wrong with bats that are not there.
         for (const Player& player : state.players) settings_.seats_of(player);
         teller_ = from.front();
         return entry;
       }
-      if (read(bytes, loss)) throw SentAway("peer " + std::to_string(from.front()) + " lost others before this one was in");
+      if (read(bytes, loss))
+        throw SentAway("peer " + std::to_string(from.front()) +
+                       " lost others before this one was in");
       throw ProtocolError("peer " + std::to_string(from.front()) + " sent what is no message");
     } catch (const PeerGone& gone) {
       note_gone(gone.peer(), gone.what());
@@ -149,14 +190,18 @@ std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
   return std::nullopt;
 }
 
-/// All others tell the same, or have lost somebody; then there is a recovery, in which entries are of before.
+/// All others tell the same, or have lost somebody; then there is a recovery, in which entries are
+/// of before.
 void Session::hear_same(const Entry& entry) try {
   const std::vector<std::uint8_t> expected = written(entry);
   for (const PeerNumber from : now_.members) {
     if (from == settings_.number || from == teller_) continue;
-    for (std::vector<std::uint8_t> bytes = mail_.receive(from); bytes != expected; bytes = mail_.receive(from)) {
+    for (std::vector<std::uint8_t> bytes = mail_.receive(from); bytes != expected;
+         bytes = mail_.receive(from)) {
       Loss loss;
-      if (!read(bytes, loss)) throw ProtocolError("peer " + std::to_string(from) + " tells of another beginning than peer " + std::to_string(teller_));
+      if (!read(bytes, loss))
+        throw ProtocolError("peer " + std::to_string(from) +
+                            " tells of another beginning than peer " + std::to_string(teller_));
       if (hears_loss(from, bytes)) return;
     }
   }
@@ -182,7 +227,14 @@ void Session::enter_late(std::vector<PeerNumber> members) {
     if (peer != settings_.number && !is_gone(peer)) mail_.admit(peer, true);
   if (!must_recover_) hear_same(*entry);
   enter(now_, {});
-  mirrors_[settings_.number].add({.step = now_.step, .time = peer_->now(), .is_whole = true, .bodies = {}, .gone = {}, .holds = {}, .keys = {}, .log = {}});
+  mirrors_[settings_.number].add({.step = now_.step,
+                                  .time = peer_->now(),
+                                  .is_whole = true,
+                                  .bodies = {},
+                                  .gone = {},
+                                  .holds = {},
+                                  .keys = {},
+                                  .log = {}});
 }
 
 }  // namespace rink::peer

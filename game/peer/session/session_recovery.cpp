@@ -22,7 +22,8 @@ std::string listed(const std::vector<PeerNumber>& peers) {
 void Session::note_gone(PeerNumber peer, const std::string& what, bool has_finished) {
   if (!settings_.is_mirrored) throw Halt(what);
   must_recover_ = true;
-  if (has_finished && !State::is_in(finished_, peer)) finished_.insert(std::upper_bound(finished_.begin(), finished_.end(), peer), peer);
+  if (has_finished && !State::is_in(finished_, peer))
+    finished_.insert(std::upper_bound(finished_.begin(), finished_.end(), peer), peer);
   if (is_gone(peer)) return;
   last_loss_ = what;
   gone_.insert(std::upper_bound(gone_.begin(), gone_.end(), peer), peer);
@@ -32,17 +33,23 @@ void Session::note_gone(PeerNumber peer, const std::string& what, bool has_finis
 /// Whether the message was one of loss, and told of somebody new.
 bool Session::hears_loss(PeerNumber from, std::span<const std::uint8_t> bytes) {
   Loss loss;
-  if (!settings_.is_mirrored || !read(bytes, loss)) give_up(from, "peer " + std::to_string(from) + " sent what is no message");
-  if (const std::string fault = validator_.fault_of(loss); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
-  if (std::find(loss.gone.begin(), loss.gone.end(), settings_.number) != loss.gone.end()) halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
+  if (!settings_.is_mirrored || !read(bytes, loss))
+    give_up(from, "peer " + std::to_string(from) + " sent what is no message");
+  if (const std::string fault = validator_.fault_of(loss); !fault.empty())
+    give_up(from, "peer " + std::to_string(from) + " " + fault);
+  if (std::find(loss.gone.begin(), loss.gone.end(), settings_.number) != loss.gone.end())
+    halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
   const std::vector<PeerNumber> told = loss.gone, finished = loss.finished;
   losses_[from] = std::move(loss);
   bool is_news = false;
   for (const PeerNumber peer : told) {
     const bool is_new = !is_gone(peer);
     is_news = is_news || is_new;
-    if (is_new) note_gone(peer, "peer " + std::to_string(peer) + " is gone, says peer " + std::to_string(from));
-    if (std::find(finished.begin(), finished.end(), peer) != finished.end()) note_gone(peer, {}, true);
+    if (is_new)
+      note_gone(peer,
+                "peer " + std::to_string(peer) + " is gone, says peer " + std::to_string(from));
+    if (std::find(finished.begin(), finished.end(), peer) != finished.end())
+      note_gone(peer, {}, true);
   }
   return is_news;
 }
@@ -63,7 +70,8 @@ void Session::agree() {
   for (bool is_agreed = false; !is_agreed;) {
     is_agreed = true;
     for (const PeerNumber to : now_.members)
-      if (to != settings_.number && !is_gone(to)) mail_.send(to, written(Loss{.step = now_.step, .gone = gone_, .finished = finished_}));
+      if (to != settings_.number && !is_gone(to))
+        mail_.send(to, written(Loss{.step = now_.step, .gone = gone_, .finished = finished_}));
     const std::vector<PeerNumber> members = now_.members;
     for (const PeerNumber from : members) {
       if (from == settings_.number || is_gone(from)) continue;
@@ -80,9 +88,12 @@ void Session::agree() {
 
 /// Who becomes a member with the step that is undone cannot be one, and who left with it still is.
 void Session::go_back(PeerNumber as) {
-  if (is_newcomer_) throw SentAway("peer " + std::to_string(as) + " had not heard of this one when others were lost");
+  if (is_newcomer_)
+    throw SentAway("peer " + std::to_string(as) +
+                   " had not heard of this one when others were lost");
   if (before_.step + 1 != now_.step || losses_[as]->step != before_.step)
-    give_up(as, "peer " + std::to_string(as) + " is at step " + std::to_string(losses_[as]->step) + ", here it is " + std::to_string(now_.step));
+    give_up(as, "peer " + std::to_string(as) + " is at step " + std::to_string(losses_[as]->step) +
+                    ", here it is " + std::to_string(now_.step));
   send_away(now_);
   for (const PeerNumber peer : now_.members)
     if (!before_.has(peer)) mail_.admit(peer, false);
@@ -96,12 +107,15 @@ void Session::send_away(const State& state) {
   for (const Candidate& candidate : state.candidates) mail_.admit(candidate.number, false);
 }
 
-/// More than half of them are left; or half, with the first of them. Of two, either goes on, but the second one cannot know whether the first does too.
+/// More than half of them are left; or half, with the first of them. Of two, either goes on, but
+/// the second one cannot know whether the first does too.
 Session::Majority Session::majority_of(std::vector<PeerNumber> voters) const {
   std::erase_if(voters, [&](PeerNumber peer) { return State::is_in(finished_, peer); });
   const std::size_t count = voters.size();
-  const auto left = static_cast<std::size_t>(std::count_if(voters.begin(), voters.end(), [&](PeerNumber peer) { return !is_gone(peer); }));
-  if (left > 0 && (2 * left > count || (2 * left == count && !is_gone(voters.front())))) return Majority::sure;
+  const auto left = static_cast<std::size_t>(
+      std::count_if(voters.begin(), voters.end(), [&](PeerNumber peer) { return !is_gone(peer); }));
+  if (left > 0 && (2 * left > count || (2 * left == count && !is_gone(voters.front()))))
+    return Majority::sure;
   return left > 0 && count == 2 ? Majority::doubtful : Majority::none;
 }
 
@@ -110,8 +124,10 @@ void Session::require_majority() {
   const Majority majority = std::min(majority_of(now_.voters()), majority_of(now_.next_voters()));
   may_have_split_ = may_have_split_ || majority == Majority::doubtful;
   if (majority != Majority::none) return;
-  const auto left = std::count_if(now_.members.begin(), now_.members.end(), [&](PeerNumber peer) { return !is_gone(peer); });
-  halt(last_loss_ + ". On this side " + std::to_string(left) + " of " + std::to_string(now_.members.size()) + " peers are left: it halts, for the others may go on");
+  const auto left = std::count_if(now_.members.begin(), now_.members.end(),
+                                  [&](PeerNumber peer) { return !is_gone(peer); });
+  halt(last_loss_ + ". On this side " + std::to_string(left) + " of " +
+       std::to_string(now_.members.size()) + " peers are left: it halts, for the others may go on");
 }
 
 /// This one, and those of the lost that it mirrors.
@@ -120,21 +136,26 @@ std::vector<PeerNumber> Session::stood_for() const {
   for (const PeerNumber peer : now_.members) {
     if (!is_gone(peer) || now_.is_fresh(peer)) continue;
     const auto mirror = mirror_of(peer, now_);
-    if (!mirror || is_gone(*mirror)) halt("peers " + listed(gone_) + " are gone, and with them what peer " + std::to_string(peer) + " had");
+    if (!mirror || is_gone(*mirror))
+      halt("peers " + listed(gone_) + " are gone, and with them what peer " + std::to_string(peer) +
+           " had");
     if (mirror == settings_.number) parts.push_back(peer);
   }
   return parts;
 }
 
-/// All that `to` may need of these parts: what is in its zones or the halo, and whatever may act at a distance.
-Arrivals Session::share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to) {
+/// All that `to` may need of these parts: what is in its zones or the halo, and whatever may act at
+/// a distance.
+Arrivals Session::share(std::span<const PeerNumber> parts, const Division& division,
+                        PeerNumber to) {
   Arrivals message;
   message.window = static_cast<std::uint32_t>(now_.window);
   for (const PeerNumber peer : parts) {
     const Part& part = mirrors_[peer].part();
     std::vector<std::uint32_t> bodies;
     for (const auto& [body, state] : part.bodies) {
-      const Box place = Box::around(state.motion().at(part.time).position, state.extent()).grown(1e-6);
+      const Box place =
+          Box::around(state.motion().at(part.time).position, state.extent()).grown(1e-6);
       if (state.flags != 0 || division.is_near(to, place, settings_.halo)) bodies.push_back(body);
     }
     std::sort(bodies.begin(), bodies.end());
@@ -189,7 +210,8 @@ void Session::enter(const State& next, std::span<const Arrivals> shares) {
     if (next.has(player.peer))
       for (const Seat& seat : settings_.seats_of(player)) peer_->seat(seat);
   const double time = next.time;
-  peer_->enter(static_cast<std::uint32_t>(next.step), time);  // it counts stretches, of which a window may have several
+  peer_->enter(static_cast<std::uint32_t>(next.step),
+               time);  // it counts stretches, of which a window may have several
   for (const Arrivals& share : shares) peer_->take(share);
   for (const Key& key : settings_.keys)
     if (next.time == 0.0 || key.time > time) peer_->press_first(key);
@@ -212,7 +234,8 @@ void Session::press_again() {
     seen.insert(seen.end(), message.glimpses.begin(), message.glimpses.end());
   }
   for (Sent& sent : sent_) {
-    const auto glimpse = std::find_if(seen.begin(), seen.end(), [&](const Glimpse& one) { return one.bat == sent.press.bat; });
+    const auto glimpse = std::find_if(
+        seen.begin(), seen.end(), [&](const Glimpse& one) { return one.bat == sent.press.bat; });
     if (sent.step < now_.step || glimpse == seen.end() || glimpse->owner >= now_.slots) continue;
     sent.step = now_.step + 1;
     peer_->press(glimpse->owner, sent.press);

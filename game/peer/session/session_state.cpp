@@ -9,7 +9,8 @@ namespace rink::peer {
 
 std::vector<PeerNumber> State::voters() const {
   std::vector<PeerNumber> all;
-  std::set_difference(members.begin(), members.end(), fresh.begin(), fresh.end(), std::back_inserter(all));
+  std::set_difference(members.begin(), members.end(), fresh.begin(), fresh.end(),
+                      std::back_inserter(all));
   return all;
 }
 
@@ -23,19 +24,35 @@ std::vector<PeerNumber> State::next_voters() const {
 
 bool State::is_sound_for(PeerNumber newcomer) const {
   const auto is_list = [&](const std::vector<PeerNumber>& list) {
-    return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end() && (list.empty() || list.back() < next_number);
+    return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end() &&
+           (list.empty() || list.back() < next_number);
   };
   const std::vector<PeerNumber> zoned = cuts.peers();
-  const auto holds_all = [](const std::vector<PeerNumber>& all, const std::vector<PeerNumber>& some) { return std::includes(all.begin(), all.end(), some.begin(), some.end()); };
+  const auto holds_all = [](const std::vector<PeerNumber>& all,
+                            const std::vector<PeerNumber>& some) {
+    return std::includes(all.begin(), all.end(), some.begin(), some.end());
+  };
   const bool has_lists = is_list(members) && is_list(fresh) && is_list(gone) && is_list(zoned);
-  if (!has_lists || next_number > numbers_max || slots > next_number || members.size() > members_max) return false;
-  const auto is_due = [&](const FaceOff& due) { return std::isfinite(due.time) && due.time > time; };
-  if (!std::isfinite(time) || time < 0.0 || !std::all_of(scoring.face_offs.begin(), scoring.face_offs.end(), is_due)) return false;
-  return !members.empty() && members.back() < slots && holds_all(members, fresh) && holds_all(members, zoned) && is_fresh(newcomer) && !is_in(zoned, newcomer) && !is_in(gone, newcomer) &&
-         events.size() <= slots &&
-         std::all_of(events.begin(), events.end(), [](double count) { return std::isfinite(count) && count >= 0.0; }) &&
-         std::all_of(candidates.begin(), candidates.end(), [&](const Candidate& candidate) { return candidate.number < next_number && !has(candidate.number); }) &&
-         std::all_of(players.begin(), players.end(), [&](const Player& player) { return player.peer < next_number; });
+  if (!has_lists || next_number > numbers_max || slots > next_number ||
+      members.size() > members_max)
+    return false;
+  const auto is_due = [&](const FaceOff& due) {
+    return std::isfinite(due.time) && due.time > time;
+  };
+  if (!std::isfinite(time) || time < 0.0 ||
+      !std::all_of(scoring.face_offs.begin(), scoring.face_offs.end(), is_due))
+    return false;
+  return !members.empty() && members.back() < slots && holds_all(members, fresh) &&
+         holds_all(members, zoned) && is_fresh(newcomer) && !is_in(zoned, newcomer) &&
+         !is_in(gone, newcomer) && events.size() <= slots &&
+         std::all_of(events.begin(), events.end(),
+                     [](double count) { return std::isfinite(count) && count >= 0.0; }) &&
+         std::all_of(candidates.begin(), candidates.end(),
+                     [&](const Candidate& candidate) {
+                       return candidate.number < next_number && !has(candidate.number);
+                     }) &&
+         std::all_of(players.begin(), players.end(),
+                     [&](const Player& player) { return player.peer < next_number; });
 }
 
 }  // namespace rink::peer

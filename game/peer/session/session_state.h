@@ -1,4 +1,5 @@
-// What all peers of a session agree on at a step: who plays, where zones are, and who is about to come.
+// What all peers of a session agree on at a step: who plays, where zones are, and who is about to
+// come.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,8 @@ struct Candidate {
   Newcomer newcomer;
 };
 
-/// Who plays which of the scene's bats: `bat_count` from `first_bat` on, each of which looks at `puck_count` pucks, and the first `hand_count` by hand.
+/// Who plays which of the scene's bats: `bat_count` from `first_bat` on, each of which looks at
+/// `puck_count` pucks, and the first `hand_count` by hand.
 struct Player {
   PeerNumber peer = 0;
   std::uint32_t first_bat = 0, bat_count = 0, puck_count = 0, hand_count = 0;
@@ -31,21 +33,24 @@ struct Player {
 /// Lists of numbers are sorted.
 struct State {
   std::uint64_t step = 0, window = 0;
-  double time = 0.0;                  ///< where it ends [s], which is within the next window while a puck comes back
+  double time =
+      0.0;  ///< where it ends [s], which is within the next window while a puck comes back
   Scoring scoring{};
   std::vector<PeerNumber> members{};  ///< those who leave among them
   Cuts cuts;
   std::uint64_t zones = 0;            ///< how often they changed
   std::uint32_t counted_windows = 0;  ///< in which the events are counted, by peer
   std::vector<double> events{};
-  std::vector<PeerNumber> fresh{};    ///< members who have had no zone yet
-  std::vector<PeerNumber> gone{};     ///< who was lost
+  std::vector<PeerNumber> fresh{};                  ///< members who have had no zone yet
+  std::vector<PeerNumber> gone{};                   ///< who was lost
   std::vector<Candidate> candidates{}, admitted{};  ///< by number; and those who became members
   std::vector<Player> players{};
   PeerNumber slots = 1, next_number = 1;  ///< above all numbers of members; the next newcomer's
   std::uint32_t bats_taken = 0;
 
-  static bool is_in(const std::vector<PeerNumber>& sorted, PeerNumber peer) { return std::binary_search(sorted.begin(), sorted.end(), peer); }
+  static bool is_in(const std::vector<PeerNumber>& sorted, PeerNumber peer) {
+    return std::binary_search(sorted.begin(), sorted.end(), peer);
+  }
   bool has(PeerNumber peer) const { return is_in(members, peer); }
   bool is_fresh(PeerNumber peer) const { return is_in(fresh, peer); }
   /// Those whose majority may go on from here, and from the next step.
@@ -67,12 +72,14 @@ struct Entry {
 
 template <class Stream>
 bool exchange(Stream& stream, Candidate& candidate) {
-  return stream.numbers(candidate.number, candidate.sponsor, candidate.first_bat) && exchange(stream, candidate.newcomer);
+  return stream.numbers(candidate.number, candidate.sponsor, candidate.first_bat) &&
+         exchange(stream, candidate.newcomer);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Player& player) {
-  return stream.numbers(player.peer, player.first_bat, player.bat_count, player.puck_count, player.hand_count);
+  return stream.numbers(player.peer, player.first_bat, player.bat_count, player.puck_count,
+                        player.hand_count);
 }
 
 template <class Stream>
@@ -82,17 +89,21 @@ bool exchange(Stream& stream, FaceOff& due) {
 
 template <class Stream>
 bool exchange(Stream& stream, Scoring& scoring) {
-  return stream.numbers(scoring.left, scoring.right) && stream.truth(scoring.is_over) && exchange_list(stream, scoring.face_offs);
+  return stream.numbers(scoring.left, scoring.right) && stream.truth(scoring.is_over) &&
+         exchange_list(stream, scoring.face_offs);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Entry& entry) {
   State& state = entry.state;
-  return stream.number(entry.word) && entry.word == entry_word && stream.numbers(state.step, state.window, state.time) && exchange(stream, state.scoring) &&
-         exchange_numbers(stream, state.members) &&
-         state.cuts.exchange(stream) && stream.numbers(state.zones, state.counted_windows) && stream.size(state.events) &&
-         std::all_of(state.events.begin(), state.events.end(), [&](double& events) { return stream.number(events); }) && exchange_numbers(stream, state.fresh) &&
-         exchange_numbers(stream, state.gone) && exchange_list(stream, state.candidates) && exchange_list(stream, state.admitted) &&
+  return stream.number(entry.word) && entry.word == entry_word &&
+         stream.numbers(state.step, state.window, state.time) && exchange(stream, state.scoring) &&
+         exchange_numbers(stream, state.members) && state.cuts.exchange(stream) &&
+         stream.numbers(state.zones, state.counted_windows) && stream.size(state.events) &&
+         std::all_of(state.events.begin(), state.events.end(),
+                     [&](double& events) { return stream.number(events); }) &&
+         exchange_numbers(stream, state.fresh) && exchange_numbers(stream, state.gone) &&
+         exchange_list(stream, state.candidates) && exchange_list(stream, state.admitted) &&
          exchange_list(stream, state.players) &&
          stream.numbers(state.slots, state.next_number, state.bats_taken);
 }

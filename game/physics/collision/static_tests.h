@@ -1,4 +1,5 @@
-// Do two shapes overlap where they stand? Shapes are closed: touching is overlap. How near to touching an answer may be wrong stands in docs/collision.md.
+// Do two shapes overlap where they stand? Shapes are closed: touching is overlap. How near to
+// touching an answer may be wrong stands in docs/collision.md.
 #pragma once
 
 #include "game/physics/collision/shapes.h"
@@ -28,16 +29,19 @@ bool do_bounding_circles_overlap(const Disc<Real>& a, const Disc<Real>& b) {
   return (b.center - a.center).squaredNorm() <= reach * reach;
 }
 
-/// By the point of the box nearest to the centre (Arvo 1990, "A simple method for box-sphere intersection testing").
+/// By the point of the box nearest to the centre (Arvo 1990, "A simple method for box-sphere
+/// intersection testing").
 template <class Real>
 bool does_disc_overlap_box(const Disc<Real>& disc, const Box<Real>& box) {
-  const Vector<Real> outside = ((disc.center - box.center).cwiseAbs() - box.half_extent).cwiseMax(Real(0));
+  const Vector<Real> outside =
+      ((disc.center - box.center).cwiseAbs() - box.half_extent).cwiseMax(Real(0));
   return outside.squaredNorm() <= disc.radius * disc.radius;
 }
 
 template <class Real>
 bool do_boxes_overlap(const Box<Real>& a, const Box<Real>& b) {
-  return ((b.center - a.center).cwiseAbs().array() <= (a.half_extent + b.half_extent).array()).all();
+  return ((b.center - a.center).cwiseAbs().array() <= (a.half_extent + b.half_extent).array())
+      .all();
 }
 
 }  // namespace rink::physics::collision

@@ -1,4 +1,5 @@
-// A point that flies straight, against a disc, a box and a rounded box at rest around the origin: what every pair of shapes in straight flight comes down to.
+// A point that flies straight, against a disc, a box and a rounded box at rest around the origin:
+// what every pair of shapes in straight flight comes down to.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,8 @@ namespace rink::physics::collision {
 
 /// The point at `offset` against the disc of radius `reach`, above 0.
 template <class Real>
-MaybeContact<Real> meet_disc(const Vector<Real>& offset, const Vector<Real>& velocity, Real reach, Real limit) {
+MaybeContact<Real> meet_disc(const Vector<Real>& offset, const Vector<Real>& velocity, Real reach,
+                             Real limit) {
   assert(reach > Real(0));
   const std::optional<Real> time = time_to_touch<Real>(offset, velocity, reach, limit);
   if (!time || *time > limit) return std::nullopt;
@@ -27,9 +29,11 @@ struct Entry {
   int axis;
 };
 
-/// By slabs (Kay and Kajiya 1986): the point is in the box while it is between both pairs of faces, so it enters with the later of the two axes.
+/// By slabs (Kay and Kajiya 1986): the point is in the box while it is between both pairs of faces,
+/// so it enters with the later of the two axes.
 template <class Real>
-std::optional<Entry<Real>> enter_box(const Vector<Real>& offset, const Vector<Real>& velocity, const Vector<Real>& half_extent) {
+std::optional<Entry<Real>> enter_box(const Vector<Real>& offset, const Vector<Real>& velocity,
+                                     const Vector<Real>& half_extent) {
   Real enter[2], leave = never<Real>, outside[2], growth[2];
   for (int axis = 0; axis < 2; ++axis) {
     const Real distance = std::abs(offset[axis]);
@@ -61,7 +65,8 @@ Contact<Real> contact_on_face(const Entry<Real>& entry, const Vector<Real>& offs
 
 /// The point at `offset` against the box of `half_extent`.
 template <class Real>
-MaybeContact<Real> meet_box(const Vector<Real>& offset, const Vector<Real>& velocity, const Vector<Real>& half_extent, Real limit) {
+MaybeContact<Real> meet_box(const Vector<Real>& offset, const Vector<Real>& velocity,
+                            const Vector<Real>& half_extent, Real limit) {
   const auto entry = enter_box<Real>(offset, velocity, half_extent);
   if (!entry || entry->time > limit) return std::nullopt;
   return contact_on_face(*entry, offset);
@@ -69,25 +74,36 @@ MaybeContact<Real> meet_box(const Vector<Real>& offset, const Vector<Real>& velo
 
 /// The corner of the rounded box in the quadrant of `place`: a quarter of a disc.
 template <class Real>
-MaybeContact<Real> meet_corner(const Vector<Real>& offset, const Vector<Real>& velocity, const Vector<Real>& half_extent, Real radius, const Vector<Real>& place, Real limit) {
-  const Vector<Real> corner(std::copysign(half_extent.x(), place.x()), std::copysign(half_extent.y(), place.y())), from_corner = offset - corner;
+MaybeContact<Real> meet_corner(const Vector<Real>& offset, const Vector<Real>& velocity,
+                               const Vector<Real>& half_extent, Real radius,
+                               const Vector<Real>& place, Real limit) {
+  const Vector<Real> corner(std::copysign(half_extent.x(), place.x()),
+                            std::copysign(half_extent.y(), place.y())),
+      from_corner = offset - corner;
   const auto contact = meet_disc<Real>(from_corner, velocity, radius, limit);
-  const bool moves_inwards = velocity.x() * place.x() < Real(0) && velocity.y() * place.y() < Real(0);
+  const bool moves_inwards =
+      velocity.x() * place.x() < Real(0) && velocity.y() * place.y() < Real(0);
   if (contact || !moves_inwards) return contact;
-  // From the square between the arc and the sharp corner there is no way inwards but through the arc: a miss can only be a graze that was lost to rounding.
+  // From the square between the arc and the sharp corner there is no way inwards but through the
+  // arc: a miss can only be a graze that was lost to rounding.
   const Real time = -from_corner.dot(velocity) / velocity.squaredNorm();
   if (!(time >= Real(0)) || time > limit) return std::nullopt;
   return Contact<Real>{time, (from_corner + velocity * time).normalized()};
 }
 
-/// The point at `offset` against the box of `half_extent`, grown by `radius` with rounded corners. Where it would enter the box with sharp corners tells all: either it is
-/// on a face, or in the square of one corner, which it can leave for another part of the rounded box only through that corner's arc.
+/// The point at `offset` against the box of `half_extent`, grown by `radius` with rounded corners.
+/// Where it would enter the box with sharp corners tells all: either it is on a face, or in the
+/// square of one corner, which it can leave for another part of the rounded box only through that
+/// corner's arc.
 template <class Real>
-MaybeContact<Real> meet_rounded_box(const Vector<Real>& offset, const Vector<Real>& velocity, const Vector<Real>& half_extent, Real radius, Real limit) {
+MaybeContact<Real> meet_rounded_box(const Vector<Real>& offset, const Vector<Real>& velocity,
+                                    const Vector<Real>& half_extent, Real radius, Real limit) {
   if (radius == Real(0)) return meet_box<Real>(offset, velocity, half_extent, limit);
   const Vector<Real> outside = offset.cwiseAbs() - half_extent;
-  if (outside.minCoeff() > Real(0) && outside.maxCoeff() < radius) return meet_corner<Real>(offset, velocity, half_extent, radius, offset, limit);
-  const auto entry = enter_box<Real>(offset, velocity, half_extent + Vector<Real>::Constant(radius));
+  if (outside.minCoeff() > Real(0) && outside.maxCoeff() < radius)
+    return meet_corner<Real>(offset, velocity, half_extent, radius, offset, limit);
+  const auto entry =
+      enter_box<Real>(offset, velocity, half_extent + Vector<Real>::Constant(radius));
   if (!entry || entry->time > limit) return std::nullopt;
   const int other = 1 - entry->axis;
   Vector<Real> place = offset;

@@ -12,28 +12,42 @@ namespace rink::physics {
 namespace {
 /// With fewer bodies all is near at hand, and to look ahead costs a fifth.
 constexpr std::size_t look_ahead_min = 30'000;
-}
+}  // namespace
 
 template <class Real>
 BasicEngine<Real>::BasicEngine(const WorldSpec& spec)
-    : spec_(spec), puck_drag_(spec.puck_drag), contact_time_(spec.contact_time), rest_speed_(20.0 * contact_time_), queue_(spec.queue) {
-  assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 && spec.field.goal_width <= spec.field.width);
-  assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.contact_time > 0.0 && spec.field.wall < spec.restitution.material_count());
-  assert(spec.puck_friction >= 0.0 && (!is_rough() || (spec.surface_friction->coefficient.material_count() == spec.restitution.material_count() &&
-                                                       spec.surface_friction->tangential_restitution.material_count() == spec.restitution.material_count())));
+    : spec_(spec),
+      puck_drag_(spec.puck_drag),
+      contact_time_(spec.contact_time),
+      rest_speed_(20.0 * contact_time_),
+      queue_(spec.queue) {
+  assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 &&
+         spec.field.goal_width <= spec.field.width);
+  assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.contact_time > 0.0 &&
+         spec.field.wall < spec.restitution.material_count());
+  assert(spec.puck_friction >= 0.0 &&
+         (!is_rough() || (spec.surface_friction->coefficient.material_count() ==
+                              spec.restitution.material_count() &&
+                          spec.surface_friction->tangential_restitution.material_count() ==
+                              spec.restitution.material_count())));
   tolerance_ = 0x1p-52 * fineness<Real> * (spec.field.length + spec.field.width);
-  has_free_impacts_ = spec.puck_drag == 0.0 && !is_slowed() && !is_rough() && !spec.accounts_energy && !spec.allow_overlap;
+  has_free_impacts_ = spec.puck_drag == 0.0 && !is_slowed() && !is_rough() &&
+                      !spec.accounts_energy && !spec.allow_overlap;
   grid_.rebuild(spec.field.length, spec.field.width, 0.0, 1, spec.cell_size);
 }
 
 template <class Real>
 BasicMotion<Real> BasicEngine<Real>::motion(std::uint32_t body) const {
   const Body& b = bodies_[body];
-  return {b.time, {b.x, b.y}, {b.vx, b.vy}, laws_[body].acceleration, laws_[body].drag, is_slowed() ? rest_times_[body] : infinity};
+  return {b.time,           {b.x, b.y},
+          {b.vx, b.vy},     laws_[body].acceleration,
+          laws_[body].drag, is_slowed() ? rest_times_[body] : infinity};
 }
 
 template <class Real>
-Real BasicEngine<Real>::reach_of(std::uint32_t body) const { return bodies_[body].radius + builds_[body].half_extent.maxCoeff(); }
+Real BasicEngine<Real>::reach_of(std::uint32_t body) const {
+  return bodies_[body].radius + builds_[body].half_extent.maxCoeff();
+}
 
 template <class Real>
 BasicRoundedBox<Real> BasicEngine<Real>::shape_of(std::uint32_t a, std::uint32_t b) const {
@@ -41,13 +55,21 @@ BasicRoundedBox<Real> BasicEngine<Real>::shape_of(std::uint32_t a, std::uint32_t
 }
 
 template <class Real>
-BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius, const Vector2& half_extent, Real mass, MaterialId material, Half half,
-                              Real spin) {
-  assert(position.allFinite() && velocity.allFinite() && mass > 0.0 && material < spec_.restitution.material_count());
+BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vector2& velocity,
+                              Real radius, const Vector2& half_extent, Real mass,
+                              MaterialId material, Half half, Real spin) {
+  assert(position.allFinite() && velocity.allFinite() && mass > 0.0 &&
+         material < spec_.restitution.material_count());
   assert(spec_.allow_overlap || is_free(position, {half_extent, radius}));
   const auto body = static_cast<std::uint32_t>(bodies_.size());
   const Real inverse_mass = kind == BodyKind::post ? 0.0 : 1.0 / mass;
-  bodies_.push_back({{position.x(), position.y(), velocity.x(), velocity.y(), now_, radius}, inverse_mass, 0, kind, material, 0, no_mouth});
+  bodies_.push_back({{position.x(), position.y(), velocity.x(), velocity.y(), now_, radius},
+                     inverse_mass,
+                     0,
+                     kind,
+                     material,
+                     0,
+                     no_mouth});
   builds_.push_back({mass, inverse_mass, half_extent, Vector2(0.0, 0.0), half});
   slots_.push_back(no_event);
   laws_.push_back({Vector2(0.0, 0.0), Vector2::Constant(own_drag(body))});
@@ -74,7 +96,8 @@ BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vect
 
 template <class Real>
 void BasicEngine<Real>::rebuild_grid() {
-  grid_.rebuild(spec_.field.length, spec_.field.width, static_cast<double>(2.0 * reach_), static_cast<std::uint32_t>(bodies_.size()), spec_.cell_size);
+  grid_.rebuild(spec_.field.length, spec_.field.width, static_cast<double>(2.0 * reach_),
+                static_cast<std::uint32_t>(bodies_.size()), spec_.cell_size);
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     if (is_gone(body)) continue;
     const Vector2 position = at(body, now_).position;
@@ -100,7 +123,8 @@ void BasicEngine<Real>::require_prediction(std::uint32_t body) {
   pending_.push_back(body);
 }
 
-/// Where everything is predicted anew, whoever moves finds those who rest; these need not look for themselves.
+/// Where everything is predicted anew, whoever moves finds those who rest; these need not look for
+/// themselves.
 template <class Real>
 void BasicEngine<Real>::predict_pending() {
   if (2 * pending_.size() > bodies_.size()) rebuild_grid();
@@ -122,7 +146,8 @@ void BasicEngine<Real>::predict_pending() {
 template <class Real>
 bool BasicEngine<Real>::is_left_alone(std::uint32_t body) const {
   const Body& b = bodies_[body];
-  return b.vx == 0.0 && b.vy == 0.0 && (b.flags & held) == 0 && laws_[body].acceleration == Vector2(0.0, 0.0);
+  return b.vx == 0.0 && b.vy == 0.0 && (b.flags & held) == 0 &&
+         laws_[body].acceleration == Vector2(0.0, 0.0);
 }
 
 template <class Real>
@@ -143,9 +168,11 @@ void BasicEngine<Real>::remove(std::uint32_t body) {
 }
 
 template <class Real>
-void BasicEngine<Real>::place(std::uint32_t puck, const Vector2& position, const Vector2& velocity) {
+void BasicEngine<Real>::place(std::uint32_t puck, const Vector2& position,
+                              const Vector2& velocity) {
   Body& b = bodies_[puck];
-  assert(b.kind == BodyKind::puck && (b.flags & gone) == out_of_play && position.allFinite() && velocity.allFinite());
+  assert(b.kind == BodyKind::puck && (b.flags & gone) == out_of_play && position.allFinite() &&
+         velocity.allFinite());
   assert(is_free(position, {Vector2(0.0, 0.0), b.radius}));
   keep(puck);
   b.x = position.x(), b.y = position.y(), b.vx = velocity.x(), b.vy = velocity.y(), b.time = now_;
@@ -173,7 +200,8 @@ void BasicEngine<Real>::set_thrust(std::uint32_t bat, const Vector2& acceleratio
   rebase_companions(bat, now_);
   builds_[bat].thrust = acceleration;
   for (int axis = 0; axis < 2; ++axis) {
-    if ((bodies_[bat].flags & held_along(axis)) != 0) share(axis, companions(bat, held_along(axis)), now_);
+    if ((bodies_[bat].flags & held_along(axis)) != 0)
+      share(axis, companions(bat, held_along(axis)), now_);
     else set_law(bat, axis, acceleration[axis], own_drag(bat));
   }
   settle();
@@ -182,13 +210,15 @@ void BasicEngine<Real>::set_thrust(std::uint32_t bat, const Vector2& acceleratio
 template <class Real>
 std::optional<BasicGoal<Real>> BasicEngine<Real>::advance(Real until) {
   assert(until >= now_ && until < infinity);
-  // Or else a stop between two keys of one instant would let the first one's impacts come before the second one.
+  // Or else a stop between two keys of one instant would let the first one's impacts come before
+  // the second one.
   if (is_played_ && until == now_) return std::nullopt;
   if (journal_ != nullptr && is_played_) journal_->played = now_;
   predict_pending();
   is_played_ = false;
   const bool looks_ahead = bodies_.size() >= look_ahead_min && queue_.calendar() != nullptr;
-  for (std::uint32_t body = queue_.first(until); body != EventQueue::none; body = queue_.first(until)) {
+  for (std::uint32_t body = queue_.first(until); body != EventQueue::none;
+       body = queue_.first(until)) {
     if (looks_ahead && queue_.calendar()->current() != looked_ahead_.back() - 1) look_ahead();
     process(body, queue_.time(body));
     if (goal_) return std::exchange(goal_, std::nullopt);
@@ -198,7 +228,8 @@ std::optional<BasicGoal<Real>> BasicEngine<Real>::advance(Real until) {
   return std::nullopt;
 }
 
-/// Fetches what the next events will look into, in steps, as one thing leads to the next: who comes, whom he meets and in which cells, who is there. Changes nothing but speed.
+/// Fetches what the next events will look into, in steps, as one thing leads to the next: who
+/// comes, whom he meets and in which cells, who is there. Changes nothing but speed.
 template <class Real>
 void BasicEngine<Real>::look_ahead() {
   const auto& calendar = *queue_.calendar();
@@ -208,16 +239,22 @@ void BasicEngine<Real>::look_ahead() {
     grid_.prefetch_place(body);
     calendar.prefetch(body);
   };
-  const auto meets = [&](std::uint32_t body) { return slots_[body].impact_time <= slots_[body].crossing_time; };
-  const auto meets_listed = [&](std::uint32_t body) { return meets(body) && is_body(slots_[body].partner) && grid_.is_listed(slots_[body].partner); };
+  const auto meets = [&](std::uint32_t body) {
+    return slots_[body].impact_time <= slots_[body].crossing_time;
+  };
+  const auto meets_listed = [&](std::uint32_t body) {
+    return meets(body) && is_body(slots_[body].partner) && grid_.is_listed(slots_[body].partner);
+  };
   const auto fetch_collected = [&](std::uint32_t count) {
     for (std::uint32_t k = 0; k < count; ++k) __builtin_prefetch(&bodies_[candidates_[k]]);
   };
   const auto step = [&](std::size_t number, auto&& visit) {
-    const std::int64_t distance = static_cast<std::int64_t>(looked_ahead_.size() - number), current = calendar.current();
+    const std::int64_t distance = static_cast<std::int64_t>(looked_ahead_.size() - number),
+                       current = calendar.current();
     std::int64_t& last = looked_ahead_[number];
     if (last > current + distance) last = current;  // the buckets were numbered anew
-    for (last = std::max(last, current); last < current + distance;) calendar.upcoming(++last - current, visit);
+    for (last = std::max(last, current); last < current + distance;)
+      calendar.upcoming(++last - current, visit);
   };
   candidates_.resize(grid_.collected_max());
   step(0, fetch);
@@ -229,11 +266,14 @@ void BasicEngine<Real>::look_ahead() {
   });
   step(2, [&](std::uint32_t body) {
     if (!grid_.is_listed(body)) return;
-    fetch_collected(meets(body) ? grid_.collect(body, candidates_.data()) : grid_.collect_ahead_of_move(body, slots_[body].direction, candidates_.data()));
+    fetch_collected(meets(body) ? grid_.collect(body, candidates_.data())
+                                : grid_.collect_ahead_of_move(body, slots_[body].direction,
+                                                              candidates_.data()));
     if (meets_listed(body)) grid_.prefetch_cells(slots_[body].partner);
   });
   step(3, [&](std::uint32_t body) {
-    if (meets_listed(body)) fetch_collected(grid_.collect(slots_[body].partner, candidates_.data()));
+    if (meets_listed(body))
+      fetch_collected(grid_.collect(slots_[body].partner, candidates_.data()));
   });
 }
 
@@ -254,7 +294,9 @@ void BasicEngine<Real>::process(std::uint32_t body, Real time) {
   else if (p == partner::stop) stop(body, time);
   else if (p == partner::mouth_in || p == partner::mouth_out) {
     rebase_companions(body, time);
-    bodies_[body].mouth = p == partner::mouth_out ? no_mouth : bodies_[body].x < 0.5 * spec_.field.length ? left_mouth : right_mouth;
+    bodies_[body].mouth = p == partner::mouth_out                      ? no_mouth
+                          : bodies_[body].x < 0.5 * spec_.field.length ? left_mouth
+                                                                       : right_mouth;
   } else if (!collide_freely(body, p, time)) collide(body, p, time);
   settle();
 }
@@ -268,7 +310,9 @@ void BasicEngine<Real>::count_event(Real time) {
     is_hopeless_ = false;
   }
   counters_.events_at_once_max = std::max(counters_.events_at_once_max, ++events_at_once_);
-  if (journal_ != nullptr) journal_->at_once_max = std::max(journal_->at_once_max, events_at_once_), journal_->times.push_back(time);
+  if (journal_ != nullptr)
+    journal_->at_once_max = std::max(journal_->at_once_max, events_at_once_),
+    journal_->times.push_back(time);
 }
 
 template <class Real>
@@ -290,7 +334,8 @@ void BasicEngine<Real>::cross_cell(std::uint32_t body) {
   const CellGrid::Direction direction = slots_[body].direction;
   grid_.move(body, direction);
   if ((bodies_[body].flags & curved) != 0) return predict(body);
-  // Only the three cells that came into sight: the earliest impact in the others is known and stays the earliest.
+  // Only the three cells that came into sight: the earliest impact in the others is known and stays
+  // the earliest.
   predict_flight(body);
   candidates_.resize(grid_.collected_max());
   predict_pairs(body, grid_.collect_ahead(body, direction, candidates_.data()));
@@ -302,7 +347,8 @@ void BasicEngine<Real>::stop(std::uint32_t body, Real time) {
   note(EventKind::stop, time, body);
   wake(body, time);
   rebase_companions(body, time);
-  bodies_[body].vx = bodies_[body].vy = 0.0;  // one too slow to move before the next instant that a clock can show was not evaluated
+  bodies_[body].vx = bodies_[body].vy =
+      0.0;  // one too slow to move before the next instant that a clock can show was not evaluated
 }
 
 template <class Real>

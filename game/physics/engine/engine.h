@@ -1,4 +1,5 @@
-// The event loop behind World: bodies at their own last events, one earliest event per body, rest contacts and pressed clusters.
+// The event loop behind World: bodies at their own last events, one earliest event per body, rest
+// contacts and pressed clusters.
 #pragma once
 
 #include <algorithm>
@@ -10,22 +11,24 @@
 #include <vector>
 
 #include "game/physics/cell_grid.h"
+#include "game/physics/engine/journal.h"
+#include "game/physics/engine/partner.h"
 #include "game/physics/events/event_schedule.h"
 #include "game/physics/flight/impact_time.h"
-#include "game/physics/engine/journal.h"
-#include "game/physics/large_pages.h"
-#include "game/physics/engine/partner.h"
 #include "game/physics/flight/straight_flight.h"
+#include "game/physics/large_pages.h"
 #include "game/physics/sum.h"
 #include "game/physics/world.h"
 
 namespace rink::physics {
 
-/// Impacts are looked at together if they come within this time of each other [s]; whether they are one is decided by their gaps.
+/// Impacts are looked at together if they come within this time of each other [s]; whether they are
+/// one is decided by their gaps.
 constexpr double instant = 1e-9;
 /// Bodies nearer than this take part in a hop [m].
 constexpr double cluster_gap = 2e-6;
-/// The least separation an impulse leaves, relative to the speeds: far above rounding, far below anything seen.
+/// The least separation an impulse leaves, relative to the speeds: far above rounding, far below
+/// anything seen.
 template <class Real>
 constexpr Real separation_min = 1e-14 * fineness<Real>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -47,7 +50,8 @@ class BasicEngine {
  public:
   explicit BasicEngine(const WorldSpec& spec);
 
-  BodyId add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius, const Vector2& half_extent, Real mass, MaterialId material, Half half, Real spin);
+  BodyId add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius,
+             const Vector2& half_extent, Real mass, MaterialId material, Half half, Real spin);
   void remove(std::uint32_t body);
   void set_thrust(std::uint32_t bat, const Vector2& acceleration);
   void place(std::uint32_t puck, const Vector2& position, const Vector2& velocity);
@@ -69,7 +73,16 @@ class BasicEngine {
   friend class BasicWorld<Real>;
   friend class Portion;
 
-  enum Flag : std::uint8_t { removed = 1, out_of_play = 2, curved = 4, held_x = 8, held_y = 16, frozen = 32, touched = 64, pending = 128 };
+  enum Flag : std::uint8_t {
+    removed = 1,
+    out_of_play = 2,
+    curved = 4,
+    held_x = 8,
+    held_y = 16,
+    frozen = 32,
+    touched = 64,
+    pending = 128
+  };
   static constexpr std::uint8_t gone = removed | out_of_play, held = held_x | held_y;
   static std::uint8_t held_along(int axis) { return axis == 0 ? held_x : held_y; }
   enum Mouth : std::uint8_t { no_mouth, left_mouth, right_mouth };
@@ -107,7 +120,8 @@ class BasicEngine {
   struct Rhythm {
     Real window_start = -1.0, last_hop = -1.0;
     std::uint32_t impacts = 0, hops = 0;
-    Tally repeats;   // impacts where bodies may start in overlap, attempts at rest of pucks that friction slows
+    Tally repeats;   // impacts where bodies may start in overlap, attempts at rest of pucks that
+                     // friction slows
     Tally meetings;  // impacts that are not simple ones, at instants within roundings of the clock
   };
   struct Slot {
@@ -115,9 +129,14 @@ class BasicEngine {
     Partner partner;
     std::uint32_t partner_version;
     CellGrid::Direction direction;  // of the crossing
-    bool is_tied;  // another impact of the body comes within the instant
+    bool is_tied;                   // another impact of the body comes within the instant
   };
-  static constexpr Slot no_event{std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), partner::none, 0, CellGrid::left, false};
+  static constexpr Slot no_event{std::numeric_limits<Real>::infinity(),
+                                 std::numeric_limits<Real>::infinity(),
+                                 partner::none,
+                                 0,
+                                 CellGrid::left,
+                                 false};
   using Hold = BasicHold<Real>;
   struct Contact {
     std::uint32_t body;
@@ -125,15 +144,16 @@ class BasicEngine {
     Gap gap;  // normal from partner to body
   };
   static constexpr std::uint32_t fixed_place = 0xffffffff;
-  /// Two bodies that touch, or a body and a fixed part; `body` and `other` are places in joint_, `fixed_place` for what cannot move.
+  /// Two bodies that touch, or a body and a fixed part; `body` and `other` are places in joint_,
+  /// `fixed_place` for what cannot move.
   struct Touch {
     std::uint32_t body, other;
     Partner partner;
     Vector2 normal;
     Real restitution;
-    Real wanted;        // least speed of separation afterwards [m/s]
-    Real impulse;       // of the problem at hand [kg m/s]
-    bool is_at_hand;    // the impact that called for the others
+    Real wanted;      // least speed of separation afterwards [m/s]
+    Real impulse;     // of the problem at hand [kg m/s]
+    bool is_at_hand;  // the impact that called for the others
     bool has_pushed;
   };
 
@@ -162,7 +182,9 @@ class BasicEngine {
   /// Counts the event, and records it if it is wanted.
   void note(EventKind kind, Real time, std::uint32_t body, Partner other = partner::none) {
     ++counters_.of(kind);
-    if (records_events_) events_.push_back({time, kind, BodyId{body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
+    if (records_events_)
+      events_.push_back(
+          {time, kind, BodyId{body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
   }
 
   // engine_state.cpp: rewriting last-event states
@@ -170,7 +192,9 @@ class BasicEngine {
   void rebase_companions(std::uint32_t body, Real time);
   void write_law(std::uint32_t body);
   void set_law(std::uint32_t body, int axis, Real acceleration, Real drag);
-  Real own_drag(std::uint32_t body) const { return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag; }
+  Real own_drag(std::uint32_t body) const {
+    return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag;
+  }
   void touch(std::uint32_t body);
   void wake(std::uint32_t body, Real time);
 
@@ -185,9 +209,16 @@ class BasicEngine {
 
   // engine_friction.cpp
   bool is_slowed() const { return spec_.puck_friction > 0.0; }
-  bool is_slowed(std::uint32_t body) const { return is_slowed() && bodies_[body].kind == BodyKind::puck; }
-  bool is_sliding(std::uint32_t body) const { return bodies_[body].vx != 0.0 || bodies_[body].vy != 0.0; }
-  Real own_push(std::uint32_t body, int axis) const { return is_slowed() ? builds_[body].thrust[axis] + slowing_[body][axis] : builds_[body].thrust[axis]; }
+  bool is_slowed(std::uint32_t body) const {
+    return is_slowed() && bodies_[body].kind == BodyKind::puck;
+  }
+  bool is_sliding(std::uint32_t body) const {
+    return bodies_[body].vx != 0.0 || bodies_[body].vy != 0.0;
+  }
+  Real own_push(std::uint32_t body, int axis) const {
+    return is_slowed() ? builds_[body].thrust[axis] + slowing_[body][axis]
+                       : builds_[body].thrust[axis];
+  }
   void slide_touched();
   void slide(std::uint32_t body);
   std::optional<int> pushed_axis(std::uint32_t body) const;
@@ -211,7 +242,8 @@ class BasicEngine {
   void predict_mouth(std::uint32_t body);
   void predict_pairs(std::uint32_t body, std::uint32_t count);
   template <bool counts>
-  std::uint32_t predict_straight_pairs(std::uint32_t body, std::uint32_t* near, std::uint32_t count);
+  std::uint32_t predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
+                                       std::uint32_t count);
   void predict_pair(std::uint32_t body, std::uint32_t other);
   void predict_curved_pair(std::uint32_t body, std::uint32_t other);
   void predict_release(std::uint32_t body);
@@ -266,10 +298,12 @@ class BasicEngine {
   bool can_rest(const Contact& contact) const;
   void rest(const Contact& contact, Real time);
   void share(int axis, const std::vector<std::uint32_t>& members, Real time);
-  void solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed, bool only_push);
+  void solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed,
+                    bool only_push);
   Real resist(const std::vector<std::uint32_t>& members, int axis);
   void share_part(int axis, const std::vector<std::uint32_t>& part, Real time);
-  void set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed, Real drag, Real time);
+  void set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed,
+                      Real drag, Real time);
   bool is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const;
   bool is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const;
   std::vector<std::uint32_t> companions(std::uint32_t body, std::uint8_t axes) const;
@@ -278,7 +312,10 @@ class BasicEngine {
   Real slide_time(const Hold& hold) const;
   bool would_push_twice(const Contact& contact) const;
   bool are_held(std::uint32_t a, std::uint32_t b) const;
-  void note_release(const Hold& hold, Real time) { is_fixed(hold.low) ? note(EventKind::release, time, hold.high, hold.low) : note(EventKind::release, time, hold.low, hold.high); }
+  void note_release(const Hold& hold, Real time) {
+    is_fixed(hold.low) ? note(EventKind::release, time, hold.high, hold.low)
+                       : note(EventKind::release, time, hold.low, hold.high);
+  }
 
   // engine_cluster.cpp
   template <class Visit>
@@ -327,8 +364,9 @@ class BasicEngine {
 
   WorldSpec spec_;
   Real now_ = 0.0;
-  bool is_played_ = false;  // advance() has been to now_: what happens to bodies from outside at this instant takes effect beyond it
-  Real tolerance_;  // rounding error of an offset [m]
+  bool is_played_ = false;  // advance() has been to now_: what happens to bodies from outside at
+                            // this instant takes effect beyond it
+  Real tolerance_;          // rounding error of an offset [m]
   Real puck_drag_;
   Real contact_time_;  // s
   Real rest_speed_;    // pressed contacts that close more slowly come to rest [m/s]
@@ -338,48 +376,54 @@ class BasicEngine {
   std::vector<Build> builds_;
   std::vector<Rhythm> rhythms_;
   std::vector<std::uint32_t> jams_;  // number of the jam that a frozen body belongs to
-  std::vector<Real> rest_times_;     // of worlds with friction: when it will have brought the body to rest
-  std::vector<Vector2> slowing_;     // likewise: its part in the acceleration of the body
-  std::vector<Real> spins_;          // of worlds with surface friction [rad/s]
+  std::vector<Real>
+      rest_times_;  // of worlds with friction: when it will have brought the body to rest
+  std::vector<Vector2> slowing_;  // likewise: its part in the acceleration of the body
+  std::vector<Real> spins_;       // of worlds with surface friction [rad/s]
   std::vector<Hold> holds_;
   CellGrid grid_;
   EventQueue queue_;
-  Real reach_ = 0.0;               // largest half extent of any body [m]
+  Real reach_ = 0.0;                 // largest half extent of any body [m]
   std::uint32_t grid_capacity_ = 0;  // bodies that the grid was made for
   std::uint32_t jam_count_ = 0;
   bool has_free_impacts_;                  // decided by the spec: collide_freely() may serve
   std::uint32_t curved_count_ = 0;         // bodies not in straight flight
   std::vector<std::uint32_t> candidates_;  // near the body that is being predicted
   bool is_everything_pending_ = false;
-  std::array<std::int64_t, 4> looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
+  std::array<std::int64_t, 4>
+      looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
   std::vector<std::uint32_t> touched_, pending_, frozen_;
   std::vector<std::uint32_t> near_;
   std::vector<Vector2> cluster_friction_;  // impulses per mass
   std::vector<Real> accelerations_;
-  std::vector<std::uint32_t> joint_;              // bodies of the cluster or joint impact at hand
+  std::vector<std::uint32_t> joint_;  // bodies of the cluster or joint impact at hand
   std::vector<Vector2> joint_velocities_, trial_velocities_, velocities_before_;
   std::vector<Touch> touches_;
-  std::vector<std::uint32_t> closing_, pushing_;  // touches of the problem at hand, and those of them that push
-  std::vector<std::vector<Vector2>> basis_;       // what those that push can change, orthonormal in the metric of the masses
-  std::vector<std::vector<Real>> columns_;        // each one's effect in terms of the basis: a triangle
-  std::vector<Vector2> direction_;                // of the touch that is looked at: the part of its effect beyond the basis,
-  std::vector<Real> column_, share_;              // and the part within
-  Real instant_begin_ = -1.0;                   // of the events counted as coming at once
+  std::vector<std::uint32_t> closing_,
+      pushing_;  // touches of the problem at hand, and those of them that push
+  std::vector<std::vector<Vector2>>
+      basis_;  // what those that push can change, orthonormal in the metric of the masses
+  std::vector<std::vector<Real>> columns_;  // each one's effect in terms of the basis: a triangle
+  std::vector<Vector2>
+      direction_;  // of the touch that is looked at: the part of its effect beyond the basis,
+  std::vector<Real> column_, share_;  // and the part within
+  Real instant_begin_ = -1.0;         // of the events counted as coming at once
   std::uint64_t events_at_once_ = 0;
-  Real gap_max_ = cluster_gap;                  // up to which a contact belongs to a cluster
-  std::uint32_t blocked_ = 0;                   // the touch at which find_pushing() failed
-  bool is_hopeless_ = false;                    // no joint impact could be solved at this instant
+  Real gap_max_ = cluster_gap;  // up to which a contact belongs to a cluster
+  std::uint32_t blocked_ = 0;   // the touch at which find_pushing() failed
+  bool is_hopeless_ = false;    // no joint impact could be solved at this instant
   std::optional<Goal> goal_;
   Counters counters_;
   BasicSum<Real> introduced_, work_, loss_;
-  std::vector<Real> energies_;       // of the bodies in touched_, before what happens to them now
+  std::vector<Real> energies_;  // of the bodies in touched_, before what happens to them now
   bool records_events_ = false;
   std::vector<Event> events_;
   BasicJournal<Real>* journal_ = nullptr;
 };
 using Engine = BasicEngine<double>;
 
-/// Everybody that `body` may touch, in an order that depends on ids alone: bodies near it, walls, and whatever else of the field concerns it.
+/// Everybody that `body` may touch, in an order that depends on ids alone: bodies near it, walls,
+/// and whatever else of the field concerns it.
 template <class Real>
 template <class Visit>
 void BasicEngine<Real>::visit_partners(std::uint32_t body, Visit&& visit) {
@@ -392,9 +436,12 @@ void BasicEngine<Real>::visit_partners(std::uint32_t body, Visit&& visit) {
   const bool is_in_mouth = bodies_[body].mouth != no_mouth;
   for (Partner wall = partner::wall_left; wall <= partner::wall_top; ++wall)
     if (!(is_in_mouth && wall <= partner::wall_right)) visit(wall);
-  if (spec_.field.bats_keep_to_half && bodies_[body].kind == BodyKind::bat && builds_[body].half != Half::both) visit(partner::halfway);
+  if (spec_.field.bats_keep_to_half && bodies_[body].kind == BodyKind::bat &&
+      builds_[body].half != Half::both)
+    visit(partner::halfway);
   if (spec_.field.goal_width > 0.0 && bodies_[body].kind == BodyKind::puck)
-    for (Partner edge = partner::edge_left_low; edge <= partner::edge_right_high; ++edge) visit(edge);
+    for (Partner edge = partner::edge_left_low; edge <= partner::edge_right_high; ++edge)
+      visit(edge);
 }
 
 }  // namespace rink::physics

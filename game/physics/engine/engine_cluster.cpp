@@ -1,4 +1,5 @@
-// Pressed clusters whose normals turn: taken out of contact in one step, and frozen where they are in equilibrium.
+// Pressed clusters whose normals turn: taken out of contact in one step, and frozen where they are
+// in equilibrium.
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -8,30 +9,35 @@
 namespace rink::physics {
 
 namespace {
-constexpr std::uint32_t slow_impacts_max = 8;     // within contact_time, before a hop
-constexpr std::uint32_t impacts_max = 24;         // likewise, whatever their speed, where impacts lose energy
+constexpr std::uint32_t slow_impacts_max = 8;  // within contact_time, before a hop
+constexpr std::uint32_t impacts_max =
+    24;  // likewise, whatever their speed, where impacts lose energy
 constexpr std::size_t cluster_max = 256;
-constexpr std::size_t direct_max = 96;            // contacts
+constexpr std::size_t direct_max = 96;  // contacts
 constexpr int sweeps_max = 500;
-constexpr double glancing_part = 16.0;             // of contact_time
-constexpr std::uint32_t long_series = 64;         // of hops
+constexpr double glancing_part = 16.0;     // of contact_time
+constexpr std::uint32_t long_series = 64;  // of hops
 constexpr double loose_gaps = 8.0;
-constexpr double creep_speed = 1e-9;              // m/s; without thrust, a cluster that moves no faster stops
+constexpr double creep_speed = 1e-9;  // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
 
 template <class Real>
-bool BasicEngine<Real>::is_pressed_hard(std::uint32_t body, Partner p, Real approach, Real time) const {
+bool BasicEngine<Real>::is_pressed_hard(std::uint32_t body, Partner p, Real approach,
+                                        Real time) const {
   const auto is_worn = [&](std::uint32_t b) {
     const Rhythm& rhythm = rhythms_[b];
     if (rhythm.impacts >= impacts_max) return true;
-    return approach < rest_speed_ && (rhythm.impacts >= slow_impacts_max || (rhythm.last_hop >= 0.0 && time - rhythm.last_hop < 4.0 * contact_time_));
+    return approach < rest_speed_ &&
+           (rhythm.impacts >= slow_impacts_max ||
+            (rhythm.last_hop >= 0.0 && time - rhythm.last_hop < 4.0 * contact_time_));
   };
   return is_worn(body) || (!is_fixed(p) && is_worn(p));
 }
 
-/// Gives the cluster around `c` the nearest velocities (in the metric of the masses) that part all its contacts by a little: half of what its thrust, or the difference
-/// in drag that closes `c` by `pressing`, builds up within `contact_time`. False, with nothing done to velocities, if an ordinary impact serves: nothing presses, and
-/// nothing is lost or the contact is alone.
+/// Gives the cluster around `c` the nearest velocities (in the metric of the masses) that part all
+/// its contacts by a little: half of what its thrust, or the difference in drag that closes `c` by
+/// `pressing`, builds up within `contact_time`. False, with nothing done to velocities, if an
+/// ordinary impact serves: nothing presses, and nothing is lost or the contact is alone.
 template <class Real>
 bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real time) {
   gather(c, std::max<Real>(rest_speed_, 2.0 * approach), time);
@@ -53,7 +59,9 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
     ++rhythms_[body].hops;
     if (journal_ != nullptr) journal_->stir(body, 0x80000000u | rhythms_[body].hops);
   }
-  if (may_freeze && ((hops % 4 == 0 && freeze(thrust_max)) || (hops >= long_series && hops % 16 == 0 && freeze_loosely(c, std::max<Real>(rest_speed_, 2.0 * approach), time)))) {
+  if (may_freeze && ((hops % 4 == 0 && freeze(thrust_max)) ||
+                     (hops >= long_series && hops % 16 == 0 &&
+                      freeze_loosely(c, std::max<Real>(rest_speed_, 2.0 * approach), time)))) {
     note(EventKind::freeze, time, c.body, c.partner);
     return true;
   }
@@ -63,14 +71,19 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
   if (thrust_max == 0.0 && speed < still_speed()) {
     std::fill(joint_velocities_.begin(), joint_velocities_.end(), Vector2(0.0, 0.0));
   } else {
-    // Less than a few roundings of the speeds would be none; its energy, 1e-24 of what there is, is below rounding.
+    // Less than a few roundings of the speeds would be none; its energy, 1e-24 of what there is, is
+    // below rounding.
     const Real least = 1e-12 * fineness<Real> * speed;
-    const Real driven = std::max(least, std::clamp<Real>(0.5 * pressure * contact_time_, 0.0, 0.5 * rest_speed_)), sum = driven * static_cast<Real>(touches_.size());
+    const Real driven = std::max(
+                   least, std::clamp<Real>(0.5 * pressure * contact_time_, 0.0, 0.5 * rest_speed_)),
+               sum = driven * static_cast<Real>(touches_.size());
     Real mass = 0.0;
     for (const std::uint32_t body : joint_) mass += builds_[body].mass;
     const Real glancing = glancing_speed(thrust_max, pressing, speed);
     if (glancing > driven) part_cluster(glancing, 0.5 * mass * glancing * glancing);
-    else part_cluster(pressure > 0.0 ? driven : std::max(least, 0.5 * turning() * contact_time_), 0.5 * mass * sum * sum);
+    else
+      part_cluster(pressure > 0.0 ? driven : std::max(least, 0.5 * turning() * contact_time_),
+                   0.5 * mass * sum * sum);
   }
   for (std::size_t place = 0; place < joint_.size(); ++place) {
     bodies_[joint_[place]].vx = joint_velocities_[place].x();
@@ -94,25 +107,31 @@ Real BasicEngine<Real>::turning() const {
   for (const Touch& c : touches_) {
     const bool is_partner_moved = c.other != fixed_place;
     const Vector2 there = is_partner_moved ? joint_velocities_[c.other] : Vector2(0.0, 0.0);
-    const Real reach = bodies_[joint_[c.body]].radius + (is_partner_moved ? bodies_[joint_[c.other]].radius : Real(0.0));
-    if (reach > 0.0) most = std::max(most, (joint_velocities_[c.body] - there).squaredNorm() / reach);
+    const Real reach = bodies_[joint_[c.body]].radius +
+                       (is_partner_moved ? bodies_[joint_[c.other]].radius : Real(0.0));
+    if (reach > 0.0)
+      most = std::max(most, (joint_velocities_[c.body] - there).squaredNorm() / reach);
   }
   return most;
 }
 
-/// Pucks that nothing but their friction presses together hop further than others, as if they met for 16 `contact_time`: that presses weakly and only until they rest. During
-/// the flight friction takes more energy than the hop gives, for they are faster than twice the hop.
+/// Pucks that nothing but their friction presses together hop further than others, as if they met
+/// for 16 `contact_time`: that presses weakly and only until they rest. During the flight friction
+/// takes more energy than the hop gives, for they are faster than twice the hop.
 template <class Real>
 Real BasicEngine<Real>::glancing_speed(Real thrust_max, Real pressing, Real speed) const {
   const Real apart = 0.5 * pressing * Real(glancing_part) * contact_time_;
   return is_slowed() && thrust_max == 0.0 && speed > 2.0 * apart ? apart : Real(0.0);
 }
 
-/// What moves no faster than this, and is not driven, stops [m/s]: pucks that friction would stop within `contact_time`, and anything that merely creeps.
+/// What moves no faster than this, and is not driven, stops [m/s]: pucks that friction would stop
+/// within `contact_time`, and anything that merely creeps.
 template <class Real>
 Real BasicEngine<Real>::still_speed() const {
-  const bool is_slowed_down = std::all_of(joint_.begin(), joint_.end(), [&](std::uint32_t body) { return is_slowed(body); });
-  return is_slowed_down ? std::max<Real>(creep_speed, spec_.puck_friction * contact_time_) : Real(creep_speed);
+  const bool is_slowed_down = std::all_of(joint_.begin(), joint_.end(),
+                                          [&](std::uint32_t body) { return is_slowed(body); });
+  return is_slowed_down ? std::max<Real>(creep_speed, spec_.puck_friction * contact_time_)
+                        : Real(creep_speed);
 }
 
 template <class Real>
@@ -134,16 +153,20 @@ void BasicEngine<Real>::add_contact(std::uint32_t place, Partner p, Real speed_m
   const Vector2 there = is_fixed(p) ? Vector2(0.0, 0.0) : at(p, time).velocity;
   if (std::abs(c.gap.normal.dot(velocity_of(body) - there)) > speed_max) return;
   if (is_fixed(p)) {
-    touches_.push_back({place, fixed_place, p, c.gap.normal, restitution(body, p), 0.0, 0.0, false, false});
+    touches_.push_back(
+        {place, fixed_place, p, c.gap.normal, restitution(body, p), 0.0, 0.0, false, false});
     return;
   }
   const bool is_known = std::find(joint_.begin(), joint_.end(), p) != joint_.end();
   if (!is_known && joint_.size() >= cluster_max) return;
   const std::uint32_t other = place_in_cluster(p, time);
-  if (other > place) touches_.push_back({place, other, p, c.gap.normal, restitution(body, p), 0.0, 0.0, false, false});
+  if (other > place)
+    touches_.push_back(
+        {place, other, p, c.gap.normal, restitution(body, p), 0.0, 0.0, false, false});
 }
 
-/// Every body connected with the contact by gaps below `cluster_gap` that close or open no faster than `speed_max`, in an order that depends on ids alone.
+/// Every body connected with the contact by gaps below `cluster_gap` that close or open no faster
+/// than `speed_max`, in an order that depends on ids alone.
 template <class Real>
 void BasicEngine<Real>::gather(const Contact& c, Real speed_max, Real time) {
   joint_.clear();
@@ -154,8 +177,9 @@ void BasicEngine<Real>::gather(const Contact& c, Real speed_max, Real time) {
     visit_partners(joint_[place], [&](Partner p) { add_contact(place, p, speed_max, time); });
 }
 
-/// Parts the cluster at `separation`. Energy may grow by `gain_max`; what it takes beyond that, the bodies pay from their motion against each other (from all their motion
-/// where the cluster leans on something fixed), which leaves the momentum and slows the parting in the same measure.
+/// Parts the cluster at `separation`. Energy may grow by `gain_max`; what it takes beyond that, the
+/// bodies pay from their motion against each other (from all their motion where the cluster leans
+/// on something fixed), which leaves the momentum and slows the parting in the same measure.
 template <class Real>
 void BasicEngine<Real>::part_cluster(Real separation, Real gain_max) {
   Real mass = 0.0;
@@ -164,11 +188,13 @@ void BasicEngine<Real>::part_cluster(Real separation, Real gain_max) {
     mass += builds_[joint_[place]].mass;
     momentum += builds_[joint_[place]].mass * joint_velocities_[place];
   }
-  const bool is_leaning = std::any_of(touches_.begin(), touches_.end(), [](const Touch& c) { return c.other == fixed_place; });
+  const bool is_leaning = std::any_of(touches_.begin(), touches_.end(),
+                                      [](const Touch& c) { return c.other == fixed_place; });
   const Vector2 frame = is_leaning ? Vector2(0.0, 0.0) : Vector2(momentum / mass);
   const auto energy = [&] {
     Real sum = 0.0;
-    for (std::size_t place = 0; place < joint_.size(); ++place) sum += 0.5 * builds_[joint_[place]].mass * (joint_velocities_[place] - frame).squaredNorm();
+    for (std::size_t place = 0; place < joint_.size(); ++place)
+      sum += 0.5 * builds_[joint_[place]].mass * (joint_velocities_[place] - frame).squaredNorm();
     return sum;
   };
   const Real energy_before = energy(), energy_max = energy_before + gain_max;
@@ -182,7 +208,8 @@ void BasicEngine<Real>::part_cluster(Real separation, Real gain_max) {
   counters_.hop_energy += std::max(0.0, static_cast<double>(energy_after - energy_before));
 }
 
-/// The nearest velocities, in the metric of the masses, that part every contact at `separation` or faster.
+/// The nearest velocities, in the metric of the masses, that part every contact at `separation` or
+/// faster.
 template <class Real>
 void BasicEngine<Real>::solve_cluster(Real separation) {
   for (Touch& touch : touches_) touch.wanted = separation;
@@ -199,7 +226,8 @@ void BasicEngine<Real>::solve_cluster(Real separation) {
   sweep_cluster(separation);
 }
 
-/// After find_pushing() met contacts that cannot all part, for they hold what is between them from opposite sides: these shall only not close. Answers whether that asks for less.
+/// After find_pushing() met contacts that cannot all part, for they hold what is between them from
+/// opposite sides: these shall only not close. Answers whether that asks for less.
 template <class Real>
 bool BasicEngine<Real>::give_way() {
   if (blocked_ == fixed_place) return false;
@@ -214,8 +242,9 @@ bool BasicEngine<Real>::give_way() {
   return is_less;
 }
 
-/// Bodies that are held from opposite sides along an axis get the same velocity along it, to the bit (none, where something fixed holds them): what rounding leaves would let
-/// them meet again at once, and for ever.
+/// Bodies that are held from opposite sides along an axis get the same velocity along it, to the
+/// bit (none, where something fixed holds them): what rounding leaves would let them meet again at
+/// once, and for ever.
 template <class Real>
 void BasicEngine<Real>::hold_jammed() {
   const auto fixed = static_cast<std::uint32_t>(joint_.size());
@@ -228,28 +257,38 @@ void BasicEngine<Real>::hold_jammed() {
   for (int axis = 0; axis < 2; ++axis) {
     std::iota(leaders.begin(), leaders.end(), 0u);
     for (const Touch& c : touches_) {
-      if (c.wanted > 0.0 || c.normal[1 - axis] != 0.0 || std::abs(parting(c, joint_velocities_)) > slowest) continue;
-      const std::uint32_t one = leader(c.body), two = leader(c.other == fixed_place ? fixed : c.other);
+      if (c.wanted > 0.0 || c.normal[1 - axis] != 0.0 ||
+          std::abs(parting(c, joint_velocities_)) > slowest)
+        continue;
+      const std::uint32_t one = leader(c.body),
+                          two = leader(c.other == fixed_place ? fixed : c.other);
       leaders[std::min(one, two)] = std::max(one, two);
     }
     for (std::uint32_t place = 0; place < fixed; ++place)
-      if (const std::uint32_t first = leader(place); first != place) joint_velocities_[place][axis] = first == fixed ? Real(0.0) : joint_velocities_[first][axis];
+      if (const std::uint32_t first = leader(place); first != place)
+        joint_velocities_[place][axis] =
+            first == fixed ? Real(0.0) : joint_velocities_[first][axis];
   }
 }
 
-/// Gauss-Seidel on impulses: for clusters so large that the direct way would take milliseconds, at the price of poor convergence where light bodies lie between heavy ones. Where
-/// `friction` is above 0, pucks resist their motion by up to that impulse per mass.
+/// Gauss-Seidel on impulses: for clusters so large that the direct way would take milliseconds, at
+/// the price of poor convergence where light bodies lie between heavy ones. Where `friction` is
+/// above 0, pucks resist their motion by up to that impulse per mass.
 template <class Real>
 void BasicEngine<Real>::sweep_cluster(Real separation, Real friction) {
-  const auto yielding = [&](std::uint32_t place) { return place == fixed_place ? 0.0 : builds_[joint_[place]].inverse_mass; };
+  const auto yielding = [&](std::uint32_t place) {
+    return place == fixed_place ? 0.0 : builds_[joint_[place]].inverse_mass;
+  };
   const Real accuracy = separation > 0.0 ? 0.1 * separation : 1e-9 * joint_speed();
   for (Touch& c : touches_) c.impulse = 0.0;
   cluster_friction_.assign(joint_.size(), Vector2(0.0, 0.0));
   for (int sweep = 0; sweep < sweeps_max; ++sweep) {
     Real change = friction > 0.0 ? resist_in_cluster(friction) : Real(0.0);
     for (Touch& c : touches_) {
-      const Real own = yielding(c.body), other = yielding(c.other), lacking = separation - parting(c, joint_velocities_);
-      const Real impulse = std::max<Real>(0.0, c.impulse + lacking / (own + other)), step = impulse - c.impulse;
+      const Real own = yielding(c.body), other = yielding(c.other),
+                 lacking = separation - parting(c, joint_velocities_);
+      const Real impulse = std::max<Real>(0.0, c.impulse + lacking / (own + other)),
+                 step = impulse - c.impulse;
       c.impulse = impulse;
       joint_velocities_[c.body] += step * own * c.normal;
       if (c.other != fixed_place) joint_velocities_[c.other] -= step * other * c.normal;
@@ -276,7 +315,8 @@ Real BasicEngine<Real>::resist_in_cluster(Real friction) {
   return change;
 }
 
-/// Brings a slow cluster whose contacts and friction can bear all its thrust to a stop, for as long as nothing else acts on it. Answers whether it could.
+/// Brings a slow cluster whose contacts and friction can bear all its thrust to a stop, for as long
+/// as nothing else acts on it. Answers whether it could.
 template <class Real>
 bool BasicEngine<Real>::freeze(Real thrust_max) {
   joint_velocities_.clear();
@@ -292,8 +332,9 @@ bool BasicEngine<Real>::freeze(Real thrust_max) {
   return true;
 }
 
-/// A pile that hops for long is seldom in contact everywhere at once: gaps eight times as wide count as closed for the question whether it could stand. If it could not, the
-/// cluster is what gather() found before.
+/// A pile that hops for long is seldom in contact everywhere at once: gaps eight times as wide
+/// count as closed for the question whether it could stand. If it could not, the cluster is what
+/// gather() found before.
 template <class Real>
 bool BasicEngine<Real>::freeze_loosely(const Contact& c, Real speed_max, Real time) {
   gap_max_ = loose_gaps * cluster_gap;

@@ -1,4 +1,5 @@
-// The books of energy, for worlds that keep them: what thrust put in, and what drag, friction and impacts took out, from the closed forms.
+// The books of energy, for worlds that keep them: what thrust put in, and what drag, friction and
+// impacts took out, from the closed forms.
 #include "game/physics/engine/engine.h"
 
 namespace rink::physics {
@@ -8,12 +9,16 @@ template <class Real>
 Real BasicEngine<Real>::energy_of(std::uint32_t body) const {
   const Body& b = bodies_[body];
   if (b.kind == BodyKind::post) return 0.0;
-  const Real spin_energy = is_rough() && b.kind == BodyKind::puck ? 0.25 * b.radius * b.radius * spins_[body] * spins_[body] : 0.0;
+  const Real spin_energy = is_rough() && b.kind == BodyKind::puck
+                               ? 0.25 * b.radius * b.radius * spins_[body] * spins_[body]
+                               : 0.0;
   return builds_[body].mass * (0.5 * (b.vx * b.vx + b.vy * b.vy) + spin_energy);
 }
 
-/// What the law of the body has cost since its last event, at `time`: along each axis the integrals of a v and g v^2, with v = v0 e + a s (docs/physics.md, "Energy").
-/// Of the acceleration, friction takes its part; all else is thrust: the body's own, or its share in that of those who press on it.
+/// What the law of the body has cost since its last event, at `time`: along each axis the integrals
+/// of a v and g v^2, with v = v0 e + a s (docs/physics.md, "Energy"). Of the acceleration, friction
+/// takes its part; all else is thrust: the body's own, or its share in that of those who press on
+/// it.
 template <class Real>
 auto BasicEngine<Real>::expense_until(std::uint32_t body, Real time) const -> Expense {
   const Motion m = motion(body);
@@ -26,7 +31,8 @@ auto BasicEngine<Real>::expense_until(std::uint32_t body, Real time) const -> Ex
     const WarpedTime w = a == 0.0 ? warp_unaccelerated(elapsed, g) : warp(elapsed, g);
     pushed += a * (v * w.s + a * w.q);
     if (is_rubbed) rubbed += slowing_[body][axis] * (v * w.s + a * w.q);
-    dragged += g * v * (0.5 * v * w.s * (1.0 + w.e) + a * w.s * w.s) + a * a * (w.q - 0.5 * w.s * w.s);
+    dragged +=
+        g * v * (0.5 * v * w.s * (1.0 + w.e) + a * w.s * w.s) + a * a * (w.q - 0.5 * w.s * w.s);
   }
   const Real mass = builds_[body].mass;
   if (is_rubbed) return {mass * (pushed - rubbed), mass * (dragged - rubbed)};

@@ -1,4 +1,5 @@
-// Coulomb friction with the table: of pucks that slide on their own, and of those that are pushed, whose friction turns with their velocity.
+// Coulomb friction with the table: of pucks that slide on their own, and of those that are pushed,
+// whose friction turns with their velocity.
 #include <algorithm>
 
 #include "game/physics/engine/engine.h"
@@ -7,11 +8,13 @@ namespace rink::physics {
 
 namespace {
 
-/// By so much the velocity of a pushed puck turns [rad] before its friction is aimed anew; what the arc's middle then misses is below turn_max^2/24 of it.
+/// By so much the velocity of a pushed puck turns [rad] before its friction is aimed anew; what the
+/// arc's middle then misses is below turn_max^2/24 of it.
 constexpr double turn_max = 1.0 / 128.0;
 /// Or its speed changes by this part, for the turn slows down as the speed grows.
 constexpr double growth_max = 0.25;
-/// What friction has slowed to this has stopped [m/s]: far above the rounding of a velocity at its zero, far below what moves a body by a rounding in a millisecond.
+/// What friction has slowed to this has stopped [m/s]: far above the rounding of a velocity at its
+/// zero, far below what moves a body by a rounding in a millisecond.
 constexpr double calm_speed = 1e-9;
 
 }  // namespace
@@ -22,13 +25,16 @@ BasicVector2<Real> BasicEngine<Real>::friction_along(const Vector2& velocity) co
   return speed == 0.0 ? Vector2(0.0, 0.0) : Vector2(-spec_.puck_friction * (velocity / speed));
 }
 
-/// The law of friction for everything that the event at hand touched. Groups that push a puck come first, for they may let it go.
+/// The law of friction for everything that the event at hand touched. Groups that push a puck come
+/// first, for they may let it go.
 template <class Real>
 void BasicEngine<Real>::slide_touched() {
   std::vector<std::uint32_t> done;
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     const std::uint32_t body = touched_[i];
-    if ((bodies_[body].flags & held) == 0 || !is_slowed(body) || std::find(done.begin(), done.end(), body) != done.end()) continue;
+    if ((bodies_[body].flags & held) == 0 || !is_slowed(body) ||
+        std::find(done.begin(), done.end(), body) != done.end())
+      continue;
     const std::optional<int> axis = pushed_axis(body);
     if (!axis) continue;
     const std::vector<std::uint32_t> members = companions(body, held_along(*axis));
@@ -38,13 +44,15 @@ void BasicEngine<Real>::slide_touched() {
   for (const std::uint32_t body : touched_) slide(body);
 }
 
-/// The law of friction for the velocity that the body has now; it does nothing to what friction does not slow. A pushed puck shares the law of its group along one axis.
+/// The law of friction for the velocity that the body has now; it does nothing to what friction
+/// does not slow. A pushed puck shares the law of its group along one axis.
 template <class Real>
 void BasicEngine<Real>::slide(std::uint32_t body) {
   if (!is_slowed(body)) return;
   if (const std::optional<int> axis = pushed_axis(body)) {
     rest_times_[body] = infinity;
-    if ((bodies_[body].flags & held_along(1 - *axis)) == 0) laws_[body].acceleration[1 - *axis] = slowing_[body][1 - *axis];
+    if ((bodies_[body].flags & held_along(1 - *axis)) == 0)
+      laws_[body].acceleration[1 - *axis] = slowing_[body][1 - *axis];
   } else {
     Motion sliding = motion(body);
     sliding.slide(spec_.puck_friction);
@@ -58,16 +66,20 @@ void BasicEngine<Real>::slide(std::uint32_t body) {
 template <class Real>
 std::optional<int> BasicEngine<Real>::pushed_axis(std::uint32_t body) const {
   for (int axis = 0; axis < 2; ++axis)
-    if ((bodies_[body].flags & held_along(axis)) != 0 && !is_group_fixed(axis, companions(body, held_along(axis)))) return axis;
+    if ((bodies_[body].flags & held_along(axis)) != 0 &&
+        !is_group_fixed(axis, companions(body, held_along(axis))))
+      return axis;
   return std::nullopt;
 }
 
-/// Whether the group is free to move and has a puck that is also pushed along the other axis: its friction would bind two groups to each other.
+/// Whether the group is free to move and has a puck that is also pushed along the other axis: its
+/// friction would bind two groups to each other.
 template <class Real>
 bool BasicEngine<Real>::is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const {
   if (!is_slowed() || is_group_fixed(axis, members)) return false;
   return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) {
-    return is_slowed(member) && (bodies_[member].flags & held_along(1 - axis)) != 0 && !is_group_fixed(1 - axis, companions(member, held_along(1 - axis)));
+    return is_slowed(member) && (bodies_[member].flags & held_along(1 - axis)) != 0 &&
+           !is_group_fixed(1 - axis, companions(member, held_along(1 - axis)));
   });
 }
 
@@ -80,7 +92,9 @@ void BasicEngine<Real>::calm(int axis, const std::vector<std::uint32_t>& members
     keep(member);
     if (is_group_calm) (axis == 0 ? b.vx : b.vy) = 0.0;
     Real& across = axis == 0 ? b.vy : b.vx;
-    if (is_slowed(member) && std::abs(across) <= calm_speed && (b.flags & held_along(1 - axis)) == 0) across = 0.0;
+    if (is_slowed(member) && std::abs(across) <= calm_speed &&
+        (b.flags & held_along(1 - axis)) == 0)
+      across = 0.0;
   }
 }
 
@@ -91,7 +105,8 @@ Real BasicEngine<Real>::speed_lost(Real speed, Real push, Real drag) const {
   return drag == 0.0 ? -speed / push : log1p_of(-drag * speed / push) / drag;
 }
 
-/// Friction against the velocities of the group's pucks as they are; of those at rest along the axis of a group that may stand, it remains to be found (solve_forces).
+/// Friction against the velocities of the group's pucks as they are; of those at rest along the
+/// axis of a group that may stand, it remains to be found (solve_forces).
 template <class Real>
 void BasicEngine<Real>::face_friction(const std::vector<std::uint32_t>& members) {
   for (const std::uint32_t member : members)
@@ -101,39 +116,55 @@ void BasicEngine<Real>::face_friction(const std::vector<std::uint32_t>& members)
 /// Whether a puck of the group slides across its axis, so that its friction turns.
 template <class Real>
 bool BasicEngine<Real>::has_sliders(int axis, const std::vector<std::uint32_t>& members) const {
-  return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) { return is_slowed(member) && velocity_of(member)[1 - axis] != 0.0; });
+  return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) {
+    return is_slowed(member) && velocity_of(member)[1 - axis] != 0.0;
+  });
 }
 
-/// Aims the friction of the group's sliding pucks against the velocities that they will have half-way to the next time that it is aimed, and answers when that is; never where
-/// they keep their direction.
+/// Aims the friction of the group's sliding pucks against the velocities that they will have
+/// half-way to the next time that it is aimed, and answers when that is; never where they keep
+/// their direction.
 template <class Real>
-Real BasicEngine<Real>::aim_friction(int axis, const std::vector<std::uint32_t>& members, Real time) {
+Real BasicEngine<Real>::aim_friction(int axis, const std::vector<std::uint32_t>& members,
+                                     Real time) {
   const int across = 1 - axis;
-  if (is_group_fixed(axis, members) || std::none_of(members.begin(), members.end(), [&](std::uint32_t member) { return is_slowed(member); })) return infinity;
+  if (is_group_fixed(axis, members) ||
+      std::none_of(members.begin(), members.end(),
+                   [&](std::uint32_t member) { return is_slowed(member); }))
+    return infinity;
   const Real speed = velocity_of(members.front())[axis];
   Real mass = 0.0, drag = 0.0;
-  for (const std::uint32_t member : members) mass += builds_[member].mass, drag += builds_[member].mass * own_drag(member);
+  for (const std::uint32_t member : members)
+    mass += builds_[member].mass, drag += builds_[member].mass * own_drag(member);
   drag /= mass;
   const auto push = [&] {
     Real sum = 0.0;
     for (const std::uint32_t member : members) sum += builds_[member].mass * own_push(member, axis);
     return sum / mass;
   };
-  const auto slides_across = [&](std::uint32_t member) { return is_slowed(member) && velocity_of(member)[across] != 0.0; };
+  const auto slides_across = [&](std::uint32_t member) {
+    return is_slowed(member) && velocity_of(member)[across] != 0.0;
+  };
   const auto until_stop = [&] {
     Real wait = speed_lost(speed, push(), drag);
     for (const std::uint32_t member : members)
-      if (slides_across(member)) wait = std::min(wait, speed_lost(velocity_of(member)[across], slowing_[member][across], own_drag(member)));
+      if (slides_across(member))
+        wait = std::min(wait, speed_lost(velocity_of(member)[across], slowing_[member][across],
+                                         own_drag(member)));
     return wait;
   };
   Real arc = infinity;
   for (const std::uint32_t member : members) {
     if (!slides_across(member)) continue;
     const Vector2 velocity = velocity_of(member);
-    const Real along = push() - drag * speed, aside = slowing_[member][across] - own_drag(member) * velocity[across];
-    const Real square = velocity.squaredNorm(), rate = std::abs(velocity[axis] * aside - velocity[across] * along) / square;
+    const Real along = push() - drag * speed,
+               aside = slowing_[member][across] - own_drag(member) * velocity[across];
+    const Real square = velocity.squaredNorm(),
+               rate = std::abs(velocity[axis] * aside - velocity[across] * along) / square;
     const Real growth = std::abs(velocity[axis] * along + velocity[across] * aside) / square;
-    if (rate > 0.0) arc = std::min(arc, std::max<Real>(contact_time_, std::min(turn_max / rate, growth_max / growth)));
+    if (rate > 0.0)
+      arc = std::min(arc,
+                     std::max<Real>(contact_time_, std::min(turn_max / rate, growth_max / growth)));
   }
   if (arc < infinity) {
     const Real half = 0.5 * std::min(arc, until_stop()), pushing = push();
@@ -150,13 +181,15 @@ Real BasicEngine<Real>::aim_friction(int axis, const std::vector<std::uint32_t>&
   return time + std::min(arc, until_stop());
 }
 
-/// One sweep of static friction: each puck at rest resists its acceleration along the axis as far as Coulomb's law lets it. Answers the largest change [m/s^2].
+/// One sweep of static friction: each puck at rest resists its acceleration along the axis as far
+/// as Coulomb's law lets it. Answers the largest change [m/s^2].
 template <class Real>
 Real BasicEngine<Real>::resist(const std::vector<std::uint32_t>& members, int axis) {
   Real change = 0.0;
   for (const std::uint32_t member : members) {
     if (!is_slowed(member) || is_sliding(member)) continue;
-    const Real friction = std::clamp<Real>(slowing_[member][axis] - accelerations_[member], -spec_.puck_friction, spec_.puck_friction);
+    const Real friction = std::clamp<Real>(slowing_[member][axis] - accelerations_[member],
+                                           -spec_.puck_friction, spec_.puck_friction);
     change = std::max(change, std::abs(friction - slowing_[member][axis]));
     accelerations_[member] += friction - slowing_[member][axis];
     slowing_[member][axis] = friction;

@@ -7,7 +7,8 @@ namespace rink::physics {
 
 namespace {
 
-/// Pressed contact has at least this closing acceleration [m/s^2]; below it a contact counts as unpressed.
+/// Pressed contact has at least this closing acceleration [m/s^2]; below it a contact counts as
+/// unpressed.
 constexpr double press_min = 1e-7;
 
 }  // namespace
@@ -22,12 +23,15 @@ template <class Real>
 auto BasicEngine<Real>::contact(std::uint32_t body, Partner p, Real time) const -> Contact {
   const Vector2 position = position_at(body, time);
   if (is_body(p)) return {body, p, shape_of(body, p).gap(position - position_at(p, time))};
-  if (p >= partner::edge_left_low && p <= partner::edge_right_high) return {body, p, RoundedBox{{0.0, 0.0}, bodies_[body].radius}.gap(position - goal_edge(p))};
+  if (p >= partner::edge_left_low && p <= partner::edge_right_high)
+    return {body, p, RoundedBox{{0.0, 0.0}, bodies_[body].radius}.gap(position - goal_edge(p))};
   return {body, p, plane_of(body, p).gap(position)};
 }
 
 template <class Real>
-BasicVector2<Real> BasicEngine<Real>::velocity_of(Partner p) const { return is_body(p) ? Vector2(bodies_[p].vx, bodies_[p].vy) : Vector2(0.0, 0.0); }
+BasicVector2<Real> BasicEngine<Real>::velocity_of(Partner p) const {
+  return is_body(p) ? Vector2(bodies_[p].vx, bodies_[p].vy) : Vector2(0.0, 0.0);
+}
 
 template <class Real>
 BasicVector2<Real> BasicEngine<Real>::acceleration_of(Partner p) const {
@@ -37,28 +41,39 @@ BasicVector2<Real> BasicEngine<Real>::acceleration_of(Partner p) const {
 
 template <class Real>
 Real BasicEngine<Real>::restitution(std::uint32_t body, Partner p) const {
-  return spec_.restitution(bodies_[body].material, is_body(p) ? bodies_[p].material : spec_.field.wall);
+  return spec_.restitution(bodies_[body].material,
+                           is_body(p) ? bodies_[p].material : spec_.field.wall);
 }
 
-/// Two pucks that nothing holds, hitting each other fast and giving back all: nearly every event of a gas. The arithmetic of collide() without its questions, so the same
-/// bits. False, with nothing done, for anything else. A third one that touches matters to a journal alone; who is near is looked at where the next events are predicted, so what was
-/// done until then is taken back if there is one.
+/// Two pucks that nothing holds, hitting each other fast and giving back all: nearly every event of
+/// a gas. The arithmetic of collide() without its questions, so the same bits. False, with nothing
+/// done, for anything else. A third one that touches matters to a journal alone; who is near is
+/// looked at where the next events are predicted, so what was done until then is taken back if
+/// there is one.
 template <class Real>
 bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time) {
   if (!is_body(p)) return false;
   const std::uint32_t low = std::min(body, p), high = std::max(body, p);
   Body &a = bodies_[low], &b = bodies_[high];
-  if ((a.flags | b.flags) != 0 || a.kind != BodyKind::puck || b.kind != BodyKind::puck || !has_free_impacts_ || spec_.restitution(a.material, b.material) != 1.0) return false;
+  if ((a.flags | b.flags) != 0 || a.kind != BodyKind::puck || b.kind != BodyKind::puck ||
+      !has_free_impacts_ || spec_.restitution(a.material, b.material) != 1.0)
+    return false;
   if (is_crowded(body, p)) return false;
   const bool is_counting = journal_ != nullptr && curved_count_ == 0 && counts_touching<Real>();
   if (journal_ != nullptr && !is_counting && has_company(body, p, time)) return false;
-  const Real elapsed_a = a.time < time ? time - a.time : 0.0, elapsed_b = b.time < time ? time - b.time : 0.0;
-  const Real ax = a.x + a.vx * elapsed_a, ay = a.y + a.vy * elapsed_a, bx = b.x + b.vx * elapsed_b, by = b.y + b.vy * elapsed_b;
+  const Real elapsed_a = a.time < time ? time - a.time : 0.0,
+             elapsed_b = b.time < time ? time - b.time : 0.0;
+  const Real ax = a.x + a.vx * elapsed_a, ay = a.y + a.vy * elapsed_a, bx = b.x + b.vx * elapsed_b,
+             by = b.y + b.vy * elapsed_b;
   const Real x = ax - bx, y = ay - by;
-  if (x == 0.0 || y == 0.0) return false;  // in line with an axis they might come to rest on each other
-  const Real approach = x * (b.vx - a.vx) + y * (b.vy - a.vy), length_max = std::abs(x) + std::abs(y), square = x * x + y * y;
+  if (x == 0.0 || y == 0.0)
+    return false;  // in line with an axis they might come to rest on each other
+  const Real approach = x * (b.vx - a.vx) + y * (b.vy - a.vy),
+             length_max = std::abs(x) + std::abs(y), square = x * x + y * y;
   const Real speed_max = std::abs(a.vx) + std::abs(a.vy) + std::abs(b.vx) + std::abs(b.vy);
-  if (!(approach >= 1.01 * std::max<Real>(rest_speed_, separation_min<Real> * speed_max) * length_max)) return false;
+  if (!(approach >=
+        1.01 * std::max<Real>(rest_speed_, separation_min<Real> * speed_max) * length_max))
+    return false;
   const Flight<Real> before_a = a, before_b = b;
   const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * square);
   const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
@@ -69,7 +84,8 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
     const Slot slot_a = slots_[low], slot_b = slots_[high];
     const std::uint64_t predictions = counters_.predictions;
     const Real touching = a.radius + b.radius + Real(0.5 * clear_of_touching);
-    const bool is_alone = square <= touching * touching && predict_counting(low) == 2 && predict_counting(high) == 2;  // each itself and the other
+    const bool is_alone = square <= touching * touching && predict_counting(low) == 2 &&
+                          predict_counting(high) == 2;  // each itself and the other
     if (!is_alone) {
       static_cast<Flight<Real>&>(a) = before_a, static_cast<Flight<Real>&>(b) = before_b;
       --a.version, --b.version;
@@ -114,15 +130,21 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
   count_meeting(c);
   if (is_beyond_hope(c)) return stop_around(c, time);
   const Vector2& normal = c.gap.normal;
-  const Real approach = normal.dot(velocity_of(p) - velocity_of(body)), given_back = restitution(body, p);
+  const Real approach = normal.dot(velocity_of(p) - velocity_of(body)),
+             given_back = restitution(body, p);
   if (approach < rest_speed_ || given_back < 1.0 || is_hemmed_in(c)) {
     const Real pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
-    // A body in an arc of friction (engine_friction.cpp) may be pressed by the arc's law and pulled by the instant's: it comes to rest so often at one instant, then it hops.
+    // A body in an arc of friction (engine_friction.cpp) may be pressed by the arc's law and pulled
+    // by the instant's: it comes to rest so often at one instant, then it hops.
     const auto has_rested_enough = [&] { return rhythms_[body].repeats.add(time) > 8; };
-    if (approach < rest_speed_ && pressing > press_min && can_rest(c) && !(is_slowed() && has_rested_enough())) return rest(c, time);
+    if (approach < rest_speed_ && pressing > press_min && can_rest(c) &&
+        !(is_slowed() && has_rested_enough()))
+      return rest(c, time);
     note_impact(body, time);
     if (!is_fixed(p)) note_impact(p, time);
-    if ((is_hemmed_in(c) || is_pressed_hard(body, p, approach, time)) && hop(c, approach, pressing, time)) return;
+    if ((is_hemmed_in(c) || is_pressed_hard(body, p, approach, time)) &&
+        hop(c, approach, pressing, time))
+      return;
   }
   if (is_crowded(body, p)) {
     if (collide_together(c, time)) return;
@@ -132,9 +154,11 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
   bounce(c, given_back, time);
 }
 
-/// Newton's law of impact along the normal. A contact that no longer closes (grazing, rounding) still leaves with the least separation, or it would be found again. The impulse
-/// goes along the line of centres l as it is, (1 + e) (l . w) / ((1/m + 1/m') l . l), for a unit normal is a little too long or too short, which does not average out: it
-/// changed the energy of 1,000 pucks by -1e-19 per impact.
+/// Newton's law of impact along the normal. A contact that no longer closes (grazing, rounding)
+/// still leaves with the least separation, or it would be found again. The impulse goes along the
+/// line of centres l as it is, (1 + e) (l . w) / ((1/m + 1/m') l . l), for a unit normal is a
+/// little too long or too short, which does not average out: it changed the energy of 1,000 pucks
+/// by -1e-19 per impact.
 template <class Real>
 void BasicEngine<Real>::bounce(const Contact& c, Real given_back, Real time) {
   for (int axis = 0; axis < 2; ++axis) {
@@ -144,8 +168,10 @@ void BasicEngine<Real>::bounce(const Contact& c, Real given_back, Real time) {
   }
   const Vector2 here = velocity_of(c.body), there = velocity_of(c.partner);
   const Vector2& line = c.gap.line;
-  const Real square = line.squaredNorm(), length = std::sqrt(square), approach = line.dot(there - here);
-  const Real separation = std::max(given_back * approach, separation_min<Real> * (here.norm() + there.norm()) * length);
+  const Real square = line.squaredNorm(), length = std::sqrt(square),
+             approach = line.dot(there - here);
+  const Real separation =
+      std::max(given_back * approach, separation_min<Real> * (here.norm() + there.norm()) * length);
   const Real own = inverse_mass(c.body), other = inverse_mass(c.partner);
   const Real impulse = std::max<Real>(0.0, approach + separation) / ((own + other) * square);
   if (is_rough()) return rub(c, impulse * length);
@@ -158,23 +184,32 @@ void BasicEngine<Real>::bounce(const Contact& c, Real given_back, Real time) {
   p.vy = there.y() - impulse * other * line.y();
 }
 
-/// The impulse along the normal and that of the surfaces along the tangent, which turns discs (O. R. Walton, Mechanics of Materials 16, 1993; docs/physics.md, "Spin").
+/// The impulse along the normal and that of the surfaces along the tangent, which turns discs (O.
+/// R. Walton, Mechanics of Materials 16, 1993; docs/physics.md, "Spin").
 template <class Real>
 void BasicEngine<Real>::rub(const Contact& c, Real normal_impulse) {
   const Vector2 &normal = c.gap.normal, tangent(-normal.y(), normal.x());
   const bool is_partner_moved = inverse_mass(c.partner) > 0.0;
   const auto turns = [&](Partner p) { return is_body(p) && bodies_[p].kind == BodyKind::puck; };
-  const auto rim_speed = [&](Partner p) { return turns(p) ? spins_[p] * bodies_[p].radius : Real(0.0); };
+  const auto rim_speed = [&](Partner p) {
+    return turns(p) ? spins_[p] * bodies_[p].radius : Real(0.0);
+  };
   // Of a uniform disc, 1/m + r^2/I = 3/m.
   const auto yielding = [&](Partner p) { return (turns(p) ? 3.0 : 1.0) * inverse_mass(p); };
-  const MaterialId own = bodies_[c.body].material, other = is_body(c.partner) ? bodies_[c.partner].material : spec_.field.wall;
-  const Real slip = tangent.dot(velocity_of(c.body) - velocity_of(c.partner)) - (rim_speed(c.body) + rim_speed(c.partner));
-  const Real stick = (1.0 + Real(spec_.surface_friction->tangential_restitution(own, other))) * std::abs(slip) / (yielding(c.body) + yielding(c.partner));
-  const Real rubbing = -std::copysign(std::min<Real>(stick, spec_.surface_friction->coefficient(own, other) * normal_impulse), slip);
+  const MaterialId own = bodies_[c.body].material,
+                   other = is_body(c.partner) ? bodies_[c.partner].material : spec_.field.wall;
+  const Real slip = tangent.dot(velocity_of(c.body) - velocity_of(c.partner)) -
+                    (rim_speed(c.body) + rim_speed(c.partner));
+  const Real stick = (1.0 + Real(spec_.surface_friction->tangential_restitution(own, other))) *
+                     std::abs(slip) / (yielding(c.body) + yielding(c.partner));
+  const Real rubbing = -std::copysign(
+      std::min<Real>(stick, spec_.surface_friction->coefficient(own, other) * normal_impulse),
+      slip);
   const Vector2 impulse = normal_impulse * normal + rubbing * tangent;
   const auto kick = [&](std::uint32_t body, Real sign) {
     Body& b = bodies_[body];
-    b.vx += sign * inverse_mass(body) * impulse.x(), b.vy += sign * inverse_mass(body) * impulse.y();
+    b.vx += sign * inverse_mass(body) * impulse.x(),
+        b.vy += sign * inverse_mass(body) * impulse.y();
     if (turns(body)) spins_[body] -= 2.0 * inverse_mass(body) * rubbing / b.radius;
   };
   kick(c.body, 1.0);
@@ -183,7 +218,9 @@ void BasicEngine<Real>::rub(const Contact& c, Real normal_impulse) {
 
 template <class Real>
 void BasicEngine<Real>::count_impact(std::uint32_t body, Partner p, Real time) {
-  const auto is = [&](BodyKind kind) { return bodies_[body].kind == kind || (is_body(p) && bodies_[p].kind == kind); };
+  const auto is = [&](BodyKind kind) {
+    return bodies_[body].kind == kind || (is_body(p) && bodies_[p].kind == kind);
+  };
   const auto kind = [&] {
     if (!is_body(p)) return p >= partner::edge_left_low ? EventKind::post : EventKind::wall;
     if (is(BodyKind::post)) return EventKind::post;

@@ -12,9 +12,11 @@ BasicBodyState<Real> BasicEngine<Real>::state_of(std::uint32_t body) const {
   const Rhythm& rhythm = rhythms_[body];
   BasicBodyState<Real> state;
   state.flight = b;
-  state.mass = build.mass, state.inverse_mass = build.inverse_mass, state.half_extent = build.half_extent, state.thrust = build.thrust, state.half = build.half;
+  state.mass = build.mass, state.inverse_mass = build.inverse_mass,
+  state.half_extent = build.half_extent, state.thrust = build.thrust, state.half = build.half;
   state.acceleration = laws_[body].acceleration, state.drag = laws_[body].drag;
-  state.impacts_begin = rhythm.window_start, state.last_hop = rhythm.last_hop, state.impacts = rhythm.impacts, state.hops = rhythm.hops;
+  state.impacts_begin = rhythm.window_start, state.last_hop = rhythm.last_hop,
+  state.impacts = rhythm.impacts, state.hops = rhythm.hops;
   state.repeats = rhythm.repeats.count, state.repeats_instant = rhythm.repeats.instant;
   if (is_slowed()) state.rest_time = rest_times_[body], state.slowing = slowing_[body];
   if (is_rough()) state.spin = spins_[body];
@@ -35,18 +37,25 @@ void BasicEngine<Real>::keep_state(std::uint32_t body) {
   journal.states.push_back({body, state_of(body)});
 }
 
-/// A digest of all but the flight, the same whichever way an impact took. The rhythm of impacts follows from their list, where `stirred` stands for it.
+/// A digest of all but the flight, the same whichever way an impact took. The rhythm of impacts
+/// follows from their list, where `stirred` stands for it.
 template <class Real>
 std::uint64_t BasicEngine<Real>::conditions_of(std::uint32_t body) const {
   const Body& b = bodies_[body];
   std::uint64_t digest = b.mouth;
-  const auto mix = [&](std::uint64_t word) { digest = (digest ^ word) * 0x9e3779b97f4a7c15ULL, digest ^= digest >> 29; };
-  const auto mix_real = [&](Real value) { mix(std::bit_cast<std::uint64_t>(static_cast<double>(value))); };
+  const auto mix = [&](std::uint64_t word) {
+    digest = (digest ^ word) * 0x9e3779b97f4a7c15ULL, digest ^= digest >> 29;
+  };
+  const auto mix_real = [&](Real value) {
+    mix(std::bit_cast<std::uint64_t>(static_cast<double>(value)));
+  };
   if (is_rough()) mix_real(spins_[body]);
   if (const std::uint8_t lasting = b.flags & (gone | held | frozen | curved); lasting != 0) {
     mix(lasting);
-    for (const Vector2& v : {laws_[body].acceleration, laws_[body].drag, builds_[body].thrust}) mix_real(v.x()), mix_real(v.y());
-    if (is_slowed()) mix_real(rest_times_[body]), mix_real(slowing_[body].x()), mix_real(slowing_[body].y());
+    for (const Vector2& v : {laws_[body].acceleration, laws_[body].drag, builds_[body].thrust})
+      mix_real(v.x()), mix_real(v.y());
+    if (is_slowed())
+      mix_real(rest_times_[body]), mix_real(slowing_[body].x()), mix_real(slowing_[body].y());
   }
   return digest;
 }

@@ -1,4 +1,5 @@
-// Bodies that are pushed to and fro at one instant, for they started in overlap or have no room: time must advance all the same.
+// Bodies that are pushed to and fro at one instant, for they started in overlap or have no room:
+// time must advance all the same.
 #include <algorithm>
 #include <limits>
 
@@ -7,7 +8,8 @@
 namespace rink::physics {
 
 namespace {
-/// Impacts of one body at one and the same instant. Free bodies in overlap part after a few; a body that lies in two fixed ones at once never would.
+/// Impacts of one body at one and the same instant. Free bodies in overlap part after a few; a body
+/// that lies in two fixed ones at once never would.
 constexpr std::uint32_t repeats_max = 100;
 /// Likewise within roundings of the clock: more than elastic series between masses 1e12 apart take.
 constexpr std::uint32_t hemmed_in_min = 10'000;
@@ -22,22 +24,31 @@ void BasicEngine<Real>::count_meeting(const Contact& c) {
 
 template <class Real>
 std::uint32_t BasicEngine<Real>::meetings(const Contact& c) const {
-  return std::max(rhythms_[c.body].meetings.count, is_fixed(c.partner) ? 0u : rhythms_[c.partner].meetings.count);
+  return std::max(rhythms_[c.body].meetings.count,
+                  is_fixed(c.partner) ? 0u : rhythms_[c.partner].meetings.count);
 }
 
-/// Whether somebody has so little room that even lossless impacts at one instant do not end: elastic series between unequal masses take fewer.
+/// Whether somebody has so little room that even lossless impacts at one instant do not end:
+/// elastic series between unequal masses take fewer.
 template <class Real>
-bool BasicEngine<Real>::is_hemmed_in(const Contact& c) const { return meetings(c) > hemmed_in_min; }
+bool BasicEngine<Real>::is_hemmed_in(const Contact& c) const {
+  return meetings(c) > hemmed_in_min;
+}
 
 /// Whether nothing that parts them has helped.
 template <class Real>
-bool BasicEngine<Real>::is_beyond_hope(const Contact& c) const { return meetings(c) > 2 * hemmed_in_min; }
+bool BasicEngine<Real>::is_beyond_hope(const Contact& c) const {
+  return meetings(c) > 2 * hemmed_in_min;
+}
 
 /// Counts the impact at `time`; whether one of the two has had its fill.
 template <class Real>
 bool BasicEngine<Real>::is_stuck(const Contact& c, Real time) {
-  const auto has_had_enough = [&](std::uint32_t body) { return rhythms_[body].repeats.add(time) > repeats_max; };
-  const bool is_own = has_had_enough(c.body), is_other = !is_fixed(c.partner) && has_had_enough(c.partner);
+  const auto has_had_enough = [&](std::uint32_t body) {
+    return rhythms_[body].repeats.add(time) > repeats_max;
+  };
+  const bool is_own = has_had_enough(c.body),
+             is_other = !is_fixed(c.partner) && has_had_enough(c.partner);
   return is_own || is_other;
 }
 
@@ -52,7 +63,8 @@ void BasicEngine<Real>::stop_around(const Contact& c, Real time) {
 template <class Real>
 void BasicEngine<Real>::stop_cluster() {
   ++jam_count_;
-  const std::uint32_t jam = *std::min_element(joint_.begin(), joint_.end());  // nobody is in two, so that it names the jam in every world
+  const std::uint32_t jam = *std::min_element(
+      joint_.begin(), joint_.end());  // nobody is in two, so that it names the jam in every world
   for (const std::uint32_t body : joint_) {
     Body& b = bodies_[body];
     b.vx = b.vy = 0.0;

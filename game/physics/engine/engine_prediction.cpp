@@ -5,8 +5,8 @@
 
 namespace rink::physics {
 
-/// Ties break by (time, lower id, higher id); parts of the field count as higher than every body. Whether another impact follows within the instant does not depend on
-/// the order of the offers.
+/// Ties break by (time, lower id, higher id); parts of the field count as higher than every body.
+/// Whether another impact follows within the instant does not depend on the order of the offers.
 template <class Real>
 void BasicEngine<Real>::offer(std::uint32_t body, Real time, Partner p) {
   Slot& slot = slots_[body];
@@ -23,7 +23,8 @@ template <class Real>
 void BasicEngine<Real>::enqueue(std::uint32_t body) {
   const Slot& slot = slots_[body];
   if (slot.crossing_time < slot.impact_time) queue_.set(body, slot.crossing_time, body, body);
-  else queue_.set(body, slot.impact_time, std::min(body, slot.partner), std::max(body, slot.partner));
+  else
+    queue_.set(body, slot.impact_time, std::min(body, slot.partner), std::max(body, slot.partner));
 }
 
 template <class Real>
@@ -33,7 +34,8 @@ void BasicEngine<Real>::predict(std::uint32_t body) {
   enqueue(body);
 }
 
-/// Forgets what was known, asks the field, and makes all who are near candidates; returns how many, the body itself among them.
+/// Forgets what was known, asks the field, and makes all who are near candidates; returns how many,
+/// the body itself among them.
 template <class Real>
 std::uint32_t BasicEngine<Real>::begin_prediction(std::uint32_t body) {
   slots_[body].impact_time = infinity;
@@ -46,7 +48,8 @@ std::uint32_t BasicEngine<Real>::begin_prediction(std::uint32_t body) {
   return grid_.collect(body, candidates_.data());
 }
 
-/// Likewise of a puck in straight flight where all are, but for telling the queue. Returns how many touch it now, itself included: never too few, hardly ever too many.
+/// Likewise of a puck in straight flight where all are, but for telling the queue. Returns how many
+/// touch it now, itself included: never too few, hardly ever too many.
 template <class Real>
 std::uint32_t BasicEngine<Real>::predict_counting(std::uint32_t body) {
   const std::uint32_t count = begin_prediction(body);
@@ -64,7 +67,8 @@ void BasicEngine<Real>::predict_field(std::uint32_t body) {
   if (b.mouth != no_mouth) predict_mouth(body);
 }
 
-/// The instant at which the pucks' warped clock has advanced by `warped` since `start`; infinite if it never does.
+/// The instant at which the pucks' warped clock has advanced by `warped` since `start`; infinite if
+/// it never does.
 template <class Real>
 Real BasicEngine<Real>::real_time(Real start, Real warped) const {
   if (puck_drag_ == 0.0) return start + warped;
@@ -72,7 +76,8 @@ Real BasicEngine<Real>::real_time(Real start, Real warped) const {
   return lost < 1.0 ? start - log1p_of(-lost) / puck_drag_ : infinity;
 }
 
-/// The crossing of a body in straight flight and, where its cell lies at the rim, the wall: from any other cell a crossing comes first.
+/// The crossing of a body in straight flight and, where its cell lies at the rim, the wall: from
+/// any other cell a crossing comes first.
 template <class Real>
 void BasicEngine<Real>::predict_flight(std::uint32_t body) {
   const Body& b = bodies_[body];
@@ -85,7 +90,8 @@ void BasicEngine<Real>::predict_flight(std::uint32_t body) {
   const Real y = b.vy == 0.0 ? infinity : (grid_.row_edge(place.row, is_up) - b.y) / b.vy;
   if (x == infinity) predict_end_wall(body);
   if (y == infinity) predict_side_wall(body);
-  const int across = is_right ? CellGrid::right : CellGrid::left, along = is_up ? CellGrid::up : CellGrid::down;
+  const int across = is_right ? CellGrid::right : CellGrid::left,
+            along = is_up ? CellGrid::up : CellGrid::down;
   slot.direction = static_cast<CellGrid::Direction>(x <= y ? across : along);
   const Real warped = std::min(x, y);
   if (warped < infinity) slot.crossing_time = real_time(b.time, warped);
@@ -96,7 +102,8 @@ void BasicEngine<Real>::predict_side_wall(std::uint32_t body) {
   const Body& b = bodies_[body];
   if (b.vy == 0.0) return;
   const Real gap = b.vy < 0.0 ? b.y - b.radius : spec_.field.width - b.radius - b.y;
-  offer(body, real_time(b.time, std::max<Real>(0.0, gap) / std::abs(b.vy)), b.vy < 0.0 ? partner::wall_bottom : partner::wall_top);
+  offer(body, real_time(b.time, std::max<Real>(0.0, gap) / std::abs(b.vy)),
+        b.vy < 0.0 ? partner::wall_bottom : partner::wall_top);
 }
 
 template <class Real>
@@ -108,20 +115,29 @@ void BasicEngine<Real>::predict_end_wall(std::uint32_t body) {
   const Real warped = std::max<Real>(0.0, gap) / std::abs(b.vx);
   const Real y = b.y + b.vy * warped;
   const bool is_open = std::abs(y - 0.5 * field.width) < 0.5 * field.goal_width;
-  offer(body, real_time(b.time, warped), is_open ? partner::mouth_in : b.vx < 0.0 ? partner::wall_left : partner::wall_right);
+  offer(body, real_time(b.time, warped),
+        is_open      ? partner::mouth_in
+        : b.vx < 0.0 ? partner::wall_left
+                     : partner::wall_right);
 }
 
-/// The half-plane of a wall, the halfway line or a goal line, grown by the body: its centre must stay on the side of the normal.
+/// The half-plane of a wall, the halfway line or a goal line, grown by the body: its centre must
+/// stay on the side of the normal.
 template <class Real>
 BasicHalfPlane<Real> BasicEngine<Real>::plane_of(std::uint32_t body, Partner wall) const {
   const Field& field = spec_.field;
   const Vector2 extent = builds_[body].half_extent + Vector2::Constant(bodies_[body].radius);
   switch (wall) {
-    case partner::wall_left: return {{1.0, 0.0}, extent.x()};
-    case partner::wall_right: return {{-1.0, 0.0}, extent.x() - field.length};
-    case partner::wall_bottom: return {{0.0, 1.0}, extent.y()};
-    case partner::wall_top: return {{0.0, -1.0}, extent.y() - field.width};
-    default: break;
+    case partner::wall_left:
+      return {{1.0, 0.0}, extent.x()};
+    case partner::wall_right:
+      return {{-1.0, 0.0}, extent.x() - field.length};
+    case partner::wall_bottom:
+      return {{0.0, 1.0}, extent.y()};
+    case partner::wall_top:
+      return {{0.0, -1.0}, extent.y() - field.width};
+    default:
+      break;
   }
   if (builds_[body].half == Half::left) return {{-1.0, 0.0}, extent.x() - 0.5 * field.length};
   return {{1.0, 0.0}, extent.x() + 0.5 * field.length};
@@ -133,18 +149,23 @@ void BasicEngine<Real>::predict_curved_walls(std::uint32_t body) {
   const Motion still, moving = motion(body);
   const RelativeMotion relative{still, moving};
   const auto predict_plane = [&](Partner wall) {
-    const auto time = first_contact(relative, plane_of(body, wall), b.time, slots_[body].impact_time + Real(instant), tolerance_);
+    const auto time = first_contact(relative, plane_of(body, wall), b.time,
+                                    slots_[body].impact_time + Real(instant), tolerance_);
     if (!time) return;
     const bool is_end = wall == partner::wall_left || wall == partner::wall_right;
-    const bool is_open = is_end && b.kind == BodyKind::puck && std::abs(moving.at(*time).position.y() - 0.5 * spec_.field.width) < 0.5 * spec_.field.goal_width;
+    const bool is_open = is_end && b.kind == BodyKind::puck &&
+                         std::abs(moving.at(*time).position.y() - 0.5 * spec_.field.width) <
+                             0.5 * spec_.field.goal_width;
     offer(body, *time, is_open ? partner::mouth_in : wall);
   };
-  const bool is_resting_x = b.vx == 0.0 && laws_[body].acceleration.x() == 0.0, is_resting_y = b.vy == 0.0 && laws_[body].acceleration.y() == 0.0;
+  const bool is_resting_x = b.vx == 0.0 && laws_[body].acceleration.x() == 0.0,
+             is_resting_y = b.vy == 0.0 && laws_[body].acceleration.y() == 0.0;
   if (!is_resting_y) predict_plane(partner::wall_bottom), predict_plane(partner::wall_top);
   if (is_resting_x || b.mouth != no_mouth) return;
   predict_plane(partner::wall_left);
   predict_plane(partner::wall_right);
-  if (spec_.field.bats_keep_to_half && b.kind == BodyKind::bat && builds_[body].half != Half::both) predict_plane(partner::halfway);
+  if (spec_.field.bats_keep_to_half && b.kind == BodyKind::bat && builds_[body].half != Half::both)
+    predict_plane(partner::halfway);
 }
 
 template <class Real>
@@ -152,7 +173,8 @@ BasicVector2<Real> BasicEngine<Real>::goal_edge(Partner edge) const {
   const Field& field = spec_.field;
   const bool is_left = edge == partner::edge_left_low || edge == partner::edge_left_high;
   const bool is_low = edge == partner::edge_left_low || edge == partner::edge_right_low;
-  return {is_left ? 0.0 : field.length, 0.5 * (Real(field.width) + (is_low ? -field.goal_width : field.goal_width))};
+  return {is_left ? 0.0 : field.length,
+          0.5 * (Real(field.width) + (is_low ? -field.goal_width : field.goal_width))};
 }
 
 /// Between the edges of a goal: the two edges, the goal line, and the way out.
@@ -163,13 +185,15 @@ void BasicEngine<Real>::predict_mouth(std::uint32_t body) {
   const Motion moving = motion(body);
   Motion still;
   const auto meet = [&](const auto& shape, Partner p) {
-    const auto time = first_contact(RelativeMotion{still, moving}, shape, b.time, slots_[body].impact_time + Real(instant), tolerance_);
+    const auto time = first_contact(RelativeMotion{still, moving}, shape, b.time,
+                                    slots_[body].impact_time + Real(instant), tolerance_);
     if (time) offer(body, *time, p);
   };
   const Real end = is_left ? 0.0 : spec_.field.length, inwards = is_left ? 1.0 : -1.0;
   meet(HalfPlane{{inwards, 0.0}, inwards * end}, partner::goal_line);
   meet(HalfPlane{{-inwards, 0.0}, -inwards * (end + inwards * b.radius)}, partner::mouth_out);
-  for (const Partner edge : {is_left ? partner::edge_left_low : partner::edge_right_low, is_left ? partner::edge_left_high : partner::edge_right_high}) {
+  for (const Partner edge : {is_left ? partner::edge_left_low : partner::edge_right_low,
+                             is_left ? partner::edge_left_high : partner::edge_right_high}) {
     still.position = goal_edge(edge);
     meet(RoundedBox{{0.0, 0.0}, b.radius}, edge);
   }
@@ -181,9 +205,15 @@ void BasicEngine<Real>::predict_pairs(std::uint32_t body, std::uint32_t count) {
   counters_.predictions += count;
   std::uint32_t* near = candidates_.data();
   if ((bodies_[body].flags & curved) == 0 && puck_drag_ == 0.0) {
-    const auto is_curved = [&](std::uint32_t other) { return (bodies_[other].flags & curved) != 0; };
-    std::uint32_t* const straight_end = curved_count_ == 0 ? near + count : std::partition(near, near + count, [&](std::uint32_t other) { return !is_curved(other); });
-    for (std::uint32_t* other = straight_end; other != near + count; ++other) predict_curved_pair(body, *other);
+    const auto is_curved = [&](std::uint32_t other) {
+      return (bodies_[other].flags & curved) != 0;
+    };
+    std::uint32_t* const straight_end =
+        curved_count_ == 0 ? near + count
+                           : std::partition(near, near + count,
+                                            [&](std::uint32_t other) { return !is_curved(other); });
+    for (std::uint32_t* other = straight_end; other != near + count; ++other)
+      predict_curved_pair(body, *other);
     predict_straight_pairs<false>(body, near, static_cast<std::uint32_t>(straight_end - near));
     return;
   }
@@ -191,22 +221,28 @@ void BasicEngine<Real>::predict_pairs(std::uint32_t body, std::uint32_t count) {
     if (near[k] != body) predict_pair(body, near[k]);
 }
 
-/// Where nothing comes at the same instant, which is nearly always, no branch depends on who meets whom.
+/// Where nothing comes at the same instant, which is nearly always, no branch depends on who meets
+/// whom.
 template <class Real>
 template <bool counts>
-std::uint32_t BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std::uint32_t* near, std::uint32_t count) {
+std::uint32_t BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
+                                                        std::uint32_t count) {
   Slot& slot = slots_[body];
   std::uint32_t touching = 0;
   for (std::uint32_t begin = 0; begin < count; begin += flight_max) {
     const std::uint32_t asked = std::min(flight_max, count - begin);
     // The slack keeps those that come within the same instant.
-    const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness<Real>) + Real(instant);
-    const Meeting<Real> first = counts ? first_meeting_counting<Real>(bodies_.data(), body, near + begin, asked, latest) : first_meeting<Real>(bodies_.data(), body, near + begin, asked, latest);
+    const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness<Real>)+Real(instant);
+    const Meeting<Real> first =
+        counts ? first_meeting_counting<Real>(bodies_.data(), body, near + begin, asked, latest)
+               : first_meeting<Real>(bodies_.data(), body, near + begin, asked, latest);
     touching += first.touching;
-    const bool is_tied = first.second_time <= first.time + Real(instant) || std::abs(first.time - slot.impact_time) <= Real(instant);
+    const bool is_tied = first.second_time <= first.time + Real(instant) ||
+                         std::abs(first.time - slot.impact_time) <= Real(instant);
     if (first.time < infinity && is_tied) {
       for (std::uint32_t k = begin; k < begin + asked; ++k)
-        if (const auto time = meeting_time<Real>(bodies_[body], bodies_[near[k]], latest)) offer(body, *time, near[k]);
+        if (const auto time = meeting_time<Real>(bodies_[body], bodies_[near[k]], latest))
+          offer(body, *time, near[k]);
       continue;
     }
     const bool is_earlier = first.time < slot.impact_time;
@@ -220,7 +256,8 @@ std::uint32_t BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std:
   return touching;
 }
 
-/// Both positions are taken at the later of the two last events, so that the result depends on nothing but the two states.
+/// Both positions are taken at the later of the two last events, so that the result depends on
+/// nothing but the two states.
 template <class Real>
 void BasicEngine<Real>::predict_pair(std::uint32_t body, std::uint32_t other) {
   const Body &a = bodies_[body], &b = bodies_[other];
@@ -232,14 +269,19 @@ void BasicEngine<Real>::predict_pair(std::uint32_t body, std::uint32_t other) {
     offset += Vector2(b.vx * ahead_b - a.vx * ahead_a, b.vy * ahead_b - a.vy * ahead_a);
     velocity = Vector2(b.vx - a.vx, b.vy - a.vy);
   } else {
-    const auto warped_since = [&](const Body& c) { return c.time == time ? WarpedTime{0.0, 0.0, 1.0} : warp_unaccelerated(time - c.time, puck_drag_); };
+    const auto warped_since = [&](const Body& c) {
+      return c.time == time ? WarpedTime{0.0, 0.0, 1.0}
+                            : warp_unaccelerated(time - c.time, puck_drag_);
+    };
     const WarpedTime wa = warped_since(a), wb = warped_since(b);
     offset += Vector2(b.vx * wb.s - a.vx * wa.s, b.vy * wb.s - a.vy * wa.s);
     velocity = Vector2(b.vx * wb.e - a.vx * wa.e, b.vy * wb.e - a.vy * wa.e);
   }
-  // Warped time never runs ahead of real time, so the best event so far limits it as well; the slack keeps those that come within the same instant.
-  const Real limit = slots_[body].impact_time * (1.0 + 4e-15 * fineness<Real>) + Real(instant) - time;
-  if (const auto wait = time_to_touch(offset, velocity, a.radius + b.radius, limit)) offer(body, real_time(time, *wait), other);
+  // Warped time never runs ahead of real time, so the best event so far limits it as well; the
+  // slack keeps those that come within the same instant.
+  const Real limit = slots_[body].impact_time * (1.0 + 4e-15 * fineness<Real>)+Real(instant) - time;
+  if (const auto wait = time_to_touch(offset, velocity, a.radius + b.radius, limit))
+    offer(body, real_time(time, *wait), other);
 }
 
 template <class Real>
@@ -249,20 +291,26 @@ void BasicEngine<Real>::predict_curved_pair(std::uint32_t body, std::uint32_t ot
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
   const Motion a = motion(low), b = motion(high);
   const Real start = std::max(a.time, b.time);
-  // What comes after the next crossing of a body on a curve is looked for then, when everybody in sight is looked at anew.
+  // What comes after the next crossing of a body on a curve is looked for then, when everybody in
+  // sight is looked at anew.
   const Slot& slot = slots_[body];
-  const Real limit = (bodies_[body].flags & curved) != 0 ? std::min(slot.impact_time, slot.crossing_time) : slot.impact_time;
-  const auto time = first_contact(RelativeMotion{a, b}, shape_of(low, high), start, limit + Real(instant), tolerance_);
+  const Real limit = (bodies_[body].flags & curved) != 0
+                         ? std::min(slot.impact_time, slot.crossing_time)
+                         : slot.impact_time;
+  const auto time = first_contact(RelativeMotion{a, b}, shape_of(low, high), start,
+                                  limit + Real(instant), tolerance_);
   if (time) offer(body, *time, other);
 }
 
 template <class Real>
 void BasicEngine<Real>::predict_release(std::uint32_t body) {
   for (const Hold& hold : holds_)
-    if (hold.low == body || hold.high == body) offer(body, std::min({hold.pull_time, hold.turn_time, slide_time(hold)}), partner::release);
+    if (hold.low == body || hold.high == body)
+      offer(body, std::min({hold.pull_time, hold.turn_time, slide_time(hold)}), partner::release);
 }
 
-/// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as well, so now_ may be used.
+/// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as
+/// well, so now_ may be used.
 template <class Real>
 void BasicEngine<Real>::predict_curved_crossing(std::uint32_t body) {
   Slot& slot = slots_[body];
@@ -273,7 +321,9 @@ void BasicEngine<Real>::predict_curved_crossing(std::uint32_t body) {
   const auto leave = [&](Real edge, Vector2 normal, CellGrid::Direction direction) {
     if (std::abs(edge) == infinity) return;
     const Real limit = std::min(slot.impact_time, slot.crossing_time);
-    const auto time = first_contact(RelativeMotion{still, moving}, HalfPlane{normal, normal.sum() * edge}, start, limit, tolerance_);
+    const auto time =
+        first_contact(RelativeMotion{still, moving}, HalfPlane{normal, normal.sum() * edge}, start,
+                      limit, tolerance_);
     if (!time || *time >= slot.crossing_time) return;
     slot.crossing_time = *time;
     slot.direction = direction;

@@ -10,14 +10,18 @@ namespace rink::physics {
 template <class Real>
 bool BasicEngine<Real>::is_free(const Vector2& centre, const RoundedBox& shape) const {
   const Vector2 extent = shape.half_extent + Vector2::Constant(shape.radius);
-  if ((centre - extent).minCoeff() < 0.0 || centre.x() + extent.x() > spec_.field.length || centre.y() + extent.y() > spec_.field.width) return false;
+  if ((centre - extent).minCoeff() < 0.0 || centre.x() + extent.x() > spec_.field.length ||
+      centre.y() + extent.y() > spec_.field.width)
+    return false;
   const double range = static_cast<double>(extent.maxCoeff() + reach_) + grid_.side() / 32.0;
   const double x = static_cast<double>(centre.x()), y = static_cast<double>(centre.y());
   const std::uint32_t column = grid_.column(x - range), row = grid_.row(y - range);
-  const int columns = static_cast<int>(grid_.column(x + range) - column), rows = static_cast<int>(grid_.row(y + range) - row);
+  const int columns = static_cast<int>(grid_.column(x + range) - column),
+            rows = static_cast<int>(grid_.row(y + range) - row);
   bool is_clear = true;
   grid_.around(column, row, 0, columns, 0, rows, [&](std::uint32_t body) {
-    const RoundedBox both{builds_[body].half_extent + shape.half_extent, bodies_[body].radius + shape.radius};
+    const RoundedBox both{builds_[body].half_extent + shape.half_extent,
+                          bodies_[body].radius + shape.radius};
     is_clear = is_clear && both.gap(centre - at(body, now_).position).distance >= 0.0;
   });
   return is_clear;
@@ -27,9 +31,11 @@ template <class Real>
 Real BasicEngine<Real>::kinetic_energy() const {
   Real sum = 0.0;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
-    if (!is_gone(body) && builds_[body].inverse_mass > 0.0) sum += 0.5 * builds_[body].mass * at(body, now_).velocity.squaredNorm();
+    if (!is_gone(body) && builds_[body].inverse_mass > 0.0)
+      sum += 0.5 * builds_[body].mass * at(body, now_).velocity.squaredNorm();
   for (std::uint32_t body = 0; body < spins_.size(); ++body)
-    if (!is_gone(body) && bodies_[body].kind == BodyKind::puck) sum += 0.25 * builds_[body].mass * std::pow(bodies_[body].radius * spins_[body], 2);
+    if (!is_gone(body) && bodies_[body].kind == BodyKind::puck)
+      sum += 0.25 * builds_[body].mass * std::pow(bodies_[body].radius * spins_[body], 2);
   return sum;
 }
 
@@ -37,7 +43,8 @@ template <class Real>
 BasicVector2<Real> BasicEngine<Real>::momentum() const {
   Vector2 sum(0.0, 0.0);
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
-    if (!is_gone(body) && builds_[body].inverse_mass > 0.0) sum += builds_[body].mass * at(body, now_).velocity;
+    if (!is_gone(body) && builds_[body].inverse_mass > 0.0)
+      sum += builds_[body].mass * at(body, now_).velocity;
   return sum;
 }
 
@@ -48,11 +55,17 @@ Real BasicEngine<Real>::max_overlap() const {
     if (is_gone(body) || bodies_[body].kind == BodyKind::post) continue;
     const Vector2 position = at(body, now_).position;
     const Vector2 extent = builds_[body].half_extent + Vector2::Constant(bodies_[body].radius);
-    const Real end = bodies_[body].mouth == no_mouth ? std::min(position.x() - extent.x(), spec_.field.length - extent.x() - position.x()) : Real(0.0);
-    const Real side = std::min(position.y() - extent.y(), spec_.field.width - extent.y() - position.y());
+    const Real end =
+        bodies_[body].mouth == no_mouth
+            ? std::min(position.x() - extent.x(), spec_.field.length - extent.x() - position.x())
+            : Real(0.0);
+    const Real side =
+        std::min(position.y() - extent.y(), spec_.field.width - extent.y() - position.y());
     deepest = std::max({deepest, -end, -side});
     grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
-      if (other != body) deepest = std::max(deepest, -shape_of(body, other).gap(position - at(other, now_).position).distance);
+      if (other != body)
+        deepest = std::max(
+            deepest, -shape_of(body, other).gap(position - at(other, now_).position).distance);
     });
   }
   return deepest;
@@ -65,7 +78,8 @@ std::uint64_t BasicEngine<Real>::hash() const {
     const Body& b = bodies_[body];
     const bool is_curved = (b.flags & curved) != 0;
     const Law& law = laws_[body];
-    hash.add(b, is_curved ? &law.acceleration : nullptr, is_curved ? &law.drag : nullptr, static_cast<std::uint8_t>(b.flags & (gone | held | frozen)),
+    hash.add(b, is_curved ? &law.acceleration : nullptr, is_curved ? &law.drag : nullptr,
+             static_cast<std::uint8_t>(b.flags & (gone | held | frozen)),
              is_rough() ? std::optional<Real>(spins_[body]) : std::nullopt);
   }
   return hash.value();

@@ -1,4 +1,5 @@
-// Rest contacts: bodies pressed together along an axis share velocity and acceleration along it, and have no events until something changes.
+// Rest contacts: bodies pressed together along an axis share velocity and acceleration along it,
+// and have no events until something changes.
 #include <algorithm>
 
 #include "game/physics/engine/engine.h"
@@ -16,12 +17,16 @@ constexpr double pull_min = 1e-9;
 
 template <class Real>
 bool BasicEngine<Real>::are_held(std::uint32_t a, std::uint32_t b) const {
-  return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) { return (hold.low == a && hold.high == b) || (hold.low == b && hold.high == a); });
+  return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
+    return (hold.low == a && hold.high == b) || (hold.low == b && hold.high == a);
+  });
 }
 
-/// The bodies in rest contact with `body`, directly or through others, along any of `axes`; itself first. Fixed partners are not among them.
+/// The bodies in rest contact with `body`, directly or through others, along any of `axes`; itself
+/// first. Fixed partners are not among them.
 template <class Real>
-std::vector<std::uint32_t> BasicEngine<Real>::companions(std::uint32_t body, std::uint8_t axes) const {
+std::vector<std::uint32_t> BasicEngine<Real>::companions(std::uint32_t body,
+                                                         std::uint8_t axes) const {
   std::vector<std::uint32_t> found{body};
   const auto include = [&](Partner p) {
     if (!is_fixed(p) && std::find(found.begin(), found.end(), p) == found.end()) found.push_back(p);
@@ -51,10 +56,13 @@ bool BasicEngine<Real>::can_rest(const Contact& c) const {
   const int along = 1 - c.gap.face;
   const Real extent = shape_of(c.body, c.partner).half_extent[along];
   const Motion here = motion(c.body), there = motion(c.partner);
-  const Real offset = here.position[along] - there.position[along], speed = here.velocity[along] - there.velocity[along];
+  const Real offset = here.position[along] - there.position[along],
+             speed = here.velocity[along] - there.velocity[along];
   // Two discs have no face: in line they rest on each other only while nothing moves them sideways.
-  if (extent == 0.0) return speed == 0.0 && acceleration_of(c.body)[along] == acceleration_of(c.partner)[along];
-  return std::abs(offset) < extent - face_margin || (std::abs(offset) <= extent && offset * speed < 0.0);
+  if (extent == 0.0)
+    return speed == 0.0 && acceleration_of(c.body)[along] == acceleration_of(c.partner)[along];
+  return std::abs(offset) < extent - face_margin ||
+         (std::abs(offset) <= extent && offset * speed < 0.0);
 }
 
 /// Perfectly inelastic along the axis of the face: the groups on both sides become one.
@@ -63,7 +71,8 @@ void BasicEngine<Real>::rest(const Contact& c, Real time) {
   note(EventKind::rest, time, c.body, c.partner);
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
-  holds_.push_back({is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis, infinity, 0.0, infinity, journal_ ? journal_->next_age() : HoldAge{}});
+  holds_.push_back({is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis,
+                    infinity, 0.0, infinity, journal_ ? journal_->next_age() : HoldAge{}});
   for (const Partner p : {c.body, c.partner})
     if (!is_fixed(p)) bodies_[p].flags |= held_along(axis);
   const std::vector<std::uint32_t> members = companions(c.body, held_along(axis));
@@ -74,12 +83,14 @@ void BasicEngine<Real>::rest(const Contact& c, Real time) {
     momentum += builds_[member].mass * velocity_of(member)[axis];
   }
   const Real speed = is_group_fixed(axis, members) ? 0.0 : momentum / mass;
-  for (const std::uint32_t member : members) (axis == 0 ? bodies_[member].vx : bodies_[member].vy) = speed;
+  for (const std::uint32_t member : members)
+    (axis == 0 ? bodies_[member].vx : bodies_[member].vy) = speed;
   share(axis, members, time);
 }
 
 template <class Real>
-bool BasicEngine<Real>::is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const {
+bool BasicEngine<Real>::is_in_group(const Hold& hold, int axis,
+                                    const std::vector<std::uint32_t>& members) const {
   if (hold.axis != axis) return false;
   const Partner inside = is_fixed(hold.low) ? hold.high : hold.low;
   return std::find(members.begin(), members.end(), inside) != members.end();
@@ -87,13 +98,18 @@ bool BasicEngine<Real>::is_in_group(const Hold& hold, int axis, const std::vecto
 
 template <class Real>
 bool BasicEngine<Real>::is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const {
-  return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) { return is_in_group(hold, axis, members) && (is_fixed(hold.low) || is_fixed(hold.high)); });
+  return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
+    return is_in_group(hold, axis, members) && (is_fixed(hold.low) || is_fixed(hold.high));
+  });
 }
 
-/// The accelerations of `members` at common speed `speed` along `axis`, and the force in every hold: Gauss-Seidel on the forces, which push only if `only_push`.
-/// Groups are small (a bat and the pucks before it), and the sweep order is the order of the holds, so the bits are reproducible.
+/// The accelerations of `members` at common speed `speed` along `axis`, and the force in every
+/// hold: Gauss-Seidel on the forces, which push only if `only_push`. Groups are small (a bat and
+/// the pucks before it), and the sweep order is the order of the holds, so the bits are
+/// reproducible.
 template <class Real>
-void BasicEngine<Real>::solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed, bool only_push) {
+void BasicEngine<Real>::solve_forces(int axis, const std::vector<std::uint32_t>& members,
+                                     Real speed, bool only_push) {
   accelerations_.resize(bodies_.size());
   Real scale = 1.0;
   for (const std::uint32_t member : members) {
@@ -107,7 +123,8 @@ void BasicEngine<Real>::solve_forces(int axis, const std::vector<std::uint32_t>&
     Real change = may_stick ? resist(members, axis) : Real(0.0);
     for (Hold& hold : holds_) {
       if (!is_in_group(hold, axis, members)) continue;
-      const Real low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low], high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
+      const Real low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low],
+                 high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
       const Real yielding = inverse_mass(hold.low) + inverse_mass(hold.high);
       Real force = hold.force + (low - high) / yielding;
       if (only_push) force = std::max<Real>(0.0, force);
@@ -121,16 +138,19 @@ void BasicEngine<Real>::solve_forces(int axis, const std::vector<std::uint32_t>&
   }
 }
 
-/// Lets go what is pulled apart, then gives each remaining part of the group one acceleration and one drag, bitwise equal for all its members.
+/// Lets go what is pulled apart, then gives each remaining part of the group one acceleration and
+/// one drag, bitwise equal for all its members.
 template <class Real>
 void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& members, Real time) {
-  // Who is pulled is judged by the friction of this instant, as the next impact is, and not by that of an arc.
+  // Who is pulled is judged by the friction of this instant, as the next impact is, and not by that
+  // of an arc.
   if (is_slowed()) calm(axis, members), face_friction(members);
   const Real speed = velocity_of(members.front())[axis];
   solve_forces(axis, members, speed, true);
   const auto is_pulled = [&](const Hold& hold) {
     if (!is_in_group(hold, axis, members) || hold.force > 0.0) return false;
-    const Real low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low], high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
+    const Real low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low],
+               high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
     return high - low > pull_min;
   };
   for (const Hold& hold : holds_)
@@ -168,23 +188,30 @@ void BasicEngine<Real>::share_part(int axis, const std::vector<std::uint32_t>& p
   }
   // Groups that friction holds: a puck at rest bears less than it could.
   const auto bears_more = [&](std::uint32_t member) {
-    return is_slowed(member) && !is_sliding(member) && std::abs(slowing_[member][axis]) < (1.0 - 1e-9) * spec_.puck_friction;
+    return is_slowed(member) && !is_sliding(member) &&
+           std::abs(slowing_[member][axis]) < (1.0 - 1e-9) * spec_.puck_friction;
   };
-  const bool stands = !is_alone && !is_fixed_part && velocity_of(part.front())[axis] == 0.0 && std::any_of(part.begin(), part.end(), bears_more);
+  const bool stands = !is_alone && !is_fixed_part && velocity_of(part.front())[axis] == 0.0 &&
+                      std::any_of(part.begin(), part.end(), bears_more);
   for (const std::uint32_t member : part) {
     Body& b = bodies_[member];
-    b.flags = static_cast<std::uint8_t>(is_alone ? b.flags & ~held_along(axis) : b.flags | held_along(axis));
+    b.flags = static_cast<std::uint8_t>(is_alone ? b.flags & ~held_along(axis)
+                                                 : b.flags | held_along(axis));
     if (is_fixed_part || stands) set_law(member, axis, 0.0, own_drag(member));
     else if (is_alone) set_law(member, axis, builds_[member].thrust[axis], own_drag(member));
     else set_law(member, axis, thrust / mass, drag / mass);
   }
   const bool is_still = is_fixed_part || stands;
-  if (!is_alone) set_pull_times(axis, part, is_still || drag == 0.0 ? 0.0 : thrust / drag, is_still ? 0.0 : drag / mass, time);
+  if (!is_alone)
+    set_pull_times(axis, part, is_still || drag == 0.0 ? 0.0 : thrust / drag,
+                   is_still ? 0.0 : drag / mass, time);
 }
 
-/// Contact forces are linear in the common speed, which tends to `terminal_speed` at rate `drag`: one that would be negative there vanishes on the way.
+/// Contact forces are linear in the common speed, which tends to `terminal_speed` at rate `drag`:
+/// one that would be negative there vanishes on the way.
 template <class Real>
-void BasicEngine<Real>::set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed, Real drag, Real time) {
+void BasicEngine<Real>::set_pull_times(int axis, const std::vector<std::uint32_t>& part,
+                                       Real terminal_speed, Real drag, Real time) {
   for (Hold& hold : holds_)
     if (is_in_group(hold, axis, part)) hold.pull_time = infinity;
   if (drag == 0.0) return;
@@ -199,15 +226,20 @@ void BasicEngine<Real>::set_pull_times(int axis, const std::vector<std::uint32_t
     if (!is_in_group(hold, axis, part)) continue;
     const Real now = forces[i++], finally = hold.force;
     Real scale = 0.0;
-    for (const std::uint32_t member : part) scale += builds_[member].mass * (std::abs(builds_[member].thrust[axis]) + own_drag(member) * std::abs(speed));
+    for (const std::uint32_t member : part)
+      scale += builds_[member].mass *
+               (std::abs(builds_[member].thrust[axis]) + own_drag(member) * std::abs(speed));
     if (finally >= -1e-12 * scale) continue;
     hold.pull_time = time - log1p_of(-now / (now - finally)) / drag;
-    // An arc's friction is not quite that of its beginning: a contact that is pressed now and pulled along the arc would come and go at one instant.
-    if (is_slowed() && has_sliders(axis, part)) hold.pull_time = std::max(hold.pull_time, time + contact_time_);
+    // An arc's friction is not quite that of its beginning: a contact that is pressed now and
+    // pulled along the arc would come and go at one instant.
+    if (is_slowed() && has_sliders(axis, part))
+      hold.pull_time = std::max(hold.pull_time, time + contact_time_);
   }
 }
 
-/// Ends every rest contact of the group of `body` along `axis`; each member goes on with the common velocity and its own thrust and drag.
+/// Ends every rest contact of the group of `body` along `axis`; each member goes on with the common
+/// velocity and its own thrust and drag.
 template <class Real>
 void BasicEngine<Real>::dissolve(std::uint32_t body, int axis, Real time) {
   if ((bodies_[body].flags & held_along(axis)) == 0) return;
@@ -217,7 +249,8 @@ void BasicEngine<Real>::dissolve(std::uint32_t body, int axis, Real time) {
   for (const std::uint32_t member : members) share_part(axis, {member}, time);
 }
 
-/// When the contact reaches the end of its face [s]; infinite if it never does. Judged from the two last-event states, like any event.
+/// When the contact reaches the end of its face [s]; infinite if it never does. Judged from the two
+/// last-event states, like any event.
 template <class Real>
 Real BasicEngine<Real>::slide_time(const Hold& hold) const {
   if (!is_body(hold.low) || !is_body(hold.high)) return infinity;
@@ -226,20 +259,23 @@ Real BasicEngine<Real>::slide_time(const Hold& hold) const {
   const Motion low = motion(hold.low), high = motion(hold.high);
   const Real start = std::max(low.time, high.time);
   if (extent == 0.0) {
-    const bool is_still = velocity_of(hold.low)[along] == velocity_of(hold.high)[along] && acceleration_of(hold.low)[along] == acceleration_of(hold.high)[along];
+    const bool is_still = velocity_of(hold.low)[along] == velocity_of(hold.high)[along] &&
+                          acceleration_of(hold.low)[along] == acceleration_of(hold.high)[along];
     return is_still ? infinity : start;
   }
   Real earliest = infinity;
   for (const Real side : {-1.0, 1.0}) {
     Vector2 normal(0.0, 0.0);
     normal[along] = side;
-    const auto time = first_contact(RelativeMotion{low, high}, HalfPlane{normal, -extent}, start, earliest, tolerance_);
+    const auto time = first_contact(RelativeMotion{low, high}, HalfPlane{normal, -extent}, start,
+                                    earliest, tolerance_);
     if (time) earliest = *time;
   }
   return earliest;
 }
 
-/// The rest contacts of `body` that end at `time` do so; or the friction in its group is aimed anew.
+/// The rest contacts of `body` that end at `time` do so; or the friction in its group is aimed
+/// anew.
 template <class Real>
 void BasicEngine<Real>::release(std::uint32_t body, Real time) {
   for (std::size_t i = 0; i < holds_.size(); ++i) {

@@ -1,44 +1,53 @@
-// Contacts that close at the same instant: one problem, not a sequence, so that nobody's number decides who is hit first.
+// Contacts that close at the same instant: one problem, not a sequence, so that nobody's number
+// decides who is hit first.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "game/physics/flight/discs_near.h"
 #include "game/physics/engine/engine.h"
+#include "game/physics/flight/discs_near.h"
 
 namespace rink::physics {
 
 namespace {
 
-constexpr std::size_t joint_max = 512;        // bodies
-constexpr std::size_t rounds_min = 32;        // before all yield as one; an impulse through a chain needs one round per link,
+constexpr std::size_t joint_max = 512;  // bodies
+constexpr std::size_t rounds_min =
+    32;  // before all yield as one; an impulse through a chain needs one round per link,
 constexpr std::size_t rounds_max = 128;       // so there are more where more touch
 constexpr int cycles_max = 4;                 // of rounds and yielding
 constexpr std::uint64_t endless_events = 64;  // at one instant: then too
 /// Gaps within so many roundings of an offset are none.
 constexpr double touch_roundings = 16.0;
-/// Relative to the speeds: what closes more slowly does not close, and lacks no more of what is wanted than a quarter of it.
+/// Relative to the speeds: what closes more slowly does not close, and lacks no more of what is
+/// wanted than a quarter of it.
 template <class Real>
 constexpr Real rest_of_closing = 4e-13 * fineness<Real>;
-/// A contact of whose effect no more than this is left by those of others, relative to it, is implied by them.
+/// A contact of whose effect no more than this is left by those of others, relative to it, is
+/// implied by them.
 template <class Real>
 constexpr Real superfluous = 1e-12 * fineness<Real>;
 
 }  // namespace
 
-/// Whether another impact may come at the instant at hand. Never misses one: an impact is either the first of its body, and thus in the queue, or hidden behind that one.
+/// Whether another impact may come at the instant at hand. Never misses one: an impact is either
+/// the first of its body, and thus in the queue, or hidden behind that one.
 template <class Real>
 bool BasicEngine<Real>::is_crowded(std::uint32_t body, Partner p) const {
-  return slots_[body].is_tied || (is_body(p) && slots_[p].is_tied) || is_endless() || queue_.is_followed_within(instant);
+  return slots_[body].is_tied || (is_body(p) && slots_[p].is_tied) || is_endless() ||
+         queue_.is_followed_within(instant);
 }
 
 /// Whether so many events have come at this instant that all that touch shall yield as one.
 template <class Real>
-bool BasicEngine<Real>::is_endless() const { return events_at_once_ % endless_events == 0; }
+bool BasicEngine<Real>::is_endless() const {
+  return events_at_once_ % endless_events == 0;
+}
 
-/// The impact at hand together with all others that close at this instant among bodies that touch, directly or through others. False if there are none, or if no solution
-/// was found that keeps the energy; then nothing has changed, and no other is looked for until the instant is over.
+/// The impact at hand together with all others that close at this instant among bodies that touch,
+/// directly or through others. False if there are none, or if no solution was found that keeps the
+/// energy; then nothing has changed, and no other is looked for until the instant is over.
 template <class Real>
 bool BasicEngine<Real>::collide_together(const Contact& c, Real time) {
   if (is_rough() || is_hopeless_) return false;
@@ -55,8 +64,9 @@ bool BasicEngine<Real>::collide_together(const Contact& c, Real time) {
   return true;
 }
 
-/// An impact that comes alone here would be joint if any of those who touch were hit at this instant, however far away, by somebody whom this world does not have. So it
-/// concerns all of them, and the journal says so; nothing else changes.
+/// An impact that comes alone here would be joint if any of those who touch were hit at this
+/// instant, however far away, by somebody whom this world does not have. So it concerns all of
+/// them, and the journal says so; nothing else changes.
 template <class Real>
 void BasicEngine<Real>::look_at_touching(const Contact& c, Real time) {
   if (is_rough() || is_hopeless_ || !has_company(c.body, c.partner, time)) return;
@@ -66,7 +76,8 @@ void BasicEngine<Real>::look_at_touching(const Contact& c, Real time) {
 
 template <class Real>
 void BasicEngine<Real>::note_looked_at() {
-  if (journal_ != nullptr) journal_->looked_at.insert(journal_->looked_at.end(), joint_.begin(), joint_.end());
+  if (journal_ != nullptr)
+    journal_->looked_at.insert(journal_->looked_at.end(), joint_.begin(), joint_.end());
 }
 
 /// Whether a third body may touch one of the two: never missed, and hardly ever wrong.
@@ -74,30 +85,46 @@ template <class Real>
 bool BasicEngine<Real>::has_company(std::uint32_t body, Partner p, Real time) {
   candidates_.resize(grid_.collected_max());
 #if defined(__SSE2__)
-  // In a gas nobody does, and to count who is near at all, posts among them, takes a third of what it takes to ask who they are.
+  // In a gas nobody does, and to count who is near at all, posts among them, takes a third of what
+  // it takes to ask who they are.
   if constexpr (std::is_same_v<Real, double>) {
     const auto is_alone = [&](std::uint32_t one, std::uint32_t two) {
-      const std::uint32_t count = grid_.collect(one, candidates_.data()), fillers = (0u - count) & 3u;
+      const std::uint32_t count = grid_.collect(one, candidates_.data()),
+                          fillers = (0u - count) & 3u;
       const Body &a = bodies_[one], &b = bodies_[two];
-      const double ahead_a = std::max(0.0, time - a.time), ahead_b = std::max(0.0, time - b.time), ax = a.x + a.vx * ahead_a, ay = a.y + a.vy * ahead_a;
-      const double x = b.x + b.vx * ahead_b - ax, y = b.y + b.vy * ahead_b - ay, touching = a.radius + b.radius + 0.5 * clear_of_touching;
-      return x * x + y * y <= touching * touching && count_near_in_fours(bodies_.data(), candidates_.data(), count, one, ax, ay, time, a.radius + clear_of_touching) == 2 + fillers;
+      const double ahead_a = std::max(0.0, time - a.time), ahead_b = std::max(0.0, time - b.time),
+                   ax = a.x + a.vx * ahead_a, ay = a.y + a.vy * ahead_a;
+      const double x = b.x + b.vx * ahead_b - ax, y = b.y + b.vy * ahead_b - ay,
+                   touching = a.radius + b.radius + 0.5 * clear_of_touching;
+      return x * x + y * y <= touching * touching &&
+             count_near_in_fours(bodies_.data(), candidates_.data(), count, one, ax, ay, time,
+                                 a.radius + clear_of_touching) == 2 + fillers;
     };
     // Bats are on curves, always.
-    if (has_fours && curved_count_ == 0 && puck_drag_ == 0.0 && !is_fixed(p) && is_alone(body, p) && is_alone(p, body)) return false;
+    if (has_fours && curved_count_ == 0 && puck_drag_ == 0.0 && !is_fixed(p) && is_alone(body, p) &&
+        is_alone(p, body))
+      return false;
   }
 #endif
   const auto has_third = [&](std::uint32_t one, Partner two) {
     const std::uint32_t count = grid_.collect(one, candidates_.data());
     const Body& a = bodies_[one];
-    const bool is_straight = (a.flags & curved) == 0 && a.kind == BodyKind::puck && puck_drag_ == 0.0;
-    const Real ahead = std::max<Real>(0.0, time - a.time), ax = a.x + a.vx * ahead, ay = a.y + a.vy * ahead, least = a.radius + Real(clear_of_touching);
-    for (const std::uint32_t *other = candidates_.data(), *end = other + count; other != end; ++other) {
+    const bool is_straight =
+        (a.flags & curved) == 0 && a.kind == BodyKind::puck && puck_drag_ == 0.0;
+    const Real ahead = std::max<Real>(0.0, time - a.time), ax = a.x + a.vx * ahead,
+               ay = a.y + a.vy * ahead, least = a.radius + Real(clear_of_touching);
+    for (const std::uint32_t *other = candidates_.data(), *end = other + count; other != end;
+         ++other) {
       const Body& b = bodies_[*other];
-      const bool is_pair_straight = is_straight && (b.flags & curved) == 0 && b.kind == BodyKind::puck;
-      const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed - ax, y = b.y + b.vy * elapsed - ay, reach = b.radius + least;
-      if ((is_pair_straight && x * x + y * y > reach * reach) || *other == one || *other == two || is_fixed(*other)) continue;
-      if (is_pair_straight || contact(one, *other, time).gap.distance <= Real(clear_of_touching)) return true;
+      const bool is_pair_straight =
+          is_straight && (b.flags & curved) == 0 && b.kind == BodyKind::puck;
+      const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed - ax,
+                 y = b.y + b.vy * elapsed - ay, reach = b.radius + least;
+      if ((is_pair_straight && x * x + y * y > reach * reach) || *other == one || *other == two ||
+          is_fixed(*other))
+        continue;
+      if (is_pair_straight || contact(one, *other, time).gap.distance <= Real(clear_of_touching))
+        return true;
     }
     return false;
   };
@@ -122,22 +149,28 @@ std::uint32_t BasicEngine<Real>::place_in_joint(std::uint32_t body, Real time) {
 }
 
 template <class Real>
-void BasicEngine<Real>::add_touch(std::uint32_t place, Partner p, const Contact& at_hand, Real time) {
+void BasicEngine<Real>::add_touch(std::uint32_t place, Partner p, const Contact& at_hand,
+                                  Real time) {
   const std::uint32_t body = joint_[place];
   const Contact c = contact(body, p, time);
-  const bool is_at_hand = (body == at_hand.body && p == at_hand.partner) || (p == at_hand.body && body == at_hand.partner);
-  const Real rounding = tolerance_ + std::numeric_limits<Real>::epsilon() * time * joint_velocities_[place].norm();
+  const bool is_at_hand = (body == at_hand.body && p == at_hand.partner) ||
+                          (p == at_hand.body && body == at_hand.partner);
+  const Real rounding =
+      tolerance_ + std::numeric_limits<Real>::epsilon() * time * joint_velocities_[place].norm();
   if (!is_at_hand && c.gap.distance > touch_roundings * rounding) return;
   std::uint32_t other = fixed_place;
   if (!is_fixed(p)) {
-    if (joint_.size() >= joint_max && std::find(joint_.begin(), joint_.end(), p) == joint_.end()) return;
+    if (joint_.size() >= joint_max && std::find(joint_.begin(), joint_.end(), p) == joint_.end())
+      return;
     other = place_in_joint(p, time);
     if (other < place) return;  // known from the other side
   }
-  touches_.push_back({place, other, p, c.gap.normal, restitution(body, p), 0.0, 0.0, is_at_hand, false});
+  touches_.push_back(
+      {place, other, p, c.gap.normal, restitution(body, p), 0.0, 0.0, is_at_hand, false});
 }
 
-/// All bodies that touch those of `c`, directly or through others, in an order that depends on ids alone. False if no other contact among them closes now.
+/// All bodies that touch those of `c`, directly or through others, in an order that depends on ids
+/// alone. False if no other contact among them closes now.
 template <class Real>
 bool BasicEngine<Real>::gather_touching(const Contact& c, Real time) {
   joint_.clear();
@@ -147,12 +180,16 @@ bool BasicEngine<Real>::gather_touching(const Contact& c, Real time) {
   if (!is_fixed(c.partner)) place_in_joint(c.partner, time);
   for (std::uint32_t place = 0; place < joint_.size(); ++place)
     visit_partners(joint_[place], [&](Partner p) { add_touch(place, p, c, time); });
-  // Slower than this, the time of an impact is too uncertain to tell whether it belongs to the instant.
+  // Slower than this, the time of an impact is too uncertain to tell whether it belongs to the
+  // instant.
   const Real slowest = 2.0 * touch_roundings * tolerance_ / Real(instant);
-  return std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) { return !touch.is_at_hand && -parting(touch, joint_velocities_) > slowest; });
+  return std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) {
+    return !touch.is_at_hand && -parting(touch, joint_velocities_) > slowest;
+  });
 }
 
-/// The speed at which the two sides part in a field of velocities: also the field's product, weighed by the masses, with the one that an impulse of 1 causes.
+/// The speed at which the two sides part in a field of velocities: also the field's product,
+/// weighed by the masses, with the one that an impulse of 1 causes.
 template <class Real>
 Real BasicEngine<Real>::parting(const Touch& touch, const std::vector<Vector2>& velocities) const {
   const Vector2 there = touch.other == fixed_place ? Vector2(0.0, 0.0) : velocities[touch.other];
@@ -160,9 +197,11 @@ Real BasicEngine<Real>::parting(const Touch& touch, const std::vector<Vector2>& 
 }
 
 template <class Real>
-Real BasicEngine<Real>::joint_product(const std::vector<Vector2>& a, const std::vector<Vector2>& b) const {
+Real BasicEngine<Real>::joint_product(const std::vector<Vector2>& a,
+                                      const std::vector<Vector2>& b) const {
   Real sum = 0.0;
-  for (std::size_t place = 0; place < joint_.size(); ++place) sum += builds_[joint_[place]].mass * a[place].dot(b[place]);
+  for (std::size_t place = 0; place < joint_.size(); ++place)
+    sum += builds_[joint_[place]].mass * a[place].dot(b[place]);
   return sum;
 }
 
@@ -173,8 +212,10 @@ Real BasicEngine<Real>::joint_speed() const {
   return speed;
 }
 
-/// Rounds of impacts without time between them: in each, all contacts that close are one problem, and those that do not stay out (Smith et al. 2012). Where they do not end
-/// (a light ball between heavy ones, collapse), all that touch yield as one now and then. Answers whether that comes to an end.
+/// Rounds of impacts without time between them: in each, all contacts that close are one problem,
+/// and those that do not stay out (Smith et al. 2012). Where they do not end (a light ball between
+/// heavy ones, collapse), all that touch yield as one now and then. Answers whether that comes to
+/// an end.
 template <class Real>
 bool BasicEngine<Real>::propagate() {
   const std::size_t rounds = std::min(rounds_min + 2 * touches_.size(), rounds_max);
@@ -184,7 +225,8 @@ bool BasicEngine<Real>::propagate() {
       closing_.clear();
       for (std::uint32_t i = 0; i < touches_.size(); ++i) {
         const Real approach = -parting(touches_[i], joint_velocities_);
-        touches_[i].wanted = std::max(touches_[i].restitution * approach, separation_min<Real> * speed);
+        touches_[i].wanted =
+            std::max(touches_[i].restitution * approach, separation_min<Real> * speed);
         if (approach > rest_of_closing<Real> * speed) closing_.push_back(i);
       }
       if (closing_.empty()) return true;
@@ -196,8 +238,10 @@ bool BasicEngine<Real>::propagate() {
   return false;
 }
 
-/// Moreau's law of impact: of the velocities v = T + N, where T is the nearest that close no contact, becomes T - e N. T and N are at right angles in the metric of the
-/// masses, so that energy is kept for e = 1 and never grows. e is the least restitution of those that push, at most `restitution_max`.
+/// Moreau's law of impact: of the velocities v = T + N, where T is the nearest that close no
+/// contact, becomes T - e N. T and N are at right angles in the metric of the masses, so that
+/// energy is kept for e = 1 and never grows. e is the least restitution of those that push, at most
+/// `restitution_max`.
 template <class Real>
 bool BasicEngine<Real>::yield_as_one(Real restitution_max) {
   closing_.resize(touches_.size());
@@ -211,7 +255,8 @@ bool BasicEngine<Real>::yield_as_one(Real restitution_max) {
 /// The end of what loses energy without end. Not for what loses none.
 template <class Real>
 bool BasicEngine<Real>::come_to_rest() {
-  const bool is_lossless = std::all_of(touches_.begin(), touches_.end(), [](const Touch& touch) { return touch.restitution == 1.0; });
+  const bool is_lossless = std::all_of(touches_.begin(), touches_.end(),
+                                       [](const Touch& touch) { return touch.restitution == 1.0; });
   return !is_lossless && yield_as_one(0.0);
 }
 
@@ -222,14 +267,18 @@ void BasicEngine<Real>::part_what_rounding_closes() {
     const Real speed = joint_speed();
     closing_.clear();
     for (std::uint32_t i = 0; i < touches_.size(); ++i)
-      if (parting(touches_[i], joint_velocities_) < 0.0) touches_[i].wanted = separation_min<Real> * speed, closing_.push_back(i);
+      if (parting(touches_[i], joint_velocities_) < 0.0)
+        touches_[i].wanted = separation_min<Real> * speed, closing_.push_back(i);
     if (closing_.empty() || !find_pushing()) return;
-    for (std::size_t place = 0; place < joint_.size(); ++place) joint_velocities_[place] = trial_velocities_[place];
+    for (std::size_t place = 0; place < joint_.size(); ++place)
+      joint_velocities_[place] = trial_velocities_[place];
   }
 }
 
-/// The nearest velocities, in the metric of the masses, that part all of `closing_` as fast as wanted, into `trial_velocities_`, and who pushes for it: the dual method of
-/// Goldfarb and Idnani (Math. Programming 27, 1983). `basis_` is made orthonormal in that metric, which bears any ratio of masses.
+/// The nearest velocities, in the metric of the masses, that part all of `closing_` as fast as
+/// wanted, into `trial_velocities_`, and who pushes for it: the dual method of Goldfarb and Idnani
+/// (Math. Programming 27, 1983). `basis_` is made orthonormal in that metric, which bears any ratio
+/// of masses.
 template <class Real>
 bool BasicEngine<Real>::find_pushing() {
   trial_velocities_ = joint_velocities_;
@@ -241,7 +290,8 @@ bool BasicEngine<Real>::find_pushing() {
     std::uint32_t next = fixed_place;
     for (const std::uint32_t i : closing_) {
       const Real lacking = touches_[i].wanted - parting(touches_[i], trial_velocities_);
-      if (lacking > most && std::find(pushing_.begin(), pushing_.end(), i) == pushing_.end()) most = lacking, next = i;
+      if (lacking > most && std::find(pushing_.begin(), pushing_.end(), i) == pushing_.end())
+        most = lacking, next = i;
     }
     if (next == fixed_place) return true;
     while (!push_until_blocked(next))
@@ -251,8 +301,9 @@ bool BasicEngine<Real>::find_pushing() {
   return false;
 }
 
-/// Lets the contact push harder until it parts as wanted, or until another one of those that push need not push any more and is dropped. Whether the former was reached, or
-/// nothing can be (then its impulse is 0).
+/// Lets the contact push harder until it parts as wanted, or until another one of those that push
+/// need not push any more and is dropped. Whether the former was reached, or nothing can be (then
+/// its impulse is 0).
 template <class Real>
 bool BasicEngine<Real>::push_until_blocked(std::uint32_t next) {
   Touch& touch = touches_[next];
@@ -269,31 +320,38 @@ bool BasicEngine<Real>::push_until_blocked(std::uint32_t next) {
   Real step = is_implied ? infinity : (touch.wanted - parting(touch, trial_velocities_)) / length;
   std::size_t blocking = count;
   for (std::size_t k = 0; k < count; ++k)
-    if (share_[k] > 0.0 && touches_[pushing_[k]].impulse < step * share_[k]) step = touches_[pushing_[k]].impulse / share_[k], blocking = k;
+    if (share_[k] > 0.0 && touches_[pushing_[k]].impulse < step * share_[k])
+      step = touches_[pushing_[k]].impulse / share_[k], blocking = k;
   if (step == infinity) return touch.impulse = 0.0, true;
-  for (std::size_t k = 0; k < count; ++k) touches_[pushing_[k]].impulse = std::max<Real>(0.0, touches_[pushing_[k]].impulse - step * share_[k]);
+  for (std::size_t k = 0; k < count; ++k)
+    touches_[pushing_[k]].impulse =
+        std::max<Real>(0.0, touches_[pushing_[k]].impulse - step * share_[k]);
   touch.impulse += step;
   if (!is_implied)
-    for (std::size_t place = 0; place < joint_.size(); ++place) trial_velocities_[place] += step * direction_[place];
+    for (std::size_t place = 0; place < joint_.size(); ++place)
+      trial_velocities_[place] += step * direction_[place];
   if (blocking < count) return drop_pushing(blocking), false;
   append_pushing(next, std::sqrt(length));
   return true;
 }
 
-/// The effect of an impulse of 1, less what those that push already can do: into `direction_`, and their shares into `column_`. Twice is enough (Kahan, in Parlett 1980).
-/// Answers the square of the effect's length.
+/// The effect of an impulse of 1, less what those that push already can do: into `direction_`, and
+/// their shares into `column_`. Twice is enough (Kahan, in Parlett 1980). Answers the square of the
+/// effect's length.
 template <class Real>
 Real BasicEngine<Real>::orthogonalise(const Touch& touch) {
   direction_.assign(joint_.size(), Vector2(0.0, 0.0));
   direction_[touch.body] = inverse_mass(joint_[touch.body]) * touch.normal;
-  if (touch.other != fixed_place) direction_[touch.other] = -inverse_mass(joint_[touch.other]) * touch.normal;
+  if (touch.other != fixed_place)
+    direction_[touch.other] = -inverse_mass(joint_[touch.other]) * touch.normal;
   const Real own = parting(touch, direction_);
   column_.assign(pushing_.size(), 0.0);
   for (int pass = 0; pass < 2; ++pass)
     for (std::size_t k = 0; k < pushing_.size(); ++k) {
       const Real share = joint_product(basis_[k], direction_);
       column_[k] += share;
-      for (std::size_t place = 0; place < joint_.size(); ++place) direction_[place] -= share * basis_[k][place];
+      for (std::size_t place = 0; place < joint_.size(); ++place)
+        direction_[place] -= share * basis_[k][place];
     }
   return own;
 }
@@ -312,7 +370,8 @@ void BasicEngine<Real>::append_pushing(std::uint32_t touch, Real length) {
 template <class Real>
 void BasicEngine<Real>::drop_pushing(std::size_t place) {
   touches_[pushing_[place]].impulse = 0.0;
-  const std::vector<std::uint32_t> others(pushing_.begin() + static_cast<std::ptrdiff_t>(place) + 1, pushing_.end());
+  const std::vector<std::uint32_t> others(pushing_.begin() + static_cast<std::ptrdiff_t>(place) + 1,
+                                          pushing_.end());
   pushing_.resize(place);
   for (const std::uint32_t other : others) {
     orthogonalise(touches_[other]);
@@ -320,12 +379,14 @@ void BasicEngine<Real>::drop_pushing(std::size_t place) {
   }
 }
 
-/// The new velocities, given who pushes: the part along `basis_` turns into -e times itself, which keeps energy to rounding for e = 1 whatever the masses; then, if
-/// `as_wanted`, what is wanted beyond that is added.
+/// The new velocities, given who pushes: the part along `basis_` turns into -e times itself, which
+/// keeps energy to rounding for e = 1 whatever the masses; then, if `as_wanted`, what is wanted
+/// beyond that is added.
 template <class Real>
 void BasicEngine<Real>::reflect(bool as_wanted, Real restitution_max) {
   Real least = restitution_max;
-  for (const std::uint32_t i : pushing_) least = std::min(least, touches_[i].restitution), touches_[i].has_pushed = true;
+  for (const std::uint32_t i : pushing_)
+    least = std::min(least, touches_[i].restitution), touches_[i].has_pushed = true;
   trial_velocities_ = joint_velocities_;
   share_.assign(pushing_.size(), 0.0);
   for (std::size_t k = 0; k < pushing_.size(); ++k) {
@@ -334,12 +395,14 @@ void BasicEngine<Real>::reflect(bool as_wanted, Real restitution_max) {
     for (std::size_t j = 0; j < k; ++j) beyond -= columns_[k][j] * share_[j];
     share_[k] = beyond / columns_[k][k];
     const Real change = share_[k] - (1.0 + least) * joint_product(basis_[k], joint_velocities_);
-    for (std::size_t place = 0; place < joint_.size(); ++place) trial_velocities_[place] += change * basis_[k][place];
+    for (std::size_t place = 0; place < joint_.size(); ++place)
+      trial_velocities_[place] += change * basis_[k][place];
   }
   joint_velocities_ = trial_velocities_;
 }
 
-/// Writes the velocities back. Rest contacts of whoever was pushed end as in any impact, and every contact that pushed counts as one.
+/// Writes the velocities back. Rest contacts of whoever was pushed end as in any impact, and every
+/// contact that pushed counts as one.
 template <class Real>
 void BasicEngine<Real>::apply_joint(Real time) {
   for (const Touch& touch : touches_) {
@@ -365,7 +428,8 @@ void BasicEngine<Real>::apply_joint(Real time) {
     keep(body);
     bodies_[body].vx = joint_velocities_[place].x();
     bodies_[body].vy = joint_velocities_[place].y();
-    touch(body);  // also of one that moves by a rounding without a push: what is predicted of it must follow from its state
+    touch(body);  // also of one that moves by a rounding without a push: what is predicted of it
+                  // must follow from its state
   }
 }
 

@@ -13,7 +13,8 @@ namespace {
 constexpr std::uint64_t magic = 0x7061'6e73'6b6e'6972;  // "rinksnap", little endian
 constexpr std::uint32_t version = 5;
 
-// Every member of these is bound by name: whoever adds one is told by the compiler to say here whether it is saved.
+// Every member of these is bound by name: whoever adds one is told by the compiler to say here
+// whether it is saved.
 
 /// A table of numbers from 0 to `most`.
 template <class Stream, class Table>
@@ -37,29 +38,38 @@ bool exchange(Stream& stream, std::optional<SurfaceFriction>& friction) {
   if (!is_there) return true;
   if (!friction) friction.emplace();
   auto& [coefficient, tangential_restitution] = *friction;
-  return exchange_table(stream, coefficient, std::numeric_limits<double>::max()) && exchange_table(stream, tangential_restitution, 1.0);
+  return exchange_table(stream, coefficient, std::numeric_limits<double>::max()) &&
+         exchange_table(stream, tangential_restitution, 1.0);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Field& field) {
   auto& [length, width, goal_width, wall, bats_keep_to_half] = field;
-  return stream.numbers(length, width, goal_width, wall) && stream.truth(bats_keep_to_half) && length > 0.0 && width > 0.0 && goal_width >= 0.0 && goal_width <= width;
+  return stream.numbers(length, width, goal_width, wall) && stream.truth(bats_keep_to_half) &&
+         length > 0.0 && width > 0.0 && goal_width >= 0.0 && goal_width <= width;
 }
 
 template <class Stream>
 bool exchange(Stream& stream, WorldSpec& spec) {
-  auto& [field, puck_drag, bat_drag, puck_friction, restitution, surface_friction, accounts_energy, contact_time, cell_size, queue, allow_overlap] = spec;
-  return exchange(stream, field) && stream.numbers(puck_drag, bat_drag, puck_friction, contact_time, cell_size) && exchange_table(stream, restitution, 1.0) &&
-         exchange(stream, surface_friction) && stream.choice(queue, QueuePolicy::heap) && stream.truth(accounts_energy) && stream.truth(allow_overlap) &&
-         puck_friction >= 0.0 && puck_drag >= 0.0 && bat_drag >= 0.0 && contact_time > 0.0 && cell_size >= 0.0 && field.wall < restitution.material_count();
+  auto& [field, puck_drag, bat_drag, puck_friction, restitution, surface_friction, accounts_energy,
+         contact_time, cell_size, queue, allow_overlap] = spec;
+  return exchange(stream, field) &&
+         stream.numbers(puck_drag, bat_drag, puck_friction, contact_time, cell_size) &&
+         exchange_table(stream, restitution, 1.0) && exchange(stream, surface_friction) &&
+         stream.choice(queue, QueuePolicy::heap) && stream.truth(accounts_energy) &&
+         stream.truth(allow_overlap) && puck_friction >= 0.0 && puck_drag >= 0.0 &&
+         bat_drag >= 0.0 && contact_time > 0.0 && cell_size >= 0.0 &&
+         field.wall < restitution.material_count();
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Counters& counters) {
-  auto& [disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, turns, joint, at_once, hop_energy, crossings, stale, predictions, evaluations,
-         touched] = counters;
-  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, turns, joint, at_once, hop_energy, crossings, stale, predictions,
-                        evaluations, touched);
+  auto& [disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops,
+         turns, joint, at_once, hop_energy, crossings, stale, predictions, evaluations, touched] =
+      counters;
+  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops,
+                        freezes, stops, turns, joint, at_once, hop_energy, crossings, stale,
+                        predictions, evaluations, touched);
 }
 
 /// Of one body, in all the arrays that have an entry for it.
@@ -69,11 +79,14 @@ bool exchange_body(Stream& stream, Body& body, Build& build, Law& law, Rhythm& r
   auto& [mass, inverse_mass, half_extent, thrust, half] = build;
   auto& [acceleration, drag] = law;
   auto& [window_start, last_hop, impacts, hops, repeats, meetings] = rhythm;
-  return stream.numbers(x, y, vx, vy, time, radius, body.inverse_mass, body.version) && stream.choice(body.kind, BodyKind::post) &&
+  return stream.numbers(x, y, vx, vy, time, radius, body.inverse_mass, body.version) &&
+         stream.choice(body.kind, BodyKind::post) &&
          stream.numbers(body.material, body.flags, body.mouth, mass, inverse_mass) &&
-         stream.numbers(half_extent.x(), half_extent.y(), thrust.x(), thrust.y()) && stream.choice(half, Half::both) &&
-         stream.numbers(acceleration.x(), acceleration.y(), drag.x(), drag.y(), window_start, last_hop, impacts, hops,
-                        repeats.instant, repeats.count, meetings.instant, meetings.count);
+         stream.numbers(half_extent.x(), half_extent.y(), thrust.x(), thrust.y()) &&
+         stream.choice(half, Half::both) &&
+         stream.numbers(acceleration.x(), acceleration.y(), drag.x(), drag.y(), window_start,
+                        last_hop, impacts, hops, repeats.instant, repeats.count, meetings.instant,
+                        meetings.count);
 }
 
 template <class Stream, class Hold>
@@ -85,16 +98,21 @@ bool exchange_hold(Stream& stream, Hold& hold) {
 
 }  // namespace
 
-/// All that the future depends on. What follows from it (predictions, grid, queue) is made anew, what observers asked for (recorded events) is not part of it.
+/// All that the future depends on. What follows from it (predictions, grid, queue) is made anew,
+/// what observers asked for (recorded events) is not part of it.
 template <class Real>
 template <class Stream>
 bool BasicEngine<Real>::exchange_state(Stream& stream) {
-  if (!stream.numbers(now_, jam_count_, instant_begin_, events_at_once_) || !stream.truth(is_played_) || !stream.truth(is_hopeless_) || !exchange(stream, counters_)) return false;
+  if (!stream.numbers(now_, jam_count_, instant_begin_, events_at_once_) ||
+      !stream.truth(is_played_) || !stream.truth(is_hopeless_) || !exchange(stream, counters_))
+    return false;
   if (!stream.size(bodies_) || !stream.size(holds_) || !stream.size(frozen_)) return false;
   const std::size_t count = bodies_.size();
   builds_.resize(count), laws_.resize(count), rhythms_.resize(count), jams_.resize(count);
   for (std::size_t body = 0; body < count; ++body) {
-    if (!exchange_body<Real>(stream, bodies_[body], builds_[body], laws_[body], rhythms_[body]) || !stream.number(jams_[body])) return false;
+    if (!exchange_body<Real>(stream, bodies_[body], builds_[body], laws_[body], rhythms_[body]) ||
+        !stream.number(jams_[body]))
+      return false;
   }
   if (is_slowed()) rest_times_.resize(count), slowing_.resize(count);
   if (is_rough()) spins_.resize(count);
@@ -104,7 +122,8 @@ bool BasicEngine<Real>::exchange_state(Stream& stream) {
     if (!stream.numbers(slowing.x(), slowing.y())) return false;
   for (Real& spin : spins_)
     if (!stream.number(spin)) return false;
-  if (!introduced_.exchange(stream) || !work_.exchange(stream) || !loss_.exchange(stream)) return false;
+  if (!introduced_.exchange(stream) || !work_.exchange(stream) || !loss_.exchange(stream))
+    return false;
   for (Hold& hold : holds_)
     if (!exchange_hold(stream, hold)) return false;
   for (std::uint32_t& body : frozen_)
@@ -119,15 +138,28 @@ bool BasicEngine<Real>::is_sound() const {
   for (std::uint32_t body = 0; body < count; ++body) {
     const Body& b = bodies_[body];
     const Build& build = builds_[body];
-    if (!is_finite({b.x, b.y}) || !is_finite({b.vx, b.vy}) || !is_finite(laws_[body].acceleration) || !is_finite(build.half_extent) || !is_finite(build.thrust)) return false;
-    if (!(b.time <= now_) || !(b.radius >= 0.0) || !std::isfinite(b.radius) || !(build.mass > 0.0) || !(build.inverse_mass >= 0.0)) return false;
+    if (!is_finite({b.x, b.y}) || !is_finite({b.vx, b.vy}) ||
+        !is_finite(laws_[body].acceleration) || !is_finite(build.half_extent) ||
+        !is_finite(build.thrust))
+      return false;
+    if (!(b.time <= now_) || !(b.radius >= 0.0) || !std::isfinite(b.radius) ||
+        !(build.mass > 0.0) || !(build.inverse_mass >= 0.0))
+      return false;
     if (b.inverse_mass != build.inverse_mass) return false;
-    if (b.material >= spec_.restitution.material_count() || b.mouth > right_mouth || !(laws_[body].drag.minCoeff() >= 0.0)) return false;
+    if (b.material >= spec_.restitution.material_count() || b.mouth > right_mouth ||
+        !(laws_[body].drag.minCoeff() >= 0.0))
+      return false;
   }
-  const auto is_partner = [&](Partner p) { return p < count || (p >= partner::field_parts && p <= partner::halfway); };
-  return std::isfinite(now_) && std::all_of(frozen_.begin(), frozen_.end(), [&](std::uint32_t body) { return body < count; }) &&
+  const auto is_partner = [&](Partner p) {
+    return p < count || (p >= partner::field_parts && p <= partner::halfway);
+  };
+  return std::isfinite(now_) &&
+         std::all_of(frozen_.begin(), frozen_.end(),
+                     [&](std::uint32_t body) { return body < count; }) &&
          std::all_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
-           return is_partner(hold.low) && is_partner(hold.high) && !(is_fixed(hold.low) && is_fixed(hold.high)) && (hold.axis == 0 || hold.axis == 1);
+           return is_partner(hold.low) && is_partner(hold.high) &&
+                  !(is_fixed(hold.low) && is_fixed(hold.high)) &&
+                  (hold.axis == 0 || hold.axis == 1);
          });
 }
 
@@ -149,7 +181,9 @@ std::unique_ptr<BasicEngine<Real>> BasicEngine<Real>::restore(std::span<const st
   SnapshotReader reader(bytes);
   std::uint64_t kind = 0;
   std::uint32_t format = 0, digits = 0;
-  if (!reader.is_intact() || !reader.numbers(kind, format, digits) || kind != magic || format != version || digits != std::numeric_limits<Real>::digits) return nullptr;
+  if (!reader.is_intact() || !reader.numbers(kind, format, digits) || kind != magic ||
+      format != version || digits != std::numeric_limits<Real>::digits)
+    return nullptr;
   WorldSpec spec;
   if (!exchange(reader, spec)) return nullptr;
   auto engine = std::make_unique<BasicEngine>(spec);

@@ -25,7 +25,8 @@ void BasicEngine<Real>::rebase(std::uint32_t body, Real time) {
     const Real elapsed = time - b.time;
     if ((b.flags & curved) != 0) {
       const Motion there = at(body, time);
-      b.x = there.position.x(), b.y = there.position.y(), b.vx = there.velocity.x(), b.vy = there.velocity.y();
+      b.x = there.position.x(), b.y = there.position.y(), b.vx = there.velocity.x(),
+      b.vy = there.velocity.y();
     } else if (puck_drag_ == 0.0) {
       b.x += b.vx * elapsed, b.y += b.vy * elapsed;
     } else {
@@ -37,7 +38,8 @@ void BasicEngine<Real>::rebase(std::uint32_t body, Real time) {
   touch(body);
 }
 
-/// Bodies in rest contact keep bitwise equal velocities only if they are evaluated from the same instant, so they are rebased together.
+/// Bodies in rest contact keep bitwise equal velocities only if they are evaluated from the same
+/// instant, so they are rebased together.
 template <class Real>
 void BasicEngine<Real>::rebase_companions(std::uint32_t body, Real time) {
   rebase(body, time);
@@ -57,12 +59,15 @@ void BasicEngine<Real>::set_law(std::uint32_t body, int axis, Real acceleration,
 template <class Real>
 void BasicEngine<Real>::write_law(std::uint32_t body) {
   Body& b = bodies_[body];
-  const bool is_straight = b.kind != BodyKind::bat && laws_[body].acceleration == Vector2(0.0, 0.0) && laws_[body].drag == Vector2::Constant(puck_drag_);
+  const bool is_straight = b.kind != BodyKind::bat &&
+                           laws_[body].acceleration == Vector2(0.0, 0.0) &&
+                           laws_[body].drag == Vector2::Constant(puck_drag_);
   curved_count_ += (is_straight ? 0u : 1u) - ((b.flags & curved) != 0 ? 1u : 0u);
   b.flags = static_cast<std::uint8_t>(is_straight ? b.flags & ~curved : b.flags | curved);
 }
 
-/// Ends the equilibrium of the jam that `body` is part of: all its members yield to their thrust again.
+/// Ends the equilibrium of the jam that `body` is part of: all its members yield to their thrust
+/// again.
 template <class Real>
 void BasicEngine<Real>::wake(std::uint32_t body, Real time) {
   if ((bodies_[body].flags & frozen) == 0) return;
@@ -79,7 +84,8 @@ void BasicEngine<Real>::wake(std::uint32_t body, Real time) {
     bodies_[member].flags = static_cast<std::uint8_t>(bodies_[member].flags & ~frozen);
     rhythms_[member].hops = 0;
     rebase(member, time);
-    for (int axis = 0; axis < 2; ++axis) set_law(member, axis, builds_[member].thrust[axis], own_drag(member));
+    for (int axis = 0; axis < 2; ++axis)
+      set_law(member, axis, builds_[member].thrust[axis], own_drag(member));
   }
 }
 

@@ -10,14 +10,15 @@
 
 namespace rink::physics {
 
-/// The part of one body in one event: the state in which it went on. One that was only looked at went on as before.
+/// The part of one body in one event: the state in which it went on. One that was only looked at
+/// went on as before.
 template <class Real>
 struct BasicChange {
   static constexpr std::uint32_t straight = 0xffffffff;
 
-  Real time;              ///< of the event [s]
-  Real x, y, vx, vy, since;  ///< as of Flight
-  std::uint64_t conditions;  ///< a digest of all else that its future depends on
+  Real time;                  ///< of the event [s]
+  Real x, y, vx, vy, since;   ///< as of Flight
+  std::uint64_t conditions;   ///< a digest of all else that its future depends on
   std::uint32_t body, event;  ///< changes of one event have the same number, and stand side by side
   std::uint32_t motion;       ///< in BasicJournal::motions; `straight` if it flies freely
 };
@@ -34,7 +35,8 @@ struct BasicJournal {
     std::uint32_t body;
     BasicBodyState<Real> state;  ///< but for the flight
   };
-  /// What is kept of a body, and where: its flight if `number` is that of this window, all of it if it is one more.
+  /// What is kept of a body, and where: its flight if `number` is that of this window, all of it if
+  /// it is one more.
   struct Mark {
     std::uint32_t number = 0, flight = 0, state = 0;
   };
@@ -42,29 +44,36 @@ struct BasicJournal {
   /// A rectangle, sides included [m].
   struct Room {
     Real low_x, low_y, high_x, high_y;
-    bool holds(Real x, Real y) const { return low_x <= x && x <= high_x && low_y <= y && y <= high_y; }
+    bool holds(Real x, Real y) const {
+      return low_x <= x && x <= high_x && low_y <= y && y <= high_y;
+    }
   };
 
   std::vector<BasicChange<Real>> changes;
-  std::vector<BasicMotion<Real>> motions;  ///< of those that went on along a curve, or have companions, or are out of play
-  std::vector<KeptFlight> flights;         ///< of all that changed, before that
-  std::vector<KeptState> states;           ///< of those that changed otherwise than in a free impact
-  std::vector<std::uint32_t> looked_at;    ///< by the event at hand
-  std::vector<Mark> marks;                 ///< by body
+  std::vector<BasicMotion<Real>>
+      motions;  ///< of those that went on along a curve, or have companions, or are out of play
+  std::vector<KeptFlight> flights;       ///< of all that changed, before that
+  std::vector<KeptState> states;         ///< of those that changed otherwise than in a free impact
+  std::vector<std::uint32_t> looked_at;  ///< by the event at hand
+  std::vector<Mark> marks;               ///< by body
   std::uint32_t mark = 2;
   std::uint32_t event = 0;
-  std::uint64_t stirred = 0;               ///< a digest of what the event at hand does to the rhythm of impacts
-  Real time = 0.0;                         ///< of it
-  Real played = -1.0;                      ///< the instant at which advance() began, if it had been there
-  std::uint64_t at_once_max = 0;           ///< the most events at one instant
-  std::vector<Real> times;                 ///< of all events that are counted so
-  bool was_hopeless = false;               ///< a joint impact could not be solved
-  // Free impacts of bodies that stay far from all that the reader cares for are counted, not entered.
-  std::vector<std::uint8_t> rooms_of;      ///< by body: 1 + the room in which it is; 0 if all that happens to it is entered
+  std::uint64_t stirred = 0;  ///< a digest of what the event at hand does to the rhythm of impacts
+  Real time = 0.0;            ///< of it
+  Real played = -1.0;         ///< the instant at which advance() began, if it had been there
+  std::uint64_t at_once_max = 0;  ///< the most events at one instant
+  std::vector<Real> times;        ///< of all events that are counted so
+  bool was_hopeless = false;      ///< a joint impact could not be solved
+  // Free impacts of bodies that stay far from all that the reader cares for are counted, not
+  // entered.
+  std::vector<std::uint8_t>
+      rooms_of;  ///< by body: 1 + the room in which it is; 0 if all that happens to it is entered
   std::vector<Room> rooms;
-  Real quiet_until = -1.0;                 ///< [s] up to which a body must stay in its room if nothing else happens to it
-  std::uint64_t quiet_events = 0;          ///< in this window
-  std::vector<std::uint32_t> entered;      ///< bodies that were in a room until something was entered of them: from then on all is
+  Real quiet_until =
+      -1.0;  ///< [s] up to which a body must stay in its room if nothing else happens to it
+  std::uint64_t quiet_events = 0;      ///< in this window
+  std::vector<std::uint32_t> entered;  ///< bodies that were in a room until something was entered
+                                       ///< of them: from then on all is
   HoldAge age;
 
   void keep_flight(std::uint32_t body, const Flight<Real>& flight) {
@@ -74,7 +83,8 @@ struct BasicJournal {
   }
   void enter(std::uint32_t body, const Flight<Real>& f, std::uint64_t conditions) {
     if (rooms_of[body] != 0) rooms_of[body] = 0, entered.push_back(body);
-    changes.push_back({time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, BasicChange<Real>::straight});
+    changes.push_back(
+        {time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, BasicChange<Real>::straight});
   }
   bool is_quiet(std::uint32_t body, const Flight<Real>& f) const {
     if (rooms_of[body] == 0) return false;
@@ -83,7 +93,8 @@ struct BasicJournal {
     return room.holds(f.x, f.y) && room.holds(f.x + f.vx * ahead, f.y + f.vy * ahead);
   }
   /// A free impact of two bodies, after it.
-  void enter_impact(std::uint32_t low, const Flight<Real>& a, std::uint64_t conditions_a, std::uint32_t high, const Flight<Real>& b, std::uint64_t conditions_b) {
+  void enter_impact(std::uint32_t low, const Flight<Real>& a, std::uint64_t conditions_a,
+                    std::uint32_t high, const Flight<Real>& b, std::uint64_t conditions_b) {
     if (is_quiet(low, a) && is_quiet(high, b)) ++quiet_events;
     else enter(low, a, conditions_a), enter(high, b, conditions_b);
     ++event;
@@ -94,7 +105,9 @@ struct BasicJournal {
     age = next.time == age.time ? std::max(age, next) : next;
     time = at;
   }
-  void stir(std::uint32_t body, std::uint32_t count) { stirred += ((std::uint64_t{body} << 32 | count) + 1) * 0x9e3779b97f4a7c15ULL; }
+  void stir(std::uint32_t body, std::uint32_t count) {
+    stirred += ((std::uint64_t{body} << 32 | count) + 1) * 0x9e3779b97f4a7c15ULL;
+  }
   HoldAge next_age() {
     ++age.rank;
     return age;

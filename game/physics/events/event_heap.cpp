@@ -5,7 +5,8 @@ namespace rink::physics {
 
 template <class Real>
 void BasicEventHeap<Real>::raise(std::uint32_t place, const Entry& entry) {
-  for (; place > 0 && precedes(entry, heap_[(place - 1) / 2]); place = (place - 1) / 2) put(place, heap_[(place - 1) / 2]);
+  for (; place > 0 && precedes(entry, heap_[(place - 1) / 2]); place = (place - 1) / 2)
+    put(place, heap_[(place - 1) / 2]);
   put(place, entry);
 }
 
@@ -34,7 +35,8 @@ void BasicEventHeap<Real>::take_out(std::uint32_t body) {
 }
 
 template <class Real>
-void BasicEventHeap<Real>::set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher) {
+void BasicEventHeap<Real>::set(std::uint32_t body, Real time, std::uint32_t lower,
+                               std::uint32_t higher) {
   take_out(body);
   times_[body] = time;
   if (time == std::numeric_limits<Real>::infinity()) return;

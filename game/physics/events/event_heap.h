@@ -1,4 +1,5 @@
-// A binary heap with the calendar queue's interface: no assumption on how events are spread over time, at a logarithmic price.
+// A binary heap with the calendar queue's interface: no assumption on how events are spread over
+// time, at a logarithmic price.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,8 @@
 
 namespace rink::physics {
 
-/// As BasicEventQueue (event_queue.h), whose contract it shares: the same entries in the same order.
+/// As BasicEventQueue (event_queue.h), whose contract it shares: the same entries in the same
+/// order.
 template <class Real>
 class BasicEventHeap {
  public:
@@ -21,13 +23,19 @@ class BasicEventHeap {
     times_.resize(count, std::numeric_limits<Real>::infinity());
   }
   void set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher);
-  std::uint32_t first(Real until) const { return heap_.empty() || heap_.front().time > until ? none : heap_.front().body; }
+  std::uint32_t first(Real until) const {
+    return heap_.empty() || heap_.front().time > until ? none : heap_.front().body;
+  }
   Real time(std::uint32_t body) const { return times_[body]; }
-  /// The twin of the first is one of the next two, if it is there; whoever else may follow is above or right below it.
+  /// The twin of the first is one of the next two, if it is there; whoever else may follow is above
+  /// or right below it.
   bool is_followed_within(Real window) const {
     const EventOrder<Real>& first = heap_.front();
     const Real end = first.time + window;
-    return std::any_of(heap_.begin() + 1, heap_.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(7, heap_.size())), [&](const EventOrder<Real>& e) { return e.time <= end && e != first; });
+    return std::any_of(
+        heap_.begin() + 1,
+        heap_.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(7, heap_.size())),
+        [&](const EventOrder<Real>& e) { return e.time <= end && e != first; });
   }
 
  private:

@@ -9,7 +9,7 @@ namespace rink::physics {
 /// What tells events apart. The other body's event of the same impact has the same.
 template <class Real>
 struct EventOrder {
-  Real time = std::numeric_limits<Real>::infinity();        ///< simulated [s]
+  Real time = std::numeric_limits<Real>::infinity();      ///< simulated [s]
   std::uint32_t lower = 0xffffffff, higher = 0xffffffff;  ///< ids of the two that meet
 
   friend bool operator==(const EventOrder&, const EventOrder&) = default;

@@ -1,4 +1,5 @@
-// Buckets of equal width for the near future, one unsorted list for what lies beyond, and a sorted one for what is due.
+// Buckets of equal width for the near future, one unsorted list for what lies beyond, and a sorted
+// one for what is due.
 #include "game/physics/events/event_queue.h"
 
 #include <algorithm>
@@ -11,16 +12,20 @@ namespace rink::physics {
 
 namespace {
 constexpr double number_max = 4.0e18;
-/// Few buckets that are well filled stay in the processor's cache, and fewer of them are turned to; the price is to sort so many. Measured from 1 to 8: with 10,000 bodies a third
-/// of the misses of 2, a quarter fewer wrong guesses of branches than 2.
+/// Few buckets that are well filled stay in the processor's cache, and fewer of them are turned to;
+/// the price is to sort so many. Measured from 1 to 8: with 10,000 bodies a third of the misses of
+/// 2, a quarter fewer wrong guesses of branches than 2.
 constexpr double events_per_bucket = 8.0;
+}  // namespace
+
+template <class Real>
+std::int64_t BasicEventQueue<Real>::bucket_number(Real time) const {
+  return static_cast<std::int64_t>(std::min<Real>(time * inverse_width_, number_max));
 }
 
 template <class Real>
-std::int64_t BasicEventQueue<Real>::bucket_number(Real time) const { return static_cast<std::int64_t>(std::min<Real>(time * inverse_width_, number_max)); }
-
-template <class Real>
-void BasicEventQueue<Real>::set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher) {
+void BasicEventQueue<Real>::set(std::uint32_t body, Real time, std::uint32_t lower,
+                                std::uint32_t higher) {
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   Entry& entry = entries_[body];
   const bool is_noted = entry.time == time;
@@ -31,7 +36,8 @@ void BasicEventQueue<Real>::set(std::uint32_t body, Real time, std::uint32_t low
   if (bucket_number(time) <= current_) add_due(body);
   else if (!is_noted) note(body, time);
   if (count_ > 4 * counts_.size()) rebuild(1.0 / inverse_width_, 2 * counts_.size());
-  else if (near_count_ + later_.size() + due_.size() > 4 * count_ + 1024) rebuild(1.0 / inverse_width_, counts_.size());
+  else if (near_count_ + later_.size() + due_.size() > 4 * count_ + 1024)
+    rebuild(1.0 / inverse_width_, counts_.size());
 }
 
 template <class Real>
@@ -85,7 +91,8 @@ void BasicEventQueue<Real>::empty(std::size_t place, Visit&& visit) {
   near_count_ -= count;
   while (bucket.full != none) {
     const std::uint32_t full = std::exchange(bucket.full, full_[bucket.full].full);
-    for (std::uint32_t k = 0; k < bucket_room; ++k) visit(full_[full].bodies[k], full_[full].times[k]);
+    for (std::uint32_t k = 0; k < bucket_room; ++k)
+      visit(full_[full].bodies[k], full_[full].times[k]);
     near_count_ -= bucket_room;
     free_.push_back(full);
   }
@@ -101,7 +108,9 @@ void BasicEventQueue<Real>::gather() {
     if (due_.size() < few) add_due(body);
     else due_.push_back({entries_[body], body});
   });
-  if (due_.size() > few) std::sort(due_.begin(), due_.end(), [](const Due& a, const Due& b) { return precedes(b.entry, a.entry); });
+  if (due_.size() > few)
+    std::sort(due_.begin(), due_.end(),
+              [](const Due& a, const Due& b) { return precedes(b.entry, a.entry); });
 }
 
 template <class Real>
@@ -125,7 +134,9 @@ void BasicEventQueue<Real>::rebuild(Real width, std::size_t bucket_count) {
   // Who had the same event before has two notes.
   const auto is_lower = [](const Note& a, const Note& b) { return a.body < b.body; };
   std::sort(pending.begin(), pending.end(), is_lower);
-  pending.erase(std::unique(pending.begin(), pending.end(), [](const Note& a, const Note& b) { return a.body == b.body; }), pending.end());
+  pending.erase(std::unique(pending.begin(), pending.end(),
+                            [](const Note& a, const Note& b) { return a.body == b.body; }),
+                pending.end());
   full_.clear(), free_.clear(), later_.clear(), due_.clear();
   later_begin_ = std::numeric_limits<Real>::infinity();
   inverse_width_ = 1.0 / width;
@@ -147,7 +158,8 @@ void BasicEventQueue<Real>::begin_span() {
 template <class Real>
 std::optional<Real> BasicEventQueue<Real>::wanted_width() const {
   if (taken_ < span_min || last_time_ <= span_begin_) return std::nullopt;
-  return std::max(events_per_bucket * (last_time_ - span_begin_) / static_cast<Real>(taken_), 1e-15 * fineness<Real> * (1.0 + last_time_));
+  return std::max(events_per_bucket * (last_time_ - span_begin_) / static_cast<Real>(taken_),
+                  1e-15 * fineness<Real> * (1.0 + last_time_));
 }
 
 /// Whether the buckets did not fit and have been made anew.

@@ -9,7 +9,8 @@
 
 namespace rink::physics {
 
-/// Same questions, same answers, whichever queue is behind it; the branch is always taken the same way and costs nothing measurable.
+/// Same questions, same answers, whichever queue is behind it; the branch is always taken the same
+/// way and costs nothing measurable.
 template <class Real>
 class BasicEventSchedule {
  public:
@@ -25,7 +26,9 @@ class BasicEventSchedule {
   Real time(std::uint32_t body) const { return is_heap_ ? heap_.time(body) : calendar_.time(body); }
   /// The calendar, if it is that.
   const BasicEventQueue<Real>* calendar() const { return is_heap_ ? nullptr : &calendar_; }
-  bool is_followed_within(Real window) const { return is_heap_ ? heap_.is_followed_within(window) : calendar_.is_followed_within(window); }
+  bool is_followed_within(Real window) const {
+    return is_heap_ ? heap_.is_followed_within(window) : calendar_.is_followed_within(window);
+  }
 
  private:
   bool is_heap_;

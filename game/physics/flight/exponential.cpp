@@ -1,5 +1,6 @@
-// The classic table-free algorithms (Sun Microsystems' fdlibm, 1993: s_expm1.c, s_log1p.c), in plain IEEE double arithmetic.
-// Constants and method: Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved. Permission to use, copy, modify, and distribute this software is freely
+// The classic table-free algorithms (Sun Microsystems' fdlibm, 1993: s_expm1.c, s_log1p.c), in
+// plain IEEE double arithmetic. Constants and method: Copyright (C) 1993 by Sun Microsystems, Inc.
+// All rights reserved. Permission to use, copy, modify, and distribute this software is freely
 // granted, provided that this notice is preserved.
 #include "game/physics/flight/exponential.h"
 
@@ -12,28 +13,37 @@ namespace rink::physics {
 
 namespace {
 
-constexpr double ln2_high = 6.93147180369123816490e-01;  // the upper 33 bits, so that a multiple of it is exact
+constexpr double ln2_high =
+    6.93147180369123816490e-01;  // the upper 33 bits, so that a multiple of it is exact
 constexpr double ln2_low = 1.90821492927058770002e-10;
 constexpr double tiny = 0x1p-54;
 
-double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
+double power_of_two(int exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+}
 
 /// c(x) such that expm1(x) = x - (x c(x) - x^2/2), on |x| <= ln2/2.
 double expm1_correction(double x) {
   const double half = 0.5 * x, square = x * half;
-  const double r = 1.0 + square * (-3.33333333333331316428e-02 +
-                                   square * (1.58730158725481460165e-03 +
-                                             square * (-7.93650757867487942473e-05 + square * (4.00821782732936239552e-06 + square * -2.01099218183624371326e-07))));
+  const double r =
+      1.0 + square * (-3.33333333333331316428e-02 +
+                      square * (1.58730158725481460165e-03 +
+                                square * (-7.93650757867487942473e-05 +
+                                          square * (4.00821782732936239552e-06 +
+                                                    square * -2.01099218183624371326e-07))));
   const double t = 3.0 - r * half;
   return square * ((r - t) / (6.0 - x * t));
 }
 
 /// The odd part of log((1 + s)/(1 - s)) without 2 s, z = s^2.
 double log1p_series(double z) {
-  return z * (6.666666666666735130e-01 +
-              z * (3.999999999940941908e-01 +
-                   z * (2.857142874366239149e-01 +
-                        z * (2.222219843214978396e-01 + z * (1.818357216161805012e-01 + z * (1.531383769920937332e-01 + z * 1.479819860511658591e-01))))));
+  return z *
+         (6.666666666666735130e-01 +
+          z * (3.999999999940941908e-01 +
+               z * (2.857142874366239149e-01 +
+                    z * (2.222219843214978396e-01 +
+                         z * (1.818357216161805012e-01 +
+                              z * (1.531383769920937332e-01 + z * 1.479819860511658591e-01))))));
 }
 
 }  // namespace

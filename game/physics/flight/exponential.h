@@ -1,4 +1,5 @@
-// Exponential and logarithm with bits of their own: those of the C library differ between versions, and the world's state must not.
+// Exponential and logarithm with bits of their own: those of the C library differ between versions,
+// and the world's state must not.
 #pragma once
 
 namespace rink::physics {

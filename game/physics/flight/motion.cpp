@@ -7,7 +7,8 @@ namespace rink::physics {
 
 namespace {
 
-/// (1/2 - y/6 + y^2/24 - ...), the q of unit time: for y = g t below 0.4 where (t - s)/g would lose up to all digits.
+/// (1/2 - y/6 + y^2/24 - ...), the q of unit time: for y = g t below 0.4 where (t - s)/g would lose
+/// up to all digits.
 template <class Real>
 Real stretched_square(Real y) {
   constexpr int last = std::numeric_limits<Real>::digits > 53 ? 19 : 15;
@@ -66,7 +67,8 @@ void BasicMotion<Real>::slide(Real friction) {
   rest_time = std::numeric_limits<Real>::infinity();
   if (velocity == acceleration) return;
   rest_time = time;
-  const Real speed = std::sqrt(velocity.squaredNorm()), rate = velocity.x() != 0.0 ? drag.x() : drag.y();
+  const Real speed = std::sqrt(velocity.squaredNorm()),
+             rate = velocity.x() != 0.0 ? drag.x() : drag.y();
   if (speed == 0.0) return;  // its square is below what a scalar holds: at rest at once
   acceleration = -friction * (velocity / speed);
   rest_time += rate == 0.0 ? speed / friction : log1p_of(rate * speed / friction) / rate;

@@ -8,7 +8,9 @@ namespace rink::physics::paper {
 
 void FrameGrid::clear(const Field& field, std::uint32_t count) {
   const double side = std::sqrt(field.length * field.width / std::max(1u, count));
-  const auto cells_along = [&](double length) { return static_cast<std::uint32_t>(std::clamp(length / side, 1.0, 1e4)); };
+  const auto cells_along = [&](double length) {
+    return static_cast<std::uint32_t>(std::clamp(length / side, 1.0, 1e4));
+  };
   columns_ = cells_along(field.length);
   rows_ = cells_along(field.width);
   columns_per_metre_ = columns_ / field.length;
@@ -27,8 +29,9 @@ std::uint32_t FrameGrid::cell(double place, double per_metre, std::uint32_t coun
 }
 
 FrameGrid::Range FrameGrid::range(const Extent& box) const {
-  return {cell(box.low.x(), columns_per_metre_, columns_), cell(box.high.x(), columns_per_metre_, columns_), cell(box.low.y(), rows_per_metre_, rows_),
-          cell(box.high.y(), rows_per_metre_, rows_)};
+  return {cell(box.low.x(), columns_per_metre_, columns_),
+          cell(box.high.x(), columns_per_metre_, columns_),
+          cell(box.low.y(), rows_per_metre_, rows_), cell(box.high.y(), rows_per_metre_, rows_)};
 }
 
 void FrameGrid::insert(std::uint32_t body, const Extent& box) {

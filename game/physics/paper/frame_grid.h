@@ -1,4 +1,5 @@
-// Which bodies may come near each other during a frame: a uniform grid of the boxes that their paths sweep.
+// Which bodies may come near each other during a frame: a uniform grid of the boxes that their
+// paths sweep.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@ struct Extent {
   Vector2 low{0.0, 0.0}, high{0.0, 0.0};
 };
 
-/// Every body stands in each cell that its box covers. Boxes may reach beyond the field or be no numbers: they count for the cells at the rim.
+/// Every body stands in each cell that its box covers. Boxes may reach beyond the field or be no
+/// numbers: they count for the cells at the rim.
 class FrameGrid {
  public:
   /// Empties the grid and fits it to `count` bodies: about one cell for each.
@@ -49,7 +51,8 @@ void FrameGrid::around(const Extent& box, const Visit& visit) {
   ++question_;
   for (std::uint32_t row = cells.bottom; row <= cells.top; ++row)
     for (std::uint32_t column = cells.left; column <= cells.right; ++column)
-      for (std::uint32_t entry = first_[row * columns_ + column]; entry != none; entry = entries_[entry].next) {
+      for (std::uint32_t entry = first_[row * columns_ + column]; entry != none;
+           entry = entries_[entry].next) {
         const std::uint32_t body = entries_[entry].body;
         if (asked_[body] == question_) continue;
         asked_[body] = question_;

@@ -9,7 +9,8 @@ namespace rink::physics::paper {
 
 namespace {
 
-/// How far a rectangle of `half_extent` grown by `radius` (sums of two bodies) around the origin is from `offset`; below 0 inside.
+/// How far a rectangle of `half_extent` grown by `radius` (sums of two bodies) around the origin is
+/// from `offset`; below 0 inside.
 double gap(const Vector2& offset, const Vector2& half_extent, double radius) {
   const Vector2 outside = offset.cwiseAbs() - half_extent;
   if (outside.maxCoeff() <= 0.0) return outside.maxCoeff() - radius;
@@ -18,21 +19,30 @@ double gap(const Vector2& offset, const Vector2& half_extent, double radius) {
 
 }  // namespace
 
-bool FrameSimulator::is_free(const Vector2& centre, double radius) const { return is_free(centre, {0.0, 0.0}, radius); }
-bool FrameSimulator::is_free(const Vector2& centre, const Vector2& half_extent) const { return is_free(centre, half_extent, 0.0); }
+bool FrameSimulator::is_free(const Vector2& centre, double radius) const {
+  return is_free(centre, {0.0, 0.0}, radius);
+}
+bool FrameSimulator::is_free(const Vector2& centre, const Vector2& half_extent) const {
+  return is_free(centre, half_extent, 0.0);
+}
 
-bool FrameSimulator::is_free(const Vector2& centre, const Vector2& half_extent, double radius) const {
+bool FrameSimulator::is_free(const Vector2& centre, const Vector2& half_extent,
+                             double radius) const {
   const Vector2 extent = half_extent + Vector2::Constant(radius);
-  if ((centre - extent).minCoeff() < 0.0 || centre.x() + extent.x() > spec_.field.length || centre.y() + extent.y() > spec_.field.width) return false;
+  if ((centre - extent).minCoeff() < 0.0 || centre.x() + extent.x() > spec_.field.length ||
+      centre.y() + extent.y() > spec_.field.width)
+    return false;
   return std::none_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
-    return body.is_in_play && gap(centre - phase_at(body, now_).position, half_extent + body.half_extent, radius + body.radius) < 0.0;
+    return body.is_in_play && gap(centre - phase_at(body, now_).position,
+                                  half_extent + body.half_extent, radius + body.radius) < 0.0;
   });
 }
 
 /// Of its motion at `velocity` and of its spin [J]; a puck is a uniform disc.
 double FrameSimulator::energy_of(const Body& body, const Vector2& velocity) const {
   if (body.inverse_mass == 0.0) return 0.0;
-  return body.mass * (0.5 * velocity.squaredNorm() + 0.25 * body.radius * body.radius * body.spin * body.spin);
+  return body.mass *
+         (0.5 * velocity.squaredNorm() + 0.25 * body.radius * body.radius * body.spin * body.spin);
 }
 
 /// Of its thrust along the way from its last state to where it is at `time` [J].
@@ -59,7 +69,8 @@ double FrameSimulator::work_of_thrust() const {
 Vector2 FrameSimulator::momentum() const {
   Vector2 sum(0.0, 0.0);
   for (const Body& body : bodies_)
-    if (body.is_in_play && body.inverse_mass > 0.0) sum += body.mass * phase_at(body, now_).velocity;
+    if (body.is_in_play && body.inverse_mass > 0.0)
+      sum += body.mass * phase_at(body, now_).velocity;
   return sum;
 }
 
@@ -73,7 +84,9 @@ double FrameSimulator::max_overlap() const {
     const Vector2 position = phase_at(body, now_).position, extent = extent_of(body);
     const Extent box{position - extent, position + extent};
     grid.around(box, [&](std::uint32_t other) {
-      deepest = std::max(deepest, -gap(position - phase_at(bodies_[other], now_).position, body.half_extent + bodies_[other].half_extent, body.radius + bodies_[other].radius));
+      deepest = std::max(deepest, -gap(position - phase_at(bodies_[other], now_).position,
+                                       body.half_extent + bodies_[other].half_extent,
+                                       body.radius + bodies_[other].radius));
     });
     grid.insert(index, box);
     if (body.kind == BodyKind::post) continue;
@@ -89,10 +102,13 @@ std::uint64_t FrameSimulator::hash() const {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   const auto mix = [&](double value) {
     auto bits = std::bit_cast<std::uint64_t>(value);
-    for (int byte = 0; byte < 8; ++byte, bits >>= 8) hash = (hash ^ (bits & 0xff)) * 0x100000001b3ULL;
+    for (int byte = 0; byte < 8; ++byte, bits >>= 8)
+      hash = (hash ^ (bits & 0xff)) * 0x100000001b3ULL;
   };
   for (const Body& body : bodies_) {
-    for (const double value : {body.start.position.x(), body.start.position.y(), body.start.velocity.x(), body.start.velocity.y(), body.start_time}) mix(value);
+    for (const double value : {body.start.position.x(), body.start.position.y(),
+                               body.start.velocity.x(), body.start.velocity.y(), body.start_time})
+      mix(value);
     mix(body.is_in_play ? 1.0 : 0.0);
     if (spec_.surface_friction) mix(body.spin);
   }

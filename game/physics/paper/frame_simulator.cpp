@@ -10,14 +10,17 @@ namespace rink::physics::paper {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// The least separation that an impulse leaves, relative to the speeds, so that no impact is found twice: as in the exact engine.
+/// The least separation that an impulse leaves, relative to the speeds, so that no impact is found
+/// twice: as in the exact engine.
 constexpr double separation_min = 1e-14;
 
 }  // namespace
 
-FrameSimulator::FrameSimulator(const WorldSpec& spec, Integrator integrator, double dt) : spec_(spec), integrator_(integrator), dt_(dt) {
+FrameSimulator::FrameSimulator(const WorldSpec& spec, Integrator integrator, double dt)
+    : spec_(spec), integrator_(integrator), dt_(dt) {
   assert(std::isfinite(dt) && dt > 0.0);
-  assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 && spec.field.goal_width <= spec.field.width);
+  assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 &&
+         spec.field.goal_width <= spec.field.width);
 }
 
 BodyId FrameSimulator::add(const PuckSpec& spec) {
@@ -61,7 +64,8 @@ BodyId FrameSimulator::add(const PostSpec& spec) {
 }
 
 BodyId FrameSimulator::add(Body body) {
-  assert(body.start.position.allFinite() && body.start.velocity.allFinite() && body.material < spec_.restitution.material_count());
+  assert(body.start.position.allFinite() && body.start.velocity.allFinite() &&
+         body.material < spec_.restitution.material_count());
   const auto index = static_cast<std::uint32_t>(bodies_.size());
   body.start_time = now_;
   introduced_ += energy_of(body, body.start.velocity);
@@ -98,7 +102,8 @@ void FrameSimulator::set_thrust(BodyId id, const Vector2& acceleration) {
 
 void FrameSimulator::place(BodyId id, const Vector2& position, const Vector2& velocity) {
   Body& puck = bodies_[id.index];
-  assert(puck.kind == BodyKind::puck && !puck.is_in_play && !puck.is_removed && position.allFinite() && velocity.allFinite());
+  assert(puck.kind == BodyKind::puck && !puck.is_in_play && !puck.is_removed &&
+         position.allFinite() && velocity.allFinite());
   puck.is_in_play = true;
   puck.is_stopped = false;
   puck.start = {position, velocity};
@@ -141,7 +146,8 @@ void FrameSimulator::finish_frame() {
 }
 
 Phase FrameSimulator::phase_at(const Body& body, double time) const {
-  if (!body.is_in_play || body.is_stopped || time <= body.start_time || !can_move(body)) return body.start;
+  if (!body.is_in_play || body.is_stopped || time <= body.start_time || !can_move(body))
+    return body.start;
   if (is_begun_ && time == frame_end()) return body.end;
   const Step taken = step(integrator_, body.start.velocity, body.force, time - body.start_time);
   return {body.start.position + taken.displacement, taken.velocity};
@@ -165,7 +171,8 @@ void FrameSimulator::rebase(Body& body, double time) {
     work_ += work_until(body, time);
     body.start = phase_at(body, time);
     ++counters_.bodies_touched;
-    if (body.force.friction > 0.0 && body.start.velocity == Vector2(0.0, 0.0)) note(EventKind::stop, time, static_cast<std::uint32_t>(&body - bodies_.data()));
+    if (body.force.friction > 0.0 && body.start.velocity == Vector2(0.0, 0.0))
+      note(EventKind::stop, time, static_cast<std::uint32_t>(&body - bodies_.data()));
   }
   body.start_time = time;
 }
@@ -176,12 +183,16 @@ Goal FrameSimulator::score(std::uint32_t index) {
   introduced_ -= energy_of(body, body.start.velocity);
   ++body.version;
   body.is_in_play = false;
-  return {body.start_time, {index}, body.start.position.x() < 0.5 * spec_.field.length ? End::left : End::right};
+  return {body.start_time,
+          {index},
+          body.start.position.x() < 0.5 * spec_.field.length ? End::left : End::right};
 }
 
-/// Newton's law of impact, with the table of the exact engine. A pressed contact may close along the path, by the force within the frame, though the velocities do not: then
-/// the velocity is changed by as much as keeps the path open.
-void FrameSimulator::respond(std::uint32_t index, Partner partner, const Vector2& normal, double time) {
+/// Newton's law of impact, with the table of the exact engine. A pressed contact may close along
+/// the path, by the force within the frame, though the velocities do not: then the velocity is
+/// changed by as much as keeps the path open.
+void FrameSimulator::respond(std::uint32_t index, Partner partner, const Vector2& normal,
+                             double time) {
   count_impact(index, partner, time);
   Body still;
   still.inverse_mass = 0.0;
@@ -191,22 +202,35 @@ void FrameSimulator::respond(std::uint32_t index, Partner partner, const Vector2
   const double approach = normal.dot(other.start.velocity - body.start.velocity);
   const double least = separation_min * (body.start.velocity.norm() + other.start.velocity.norm());
   double change = std::max(0.0, normal.dot(other.chord - body.chord)) + least;
-  if (approach > 0.0) change = approach + std::max(spec_.restitution(body.material, other.material) * approach, least);
+  if (approach > 0.0)
+    change =
+        approach + std::max(spec_.restitution(body.material, other.material) * approach, least);
   const double impulse = change / (body.inverse_mass + other.inverse_mass);
   if (spec_.surface_friction) return rub(body, other, normal, impulse);
   body.start.velocity += impulse * body.inverse_mass * normal;
   other.start.velocity -= impulse * other.inverse_mass * normal;
 }
 
-/// The law of the exact engine (docs/physics.md, "Spin"): a tangential impulse up to Coulomb's limit, which turns discs.
+/// The law of the exact engine (docs/physics.md, "Spin"): a tangential impulse up to Coulomb's
+/// limit, which turns discs.
 void FrameSimulator::rub(Body& body, Body& other, const Vector2& normal, double normal_impulse) {
   const Vector2 tangent(-normal.y(), normal.x());
-  const auto turns = [](const Body& one) { return one.kind == BodyKind::puck && one.inverse_mass > 0.0; };
+  const auto turns = [](const Body& one) {
+    return one.kind == BodyKind::puck && one.inverse_mass > 0.0;
+  };
   const auto rim_speed = [&](const Body& one) { return turns(one) ? one.spin * one.radius : 0.0; };
-  const auto yielding = [&](const Body& one) { return (turns(one) ? 3.0 : 1.0) * one.inverse_mass; };
-  const double slip = tangent.dot(body.start.velocity - other.start.velocity) - (rim_speed(body) + rim_speed(other));
-  const double stick = (1.0 + spec_.surface_friction->tangential_restitution(body.material, other.material)) * std::abs(slip) / (yielding(body) + yielding(other));
-  const double rubbing = -std::copysign(std::min(stick, spec_.surface_friction->coefficient(body.material, other.material) * normal_impulse), slip);
+  const auto yielding = [&](const Body& one) {
+    return (turns(one) ? 3.0 : 1.0) * one.inverse_mass;
+  };
+  const double slip = tangent.dot(body.start.velocity - other.start.velocity) -
+                      (rim_speed(body) + rim_speed(other));
+  const double stick =
+      (1.0 + spec_.surface_friction->tangential_restitution(body.material, other.material)) *
+      std::abs(slip) / (yielding(body) + yielding(other));
+  const double rubbing = -std::copysign(
+      std::min(stick,
+               spec_.surface_friction->coefficient(body.material, other.material) * normal_impulse),
+      slip);
   const Vector2 impulse = normal_impulse * normal + rubbing * tangent;
   body.start.velocity += body.inverse_mass * impulse;
   other.start.velocity -= other.inverse_mass * impulse;
@@ -216,11 +240,15 @@ void FrameSimulator::rub(Body& body, Body& other, const Vector2& normal, double 
 
 void FrameSimulator::note(EventKind kind, double time, std::uint32_t body, Partner other) {
   ++counters_.of(kind);
-  if (records_events_) events_.push_back({time, kind, {body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
+  if (records_events_)
+    events_.push_back(
+        {time, kind, {body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
 }
 
 void FrameSimulator::count_impact(std::uint32_t body, Partner partner, double time) {
-  const auto is = [&](BodyKind kind) { return bodies_[body].kind == kind || (is_body(partner) && bodies_[partner].kind == kind); };
+  const auto is = [&](BodyKind kind) {
+    return bodies_[body].kind == kind || (is_body(partner) && bodies_[partner].kind == kind);
+  };
   const auto kind = [&] {
     if (!is_body(partner)) return partner == wall ? EventKind::wall : EventKind::post;
     if (is(BodyKind::post)) return EventKind::post;

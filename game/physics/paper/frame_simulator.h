@@ -1,4 +1,5 @@
-// What the stepped engines share: bodies that an integrator carries through frames of fixed length, the answers to all questions, and impulses.
+// What the stepped engines share: bodies that an integrator carries through frames of fixed length,
+// the answers to all questions, and impulses.
 #pragma once
 
 #include <limits>
@@ -10,8 +11,10 @@
 
 namespace rink::physics::paper {
 
-/// Frame k lasts from k dt to (k + 1) dt, whoever asks what in between: questions within a frame are answered by a shorter step from the body's last state and change
-/// nothing. A key within a frame takes effect at its own instant: from there its bat, and nobody else, is stepped anew. Method and errors: docs/paper-engine.md.
+/// Frame k lasts from k dt to (k + 1) dt, whoever asks what in between: questions within a frame
+/// are answered by a shorter step from the body's last state and change nothing. A key within a
+/// frame takes effect at its own instant: from there its bat, and nobody else, is stepped anew.
+/// Method and errors: docs/paper-engine.md.
 class FrameSimulator : public Simulator {
  public:
   BodyId add(const PuckSpec& spec) override;
@@ -34,8 +37,12 @@ class FrameSimulator : public Simulator {
   Vector2 half_extent(BodyId body) const override { return extent_of(bodies_[body.index]); }
   double mass(BodyId body) const override { return bodies_[body.index].mass; }
   bool is_in_play(BodyId body) const override { return bodies_[body.index].is_in_play; }
-  Vector2 position(BodyId body) const override { return phase_at(bodies_[body.index], now_).position; }
-  Vector2 velocity(BodyId body) const override { return phase_at(bodies_[body.index], now_).velocity; }
+  Vector2 position(BodyId body) const override {
+    return phase_at(bodies_[body.index], now_).position;
+  }
+  Vector2 velocity(BodyId body) const override {
+    return phase_at(bodies_[body.index], now_).velocity;
+  }
   bool is_free(const Vector2& centre, double radius) const override;
   bool is_free(const Vector2& centre, const Vector2& half_extent) const override;
 
@@ -44,8 +51,11 @@ class FrameSimulator : public Simulator {
   double kinetic_energy() const override;
   double energy_introduced() const override { return spec_.accounts_energy ? introduced_ : 0.0; }
   double work_of_thrust() const override;
-  /// The rest of the balance: what drag, friction and impacts took, and what the integrator lost or made up.
-  double dissipated() const override { return spec_.accounts_energy ? energy_introduced() + work_of_thrust() - kinetic_energy() : 0.0; }
+  /// The rest of the balance: what drag, friction and impacts took, and what the integrator lost or
+  /// made up.
+  double dissipated() const override {
+    return spec_.accounts_energy ? energy_introduced() + work_of_thrust() - kinetic_energy() : 0.0;
+  }
   Vector2 momentum() const override;
   double max_overlap() const override;
   std::uint64_t hash() const override;
@@ -53,7 +63,8 @@ class FrameSimulator : public Simulator {
  protected:
   FrameSimulator(const WorldSpec& spec, Integrator integrator, double dt);
 
-  /// A body at its last state within the frame, and where the frame will leave it if nothing comes in between.
+  /// A body at its last state within the frame, and where the frame will leave it if nothing comes
+  /// in between.
   struct Body {
     Phase start, end;
     double start_time = 0.0;
@@ -73,19 +84,26 @@ class FrameSimulator : public Simulator {
   };
   /// A body, or a part of the field.
   using Partner = std::uint32_t;
-  static constexpr Partner wall = 0xffffffff, goal_edge = 0xfffffffe, goal_line = 0xfffffffd, field_parts = goal_line;
+  static constexpr Partner wall = 0xffffffff, goal_edge = 0xfffffffe, goal_line = 0xfffffffd,
+                           field_parts = goal_line;
 
   /// All bodies were stepped; within a frame the following two keep up with them.
   virtual void begin() = 0;
   /// `body` has come, or goes another way from now on.
   virtual void turned(std::uint32_t body) = 0;
-  /// Whatever happens up to and including `until`, which lies within the frame, or up to the first goal.
+  /// Whatever happens up to and including `until`, which lies within the frame, or up to the first
+  /// goal.
   virtual std::optional<Goal> play(double until) = 0;
 
   static bool is_body(Partner partner) { return partner < field_parts; }
-  static Vector2 extent_of(const Body& body) { return body.half_extent + Vector2::Constant(body.radius); }
+  static Vector2 extent_of(const Body& body) {
+    return body.half_extent + Vector2::Constant(body.radius);
+  }
   double frame_end() const { return static_cast<double>(frame_ + 1) * dt_; }
-  bool can_move(const Body& body) const { return body.inverse_mass > 0.0 && (body.start.velocity != Vector2(0.0, 0.0) || body.force.thrust != Vector2(0.0, 0.0)); }
+  bool can_move(const Body& body) const {
+    return body.inverse_mass > 0.0 &&
+           (body.start.velocity != Vector2(0.0, 0.0) || body.force.thrust != Vector2(0.0, 0.0));
+  }
   Phase phase_at(const Body& body, double time) const;
   /// Steps `body` from its last state to the end of the frame.
   void plan(Body& body);
@@ -93,10 +111,13 @@ class FrameSimulator : public Simulator {
   void rebase(Body& body, double time);
   /// Puts a puck out of play at its last state.
   Goal score(std::uint32_t body);
-  /// Impulse and momentum along `normal`, the unit vector from `partner` to `body`, both at their last states. Records the impact at `time`.
+  /// Impulse and momentum along `normal`, the unit vector from `partner` to `body`, both at their
+  /// last states. Records the impact at `time`.
   void respond(std::uint32_t body, Partner partner, const Vector2& normal, double time);
   /// Whether `centre` is between the edges of a goal.
-  bool is_in_opening(double y) const { return std::abs(y - 0.5 * spec_.field.width) < 0.5 * spec_.field.goal_width; }
+  bool is_in_opening(double y) const {
+    return std::abs(y - 0.5 * spec_.field.width) < 0.5 * spec_.field.goal_width;
+  }
 
   WorldSpec spec_;
   Integrator integrator_;

@@ -1,4 +1,5 @@
-// How a frame moves a body whose acceleration follows from its velocity: four methods of different order.
+// How a frame moves a body whose acceleration follows from its velocity: four methods of different
+// order.
 #pragma once
 
 #include <cstdint>
@@ -34,13 +35,15 @@ struct Phase {
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};
 };
 
-/// Where a step leads. The displacement is kept apart from the position, so that the straight path of a frame has no rounding error of the place in it.
+/// Where a step leads. The displacement is kept apart from the position, so that the straight path
+/// of a frame has no rounding error of the place in it.
 struct Step {
   Vector2 displacement{0.0, 0.0};  ///< m
   Vector2 velocity{0.0, 0.0};      ///< at the end [m/s]
 };
 
-/// One step of `duration` [s], 0 or more, from `velocity`. Friction stops a body, it never turns it round.
+/// One step of `duration` [s], 0 or more, from `velocity`. Friction stops a body, it never turns it
+/// round.
 Step step(Integrator integrator, const Vector2& velocity, const Force& force, double duration);
 
 }  // namespace rink::physics::paper

@@ -16,7 +16,8 @@ using Box = collision::Box<double>;
 /// The axis along which two boxes overlap least, seen from the second.
 Vector2 least_axis(const Vector2& offset, const Vector2& reach) {
   const Vector2 outside = offset.cwiseAbs() - reach;
-  return outside.x() > outside.y() ? Vector2(offset.x() < 0.0 ? -1.0 : 1.0, 0.0) : Vector2(0.0, offset.y() < 0.0 ? -1.0 : 1.0);
+  return outside.x() > outside.y() ? Vector2(offset.x() < 0.0 ? -1.0 : 1.0, 0.0)
+                                   : Vector2(0.0, offset.y() < 0.0 ? -1.0 : 1.0);
 }
 
 }  // namespace
@@ -56,18 +57,26 @@ void NaiveSimulator::judge_pair(std::uint32_t low, std::uint32_t high) {
   const Vector2 offset = a.start.position - b.start.position;
   const bool is_bat_a = a.kind == BodyKind::bat, is_bat_b = b.kind == BodyKind::bat;
   if (!is_bat_a && !is_bat_b) {
-    if (collision::do_bounding_circles_overlap(Disc{a.start.position, a.radius}, Disc{b.start.position, b.radius})) bounce(low, high, offset.normalized());
+    if (collision::do_bounding_circles_overlap(Disc{a.start.position, a.radius},
+                                               Disc{b.start.position, b.radius}))
+      bounce(low, high, offset.normalized());
     return;
   }
-  const Box box{is_bat_a ? a.start.position : b.start.position, is_bat_a ? a.half_extent : b.half_extent};
-  const bool is_overlap = is_bat_a && is_bat_b ? collision::do_boxes_overlap(box, Box{b.start.position, b.half_extent})
-                                               : collision::does_disc_overlap_box(is_bat_a ? Disc{b.start.position, b.radius} : Disc{a.start.position, a.radius}, box);
+  const Box box{is_bat_a ? a.start.position : b.start.position,
+                is_bat_a ? a.half_extent : b.half_extent};
+  const bool is_overlap =
+      is_bat_a && is_bat_b
+          ? collision::do_boxes_overlap(box, Box{b.start.position, b.half_extent})
+          : collision::does_disc_overlap_box(
+                is_bat_a ? Disc{b.start.position, b.radius} : Disc{a.start.position, a.radius},
+                box);
   if (is_overlap) bounce(low, high, least_axis(offset, extent_of(a) + extent_of(b)));
 }
 
 bool NaiveSimulator::is_in_goal(const Body& body) const {
   const Vector2& place = body.start.position;
-  return body.kind == BodyKind::puck && is_in_opening(place.y()) && (place.x() <= 0.0 || place.x() >= spec_.field.length);
+  return body.kind == BodyKind::puck && is_in_opening(place.y()) &&
+         (place.x() <= 0.0 || place.x() >= spec_.field.length);
 }
 
 void NaiveSimulator::judge_field(std::uint32_t index) {
@@ -81,7 +90,8 @@ void NaiveSimulator::judge_field(std::uint32_t index) {
     for (const double x : {0.0, field.length})
       for (const double side : {-0.5, 0.5}) {
         const Vector2 edge(x, 0.5 * field.width + side * field.goal_width);
-        if (collision::is_point_in_circle<double>(edge, Disc{body.start.position, body.radius})) bounce(index, goal_edge, (body.start.position - edge).normalized());
+        if (collision::is_point_in_circle<double>(edge, Disc{body.start.position, body.radius}))
+          bounce(index, goal_edge, (body.start.position - edge).normalized());
       }
     return;
   }
@@ -89,17 +99,21 @@ void NaiveSimulator::judge_field(std::uint32_t index) {
   judge_wall(index, far, {-1.0, 0.0});
   if (body.kind != BodyKind::bat || !field.bats_keep_to_half || body.half == Half::both) return;
   const bool is_left = body.half == Half::left;
-  judge_wall(index, Vector2(0.5 * field.length + (is_left ? -extent.x() : extent.x()), 0.0), {is_left ? -1.0 : 1.0, 0.0});
+  judge_wall(index, Vector2(0.5 * field.length + (is_left ? -extent.x() : extent.x()), 0.0),
+             {is_left ? -1.0 : 1.0, 0.0});
 }
 
 void NaiveSimulator::judge_wall(std::uint32_t index, const Vector2& point, const Vector2& normal) {
-  if (collision::point_plane_distance<double>(bodies_[index].start.position, Plane{point, normal}) <= 0.0) bounce(index, wall, normal);
+  if (collision::point_plane_distance<double>(bodies_[index].start.position,
+                                              Plane{point, normal}) <= 0.0)
+    bounce(index, wall, normal);
 }
 
 /// Only what closes: whatever overlaps and parts is left alone.
 void NaiveSimulator::bounce(std::uint32_t index, Partner partner, const Vector2& normal) {
   const Vector2 other = is_body(partner) ? bodies_[partner].start.velocity : Vector2(0.0, 0.0);
-  if (normal.dot(other - bodies_[index].start.velocity) > 0.0) respond(index, partner, normal, now_);
+  if (normal.dot(other - bodies_[index].start.velocity) > 0.0)
+    respond(index, partner, normal, now_);
 }
 
 }  // namespace rink::physics::paper

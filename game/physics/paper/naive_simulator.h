@@ -1,4 +1,5 @@
-// The simplest engine there is: step a frame, then let whatever overlaps and closes bounce. Fast bodies pass through thin ones.
+// The simplest engine there is: step a frame, then let whatever overlaps and closes bounce. Fast
+// bodies pass through thin ones.
 #pragma once
 
 #include <deque>
@@ -12,7 +13,8 @@ namespace rink::physics::paper {
 /// Static tests only, at the end of each frame. Nobody is rolled back or moved apart.
 class NaiveSimulator final : public FrameSimulator {
  public:
-  NaiveSimulator(const WorldSpec& spec, Integrator integrator, double dt) : FrameSimulator(spec, integrator, dt) {}
+  NaiveSimulator(const WorldSpec& spec, Integrator integrator, double dt)
+      : FrameSimulator(spec, integrator, dt) {}
 
  private:
   void begin() override { is_judged_ = false; }

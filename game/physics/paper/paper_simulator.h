@@ -1,4 +1,5 @@
-// The paper's engine: step a frame, look for contacts on the straight paths, roll those who meet back to the time of impact, respond, spend the remainder.
+// The paper's engine: step a frame, look for contacts on the straight paths, roll those who meet
+// back to the time of impact, respond, spend the remainder.
 #pragma once
 
 #include <vector>
@@ -8,14 +9,17 @@
 
 namespace rink::physics::paper {
 
-/// What a disc meets at the corner of a bat: as the paper, the edges moved outwards by the radius, or the true arc.
+/// What a disc meets at the corner of a bat: as the paper, the edges moved outwards by the radius,
+/// or the true arc.
 enum class Corners : std::uint8_t { sharp, rounded };
 
 class PaperSimulator final : public FrameSimulator {
  public:
-  PaperSimulator(const WorldSpec& spec, Integrator integrator, double dt, Corners corners) : FrameSimulator(spec, integrator, dt), corners_(corners) {}
+  PaperSimulator(const WorldSpec& spec, Integrator integrator, double dt, Corners corners)
+      : FrameSimulator(spec, integrator, dt), corners_(corners) {}
 
-  /// A body that suffers more impacts in one frame stays where it is until the next: pressed contact would otherwise never let the frame end.
+  /// A body that suffers more impacts in one frame stays where it is until the next: pressed
+  /// contact would otherwise never let the frame end.
   static constexpr std::uint32_t impact_max = 20;
 
  private:
@@ -41,7 +45,8 @@ class PaperSimulator final : public FrameSimulator {
   void test_end(std::uint32_t body, const collision::Plane<double>& wall, double goal_line);
   void test_plane(std::uint32_t body, const collision::Plane<double>& plane);
   void test_goal_edges(std::uint32_t body);
-  void expect(std::uint32_t body, Partner partner, double start, const collision::Contact<double>& contact);
+  void expect(std::uint32_t body, Partner partner, double start,
+              const collision::Contact<double>& contact);
   bool is_stale(const Meeting& meeting) const;
   void meet(const Meeting& meeting);
 

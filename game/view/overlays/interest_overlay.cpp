@@ -1,4 +1,5 @@
-// Regions as frames, things as rings, both in the colour of what they have to do with the thing that is asked of.
+// Regions as frames, things as rings, both in the colour of what they have to do with the thing
+// that is asked of.
 #include "game/view/overlays/interest_overlay.h"
 
 #include <algorithm>
@@ -12,13 +13,21 @@ namespace {
 
 using game::InterestSeen;
 
-constexpr Colour heard{0.05f, 0.62f, 0.20f, 1.0f}, hearing{0.95f, 0.50f, 0.02f, 1.0f}, asked_of{0.80f, 0.05f, 0.75f, 1.0f};
+constexpr Colour heard{0.05f, 0.62f, 0.20f, 1.0f}, hearing{0.95f, 0.50f, 0.02f, 1.0f},
+    asked_of{0.80f, 0.05f, 0.75f, 1.0f};
 constexpr float faint = 0.30f;
 
-OverlayDisc ring(const Thing& thing, const Colour& colour, double room) { return {thing.position.x(), thing.position.y(), thing.half_extent.norm() + room, colour, false}; }
+OverlayDisc ring(const Thing& thing, const Colour& colour, double room) {
+  return {thing.position.x(), thing.position.y(), thing.half_extent.norm() + room, colour, false};
+}
 
 OverlayRectangle frame(const InterestSeen::View& view, const Colour& fill, const Colour& outline) {
-  return {static_cast<double>(view.low_x), static_cast<double>(view.low_y), static_cast<double>(view.high_x), static_cast<double>(view.high_y), fill, outline};
+  return {static_cast<double>(view.low_x),
+          static_cast<double>(view.low_y),
+          static_cast<double>(view.high_x),
+          static_cast<double>(view.high_y),
+          fill,
+          outline};
 }
 
 /// In order of their ids, which does not change from frame to frame.
@@ -37,39 +46,53 @@ void add_views(const InterestSeen& seen, Overlay& overlay) {
       if (is_wanted(view)) overlay.rectangles.push_back(frame(view, fill, outline));
   };
   const auto is_own = [&](const InterestSeen::View& view) { return view.bat == seen.asked; };
-  add([&](const InterestSeen::View& view) { return !view.hears && !is_own(view); }, clear, {0.25f, 0.30f, 0.42f, faint});
-  add([&](const InterestSeen::View& view) { return view.hears && !is_own(view); }, clear, faded(hearing, 0.85f));
+  add([&](const InterestSeen::View& view) { return !view.hears && !is_own(view); }, clear,
+      {0.25f, 0.30f, 0.42f, faint});
+  add([&](const InterestSeen::View& view) { return view.hears && !is_own(view); }, clear,
+      faded(hearing, 0.85f));
   add(is_own, faded(heard, 0.14f), heard);
 }
 
 void add_rings(const MatchSight& sight, const InterestSeen& seen, Overlay& overlay) {
   const auto hears = [&](const Thing& thing) {
-    return thing.kind == physics::BodyKind::bat && std::ranges::any_of(seen.views, [&](const InterestSeen::View& view) { return view.hears && view.bat == thing.id; });
+    return thing.kind == physics::BodyKind::bat &&
+           std::ranges::any_of(seen.views, [&](const InterestSeen::View& view) {
+             return view.hears && view.bat == thing.id;
+           });
   };
   for (const Thing& thing : sight.things) {
     if (thing.id == seen.asked) overlay.discs.push_back(ring(thing, asked_of, 0.08));
-    else if (std::ranges::binary_search(seen.heard, thing.id)) overlay.discs.push_back(ring(thing, heard, 0.02));
+    else if (std::ranges::binary_search(seen.heard, thing.id))
+      overlay.discs.push_back(ring(thing, heard, 0.02));
     if (thing.id != seen.asked && hears(thing)) overlay.discs.push_back(ring(thing, hearing, 0.08));
   }
 }
 
-/// What is shown may be less than what there is: a message has its bounds. Players are counted by their regions, for bats
-/// that nobody plays are there as well.
-void add_lines(const MatchSight& sight, const InterestSeen& seen, const Thing& asked, Overlay& overlay) {
+/// What is shown may be less than what there is: a message has its bounds. Players are counted by
+/// their regions, for bats that nobody plays are there as well.
+void add_lines(const MatchSight& sight, const InterestSeen& seen, const Thing& asked,
+               Overlay& overlay) {
   char words[160];
   const auto line = [&] { overlay.lines.push_back(words); };
-  if (seen.cell_size > 0.0f) std::snprintf(words, sizeof words, "grid: cells of %.3g m, regions of %u players", static_cast<double>(seen.cell_size), seen.view_count);
+  if (seen.cell_size > 0.0f)
+    std::snprintf(words, sizeof words, "grid: cells of %.3g m, regions of %u players",
+                  static_cast<double>(seen.cell_size), seen.view_count);
   else std::snprintf(words, sizeof words, "regions of %u players", seen.view_count);
   line();
   const bool is_bat = asked.kind == physics::BodyKind::bat;
-  std::snprintf(words, sizeof words, "%s %u (purple): %u of %u players hear of it (orange)", is_bat ? "bat" : asked.kind == physics::BodyKind::puck ? "puck" : "post", asked.id,
-                seen.hearer_count, seen.view_count);
+  std::snprintf(words, sizeof words, "%s %u (purple): %u of %u players hear of it (orange)",
+                is_bat                                  ? "bat"
+                : asked.kind == physics::BodyKind::puck ? "puck"
+                                                        : "post",
+                asked.id, seen.hearer_count, seen.view_count);
   line();
   if (!is_bat) return;
   const bool are_all_shown = seen.views.size() == seen.view_count;
-  if (are_all_shown && std::ranges::find(seen.views, asked.id, &InterestSeen::View::bat) == seen.views.end())
+  if (are_all_shown &&
+      std::ranges::find(seen.views, asked.id, &InterestSeen::View::bat) == seen.views.end())
     return overlay.lines.push_back("nobody plays it");
-  std::snprintf(words, sizeof words, "its player hears of %u of %zu bodies (green)", seen.heard_count, sight.things.size());
+  std::snprintf(words, sizeof words, "its player hears of %u of %zu bodies (green)",
+                seen.heard_count, sight.things.size());
   line();
 }
 
@@ -87,7 +110,8 @@ const Thing* asked_thing(const MatchSight& sight, const InterestChoice& choice) 
 std::optional<std::uint32_t> thing_at(const MatchSight& sight, const Vector2& place, double reach) {
   std::optional<std::uint32_t> found;
   for (const Thing& thing : sight.things) {
-    const double gap = ((thing.position - place).cwiseAbs() - thing.half_extent).cwiseMax(0.0).norm();
+    const double gap =
+        ((thing.position - place).cwiseAbs() - thing.half_extent).cwiseMax(0.0).norm();
     if (gap > reach) continue;
     reach = gap;
     found = thing.id;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr float near = 0.05f, far = 60.0f;  // m
 
-Eigen::Matrix4f perspective(const Vector3& eye, const Vector3& right, const Vector3& up, const Vector3& forward, float tangent_x, float tangent_y) {
+Eigen::Matrix4f perspective(const Vector3& eye, const Vector3& right, const Vector3& up,
+                            const Vector3& forward, float tangent_x, float tangent_y) {
   Eigen::Matrix4f matrix = Eigen::Matrix4f::Zero();
   matrix.block<1, 3>(0, 0) = right.transpose() / tangent_x;
   matrix.block<1, 3>(1, 0) = up.transpose() / tangent_y;

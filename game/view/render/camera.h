@@ -9,11 +9,11 @@ using Vector3 = Eigen::Vector3f;
 
 /// Metres; x along the field, y across it, z up, the table's surface is z = 0.
 struct Camera {
-  bool is_plan = false;                          ///< from straight above, without perspective
+  bool is_plan = false;  ///< from straight above, without perspective
   Vector3 eye{0.0f, 0.0f, 1.0f}, target{1.0f, 0.0f, 0.0f};
-  float opening = 0.6f;                          ///< angle of view from bottom to top [rad]
-  float centre_x = 0.0f, centre_y = 0.0f;        ///< of a plan
-  float half_height = 1.0f;                      ///< of a plan: what is seen above the centre [m]
+  float opening = 0.6f;                    ///< angle of view from bottom to top [rad]
+  float centre_x = 0.0f, centre_y = 0.0f;  ///< of a plan
+  float half_height = 1.0f;                ///< of a plan: what is seen above the centre [m]
   friend bool operator==(const Camera&, const Camera&) = default;
 };
 
@@ -26,8 +26,10 @@ class Sight {
   /// Column-major, to OpenGL's clip space.
   const Eigen::Matrix4f& matrix() const { return matrix_; }
   const Vector3& eye() const { return eye_; }
-  const Vector3& right() const { return right_; }      ///< scaled by half the window's width at distance 1
-  const Vector3& up() const { return up_; }            ///< likewise by its height
+  const Vector3& right() const {
+    return right_;
+  }                                          ///< scaled by half the window's width at distance 1
+  const Vector3& up() const { return up_; }  ///< likewise by its height
   const Vector3& forward() const { return forward_; }
   /// Where in the window `place` is, from -1 to 1 each way, y up.
   Eigen::Vector2f project(const Vector3& place) const;

@@ -25,29 +25,37 @@ GLuint compiled(const char* what, GLenum kind, const char* shared, const char* s
   if (is_compiled) return shader;
   std::array<char, 2000> words{};
   glGetShaderInfoLog(shader, static_cast<GLsizei>(words.size()), nullptr, words.data());
-  throw GraphicsError(std::string("the graphics driver does not compile the shader of the ") + what + ": " + words.data());
+  throw GraphicsError(std::string("the graphics driver does not compile the shader of the ") +
+                      what + ": " + words.data());
 }
 
 }  // namespace
 
-Program::Program(const char* what, const char* shared, const char* vertex, const char* fragment) : program_(glCreateProgram()) {
-  const std::array<GLuint, 2> shaders{compiled(what, GL_VERTEX_SHADER, shared, vertex), compiled(what, GL_FRAGMENT_SHADER, shared, fragment)};
+Program::Program(const char* what, const char* shared, const char* vertex, const char* fragment)
+    : program_(glCreateProgram()) {
+  const std::array<GLuint, 2> shaders{compiled(what, GL_VERTEX_SHADER, shared, vertex),
+                                      compiled(what, GL_FRAGMENT_SHADER, shared, fragment)};
   for (const GLuint shader : shaders) glAttachShader(program_.name(), shader);
   glLinkProgram(program_.name());
   for (const GLuint shader : shaders) glDeleteShader(shader);
   GLint is_linked = 0;
   glGetProgramiv(program_.name(), GL_LINK_STATUS, &is_linked);
-  if (!is_linked) throw GraphicsError(std::string("the graphics driver does not link the shaders of the ") + what);
+  if (!is_linked)
+    throw GraphicsError(std::string("the graphics driver does not link the shaders of the ") +
+                        what);
 }
 
-FloatStream::FloatStream(std::span<const int> sizes, bool per_instance) : array_(generated(glGenVertexArrays)), buffer_(generated(glGenBuffers)), row_(0) {
+FloatStream::FloatStream(std::span<const int> sizes, bool per_instance)
+    : array_(generated(glGenVertexArrays)), buffer_(generated(glGenBuffers)), row_(0) {
   for (const int size : sizes) row_ += static_cast<std::size_t>(size);
   glBindVertexArray(array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
   std::size_t offset = 0;
   for (GLuint attribute = 0; attribute < sizes.size(); ++attribute) {
     glEnableVertexAttribArray(attribute);
-    glVertexAttribPointer(attribute, sizes[attribute], GL_FLOAT, GL_FALSE, static_cast<GLsizei>(row_ * sizeof(float)), reinterpret_cast<const void*>(offset * sizeof(float)));
+    glVertexAttribPointer(attribute, sizes[attribute], GL_FLOAT, GL_FALSE,
+                          static_cast<GLsizei>(row_ * sizeof(float)),
+                          reinterpret_cast<const void*>(offset * sizeof(float)));
     if (per_instance) glVertexAttribDivisor(attribute, 1);
     offset += static_cast<std::size_t>(sizes[attribute]);
   }
@@ -59,16 +67,19 @@ void FloatStream::fill(std::span<const float> rows) {
   count_ = static_cast<GLsizei>(rows.size() / row_);
   capacity_ = std::max(capacity_, rows.size());
   glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_ * sizeof(float)), nullptr, GL_STREAM_DRAW);  // a new store, so that nobody waits for the last frame
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_ * sizeof(float)), nullptr,
+               GL_STREAM_DRAW);  // a new store, so that nobody waits for the last frame
   glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(rows.size_bytes()), rows.data());
 }
 
-GlName<destroy_texture> make_texture(int width, int height, int channels, std::span<const std::uint8_t> pixels, bool repeats) {
+GlName<destroy_texture> make_texture(int width, int height, int channels,
+                                     std::span<const std::uint8_t> pixels, bool repeats) {
   assert(pixels.size() == static_cast<std::size_t>(width * height * channels));
   GlName<destroy_texture> texture(generated(glGenTextures));
   glBindTexture(GL_TEXTURE_2D, texture.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, channels == 1 ? GL_R8 : GL_RGBA8, width, height, 0, channels == 1 ? GL_RED : GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  glTexImage2D(GL_TEXTURE_2D, 0, channels == 1 ? GL_R8 : GL_RGBA8, width, height, 0,
+               channels == 1 ? GL_RED : GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   glGenerateMipmap(GL_TEXTURE_2D);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -84,24 +95,30 @@ GlName<destroy_texture> attached_texture(int width, int height, GLenum attachmen
   const bool is_depth = attachment == GL_DEPTH_ATTACHMENT;
   GlName<destroy_texture> texture(generated(glGenTextures));
   glBindTexture(GL_TEXTURE_2D, texture.name());
-  glTexImage2D(GL_TEXTURE_2D, 0, is_depth ? GL_DEPTH_COMPONENT32F : GL_RGBA8, width, height, 0, is_depth ? GL_DEPTH_COMPONENT : GL_RGBA, is_depth ? GL_FLOAT : GL_UNSIGNED_BYTE, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, is_depth ? GL_DEPTH_COMPONENT32F : GL_RGBA8, width, height, 0,
+               is_depth ? GL_DEPTH_COMPONENT : GL_RGBA, is_depth ? GL_FLOAT : GL_UNSIGNED_BYTE,
+               nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.name(), 0);
   return texture;
 }
 
-GlName<destroy_renderbuffer> attached_samples(int width, int height, int samples, GLenum attachment) {
+GlName<destroy_renderbuffer> attached_samples(int width, int height, int samples,
+                                              GLenum attachment) {
   GlName<destroy_renderbuffer> buffer(generated(glGenRenderbuffers));
   glBindRenderbuffer(GL_RENDERBUFFER, buffer.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, attachment == GL_DEPTH_ATTACHMENT ? GL_DEPTH_COMPONENT32F : GL_RGBA8, width, height);
+  glRenderbufferStorageMultisample(
+      GL_RENDERBUFFER, samples,
+      attachment == GL_DEPTH_ATTACHMENT ? GL_DEPTH_COMPONENT32F : GL_RGBA8, width, height);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer.name());
   return buffer;
 }
 
 }  // namespace
 
-Target::Target(int width, int height, int samples) : framebuffer_(generated(glGenFramebuffers)), width_(width), height_(height) {
+Target::Target(int width, int height, int samples)
+    : framebuffer_(generated(glGenFramebuffers)), width_(width), height_(height) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   if (samples > 0) {
     colour_samples_ = attached_samples(width, height, samples, GL_COLOR_ATTACHMENT0);
@@ -111,7 +128,8 @@ Target::Target(int width, int height, int samples) : framebuffer_(generated(glGe
     depth_ = attached_texture(width, height, GL_DEPTH_ATTACHMENT);
   }
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw GraphicsError("the graphics driver has no framebuffer of " + std::to_string(width) + "x" + std::to_string(height) + " with " + std::to_string(samples) + " samples");
+    throw GraphicsError("the graphics driver has no framebuffer of " + std::to_string(width) + "x" +
+                        std::to_string(height) + " with " + std::to_string(samples) + " samples");
 }
 
 }  // namespace rink::view

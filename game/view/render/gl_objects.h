@@ -1,4 +1,5 @@
-// OpenGL's objects with owners: programs, buffers, textures, framebuffers. A context of OpenGL 3.3 must be current wherever one is made, used or destroyed.
+// OpenGL's objects with owners: programs, buffers, textures, framebuffers. A context of OpenGL 3.3
+// must be current wherever one is made, used or destroyed.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -51,15 +52,24 @@ inline void destroy_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name);
 class Program {
  public:
   Program() = default;
-  /// `shared` is put before both sources, after the version. Throws GraphicsError with the compiler's words.
+  /// `shared` is put before both sources, after the version. Throws GraphicsError with the
+  /// compiler's words.
   Program(const char* what, const char* shared, const char* vertex, const char* fragment);
   void use() const { glUseProgram(program_.name()); }
   void set(const char* uniform, float value) const { glUniform1f(at(uniform), value); }
   void set(const char* uniform, int value) const { glUniform1i(at(uniform), value); }
-  void set(const char* uniform, const Eigen::Vector2f& value) const { glUniform2fv(at(uniform), 1, value.data()); }
-  void set(const char* uniform, const Eigen::Vector3f& value) const { glUniform3fv(at(uniform), 1, value.data()); }
-  void set(const char* uniform, const Eigen::Vector4f& value) const { glUniform4fv(at(uniform), 1, value.data()); }
-  void set(const char* uniform, const Eigen::Matrix4f& value) const { glUniformMatrix4fv(at(uniform), 1, GL_FALSE, value.data()); }
+  void set(const char* uniform, const Eigen::Vector2f& value) const {
+    glUniform2fv(at(uniform), 1, value.data());
+  }
+  void set(const char* uniform, const Eigen::Vector3f& value) const {
+    glUniform3fv(at(uniform), 1, value.data());
+  }
+  void set(const char* uniform, const Eigen::Vector4f& value) const {
+    glUniform4fv(at(uniform), 1, value.data());
+  }
+  void set(const char* uniform, const Eigen::Matrix4f& value) const {
+    glUniformMatrix4fv(at(uniform), 1, GL_FALSE, value.data());
+  }
 
  private:
   GLint at(const char* uniform) const { return glGetUniformLocation(program_.name(), uniform); }
@@ -70,7 +80,8 @@ class Program {
 class FloatStream {
  public:
   FloatStream() = default;
-  /// `sizes`: floats of attributes 0, 1, …; `per_instance`: one row for each instance instead of each vertex.
+  /// `sizes`: floats of attributes 0, 1, …; `per_instance`: one row for each instance instead of
+  /// each vertex.
   FloatStream(std::span<const int> sizes, bool per_instance);
   void fill(std::span<const float> rows);
   /// Rows that were filled in last.
@@ -85,7 +96,8 @@ class FloatStream {
 };
 
 /// A texture of 8-bit colours, `channels` 1 or 4.
-GlName<destroy_texture> make_texture(int width, int height, int channels, std::span<const std::uint8_t> pixels, bool repeats);
+GlName<destroy_texture> make_texture(int width, int height, int channels,
+                                     std::span<const std::uint8_t> pixels, bool repeats);
 
 /// Colour and depth that can be drawn to and, without samples, read from.
 class Target {

@@ -23,20 +23,25 @@ Image read_pixels(unsigned framebuffer, int width, int height) {
   glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upward.data());
   image.pixels.reserve(upward.size());
   for (std::size_t line = static_cast<std::size_t>(height); line-- > 0;)
-    image.pixels.insert(image.pixels.end(), upward.begin() + static_cast<std::ptrdiff_t>(line * row), upward.begin() + static_cast<std::ptrdiff_t>((line + 1) * row));
+    image.pixels.insert(image.pixels.end(),
+                        upward.begin() + static_cast<std::ptrdiff_t>(line * row),
+                        upward.begin() + static_cast<std::ptrdiff_t>((line + 1) * row));
   return image;
 }
 
 void write_png(const std::string& file, const Image& image) {
-  if (stbi_write_png(file.c_str(), image.width, image.height, image.channels, image.pixels.data(), image.width * image.channels) == 0)
+  if (stbi_write_png(file.c_str(), image.width, image.height, image.channels, image.pixels.data(),
+                     image.width * image.channels) == 0)
     throw std::runtime_error("cannot write the image '" + file + "'");
 }
 
 Image read_png(const std::string& file) {
   Image image{0, 0, 3, {}};
-  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(stbi_load(file.c_str(), &image.width, &image.height, nullptr, 3), stbi_image_free);
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
+      stbi_load(file.c_str(), &image.width, &image.height, nullptr, 3), stbi_image_free);
   if (!pixels) throw std::runtime_error("cannot read the image '" + file + "'");
-  image.pixels.assign(pixels.get(), pixels.get() + static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
+  image.pixels.assign(pixels.get(), pixels.get() + static_cast<std::size_t>(image.width) *
+                                                       static_cast<std::size_t>(image.height) * 3);
   return image;
 }
 
@@ -48,19 +53,23 @@ Difference difference(const Image& a, const Image& b) {
   for (std::size_t pixel = 0; pixel < count; ++pixel) {
     int most = 0;
     for (std::size_t channel = 0; channel < channels; ++channel) {
-      const int apart = std::abs(int{a.pixels[pixel * channels + channel]} - int{b.pixels[pixel * channels + channel]});
+      const int apart = std::abs(int{a.pixels[pixel * channels + channel]} -
+                                 int{b.pixels[pixel * channels + channel]});
       sum += apart;
       most = std::max(most, apart);
     }
     far += most > 32 ? 1u : 0u;
   }
-  return {sum / static_cast<double>(a.pixels.size()), static_cast<double>(far) / static_cast<double>(count)};
+  return {sum / static_cast<double>(a.pixels.size()),
+          static_cast<double>(far) / static_cast<double>(count)};
 }
 
 Image difference_image(const Image& a, const Image& b) {
   Image image{a.width, a.height, a.channels, std::vector<std::uint8_t>(a.pixels.size(), 255)};
   if (a.width != b.width || a.height != b.height || a.channels != b.channels) return image;
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<std::uint8_t>(std::min(255, 4 * std::abs(int{a.pixels[i]} - int{b.pixels[i]})));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] =
+        static_cast<std::uint8_t>(std::min(255, 4 * std::abs(int{a.pixels[i]} - int{b.pixels[i]})));
   return image;
 }
 

@@ -16,8 +16,9 @@ Image read_png(const std::string& file);
 
 /// How two images differ: by at most 255 per channel.
 struct Difference {
-  double mean = 255.0;           ///< over all pixels and channels
-  double part_above_32 = 1.0;    ///< of the pixels, in any channel: what has another place or colour, not another rounding
+  double mean = 255.0;         ///< over all pixels and channels
+  double part_above_32 = 1.0;  ///< of the pixels, in any channel: what has another place or colour,
+                               ///< not another rounding
 };
 /// The worst possible if sizes differ.
 Difference difference(const Image& a, const Image& b);

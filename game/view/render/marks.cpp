@@ -12,13 +12,18 @@ enum class Kind : int { disc_shadow, box_shadow, streak, glow };
 
 constexpr float shadow_reach = 0.09f;  // m; where the contact shadow has faded
 
-void add(std::vector<float>& rows, float low_x, float low_y, float high_x, float high_y, float x, float y, float half_x, float half_y, Kind kind, float a, float b, float c, const Colour& colour) {
-  rows.insert(rows.end(), {low_x, low_y, high_x, high_y, x, y, half_x, half_y, static_cast<float>(kind), a, b, c, colour.red, colour.green, colour.blue, colour.alpha});
+void add(std::vector<float>& rows, float low_x, float low_y, float high_x, float high_y, float x,
+         float y, float half_x, float half_y, Kind kind, float a, float b, float c,
+         const Colour& colour) {
+  rows.insert(rows.end(),
+              {low_x, low_y, high_x, high_y, x, y, half_x, half_y, static_cast<float>(kind), a, b,
+               c, colour.red, colour.green, colour.blue, colour.alpha});
 }
 
 void add_shadow(const Piece& piece, std::vector<float>& rows) {
   const float x = piece.half_x + shadow_reach, y = piece.half_y + shadow_reach;
-  add(rows, piece.x - x, piece.y - y, piece.x + x, piece.y + y, piece.x, piece.y, piece.half_x, piece.half_y, piece.shape == Piece::Shape::bat ? Kind::box_shadow : Kind::disc_shadow,
+  add(rows, piece.x - x, piece.y - y, piece.x + x, piece.y + y, piece.x, piece.y, piece.half_x,
+      piece.half_y, piece.shape == Piece::Shape::bat ? Kind::box_shadow : Kind::disc_shadow,
       piece.height, 0.0f, 0.0f, {0.02f, 0.03f, 0.07f, 1.0f});
 }
 
@@ -29,16 +34,19 @@ void add_streak(const Piece& piece, std::vector<float>& rows) {
   const float x = 0.07f * piece.velocity_x, y = 0.07f * piece.velocity_y, r = piece.half_x;
   Colour colour = piece.accent;
   colour.alpha = std::min(0.55f, 0.16f * (speed - 0.6f));
-  add(rows, std::min(piece.x, piece.x - x) - r, std::min(piece.y, piece.y - y) - r, std::max(piece.x, piece.x - x) + r, std::max(piece.y, piece.y - y) + r, piece.x, piece.y, r, r, Kind::streak,
-      x, y, 0.0f, colour);
+  add(rows, std::min(piece.x, piece.x - x) - r, std::min(piece.y, piece.y - y) - r,
+      std::max(piece.x, piece.x - x) + r, std::max(piece.y, piece.y - y) + r, piece.x, piece.y, r,
+      r, Kind::streak, x, y, 0.0f, colour);
 }
 
 void add_glow(const Table& table, bool is_left, float part, std::vector<float>& rows) {
   if (part <= 0.0f) return;
   Colour colour = is_left ? table.right : table.left;  // of who scored
   colour.alpha = 0.85f * part;
-  const float reach = 0.45f * table.length, side = 0.62f * table.width, x = is_left ? 0.0f : table.length, y = 0.5f * table.width;
-  add(rows, is_left ? 0.0f : table.length - reach, 0.0f, is_left ? reach : table.length, table.width, x, y, reach, side, Kind::glow, 0.0f, 0.0f, 0.0f, colour);
+  const float reach = 0.45f * table.length, side = 0.62f * table.width,
+              x = is_left ? 0.0f : table.length, y = 0.5f * table.width;
+  add(rows, is_left ? 0.0f : table.length - reach, 0.0f, is_left ? reach : table.length,
+      table.width, x, y, reach, side, Kind::glow, 0.0f, 0.0f, 0.0f, colour);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// What an experiment draws over the field, as plain data: grid cells, subscription regions, and who receives what in colour.
+// What an experiment draws over the field, as plain data: grid cells, subscription regions, and who
+// receives what in colour.
 #pragma once
 
 #include <cstdint>

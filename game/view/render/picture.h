@@ -25,10 +25,13 @@ struct Piece {
 struct Table {
   float length = 2.4f, width = 1.2f, goal_width = 0.4f;  ///< m
   Colour left{}, right{};                                ///< of the two teams
-  friend bool operator==(const Table& a, const Table& b) { return a.length == b.length && a.width == b.width && a.goal_width == b.goal_width; }
+  friend bool operator==(const Table& a, const Table& b) {
+    return a.length == b.length && a.width == b.width && a.goal_width == b.goal_width;
+  }
 };
 
-/// The board with the score. It stands upright with its middle over (x, y), and whoever looks along (`ahead_x`, `ahead_y`) reads it.
+/// The board with the score. It stands upright with its middle over (x, y), and whoever looks along
+/// (`ahead_x`, `ahead_y`) reads it.
 struct Scoreboard {
   bool is_there = true;
   float x = 0.0f, y = 0.0f, ahead_x = 0.0f, ahead_y = 1.0f;
@@ -40,12 +43,13 @@ struct Scoreboard {
 /// Text in the window's plane.
 struct Text {
   std::string words;
-  float x = 0.5f, y = 0.5f;  ///< of the window, from the upper left; where the text's own middle, or its left or right end, is
+  float x = 0.5f, y = 0.5f;  ///< of the window, from the upper left; where the text's own middle,
+                             ///< or its left or right end, is
   float size = 0.05f;        ///< height of its letters' line, as a part of the window's height
   enum class Align : std::uint8_t { left, middle, right };
   Align align = Align::middle;
   Colour colour{1.0f, 1.0f, 1.0f, 1.0f};
-  bool has_plate = false;    ///< something dark behind it, where the picture is bright
+  bool has_plate = false;  ///< something dark behind it, where the picture is bright
 };
 
 struct Picture {
@@ -53,9 +57,10 @@ struct Picture {
   Camera camera;
   Scoreboard board;
   std::vector<Piece> pieces;
-  float left_glow = 0.0f, right_glow = 0.0f;  ///< 0 to 1: the light that a goal throws on that end of the table
-  float dimming = 0.0f;                       ///< 0 to 1: how far everything but the texts is darkened
-  bool is_split = false;                      ///< another picture stands beside it, in the same window
+  float left_glow = 0.0f,
+        right_glow = 0.0f;  ///< 0 to 1: the light that a goal throws on that end of the table
+  float dimming = 0.0f;     ///< 0 to 1: how far everything but the texts is darkened
+  bool is_split = false;    ///< another picture stands beside it, in the same window
   Overlay overlay;
   std::vector<Text> texts;
 };

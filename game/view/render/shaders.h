@@ -1,4 +1,5 @@
-// The sources of all shaders (GLSL 3.30): light and table shared by all, the standing scene, marks that lie on the table, pieces in perspective, pieces from above, overlays.
+// The sources of all shaders (GLSL 3.30): light and table shared by all, the standing scene, marks
+// that lie on the table, pieces in perspective, pieces from above, overlays.
 #pragma once
 
 namespace rink::view {

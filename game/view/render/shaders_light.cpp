@@ -1,4 +1,5 @@
-// What every shader knows: the lamp over the table, the hall that glossy things mirror, the print on the table.
+// What every shader knows: the lamp over the table, the hall that glossy things mirror, the print
+// on the table.
 #include "game/view/render/shaders.h"
 
 namespace rink::view {

@@ -1,4 +1,5 @@
-// What moves: marks on the table (soft shadows, streaks, the glow of a goal), and pieces traced as rounded solids in perspective.
+// What moves: marks on the table (soft shadows, streaks, the glow of a goal), and pieces traced as
+// rounded solids in perspective.
 #include "game/view/render/shaders.h"
 
 namespace rink::view {

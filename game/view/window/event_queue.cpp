@@ -12,11 +12,13 @@ void EventQueue::begin_frame() {
 
 bool EventQueue::may_come(const WindowEvent& event, Pace pace) const {
   using Kind = WindowEvent::Kind;
-  if (event.kind == Kind::mouse_move || event.kind == Kind::scroll) return pace == Pace::play || !has_clicked_;
+  if (event.kind == Kind::mouse_move || event.kind == Kind::scroll)
+    return pace == Pace::play || !has_clicked_;
   if (event.kind != Kind::key && event.kind != Kind::mouse_button) return true;
   if (event.is_down && pace == Pace::opening) return false;
   if (event.is_down && pace == Pace::menu && has_pressed_) return false;
-  return event.kind == Kind::key ? std::ranges::find(changed_, event.key) == changed_.end() : !has_clicked_;
+  return event.kind == Kind::key ? std::ranges::find(changed_, event.key) == changed_.end()
+                                 : !has_clicked_;
 }
 
 std::optional<WindowEvent> EventQueue::take(Pace pace) {

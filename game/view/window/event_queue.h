@@ -1,5 +1,5 @@
-// What a person did to the window, held back as long as a frame needs to see it: menus look at keys once a frame, so a tap
-// that begins and ends between two frames would never have been.
+// What a person did to the window, held back as long as a frame needs to see it: menus look at keys
+// once a frame, so a tap that begins and ends between two frames would never have been.
 #pragma once
 
 #include <deque>
@@ -19,7 +19,8 @@ class EventQueue {
   /// How much of what was done a frame may see at once.
   enum class Pace : unsigned char {
     play,    ///< anything, but of each key and of the mouse's button one change
-    menu,    ///< also only one press, for each acts on what those before it have chosen, and no movement after a click
+    menu,    ///< also only one press, for each acts on what those before it have chosen, and no
+             ///< movement after a click
     opening  ///< no press: the screen is not ready
   };
   /// The next event of this frame, if `pace` lets one in.

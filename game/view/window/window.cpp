@@ -11,9 +11,11 @@ namespace rink::view {
 namespace {
 
 constexpr const char* how_to_get_a_display =
-    "\nrink play needs a display: run it on a desktop (X11, or Wayland with Xwayland; over ssh: ssh -X), or on a virtual one:\n"
+    "\nrink play needs a display: run it on a desktop (X11, or Wayland with Xwayland; over ssh: "
+    "ssh -X), or on a virtual one:\n"
     "  apt-get install -y --no-install-recommends xvfb xauth && xvfb-run ./rink play\n"
-    "Without any, ./rink play --bot club --offscreen --screenshot match.png --at 1 draws a picture.";
+    "Without any, ./rink play --bot club --offscreen --screenshot match.png --at 1 draws a "
+    "picture.";
 
 std::string glfw_words() {
   const char* words = nullptr;
@@ -21,7 +23,9 @@ std::string glfw_words() {
   return words != nullptr ? words : "no reason given";
 }
 
-std::vector<WindowEvent>& events_of(GLFWwindow* window) { return *static_cast<std::vector<WindowEvent>*>(glfwGetWindowUserPointer(window)); }
+std::vector<WindowEvent>& events_of(GLFWwindow* window) {
+  return *static_cast<std::vector<WindowEvent>*>(glfwGetWindowUserPointer(window));
+}
 
 /// The monitor that shows the window's middle, or else the first.
 GLFWmonitor* monitor_of(GLFWwindow* window) {
@@ -43,7 +47,8 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
 }  // namespace
 
 Window::Window(const std::string& title, int width, int height, bool is_full_screen) {
-  if (!glfwInit()) throw NoDisplay("no window can be opened: " + glfw_words() + how_to_get_a_display);
+  if (!glfwInit())
+    throw NoDisplay("no window can be opened: " + glfw_words() + how_to_get_a_display);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -53,7 +58,8 @@ Window::Window(const std::string& title, int width, int height, bool is_full_scr
   if (window_ == nullptr) {
     const std::string why = glfw_words();
     glfwTerminate();
-    throw NoDisplay("no window with OpenGL 3.3 can be opened: " + why + " (Debian's software driver: libgl1-mesa-dri)" + how_to_get_a_display);
+    throw NoDisplay("no window with OpenGL 3.3 can be opened: " + why +
+                    " (Debian's software driver: libgl1-mesa-dri)" + how_to_get_a_display);
   }
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
@@ -71,20 +77,29 @@ void Window::listen() {
   using Kind = WindowEvent::Kind;
   glfwSetWindowUserPointer(window_, &events_);
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
-    if (action != GLFW_REPEAT && key != GLFW_KEY_UNKNOWN) events_of(window).push_back({.kind = Kind::key, .key = key, .is_down = action == GLFW_PRESS});
+    if (action != GLFW_REPEAT && key != GLFW_KEY_UNKNOWN)
+      events_of(window).push_back({.kind = Kind::key, .key = key, .is_down = action == GLFW_PRESS});
   });
-  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) { events_of(window).push_back({.kind = Kind::text, .character = character}); });
+  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
+    events_of(window).push_back({.kind = Kind::text, .character = character});
+  });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
     int width = 0, height = 0, pixels_x = 0, pixels_y = 0;
     glfwGetWindowSize(window, &width, &height);
     glfwGetFramebufferSize(window, &pixels_x, &pixels_y);
-    if (width > 0 && height > 0) events_of(window).push_back({.kind = Kind::mouse_move, .x = x * pixels_x / width, .y = y * pixels_y / height});
+    if (width > 0 && height > 0)
+      events_of(window).push_back(
+          {.kind = Kind::mouse_move, .x = x * pixels_x / width, .y = y * pixels_y / height});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
-    if (button == GLFW_MOUSE_BUTTON_LEFT) events_of(window).push_back({.kind = Kind::mouse_button, .is_down = action == GLFW_PRESS});
+    if (button == GLFW_MOUSE_BUTTON_LEFT)
+      events_of(window).push_back({.kind = Kind::mouse_button, .is_down = action == GLFW_PRESS});
   });
-  glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double y) { events_of(window).push_back({.kind = Kind::scroll, .y = y}); });
-  glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) { events_of(window).push_back({.kind = Kind::close}); });
+  glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double y) {
+    events_of(window).push_back({.kind = Kind::scroll, .y = y});
+  });
+  glfwSetWindowCloseCallback(
+      window_, [](GLFWwindow* window) { events_of(window).push_back({.kind = Kind::close}); });
   glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int has_focus) {
     if (!has_focus) events_of(window).push_back({.kind = Kind::focus_lost});
   });
@@ -108,12 +123,14 @@ bool Window::is_full_screen() const { return glfwGetWindowMonitor(window_) != nu
 
 void Window::set_full_screen(bool is_wanted) {
   if (is_wanted == is_full_screen()) return;
-  if (!is_wanted) return glfwSetWindowMonitor(window_, nullptr, x_, y_, width_, height_, GLFW_DONT_CARE);
+  if (!is_wanted)
+    return glfwSetWindowMonitor(window_, nullptr, x_, y_, width_, height_, GLFW_DONT_CARE);
   glfwGetWindowPos(window_, &x_, &y_);
   glfwGetWindowSize(window_, &width_, &height_);
   GLFWmonitor* monitor = monitor_of(window_);
   const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
-  if (mode != nullptr) glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  if (mode != nullptr)
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
 void Window::show() { glfwSwapBuffers(window_); }

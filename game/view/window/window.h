@@ -12,7 +12,8 @@ struct GLFWwindow;
 
 namespace rink::view {
 
-/// There is no display to open a window on, or no OpenGL 3.3 there; what() says what is missing and how to get it.
+/// There is no display to open a window on, or no OpenGL 3.3 there; what() says what is missing and
+/// how to get it.
 class NoDisplay : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -6,12 +6,20 @@
 namespace rink::view {
 
 struct WindowEvent {
-  enum class Kind : unsigned char { key, text, mouse_move, mouse_button, scroll, close, focus_lost };
+  enum class Kind : unsigned char {
+    key,
+    text,
+    mouse_move,
+    mouse_button,
+    scroll,
+    close,
+    focus_lost
+  };
   Kind kind = Kind::key;
   KeyCode key = 0;
-  bool is_down = false;          ///< of key and mouse_button
-  unsigned character = 0;        ///< of text: Unicode
-  double x = 0.0, y = 0.0;       ///< of mouse_move: pixels from the upper left; of scroll: y
+  bool is_down = false;     ///< of key and mouse_button
+  unsigned character = 0;   ///< of text: Unicode
+  double x = 0.0, y = 0.0;  ///< of mouse_move: pixels from the upper left; of scroll: y
 };
 
 /// How large a window is: pixels, and pixels per point of the desktop's scale.

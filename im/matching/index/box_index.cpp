@@ -1,4 +1,5 @@
-// Bins boxes by counting sort, level by level, and finds the stretches of cells that a question must look at.
+// Bins boxes by counting sort, level by level, and finds the stretches of cells that a question
+// must look at.
 #include "im/matching/index/box_index.h"
 
 #include <cassert>
@@ -10,10 +11,12 @@
 namespace rink::im {
 namespace {
 
-/// With more boxes to a square, rows hold too many candidates; with fewer, a question visits too many rows. Columns are cheap: the cells of a row lie one after the other.
+/// With more boxes to a square, rows hold too many candidates; with fewer, a question visits too
+/// many rows. Columns are cheap: the cells of a row lie one after the other.
 constexpr CellShape box_cell_shape{32.0, 6.0, 2.0};
 
-/// Boxes are followed until they may be this part of a column from their cells: farther, questions look at so many more that binning anew is cheaper.
+/// Boxes are followed until they may be this part of a column from their cells: farther, questions
+/// look at so many more that binning anew is cheaper.
 constexpr float drift_max = 0.65f;
 /// Nor do they keep cells when their hulls have become so many times as wide.
 constexpr float growth_max = 1.25f;
@@ -34,13 +37,18 @@ void BoxIndex::begin(const Region& world, std::size_t count_max, bool is_moving)
   if (is_moving) staged_before_.resize(count_max);
 }
 
-FloatBox BoxIndex::hull(std::size_t staged) const { return is_moving_ ? hull_of(staged_before_[staged], staged_now_[staged]) : staged_now_[staged]; }
+FloatBox BoxIndex::hull(std::size_t staged) const {
+  return is_moving_ ? hull_of(staged_before_[staged], staged_now_[staged]) : staged_now_[staged];
+}
 
 void BoxIndex::count_cells() {
   starts_.fill(levels_.cell_count() + std::size_t{1}, 0);
   cells_.resize(staged_count_);
-  // Nearly always there is one level. As a local copy it stays in registers; the counts could be anyone's memory.
-  if (levels_.size() > 1) return count_cells([this](const FloatBox& box) -> CellLevel& { return levels_.of(sizes_, box); });
+  // Nearly always there is one level. As a local copy it stays in registers; the counts could be
+  // anyone's memory.
+  if (levels_.size() > 1)
+    return count_cells(
+        [this](const FloatBox& box) -> CellLevel& { return levels_.of(sizes_, box); });
   CellLevel only = levels_[0];
   count_cells([&only](const FloatBox&) -> CellLevel& { return only; });
   levels_.replace_only(only);
@@ -88,15 +96,23 @@ bool BoxIndex::follow(const RegionHistory& regions, Instructions instructions) {
   assert(is_moving_);
   if (++follow_count_ > follow_max || !may_follow_) return false;
   std::swap(before_, now_);
-  const Advancing boxes{ids_.data(), regions, projection_, std::as_const(before_).columns(), now_.columns()};
+  const Advancing boxes{ids_.data(), regions, projection_, std::as_const(before_).columns(),
+                        now_.columns()};
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     CellLevel& level = levels_[i];
     const CellLevel built = level;
-    take_up(advance(instructions)(boxes, starts_[built.first_cell], starts_[built.first_cell + built.cell_count()], is_exact_), level);
-    const auto is_worth_it = [](const CellAxis& axis, const CellAxis& before) { return axis.drift * axis.cells_per_metre <= drift_max && axis.widest <= growth_max * before.widest; };
+    take_up(advance(instructions)(boxes, starts_[built.first_cell],
+                                  starts_[built.first_cell + built.cell_count()], is_exact_),
+            level);
+    const auto is_worth_it = [](const CellAxis& axis, const CellAxis& before) {
+      return axis.drift * axis.cells_per_metre <= drift_max &&
+             axis.widest <= growth_max * before.widest;
+    };
     if (!is_worth_it(level.x, built.x) || !is_worth_it(level.y, built.y)) return false;
     // One step more like this and the next pass over all would be for nothing.
-    const auto leaves_room = [](const CellAxis& axis, const CellAxis& before) { return (2.0f * axis.drift - before.drift) * axis.cells_per_metre <= drift_max; };
+    const auto leaves_room = [](const CellAxis& axis, const CellAxis& before) {
+      return (2.0f * axis.drift - before.drift) * axis.cells_per_metre <= drift_max;
+    };
     may_follow_ = may_follow_ && leaves_room(level.x, built.x) && leaves_room(level.y, built.y);
   }
   return true;
@@ -106,14 +122,16 @@ void BoxIndex::take_up(const Advanced& advanced, CellLevel& level) {
   is_exact_ = is_exact_ && advanced.is_exact;
   level.has_newcomers = false;
   level.x.widest = advanced.widest_x, level.y.widest = advanced.widest_y;
-  // The cell is that of the hull's low corner, so at first a box may be beyond it by the step that was binned.
+  // The cell is that of the hull's low corner, so at first a box may be beyond it by the step that
+  // was binned.
   const bool is_first = follow_count_ == 1;
   level.x.drift += is_first ? advanced.shift_x + advanced.begun_x : advanced.shift_x;
   level.y.drift += is_first ? advanced.shift_y + advanced.begun_y : advanced.shift_y;
 }
 
 template <class Query>
-std::size_t BoxIndex::collect(const CellLevel& level, const Query& query, Buffer<Stretch>& stretches) const {
+std::size_t BoxIndex::collect(const CellLevel& level, const Query& query,
+                              Buffer<Stretch>& stretches) const {
   std::size_t count = stretches.size(), candidates = 0;
   stretches.reserve(count + 2 * static_cast<std::size_t>(query.rows.last - query.rows.first + 1));
   Stretch* out = stretches.data();
@@ -129,13 +147,15 @@ std::size_t BoxIndex::collect(const CellLevel& level, const Query& query, Buffer
 
 std::size_t BoxIndex::find_overlaps(const FloatBox& box, Buffer<Stretch>& stretches) const {
   std::size_t candidates = 0;
-  for (const CellLevel& level : levels_) candidates += collect(level, cells_touched(level, box), stretches);
+  for (const CellLevel& level : levels_)
+    candidates += collect(level, cells_touched(level, box), stretches);
   return candidates;
 }
 
 std::size_t BoxIndex::find_changes(const Probe& probe, Buffer<Stretch>& stretches) const {
   std::size_t candidates = 0;
-  for (const CellLevel& level : levels_) candidates += collect(level, cells_changed(level, probe.before, probe.now), stretches);
+  for (const CellLevel& level : levels_)
+    candidates += collect(level, cells_changed(level, probe.before, probe.now), stretches);
   return candidates;
 }
 
@@ -143,12 +163,15 @@ std::size_t BoxIndex::find_disc_changes(const Probe& probe, Buffer<Stretch>& str
   const Ring ring(probe.before, probe.now);
   if (!ring.is_plain()) return find_overlaps(hull_of(probe.before, probe.now), stretches);
   std::size_t candidates = 0;
-  for (const CellLevel& level : levels_) candidates += collect(level, RingQuery(level, ring), stretches);
+  for (const CellLevel& level : levels_)
+    candidates += collect(level, RingQuery(level, ring), stretches);
   return candidates;
 }
 
 std::size_t BoxIndex::bytes() const {
-  return sizeof(FloatBox) * (staged_before_.capacity() + staged_now_.capacity()) + sizeof(std::uint32_t) * (staged_ids_.capacity() + cells_.capacity() + starts_.capacity() + ids_.capacity()) +
+  return sizeof(FloatBox) * (staged_before_.capacity() + staged_now_.capacity()) +
+         sizeof(std::uint32_t) *
+             (staged_ids_.capacity() + cells_.capacity() + starts_.capacity() + ids_.capacity()) +
          before_.bytes() + now_.bytes();
 }
 

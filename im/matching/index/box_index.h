@@ -1,21 +1,23 @@
-// Many boxes, each stored once, in the order of the cells they are in: built at a stroke, asked often, thrown away.
+// Many boxes, each stored once, in the order of the cells they are in: built at a stroke, asked
+// often, thrown away.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
-#include "im/matching/index/box_store.h"
 #include "im/matching/buffer.h"
+#include "im/matching/index/box_store.h"
 #include "im/matching/index/cell_level.h"
-#include "im/matching/probe_list.h"
-#include "im/matching/projection.h"
 #include "im/matching/index/scan.h"
 #include "im/matching/index/size_levels.h"
+#include "im/matching/probe_list.h"
+#include "im/matching/projection.h"
 #include "im/matching/region_history.h"
 
 namespace rink::im {
 
-/// Stage boxes, then `build`, then ask. A box may be moving: then it is binned by the hull of where it was and where it is.
+/// Stage boxes, then `build`, then ask. A box may be moving: then it is binned by the hull of where
+/// it was and where it is.
 class BoxIndex {
  public:
   /// Starts anew, with room for `count_max` boxes in a world of positive area.
@@ -26,8 +28,10 @@ class BoxIndex {
   void stage(std::uint32_t id, const Motion& motion);
   /// Bins what was staged by counting sort: linear in boxes and cells.
   void build();
-  /// The next places of all moving boxes that were built: each stays in the cell that it has, questions reach as much farther as boxes have come since. `regions` are where they
-  /// are now, all of them and at the last match in the places that are known here. False, and then it must be built anew, if they have come or grown too far for that to pay.
+  /// The next places of all moving boxes that were built: each stays in the cell that it has,
+  /// questions reach as much farther as boxes have come since. `regions` are where they are now,
+  /// all of them and at the last match in the places that are known here. False, and then it must
+  /// be built anew, if they have come or grown too far for that to pay.
   bool follow(const RegionHistory& regions, Instructions instructions = Instructions::best);
 
   std::size_t size() const { return ids_.size(); }
@@ -35,13 +39,18 @@ class BoxIndex {
   std::span<const std::uint32_t> ids() const { return ids_.span(); }
   /// True if no projection lost anything.
   bool is_exact() const { return is_exact_; }
-  Candidates candidates() const { return {is_moving_ ? before_.columns() : now_.columns(), now_.columns(), ids_.data()}; }
+  Candidates candidates() const {
+    return {is_moving_ ? before_.columns() : now_.columns(), now_.columns(), ids_.data()};
+  }
   /// The boxes in the order of their cells, as questions to another index.
-  Probe probe(std::size_t i) const { return {is_moving_ ? before_[i] : now_[i], now_[i], ids_[i], 0}; }
+  Probe probe(std::size_t i) const {
+    return {is_moving_ ? before_[i] : now_[i], now_[i], ids_[i], 0};
+  }
 
   /// Appends where boxes may overlap `box`; returns how many.
   std::size_t find_overlaps(const FloatBox& box, Buffer<Stretch>& stretches) const;
-  /// Appends where boxes may have an overlap with `probe` that changed; returns how many. Cells well inside both its places hold none.
+  /// Appends where boxes may have an overlap with `probe` that changed; returns how many. Cells
+  /// well inside both its places hold none.
   std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
   /// The same for who asks what touches his disc.
   std::size_t find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
@@ -64,7 +73,7 @@ class BoxIndex {
   SizeLevels sizes_;
   CellLevels levels_;
   std::uint32_t follow_count_ = 0;  // since it was built
-  bool may_follow_ = true;  // as far as the last step tells
+  bool may_follow_ = true;          // as far as the last step tells
   // As staged; the buffers have room for what was announced.
   std::size_t staged_count_ = 0;
   Buffer<FloatBox> staged_before_, staged_now_;

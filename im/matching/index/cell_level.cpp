@@ -14,37 +14,49 @@ constexpr double cells_across_max = 0x1p24;
 /// Finite also for a world that is tiny.
 CellAxis axis(double cells, double length) {
   const double bounded = std::min(std::max(1.0, std::floor(cells)), cells_across_max);
-  return {static_cast<float>(std::min(bounded / length, static_cast<double>(float_max))), static_cast<std::int32_t>(bounded) - 1, 0.0f};
+  return {static_cast<float>(std::min(bounded / length, static_cast<double>(float_max))),
+          static_cast<std::int32_t>(bounded) - 1, 0.0f};
 }
 
-CellLevel lay_out(std::size_t box_count, double width, double height, double crowding, const CellShape& shape) {
+CellLevel lay_out(std::size_t box_count, double width, double height, double crowding,
+                  const CellShape& shape) {
   const double boxes = std::max(1.0, static_cast<double>(box_count));
-  const double squares = std::min({boxes * crowding / shape.boxes_per_square, boxes * shape.cells_per_box_max / shape.columns_per_row, cell_max});
+  const double squares =
+      std::min({boxes * crowding / shape.boxes_per_square,
+                boxes * shape.cells_per_box_max / shape.columns_per_row, cell_max});
   // A world that is long and thin has one row.
-  const double rows = std::clamp(std::floor(std::sqrt(squares * (height / width))), 1.0, std::max(1.0, squares));
+  const double rows =
+      std::clamp(std::floor(std::sqrt(squares * (height / width))), 1.0, std::max(1.0, squares));
   CellLevel level;
   level.y = axis(rows, height);
   level.x = axis(squares * shape.columns_per_row / rows, width);
   return level;
 }
 
-/// How much denser the boxes are around a box than on average, by a sample: the chance that two of them share one of 256 squares, 1/256 if even.
+/// How much denser the boxes are around a box than on average, by a sample: the chance that two of
+/// them share one of 256 squares, 1/256 if even.
 double crowding(std::span<const FloatBox> boxes, double width, double height) {
   constexpr std::int32_t squares_across = 16;
   constexpr std::size_t sample_max = 1024;
   const CellAxis x = axis(squares_across, width), y = axis(squares_across, height);
   std::array<std::uint32_t, squares_across * squares_across> counts{};
-  for (std::size_t i = 0; i < boxes.size(); i += boxes.size() / sample_max + 1) ++counts[static_cast<std::size_t>(y.cell(boxes[i].low_y) * squares_across + x.cell(boxes[i].low_x))];
+  for (std::size_t i = 0; i < boxes.size(); i += boxes.size() / sample_max + 1)
+    ++counts[static_cast<std::size_t>(y.cell(boxes[i].low_y) * squares_across +
+                                      x.cell(boxes[i].low_x))];
   double pairs = 0.0, sampled = 0.0;
   for (const double count : counts) pairs += count * (count - 1.0), sampled += count;
-  return sampled > 1.0 ? std::max(1.0, pairs / (sampled * (sampled - 1.0)) * static_cast<double>(counts.size())) : 1.0;
+  return sampled > 1.0 ? std::max(1.0, pairs / (sampled * (sampled - 1.0)) *
+                                           static_cast<double>(counts.size()))
+                       : 1.0;
 }
 
 }  // namespace
 
-void CellLevels::choose(SizeLevels& sizes, std::span<const FloatBox> boxes, const Region& world, const CellShape& shape) {
+void CellLevels::choose(SizeLevels& sizes, std::span<const FloatBox> boxes, const Region& world,
+                        const CellShape& shape) {
   sizes.choose();
-  const double width = world.high_x - world.low_x, height = world.high_y - world.low_y, crowd = crowding(boxes, width, height);
+  const double width = world.high_x - world.low_x, height = world.high_y - world.low_y,
+               crowd = crowding(boxes, width, height);
   levels_.clear();
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const std::uint32_t first = levels_.empty() ? 0 : cell_count();

@@ -1,4 +1,5 @@
-// Keeps boxes in lines, cell by cell, and reads those lines for many askers at a time, so that one load hides behind the other.
+// Keeps boxes in lines, cell by cell, and reads those lines for many askers at a time, so that one
+// load hides behind the other.
 #include "im/matching/index/line_index.h"
 
 #include <algorithm>
@@ -10,8 +11,9 @@
 namespace rink::im {
 namespace {
 
-/// Half of the lanes are in use, so that few cells overflow. Two cells to a box at most, for a crowd in 1 % of the world: with half a cell to a box they hold 180 there, and a mover
-/// reads 130 lines.
+/// Half of the lanes are in use, so that few cells overflow. Two cells to a box at most, for a
+/// crowd in 1 % of the world: with half a cell to a box they hold 180 there, and a mover reads 130
+/// lines.
 constexpr CellShape line_cell_shape{4.0, 1.0, 2.0};
 /// With more columns or rows, edges would not fit into 32 bits; the last ones are wide then.
 constexpr std::int32_t last_max = (1 << 21) - 1;
@@ -20,14 +22,18 @@ constexpr std::size_t in_flight_max = 32, visit_max = 512;
 
 }  // namespace
 
-EdgeCoding::EdgeCoding(float cells_per_metre_x, float cells_per_metre_y, float widest_x, float widest_y) {
+EdgeCoding::EdgeCoding(float cells_per_metre_x, float cells_per_metre_y, float widest_x,
+                       float widest_y) {
   // The high edges of the boxes in a cell range over the cell and the widest of them.
   const auto high_steps = [](float cells_per_metre, float widest) {
     const float cells = cells_per_metre * widest;
     return cells < steps ? std::max(1, static_cast<std::int32_t>(steps / (1.0f + cells))) : 1;
   };
-  high_steps_x_ = high_steps(cells_per_metre_x, widest_x), high_steps_y_ = high_steps(cells_per_metre_y, widest_y);
-  scale_ = FourFloats{cells_per_metre_x * steps, cells_per_metre_y * steps, cells_per_metre_x * static_cast<float>(high_steps_x_), cells_per_metre_y * static_cast<float>(high_steps_y_)};
+  high_steps_x_ = high_steps(cells_per_metre_x, widest_x),
+  high_steps_y_ = high_steps(cells_per_metre_y, widest_y);
+  scale_ = FourFloats{cells_per_metre_x * steps, cells_per_metre_y * steps,
+                      cells_per_metre_x * static_cast<float>(high_steps_x_),
+                      cells_per_metre_y * static_cast<float>(high_steps_y_)};
 }
 
 void LineIndex::build(const Region& world, const RegionHistory& regions, Region Motion::*place) {
@@ -50,14 +56,17 @@ void LineIndex::build(const Region& world, const RegionHistory& regions, Region 
   codings_.clear();
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     CellLevel& level = levels_[i];
-    level.x.last = std::min(level.x.last, last_max), level.y.last = std::min(level.y.last, last_max);
-    codings_.emplace_back(level.x.cells_per_metre, level.y.cells_per_metre, level.x.widest, level.y.widest);
+    level.x.last = std::min(level.x.last, last_max),
+    level.y.last = std::min(level.y.last, last_max);
+    codings_.emplace_back(level.x.cells_per_metre, level.y.cells_per_metre, level.x.widest,
+                          level.y.widest);
   }
   further_place_of_.resize(regions.size());
   lines_.resize(levels_.cell_count());
   for (std::size_t i = 0; i < lines_.size(); ++i) lines_[i].clear();
   runs_.fill(levels_.cell_count(), {0, 0, 0});
-  for (std::size_t i = 0; i < staged_.size(); ++i) insert(staged_ids_[i], place_of(level_of(staged_[i]), staged_[i]));
+  for (std::size_t i = 0; i < staged_.size(); ++i)
+    insert(staged_ids_[i], place_of(level_of(staged_[i]), staged_[i]));
   size_ = built_size_ = staged_.size();
 }
 
@@ -66,7 +75,9 @@ LineIndex::Place LineIndex::place_of(std::size_t level, const FloatBox& box) con
   const std::int32_t column = cells.x.cell(box.low_x), row = cells.y.cell(box.low_y);
   const EdgeCoding& coding = codings_[level];
   const Edges edges = coding.held(box) + coding.offset(column, row);
-  return {cells.first_cell + static_cast<std::uint32_t>(row) * cells.columns() + static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(pack(edges, edges))};
+  return {cells.first_cell + static_cast<std::uint32_t>(row) * cells.columns() +
+              static_cast<std::uint32_t>(column),
+          static_cast<std::uint32_t>(pack(edges, edges))};
 }
 
 /// Lines of no cell; `size` is a power of two.
@@ -86,7 +97,8 @@ std::uint32_t LineIndex::take_run(std::uint32_t size) {
 /// Of a full line, to a further one.
 void LineIndex::copy(std::uint32_t from, std::uint32_t to) {
   lines_[to] = lines_[from];
-  for (std::uint32_t lane = 0; lane < lanes; ++lane) further_place_of_[lines_[to].id(lane)] = to * lanes + lane;
+  for (std::uint32_t lane = 0; lane < lanes; ++lane)
+    further_place_of_[lines_[to].id(lane)] = to * lanes + lane;
 }
 
 /// Makes room for one line more. A run never shrinks: who leaves a crowd often comes back.
@@ -95,7 +107,8 @@ void LineIndex::grow_run(std::uint32_t cell) {
   if (old.size < old.capacity) return;
   const std::uint32_t capacity = std::max(1u, 2 * old.capacity), wider = take_run(capacity);
   for (std::uint32_t line = 0; line < old.size; ++line) copy(old.first + line, wider + line);
-  if (old.capacity != 0) free_[static_cast<std::size_t>(std::countr_zero(old.capacity))].push_back(old.first);
+  if (old.capacity != 0)
+    free_[static_cast<std::size_t>(std::countr_zero(old.capacity))].push_back(old.first);
   runs_[cell] = {wider, old.size, capacity};
 }
 
@@ -139,7 +152,8 @@ void LineIndex::move(std::uint32_t id, std::uint32_t from, const Place& to) {
     remove(id, from);
     return insert(id, to);
   }
-  if (const std::uint32_t lane = lines_[from].find(id); lane < lanes) return lines_[from].set(lane, to.packed);
+  if (const std::uint32_t lane = lines_[from].find(id); lane < lanes)
+    return lines_[from].set(lane, to.packed);
   const std::uint32_t place = further_place_of_[id];
   assert(lines_[place / lanes].id(place % lanes) == id);
   lines_[place / lanes].set(place % lanes, to.packed);
@@ -155,12 +169,15 @@ void LineIndex::put(const ProbeList& moved) {
       const Probe& probe = moved.probe(first + i);
       const std::size_t level = level_of(probe.now);
       CellLevel& cells = levels_[level];
-      // Wider boxes make every question wider; a level is meant to hold sides within a factor of eight.
+      // Wider boxes make every question wider; a level is meant to hold sides within a factor of
+      // eight.
       has_grown_ |= longer_side(probe.now) > 2.0f * std::max(cells.x.widest, cells.y.widest);
       cells.widen(probe.now);
       to[i] = place_of(level, probe.now);
       const CellLevel& cells_before = levels_[level_of(probe.before)];
-      from[i] = probe.before.low_x <= probe.before.high_x ? cells_before.cell(probe.before.low_x, probe.before.low_y) : nowhere_yet;
+      from[i] = probe.before.low_x <= probe.before.high_x
+                    ? cells_before.cell(probe.before.low_x, probe.before.low_y)
+                    : nowhere_yet;
       __builtin_prefetch(&lines_[to[i].cell], 1);
       if (from[i] != to[i].cell && from[i] != nowhere_yet) __builtin_prefetch(&lines_[from[i]], 1);
     }
@@ -178,21 +195,28 @@ void LineIndex::remove(std::uint32_t id, const Region& place) {
   --size_;
 }
 
-bool LineIndex::is_outgrown() const { return !is_built_ || has_grown_ || size_ > 2 * built_size_ + 64; }
+bool LineIndex::is_outgrown() const {
+  return !is_built_ || has_grown_ || size_ > 2 * built_size_ + 64;
+}
 
 /// As `cells_changed`, four bounds at a time: these boxes are in the cells that they were given.
 CellQuery LineIndex::query(const CellLevel& level, const Probe& probe) const {
   const CellAxis &x = level.x, &y = level.y;
-  if (!level.has_newcomers && probe.now.high_x - probe.now.low_x > x.widest && probe.now.high_y - probe.now.low_y > y.widest) return cells_changed(level, probe.before, probe.now);
-  const auto before = std::bit_cast<FourFloats>(probe.before), now = std::bit_cast<FourFloats>(probe.now);
-  const FourInts is_less = before < now, takes_before = is_less ^ FourInts{0, 0, -1, -1};
+  if (!level.has_newcomers && probe.now.high_x - probe.now.low_x > x.widest &&
+      probe.now.high_y - probe.now.low_y > y.widest)
+    return cells_changed(level, probe.before, probe.now);
+  const auto before = std::bit_cast<FourFloats>(probe.before),
+             now = std::bit_cast<FourFloats>(probe.now);
+  const FourInts is_less = before < now, takes_before = is_less ^ FourInts { 0, 0, -1, -1 };
   FourFloats hull = takes_before ? before : now;
   const FourFloats widest{x.widest, y.widest, 0.0f, 0.0f};
   // Of the low edges, by a margin for rounding that cell_level.h explains.
   const FourFloats size = (hull < -hull ? -hull : hull) + widest;
   hull -= widest + size * FourFloats{0x1p-22f, 0x1p-22f, 0.0f, 0.0f};
   const auto last_x = static_cast<float>(x.last), last_y = static_cast<float>(y.last);
-  const FourInts cells = whole(hull * FourFloats{x.cells_per_metre, y.cells_per_metre, x.cells_per_metre, y.cells_per_metre}, FourFloats{}, FourFloats{last_x, last_y, last_x, last_y});
+  const FourInts cells = whole(
+      hull * FourFloats{x.cells_per_metre, y.cells_per_metre, x.cells_per_metre, y.cells_per_metre},
+      FourFloats{}, FourFloats{last_x, last_y, last_x, last_y});
   return {{cells[0], cells[2]}, {cells[1], cells[3]}};
 }
 
@@ -201,13 +225,16 @@ void LineIndex::visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& vi
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const CellLevel& level = levels_[i];
     const EdgeCoding& coding = codings_[i];
-    const Edges now = coding.asking(probe.now), before = coding.asking(probe.before), step = coding.column_step();
+    const Edges now = coding.asking(probe.now), before = coding.asking(probe.before),
+                step = coding.column_step();
     query(level, probe).for_each_part([&](std::int32_t row, std::int32_t first, std::int32_t last) {
       Edges offset = coding.offset(first, row);
-      std::uint32_t line = level.first_cell + static_cast<std::uint32_t>(row) * level.columns() + static_cast<std::uint32_t>(first);
+      std::uint32_t line = level.first_cell + static_cast<std::uint32_t>(row) * level.columns() +
+                           static_cast<std::uint32_t>(first);
       const std::size_t begin = visits.size(), count = static_cast<std::size_t>(last - first + 1);
       visits.resize(begin + count);
-      for (Visit *visit = visits.data() + begin, *end = visit + count; visit != end; ++visit, ++line, offset += step) {
+      for (Visit *visit = visits.data() + begin, *end = visit + count; visit != end;
+           ++visit, ++line, offset += step) {
         __builtin_prefetch(&lines_[line]);
         *visit = {pack(now + offset, before + offset), line, asker};
       }
@@ -216,12 +243,15 @@ void LineIndex::visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& vi
 }
 
 /// Writes what a comparison said; returns the next place if it said anything.
-inline LineIndex::Hit* LineIndex::list(Hit* hit, const Line& line, std::uint32_t asker, const LineOutcome& outcome) {
-  *hit = {&line, asker, static_cast<std::uint8_t>(outcome.changed), static_cast<std::uint8_t>(outcome.entered), static_cast<std::uint8_t>(outcome.tied)};
+inline LineIndex::Hit* LineIndex::list(Hit* hit, const Line& line, std::uint32_t asker,
+                                       const LineOutcome& outcome) {
+  *hit = {&line, asker, static_cast<std::uint8_t>(outcome.changed),
+          static_cast<std::uint8_t>(outcome.entered), static_cast<std::uint8_t>(outcome.tied)};
   return hit + ((outcome.changed | outcome.tied) != 0 ? 1 : 0);
 }
 
-/// Compares the first lines, which were asked for, and lists what they say. Whether a line says anything is anybody's guess, so nothing branches on it.
+/// Compares the first lines, which were asked for, and lists what they say. Whether a line says
+/// anything is anybody's guess, so nothing branches on it.
 template <class Compare>
 void LineIndex::read_lines(Answers& answers) const {
   const std::span<const Visit> visits = answers.visits.span();
@@ -248,14 +278,17 @@ void LineIndex::read_further(Answers& answers) const {
     if (i + later < visits.size()) __builtin_prefetch(&runs_[visits[i + later].line]);
     if (i + soon < visits.size()) {
       const Run run = runs_[visits[i + soon].line];
-      for (std::uint32_t further = run.first; further < run.first + run.size; ++further) __builtin_prefetch(&lines_[further]);
+      for (std::uint32_t further = run.first; further < run.first + run.size; ++further)
+        __builtin_prefetch(&lines_[further]);
     }
     const Run run = runs_[visits[i].line];
     const Compare compare(visits[i].asking);
     const std::size_t known = answers.hits.size();
     answers.hits.resize(known + run.size);
     Hit* hit = answers.hits.data() + known;
-    for (const Line *further = &lines_[run.first], *end = further + run.size; further != end; ++further) hit = list(hit, *further, visits[i].asker, compare(*further));
+    for (const Line *further = &lines_[run.first], *end = further + run.size; further != end;
+         ++further)
+      hit = list(hit, *further, visits[i].asker, compare(*further));
     answers.hits.resize(static_cast<std::size_t>(hit - answers.hits.data()));
     answers.candidate_count += std::uint64_t{run.size} * lanes;
   }
@@ -266,7 +299,9 @@ void LineIndex::take_hits(const ProbeList& askers, const RegionHistory& regions,
   answers.found.reserve(answers.found.size() + lanes * answers.hits.size() + 1);
   for (const Hit& hit : answers.hits.span()) {
     const std::uint64_t asker = std::uint64_t{askers.probe(hit.asker).id} << 32;
-    const auto change = [&](unsigned lane) { return asker | hit.line->id(lane) | ((hit.entered >> lane & 1u) != 0 ? entered_bit : 0u); };
+    const auto change = [&](unsigned lane) {
+      return asker | hit.line->id(lane) | ((hit.entered >> lane & 1u) != 0 ? entered_bit : 0u);
+    };
     // Mostly there are one or two, which are written without asking how many.
     const unsigned changed = hit.changed & ~unsigned{hit.tied}, second = changed & (changed - 1u);
     const std::size_t known = answers.found.size();
@@ -274,7 +309,8 @@ void LineIndex::take_hits(const ProbeList& askers, const RegionHistory& regions,
     found[0] = change(static_cast<unsigned>(std::countr_zero(changed | 1u << (lanes - 1))));
     found[1] = change(static_cast<unsigned>(std::countr_zero(second | 1u << (lanes - 1))));
     answers.found.resize(known + (changed != 0 ? 1 : 0) + (second != 0 ? 1 : 0));
-    for (unsigned rest = second & (second - 1u); rest != 0; rest &= rest - 1) answers.found.push_back(change(static_cast<unsigned>(std::countr_zero(rest))));
+    for (unsigned rest = second & (second - 1u); rest != 0; rest &= rest - 1)
+      answers.found.push_back(change(static_cast<unsigned>(std::countr_zero(rest))));
     for (unsigned rest = hit.tied; rest != 0; rest &= rest - 1) {
       const std::uint32_t id = hit.line->id(static_cast<unsigned>(std::countr_zero(rest)));
       if (id == Line::nobody) continue;
@@ -285,20 +321,25 @@ void LineIndex::take_hits(const ProbeList& askers, const RegionHistory& regions,
 }
 
 template <class Compare>
-void LineIndex::read(const ProbeList& askers, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const {
+void LineIndex::read(const ProbeList& askers, const TieJudge& judge, const RegionHistory& regions,
+                     Answers& answers) const {
   read_lines<Compare>(answers);
   read_further<Compare>(answers);
   take_hits(askers, regions, answers);
   answers.visits.clear();
   for (const std::uint64_t doubt : answers.doubts.span()) {
-    const Verdict verdict = judge(static_cast<std::uint32_t>(doubt >> 32), static_cast<std::uint32_t>(doubt));
-    if (verdict != Verdict::no) answers.found.push_back(doubt | (verdict == Verdict::entered ? entered_bit : 0u));
+    const Verdict verdict =
+        judge(static_cast<std::uint32_t>(doubt >> 32), static_cast<std::uint32_t>(doubt));
+    if (verdict != Verdict::no)
+      answers.found.push_back(doubt | (verdict == Verdict::entered ? entered_bit : 0u));
   }
   answers.doubts.clear();
 }
 
 template <class Compare>
-void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const {
+void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end,
+                             const TieJudge& judge, const RegionHistory& regions,
+                             Answers& answers) const {
   for (std::size_t first = begin; first < end; first += in_flight_max) {
     for (std::size_t i = first; i < std::min(first + in_flight_max, end); ++i) {
       visit(askers.probe(i), static_cast<std::uint32_t>(i), answers.visits);
@@ -308,14 +349,17 @@ void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::si
   }
 }
 
-void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end, const TieJudge& judge, const RegionHistory& regions, Instructions instructions,
-                             Answers& answers) const {
-  if (instructions == Instructions::scalar) find_changes<OneByOne>(askers, begin, end, judge, regions, answers);
+void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end,
+                             const TieJudge& judge, const RegionHistory& regions,
+                             Instructions instructions, Answers& answers) const {
+  if (instructions == Instructions::scalar)
+    find_changes<OneByOne>(askers, begin, end, judge, regions, answers);
   else find_changes<BySse2>(askers, begin, end, judge, regions, answers);
 }
 
 std::size_t LineIndex::bytes() const {
-  std::size_t bytes = sizeof(Line) * lines_.capacity() + sizeof(Run) * runs_.capacity() + sizeof(FloatBox) * staged_.capacity();
+  std::size_t bytes = sizeof(Line) * lines_.capacity() + sizeof(Run) * runs_.capacity() +
+                      sizeof(FloatBox) * staged_.capacity();
   for (const Buffer<std::uint32_t>& runs : free_) bytes += sizeof(std::uint32_t) * runs.capacity();
   return bytes + sizeof(std::uint32_t) * (staged_ids_.capacity() + further_place_of_.capacity());
 }

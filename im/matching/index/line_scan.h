@@ -16,7 +16,8 @@ struct LineOutcome {
   unsigned changed, entered, tied;
 };
 
-/// Compares one after the other. `asking` holds the asker's edges now and, above them, those before.
+/// Compares one after the other. `asking` holds the asker's edges now and, above them, those
+/// before.
 class OneByOne {
  public:
   explicit OneByOne(std::uint64_t asking) : asking_(asking) {}
@@ -32,7 +33,8 @@ class OneByOne {
       }
       outcome.changed |= static_cast<unsigned>(is_in[0] != is_in[1]) << lane;
       outcome.entered |= static_cast<unsigned>(is_in[0]) << lane;
-      outcome.tied |= static_cast<unsigned>((is_in[0] && is_tied[0]) || (is_in[1] && is_tied[1])) << lane;
+      outcome.tied |= static_cast<unsigned>((is_in[0] && is_tied[0]) || (is_in[1] && is_tied[1]))
+                      << lane;
     }
     return outcome;
   }
@@ -46,21 +48,32 @@ class OneByOne {
 class BySse2 {
  public:
   explicit BySse2(std::uint64_t asking) {
-    const __m128i bytes = _mm_set_epi64x(0, static_cast<long long>(asking)), pairs = _mm_unpacklo_epi8(bytes, bytes);
+    const __m128i bytes = _mm_set_epi64x(0, static_cast<long long>(asking)),
+                  pairs = _mm_unpacklo_epi8(bytes, bytes);
     const __m128i now = _mm_unpacklo_epi16(pairs, pairs), then = _mm_unpackhi_epi16(pairs, pairs);
-    now_low_ = _mm_shuffle_epi32(now, 0x50), now_high_ = _mm_shuffle_epi32(now, 0xFA), then_low_ = _mm_shuffle_epi32(then, 0x50), then_high_ = _mm_shuffle_epi32(then, 0xFA);
+    now_low_ = _mm_shuffle_epi32(now, 0x50), now_high_ = _mm_shuffle_epi32(now, 0xFA),
+    then_low_ = _mm_shuffle_epi32(then, 0x50), then_high_ = _mm_shuffle_epi32(then, 0xFA);
   }
 
   LineOutcome operator()(const Line& line) const {
-    const __m128i low = _mm_load_si128(reinterpret_cast<const __m128i*>(line.edges[0])), high = _mm_load_si128(reinterpret_cast<const __m128i*>(line.edges[2]));
-    const auto reaches = [](__m128i edge, __m128i held) { return _mm_cmpeq_epi8(_mm_max_epu8(edge, held), edge); };
-    const __m128i is_now = _mm_and_si128(reaches(now_low_, low), reaches(now_high_, high)), was = _mm_and_si128(reaches(then_low_, low), reaches(then_high_, high));
-    const __m128i ties_now = _mm_or_si128(_mm_cmpeq_epi8(now_low_, low), _mm_cmpeq_epi8(now_high_, high));
-    const __m128i tied_then = _mm_or_si128(_mm_cmpeq_epi8(then_low_, low), _mm_cmpeq_epi8(then_high_, high));
+    const __m128i low = _mm_load_si128(reinterpret_cast<const __m128i*>(line.edges[0])),
+                  high = _mm_load_si128(reinterpret_cast<const __m128i*>(line.edges[2]));
+    const auto reaches = [](__m128i edge, __m128i held) {
+      return _mm_cmpeq_epi8(_mm_max_epu8(edge, held), edge);
+    };
+    const __m128i is_now = _mm_and_si128(reaches(now_low_, low), reaches(now_high_, high)),
+                  was = _mm_and_si128(reaches(then_low_, low), reaches(then_high_, high));
+    const __m128i ties_now =
+        _mm_or_si128(_mm_cmpeq_epi8(now_low_, low), _mm_cmpeq_epi8(now_high_, high));
+    const __m128i tied_then =
+        _mm_or_si128(_mm_cmpeq_epi8(then_low_, low), _mm_cmpeq_epi8(then_high_, high));
     // The eight lanes now and, above them, before.
-    const __m128i in = _mm_and_si128(_mm_unpacklo_epi64(is_now, was), _mm_unpackhi_epi64(is_now, was));
-    const __m128i ties = _mm_and_si128(in, _mm_or_si128(_mm_unpacklo_epi64(ties_now, tied_then), _mm_unpackhi_epi64(ties_now, tied_then)));
-    const auto in_mask = static_cast<unsigned>(_mm_movemask_epi8(in)), tie_mask = static_cast<unsigned>(_mm_movemask_epi8(ties));
+    const __m128i in =
+        _mm_and_si128(_mm_unpacklo_epi64(is_now, was), _mm_unpackhi_epi64(is_now, was));
+    const __m128i ties = _mm_and_si128(in, _mm_or_si128(_mm_unpacklo_epi64(ties_now, tied_then),
+                                                        _mm_unpackhi_epi64(ties_now, tied_then)));
+    const auto in_mask = static_cast<unsigned>(_mm_movemask_epi8(in)),
+               tie_mask = static_cast<unsigned>(_mm_movemask_epi8(ties));
     return {(in_mask ^ in_mask >> 8) & 0xFFu, in_mask & 0xFFu, (tie_mask | tie_mask >> 8) & 0xFFu};
   }
 

@@ -39,7 +39,9 @@ void LiveIndex::build(const Region& world, const RegionHistory& regions, Region 
   blocks_.clear();
   add_blocks(levels_.cell_count());
   heads_.fill(levels_.cell_count(), {0, 0});
-  for (std::size_t i = 0; i < staged_.size(); ++i) insert(levels_.of(sizes_, staged_[i]).cell(staged_[i].low_x, staged_[i].low_y), staged_ids_[i], staged_[i]);
+  for (std::size_t i = 0; i < staged_.size(); ++i)
+    insert(levels_.of(sizes_, staged_[i]).cell(staged_[i].low_x, staged_[i].low_y), staged_ids_[i],
+           staged_[i]);
   size_ = built_size_ = staged_.size();
 }
 
@@ -52,7 +54,8 @@ FloatBox LiveIndex::box(std::uint32_t place) const {
 void LiveIndex::set(std::uint32_t place, const FloatBox& box) {
   Block& block = blocks_[place / lanes];
   const std::uint32_t lane = place % lanes;
-  block.low_x[lane] = box.low_x, block.low_y[lane] = box.low_y, block.high_x[lane] = box.high_x, block.high_y[lane] = box.high_y;
+  block.low_x[lane] = box.low_x, block.low_y[lane] = box.low_y, block.high_x[lane] = box.high_x,
+  block.high_y[lane] = box.high_y;
 }
 
 void LiveIndex::set(std::uint32_t place, std::uint32_t id, const FloatBox& box) {
@@ -70,7 +73,8 @@ void LiveIndex::add_blocks(std::uint32_t count) {
   const std::size_t first = blocks_.size();
   assert(first + count < none / stride);  // places and stretches are counted in 32 bits
   blocks_.resize(first + count);
-  for (std::size_t block = first; block < first + count; ++block) empty(static_cast<std::uint32_t>(block));
+  for (std::size_t block = first; block < first + count; ++block)
+    empty(static_cast<std::uint32_t>(block));
 }
 
 void LiveIndex::empty(std::uint32_t block) {
@@ -96,13 +100,16 @@ std::uint32_t LiveIndex::take_run(std::uint32_t size) {
 void LiveIndex::copy_boxes(std::uint32_t from, std::uint32_t to) {
   const Block old = blocks_[to];
   blocks_[to] = blocks_[from];
-  blocks_[to].run = old.run, blocks_[to].run_size = old.run_size, blocks_[to].run_capacity = old.run_capacity;
-  for (std::uint32_t lane = 0; lane < lanes; ++lane) place_of_[blocks_[to].ids[lane]] = to * lanes + lane;
+  blocks_[to].run = old.run, blocks_[to].run_size = old.run_size,
+  blocks_[to].run_capacity = old.run_capacity;
+  for (std::uint32_t lane = 0; lane < lanes; ++lane)
+    place_of_[blocks_[to].ids[lane]] = to * lanes + lane;
 }
 
 /// Makes room for one block more. A run never shrinks: who leaves a crowd often comes back.
 void LiveIndex::grow_run(std::uint32_t cell) {
-  const std::uint32_t run = blocks_[cell].run, size = blocks_[cell].run_size, capacity = blocks_[cell].run_capacity;
+  const std::uint32_t run = blocks_[cell].run, size = blocks_[cell].run_size,
+                      capacity = blocks_[cell].run_capacity;
   if (size < capacity) return;
   const std::uint32_t wider = take_run(std::max(1u, 2 * capacity));
   for (std::uint32_t block = 0; block < size; ++block) copy_boxes(run + block, wider + block);
@@ -144,12 +151,15 @@ void LiveIndex::put(std::uint32_t id, const Region& region) {
 
 void LiveIndex::put(std::span<const std::uint32_t> ids, const RegionHistory& regions) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (i + 2 * movers_ahead < ids.size() && ids[i + 2 * movers_ahead] < place_of_.size()) __builtin_prefetch(&place_of_[ids[i + 2 * movers_ahead]]);
+    if (i + 2 * movers_ahead < ids.size() && ids[i + 2 * movers_ahead] < place_of_.size())
+      __builtin_prefetch(&place_of_[ids[i + 2 * movers_ahead]]);
     if (i + movers_ahead < ids.size()) {
       const std::uint32_t next = ids[i + movers_ahead];
       regions.prefetch(next);
       if (holds(next))
-        for (std::uint32_t part = 0; part < sizeof(Block); part += 64) __builtin_prefetch(reinterpret_cast<const char*>(&blocks_[place_of_[next] / lanes]) + part, 1);
+        for (std::uint32_t part = 0; part < sizeof(Block); part += 64)
+          __builtin_prefetch(
+              reinterpret_cast<const char*>(&blocks_[place_of_[next] / lanes]) + part, 1);
     }
     put(ids[i], regions[ids[i]].now);
   }
@@ -169,7 +179,9 @@ void LiveIndex::remove(std::uint32_t id) {
   --size_;
 }
 
-bool LiveIndex::is_outgrown() const { return !is_built_ || has_grown_ || size_ > 2 * built_size_ + 64; }
+bool LiveIndex::is_outgrown() const {
+  return !is_built_ || has_grown_ || size_ > 2 * built_size_ + 64;
+}
 
 Candidates LiveIndex::candidates() const {
   const Block& first = blocks_[0];
@@ -178,13 +190,15 @@ Candidates LiveIndex::candidates() const {
 }
 
 template <class Query>
-std::size_t LiveIndex::collect(const CellLevel& level, const Query& query, Buffer<Stretch>& stretches) const {
+std::size_t LiveIndex::collect(const CellLevel& level, const Query& query,
+                               Buffer<Stretch>& stretches) const {
   std::size_t candidates = 0;
   query.for_each_run(level, [&](std::uint32_t first, std::uint32_t last) {
     stretches.push_back({first * stride, (last + 1) * stride});
     for (std::uint32_t cell = first; cell <= last; ++cell) {
       candidates += heads_[cell].count;
-      for (std::uint32_t line = 0; line < sizeof(Block); line += 64) __builtin_prefetch(reinterpret_cast<const char*>(&blocks_[cell]) + line);
+      for (std::uint32_t line = 0; line < sizeof(Block); line += 64)
+        __builtin_prefetch(reinterpret_cast<const char*>(&blocks_[cell]) + line);
       if (heads_[cell].has_more) {
         const Block& head = blocks_[cell];
         stretches.push_back({head.run * stride, (head.run + head.run_size) * stride});
@@ -197,7 +211,8 @@ std::size_t LiveIndex::collect(const CellLevel& level, const Query& query, Buffe
 
 std::size_t LiveIndex::find_changes(const Probe& probe, Buffer<Stretch>& stretches) const {
   std::size_t candidates = 0;
-  for (const CellLevel& level : levels_) candidates += collect(level, cells_changed(level, probe.before, probe.now), stretches);
+  for (const CellLevel& level : levels_)
+    candidates += collect(level, cells_changed(level, probe.before, probe.now), stretches);
   return candidates;
 }
 
@@ -205,12 +220,17 @@ std::size_t LiveIndex::find_disc_changes(const Probe& probe, Buffer<Stretch>& st
   const Ring ring(probe.before, probe.now);
   std::size_t candidates = 0;
   for (const CellLevel& level : levels_)
-    candidates += ring.is_plain() ? collect(level, RingQuery(level, ring), stretches) : collect(level, cells_touched(level, hull_of(probe.before, probe.now)), stretches);
+    candidates +=
+        ring.is_plain()
+            ? collect(level, RingQuery(level, ring), stretches)
+            : collect(level, cells_touched(level, hull_of(probe.before, probe.now)), stretches);
   return candidates;
 }
 
 std::size_t LiveIndex::bytes() const {
-  return sizeof(Block) * blocks_.capacity() + sizeof(Head) * heads_.capacity() + sizeof(FloatBox) * staged_.capacity() + sizeof(std::uint32_t) * (place_of_.capacity() + staged_ids_.capacity());
+  return sizeof(Block) * blocks_.capacity() + sizeof(Head) * heads_.capacity() +
+         sizeof(FloatBox) * staged_.capacity() +
+         sizeof(std::uint32_t) * (place_of_.capacity() + staged_ids_.capacity());
 }
 
 }  // namespace rink::im

@@ -1,4 +1,5 @@
-// Boxes that stand, each stored once in its cell, where few of them move at a time: those are put elsewhere in place and nothing else is touched.
+// Boxes that stand, each stored once in its cell, where few of them move at a time: those are put
+// elsewhere in place and nothing else is touched.
 #pragma once
 
 #include <array>
@@ -7,20 +8,22 @@
 
 #include "im/matching/buffer.h"
 #include "im/matching/index/cell_level.h"
-#include "im/matching/probe_list.h"
 #include "im/matching/index/scan.h"
+#include "im/matching/probe_list.h"
 #include "im/matching/region_history.h"
 
 namespace rink::im {
 
-/// Every cell has a block of eight lanes, three lines of memory, adjacent cells adjacent ones; so a row of cells is one stretch to scan. What does not fit is in
-/// a run of further blocks elsewhere, all full. Empty lanes hold nowhere. About 60 bytes per box where boxes are spread evenly.
+/// Every cell has a block of eight lanes, three lines of memory, adjacent cells adjacent ones; so a
+/// row of cells is one stretch to scan. What does not fit is in a run of further blocks elsewhere,
+/// all full. Empty lanes hold nowhere. About 60 bytes per box where boxes are spread evenly.
 class LiveIndex {
  public:
   /// Never the id of a box: an empty lane's.
   static constexpr std::uint32_t nobody = RegionHistory::id_max;
 
-  /// Starts anew with those of `regions` that are somewhere at `place`: where they were or where they are now.
+  /// Starts anew with those of `regions` that are somewhere at `place`: where they were or where
+  /// they are now.
   void build(const Region& world, const RegionHistory& regions, Region Motion::*place);
   /// Adds or moves boxes to where they are now.
   void put(std::span<const std::uint32_t> ids, const RegionHistory& regions);
@@ -29,7 +32,8 @@ class LiveIndex {
   /// True if it was never built, or so much came or grew since that it is worth building anew.
   bool is_outgrown() const;
   Candidates candidates() const;
-  /// Appends where boxes may have an overlap with `probe` that changed; returns how many boxes those are.
+  /// Appends where boxes may have an overlap with `probe` that changed; returns how many boxes
+  /// those are.
   std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
   /// The same for who asks what touches his disc.
   std::size_t find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
@@ -42,7 +46,8 @@ class LiveIndex {
     float low_x[lanes], low_y[lanes], high_x[lanes], high_y[lanes];
     std::uint32_t ids[lanes];
     std::uint32_t cell;
-    std::uint32_t run, run_size, run_capacity;  // of the first block of a cell: its further blocks, and for how many there is room
+    std::uint32_t run, run_size, run_capacity;  // of the first block of a cell: its further blocks,
+                                                // and for how many there is room
   };
   static_assert(sizeof(Block) == 192);
   static constexpr std::uint32_t stride = sizeof(Block) / sizeof(float);
@@ -76,10 +81,10 @@ class LiveIndex {
   CellLevels levels_;
   Buffer<FloatBox> staged_;
   Buffer<std::uint32_t> staged_ids_;
-  Buffer<Head> heads_;              // by cell
-  Buffer<Block> blocks_;            // those of the cells first
+  Buffer<Head> heads_;                          // by cell
+  Buffer<Block> blocks_;                        // those of the cells first
   std::array<Buffer<std::uint32_t>, 28> free_;  // runs, by the power of two that they are long
-  Buffer<std::uint32_t> place_of_;  // of an id: block * lanes + lane
+  Buffer<std::uint32_t> place_of_;              // of an id: block * lanes + lane
 };
 
 }  // namespace rink::im

@@ -1,4 +1,5 @@
-// The innermost loops of every matcher: one box against stretches of many, eight at a time where the processor can.
+// The innermost loops of every matcher: one box against stretches of many, eight at a time where
+// the processor can.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,8 @@ inline constexpr std::uint32_t scan_width = 8;
 struct Candidates {
   BoxColumns before, now;
   const std::uint32_t* ids;
-  std::uint32_t stride = scan_width;  ///< from eight places to the next eight: more where columns are cut into blocks that lie beside each other
+  std::uint32_t stride = scan_width;  ///< from eight places to the next eight: more where columns
+                                      ///< are cut into blocks that lie beside each other
 };
 
 /// Places `first` to `end` of the candidates. Where the stride is not eight, whole blocks.
@@ -39,31 +41,41 @@ inline constexpr std::uint32_t entered_bit = 0x80000000;
 
 enum class Verdict : std::uint8_t { no, match, entered };
 
-/// Decides pairs whose projections tie. Not needed where all projections are exact: a tie then is an overlap.
+/// Decides pairs whose projections tie. Not needed where all projections are exact: a tie then is
+/// an overlap.
 struct TieJudge {
   bool is_needed;
   Verdict (*judge)(const void* context, std::uint32_t probe_id, std::uint32_t candidate_id);
   const void* context;
 
-  Verdict operator()(std::uint32_t probe_id, std::uint32_t candidate_id) const { return judge(context, probe_id, candidate_id); }
+  Verdict operator()(std::uint32_t probe_id, std::uint32_t candidate_id) const {
+    return judge(context, probe_id, candidate_id);
+  }
 };
 
-/// Writes to `found` the ids of each probe's matches, in the order of its stretches, and to `ends` where those of each probe end, counted from `found`. `found`
-/// has room for all candidates and eight more. Returns the number of matches.
-using Scan = std::size_t (*)(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
+/// Writes to `found` the ids of each probe's matches, in the order of its stretches, and to `ends`
+/// where those of each probe end, counted from `found`. `found` has room for all candidates and
+/// eight more. Returns the number of matches.
+using Scan = std::size_t (*)(const Candidates& candidates, std::span<const Probe> probes,
+                             const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
                              std::uint32_t* ends);
 
-/// What is asked about two boxes: whether they overlap, or whether one touches the disc that the other holds (disc.h): the asker's disc, or the candidate's.
+/// What is asked about two boxes: whether they overlap, or whether one touches the disc that the
+/// other holds (disc.h): the asker's disc, or the candidate's.
 enum class Question : std::uint8_t { rectangles, of_discs, about_discs };
 
 struct Scans {
   Scan overlaps;  ///< matches: `now` overlaps `now`
-  Scan changes;   ///< matches: overlap of `before` with `before` and of `now` with `now` differ; with `entered_bit`
-  Scan changes_of_discs, changes_about_discs;  ///< the same for discs; the judge must decide exactly, for it is asked wherever distances are in doubt
+  Scan changes;   ///< matches: overlap of `before` with `before` and of `now` with `now` differ;
+                  ///< with `entered_bit`
+  Scan changes_of_discs,
+      changes_about_discs;  ///< the same for discs; the judge must decide exactly, for it is asked
+                            ///< wherever distances are in doubt
   const char* name;
 };
 
-/// `best` asks the processor; `sse2` is what every x86-64 processor has, and `scalar` wherever there is no such path.
+/// `best` asks the processor; `sse2` is what every x86-64 processor has, and `scalar` wherever
+/// there is no such path.
 enum class Instructions : std::uint8_t { best, sse2, scalar };
 
 /// The same matches in the same order, whatever is chosen.

@@ -1,4 +1,5 @@
-// Scans eight candidates at a time with AVX2 and packs the matches to the left; each function says so itself, the rest of the build stays at the baseline.
+// Scans eight candidates at a time with AVX2 and packs the matches to the left; each function says
+// so itself, the rest of the build stays at the baseline.
 #include "im/matching/disc_error.h"
 #include "im/matching/index/scan.h"
 
@@ -28,25 +29,30 @@ struct WideBox {
 };
 
 RINK_AVX2 inline WideBox widen(const FloatBox& box) {
-  return {_mm256_set1_ps(box.low_x), _mm256_set1_ps(box.low_y), _mm256_set1_ps(box.high_x), _mm256_set1_ps(box.high_y)};
+  return {_mm256_set1_ps(box.low_x), _mm256_set1_ps(box.low_y), _mm256_set1_ps(box.high_x),
+          _mm256_set1_ps(box.high_y)};
 }
 
 /// The smallest of the four differences that must not be negative in an overlap.
 RINK_AVX2 inline __m256 clearance(const BoxColumns& boxes, std::size_t i, const WideBox& probe) {
-  const __m256 x = _mm256_min_ps(_mm256_sub_ps(probe.high_x, _mm256_loadu_ps(boxes.low_x + i)), _mm256_sub_ps(_mm256_loadu_ps(boxes.high_x + i), probe.low_x));
-  const __m256 y = _mm256_min_ps(_mm256_sub_ps(probe.high_y, _mm256_loadu_ps(boxes.low_y + i)), _mm256_sub_ps(_mm256_loadu_ps(boxes.high_y + i), probe.low_y));
+  const __m256 x = _mm256_min_ps(_mm256_sub_ps(probe.high_x, _mm256_loadu_ps(boxes.low_x + i)),
+                                 _mm256_sub_ps(_mm256_loadu_ps(boxes.high_x + i), probe.low_x));
+  const __m256 y = _mm256_min_ps(_mm256_sub_ps(probe.high_y, _mm256_loadu_ps(boxes.low_y + i)),
+                                 _mm256_sub_ps(_mm256_loadu_ps(boxes.high_y + i), probe.low_y));
   return _mm256_min_ps(x, y);
 }
 
 RINK_AVX2 inline unsigned ties(__m256 clearances) {
-  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(clearances, _mm256_setzero_ps(), _CMP_EQ_OQ)));
+  return static_cast<unsigned>(
+      _mm256_movemask_ps(_mm256_cmp_ps(clearances, _mm256_setzero_ps(), _CMP_EQ_OQ)));
 }
 
 /// The lanes that count in a stretch with `rest` candidates left.
 inline unsigned lanes(std::size_t rest) { return (1u << std::min<std::size_t>(rest, 8)) - 1u; }
 
 /// Asks the judge about each of `doubtful`; corrects hits and the bits of those who entered.
-[[gnu::noinline]] unsigned decide(unsigned hits, unsigned doubtful, const TieJudge& judge, std::uint32_t probe, std::uint32_t* ids) {
+[[gnu::noinline]] unsigned decide(unsigned hits, unsigned doubtful, const TieJudge& judge,
+                                  std::uint32_t probe, std::uint32_t* ids) {
   for (; doubtful != 0; doubtful &= doubtful - 1u) {
     const unsigned lane = static_cast<unsigned>(__builtin_ctz(doubtful));
     ids[lane] &= ~entered_bit;
@@ -57,10 +63,13 @@ inline unsigned lanes(std::size_t rest) { return (1u << std::min<std::size_t>(re
   return hits;
 }
 
-RINK_AVX2 inline __m256i load(const std::uint32_t* ids) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)); }
+RINK_AVX2 inline __m256i load(const std::uint32_t* ids) {
+  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids));
+}
 
 /// The same for ids in a register.
-RINK_AVX2 inline unsigned decide(unsigned hits, unsigned doubtful, const TieJudge& judge, std::uint32_t probe, __m256i& ids) {
+RINK_AVX2 inline unsigned decide(unsigned hits, unsigned doubtful, const TieJudge& judge,
+                                 std::uint32_t probe, __m256i& ids) {
   alignas(32) std::uint32_t lanes[8];
   _mm256_store_si256(reinterpret_cast<__m256i*>(lanes), ids);
   hits = decide(hits, doubtful, judge, probe, lanes);
@@ -70,24 +79,28 @@ RINK_AVX2 inline unsigned decide(unsigned hits, unsigned doubtful, const TieJudg
 
 /// Writes the ids of `hits`, and rubbish behind them.
 RINK_AVX2 inline std::size_t pack(unsigned hits, __m256i ids, std::uint32_t* found) {
-  const __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&packings[hits])));
+  const __m256i order =
+      _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&packings[hits])));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(found), _mm256_permutevar8x32_epi32(ids, order));
   return static_cast<std::size_t>(__builtin_popcount(hits));
 }
 
-RINK_AVX2 std::size_t scan_overlaps(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
-                                    std::uint32_t* ends) {
+RINK_AVX2 std::size_t scan_overlaps(const Candidates& candidates, std::span<const Probe> probes,
+                                    const Stretch* stretches, const TieJudge& judge,
+                                    std::uint32_t* found, std::uint32_t* ends) {
   std::size_t count = 0, stretch = 0;
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const WideBox now = widen(probes[p].now);
     for (const std::size_t end = probes[p].stretches_end; stretch < end; ++stretch)
-      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; i += candidates.stride) {
+      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end;
+           i += candidates.stride) {
         const __m256 clearances = clearance(candidates.now, i, now);
         const unsigned valid = lanes(stretches[stretch].end - i);
         unsigned hits = ~static_cast<unsigned>(_mm256_movemask_ps(clearances)) & valid;
         __m256i ids = load(candidates.ids + i);
         if (judge.is_needed)
-          if (const unsigned doubtful = ties(clearances) & valid) hits = decide(hits, doubtful, judge, probes[p].id, ids);
+          if (const unsigned doubtful = ties(clearances) & valid)
+            hits = decide(hits, doubtful, judge, probes[p].id, ids);
         count += pack(hits, ids, found + count);
       }
     ends[p] = static_cast<std::uint32_t>(count);
@@ -95,23 +108,32 @@ RINK_AVX2 std::size_t scan_overlaps(const Candidates& candidates, std::span<cons
   return count;
 }
 
-RINK_AVX2 std::size_t scan_changes(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
-                                   std::uint32_t* ends) {
+RINK_AVX2 std::size_t scan_changes(const Candidates& candidates, std::span<const Probe> probes,
+                                   const Stretch* stretches, const TieJudge& judge,
+                                   std::uint32_t* found, std::uint32_t* ends) {
   std::size_t count = 0, stretch = 0;
   const __m256 zero = _mm256_setzero_ps();
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const WideBox before = widen(probes[p].before), now = widen(probes[p].now);
     for (const std::size_t end = probes[p].stretches_end; stretch < end; ++stretch)
-      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; i += candidates.stride) {
-        // Reading `before` only of boxes whose clearance now is within what may have moved saves half of the loads and takes longer: no processor foresees which.
-        const __m256 then = clearance(candidates.before, i, before), today = clearance(candidates.now, i, now);
+      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end;
+           i += candidates.stride) {
+        // Reading `before` only of boxes whose clearance now is within what may have moved saves
+        // half of the loads and takes longer: no processor foresees which.
+        const __m256 then = clearance(candidates.before, i, before),
+                     today = clearance(candidates.now, i, now);
         const unsigned valid = lanes(stretches[stretch].end - i);
         // Nearly always nothing has changed and nothing ties, which one mask says.
-        const __m256 changed = _mm256_xor_ps(then, today), tied = _mm256_or_ps(_mm256_cmp_ps(then, zero, _CMP_EQ_OQ), _mm256_cmp_ps(today, zero, _CMP_EQ_OQ));
-        if ((static_cast<unsigned>(_mm256_movemask_ps(_mm256_or_ps(changed, tied))) & valid) == 0) continue;
+        const __m256 changed = _mm256_xor_ps(then, today),
+                     tied = _mm256_or_ps(_mm256_cmp_ps(then, zero, _CMP_EQ_OQ),
+                                         _mm256_cmp_ps(today, zero, _CMP_EQ_OQ));
+        if ((static_cast<unsigned>(_mm256_movemask_ps(_mm256_or_ps(changed, tied))) & valid) == 0)
+          continue;
         unsigned hits = static_cast<unsigned>(_mm256_movemask_ps(changed)) & valid;
-        const unsigned doubtful = judge.is_needed ? static_cast<unsigned>(_mm256_movemask_ps(tied)) & valid : 0;
-        const __m256i entered = _mm256_andnot_si256(_mm256_castps_si256(today), _mm256_set1_epi32(static_cast<int>(entered_bit)));
+        const unsigned doubtful =
+            judge.is_needed ? static_cast<unsigned>(_mm256_movemask_ps(tied)) & valid : 0;
+        const __m256i entered = _mm256_andnot_si256(
+            _mm256_castps_si256(today), _mm256_set1_epi32(static_cast<int>(entered_bit)));
         __m256i ids = _mm256_or_si256(load(candidates.ids + i), entered);
         if (doubtful != 0) hits = decide(hits, doubtful, judge, probes[p].id, ids);
         count += pack(hits, ids, found + count);
@@ -126,47 +148,72 @@ struct Nearness {
   __m256 inside, doubtful;
 };
 
-RINK_AVX2 inline __m256 magnitude(__m256 number) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), number); }
+RINK_AVX2 inline __m256 magnitude(__m256 number) {
+  return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), number);
+}
 
 RINK_AVX2 inline __m256 offset(__m256 middle, __m256 low, __m256 high) {
-  const __m256 beyond = _mm256_max_ps(_mm256_sub_ps(_mm256_add_ps(low, low), middle), _mm256_sub_ps(middle, _mm256_add_ps(high, high)));
+  const __m256 beyond = _mm256_max_ps(_mm256_sub_ps(_mm256_add_ps(low, low), middle),
+                                      _mm256_sub_ps(middle, _mm256_add_ps(high, high)));
   return _mm256_min_ps(_mm256_max_ps(beyond, _mm256_setzero_ps()), _mm256_set1_ps(disc_offset_max));
 }
 
 /// As in scan_scalar.cpp. What depends on the asker alone the compiler takes out of the loop.
 RINK_AVX2 inline Nearness nearness(const WideBox& disc, const WideBox& box) {
-  const __m256 middle_x = _mm256_add_ps(disc.low_x, disc.high_x), middle_y = _mm256_add_ps(disc.low_y, disc.high_y);
-  const __m256 width = _mm256_sub_ps(disc.high_x, disc.low_x), height = _mm256_sub_ps(disc.high_y, disc.low_y), diameter = _mm256_min_ps(width, height);
-  const __m256 size = _mm256_add_ps(_mm256_add_ps(width, height), _mm256_add_ps(magnitude(middle_x), magnitude(middle_y)));
-  const __m256 x = offset(middle_x, box.low_x, box.high_x), y = offset(middle_y, box.low_y, box.high_y), away = _mm256_add_ps(x, y), all = _mm256_add_ps(away, size);
-  const __m256 excess = _mm256_sub_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)), _mm256_mul_ps(diameter, diameter));
-  const __m256 near = _mm256_mul_ps(_mm256_add_ps(away, diameter), _mm256_set1_ps(disc_error_first));
-  const __m256 error = _mm256_add_ps(_mm256_mul_ps(_mm256_add_ps(near, _mm256_mul_ps(all, _mm256_set1_ps(disc_error_second))), all), _mm256_set1_ps(disc_error_least));
-  const __m256 is_clear = _mm256_and_ps(_mm256_cmp_ps(magnitude(excess), error, _CMP_GT_OQ), _mm256_cmp_ps(size, _mm256_set1_ps(disc_size_max), _CMP_LT_OQ));
-  const __m256 is_somewhere = _mm256_and_ps(_mm256_cmp_ps(disc.low_x, disc.high_x, _CMP_LE_OQ), _mm256_cmp_ps(box.low_x, box.high_x, _CMP_LE_OQ));
-  return {_mm256_and_ps(is_somewhere, _mm256_cmp_ps(excess, _mm256_setzero_ps(), _CMP_LT_OQ)), _mm256_andnot_ps(is_clear, is_somewhere)};
+  const __m256 middle_x = _mm256_add_ps(disc.low_x, disc.high_x),
+               middle_y = _mm256_add_ps(disc.low_y, disc.high_y);
+  const __m256 width = _mm256_sub_ps(disc.high_x, disc.low_x),
+               height = _mm256_sub_ps(disc.high_y, disc.low_y),
+               diameter = _mm256_min_ps(width, height);
+  const __m256 size = _mm256_add_ps(_mm256_add_ps(width, height),
+                                    _mm256_add_ps(magnitude(middle_x), magnitude(middle_y)));
+  const __m256 x = offset(middle_x, box.low_x, box.high_x),
+               y = offset(middle_y, box.low_y, box.high_y), away = _mm256_add_ps(x, y),
+               all = _mm256_add_ps(away, size);
+  const __m256 excess = _mm256_sub_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)),
+                                      _mm256_mul_ps(diameter, diameter));
+  const __m256 near =
+      _mm256_mul_ps(_mm256_add_ps(away, diameter), _mm256_set1_ps(disc_error_first));
+  const __m256 error = _mm256_add_ps(
+      _mm256_mul_ps(_mm256_add_ps(near, _mm256_mul_ps(all, _mm256_set1_ps(disc_error_second))),
+                    all),
+      _mm256_set1_ps(disc_error_least));
+  const __m256 is_clear =
+      _mm256_and_ps(_mm256_cmp_ps(magnitude(excess), error, _CMP_GT_OQ),
+                    _mm256_cmp_ps(size, _mm256_set1_ps(disc_size_max), _CMP_LT_OQ));
+  const __m256 is_somewhere = _mm256_and_ps(_mm256_cmp_ps(disc.low_x, disc.high_x, _CMP_LE_OQ),
+                                            _mm256_cmp_ps(box.low_x, box.high_x, _CMP_LE_OQ));
+  return {_mm256_and_ps(is_somewhere, _mm256_cmp_ps(excess, _mm256_setzero_ps(), _CMP_LT_OQ)),
+          _mm256_andnot_ps(is_clear, is_somewhere)};
 }
 
 RINK_AVX2 inline WideBox load(const BoxColumns& boxes, std::size_t i) {
-  return {_mm256_loadu_ps(boxes.low_x + i), _mm256_loadu_ps(boxes.low_y + i), _mm256_loadu_ps(boxes.high_x + i), _mm256_loadu_ps(boxes.high_y + i)};
+  return {_mm256_loadu_ps(boxes.low_x + i), _mm256_loadu_ps(boxes.low_y + i),
+          _mm256_loadu_ps(boxes.high_x + i), _mm256_loadu_ps(boxes.high_y + i)};
 }
 
 template <bool is_of_askers>
-RINK_AVX2 std::size_t scan_discs(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
-                                 std::uint32_t* ends) {
+RINK_AVX2 std::size_t scan_discs(const Candidates& candidates, std::span<const Probe> probes,
+                                 const Stretch* stretches, const TieJudge& judge,
+                                 std::uint32_t* found, std::uint32_t* ends) {
   std::size_t count = 0, stretch = 0;
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const WideBox before = widen(probes[p].before), now = widen(probes[p].now);
     for (const std::size_t end = probes[p].stretches_end; stretch < end; ++stretch)
-      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; i += candidates.stride) {
+      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end;
+           i += candidates.stride) {
         const WideBox was = load(candidates.before, i), is = load(candidates.now, i);
-        const Nearness then = is_of_askers ? nearness(before, was) : nearness(was, before), today = is_of_askers ? nearness(now, is) : nearness(is, now);
+        const Nearness then = is_of_askers ? nearness(before, was) : nearness(was, before),
+                       today = is_of_askers ? nearness(now, is) : nearness(is, now);
         const unsigned valid = lanes(stretches[stretch].end - i);
-        const __m256 changed = _mm256_xor_ps(then.inside, today.inside), tied = _mm256_or_ps(then.doubtful, today.doubtful);
-        if ((static_cast<unsigned>(_mm256_movemask_ps(_mm256_or_ps(changed, tied))) & valid) == 0) continue;
+        const __m256 changed = _mm256_xor_ps(then.inside, today.inside),
+                     tied = _mm256_or_ps(then.doubtful, today.doubtful);
+        if ((static_cast<unsigned>(_mm256_movemask_ps(_mm256_or_ps(changed, tied))) & valid) == 0)
+          continue;
         unsigned hits = static_cast<unsigned>(_mm256_movemask_ps(changed)) & valid;
         const unsigned doubtful = static_cast<unsigned>(_mm256_movemask_ps(tied)) & valid;
-        const __m256i entered = _mm256_and_si256(_mm256_castps_si256(today.inside), _mm256_set1_epi32(static_cast<int>(entered_bit)));
+        const __m256i entered = _mm256_and_si256(_mm256_castps_si256(today.inside),
+                                                 _mm256_set1_epi32(static_cast<int>(entered_bit)));
         __m256i ids = _mm256_or_si256(load(candidates.ids + i), entered);
         if (doubtful != 0) hits = decide(hits, doubtful, judge, probes[p].id, ids);
         count += pack(hits, ids, found + count);
@@ -176,7 +223,8 @@ RINK_AVX2 std::size_t scan_discs(const Candidates& candidates, std::span<const P
   return count;
 }
 
-constexpr Scans wide_scans{scan_overlaps, scan_changes, scan_discs<true>, scan_discs<false>, "avx2"};
+constexpr Scans wide_scans{scan_overlaps, scan_changes, scan_discs<true>, scan_discs<false>,
+                           "avx2"};
 
 }  // namespace
 

@@ -1,4 +1,5 @@
-// Scans one candidate after the other, without branches on the outcome; and chooses between this and wider instructions.
+// Scans one candidate after the other, without branches on the outcome; and chooses between this
+// and wider instructions.
 #include <cmath>
 
 #include "im/matching/disc_error.h"
@@ -9,7 +10,8 @@ namespace {
 
 /// The smallest of the four differences that must not be negative in an overlap.
 inline float clearance(const BoxColumns& boxes, std::size_t i, const FloatBox& probe) {
-  const float x = std::min(probe.high_x - boxes.low_x[i], boxes.high_x[i] - probe.low_x), y = std::min(probe.high_y - boxes.low_y[i], boxes.high_y[i] - probe.low_y);
+  const float x = std::min(probe.high_x - boxes.low_x[i], boxes.high_x[i] - probe.low_x),
+              y = std::min(probe.high_y - boxes.low_y[i], boxes.high_y[i] - probe.low_y);
   return std::min(x, y);
 }
 
@@ -19,14 +21,17 @@ struct Outcome {
 };
 
 template <class Compare>
-std::size_t scan(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found, std::uint32_t* ends,
-                 const Compare& compare) {
+std::size_t scan(const Candidates& candidates, std::span<const Probe> probes,
+                 const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
+                 std::uint32_t* ends, const Compare& compare) {
   std::size_t count = 0, stretch = 0;
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const Probe probe = probes[p];
     for (; stretch < probe.stretches_end; ++stretch)
-      for (std::size_t eight = stretches[stretch].first; eight < stretches[stretch].end; eight += candidates.stride)
-        for (std::size_t i = eight; i < std::min<std::size_t>(eight + scan_width, stretches[stretch].end); ++i) {
+      for (std::size_t eight = stretches[stretch].first; eight < stretches[stretch].end;
+           eight += candidates.stride)
+        for (std::size_t i = eight;
+             i < std::min<std::size_t>(eight + scan_width, stretches[stretch].end); ++i) {
           Outcome outcome = compare(i, probe);
           if (judge.is_needed && outcome.is_tie) {
             const Verdict verdict = judge(probe.id, candidates.ids[i]);
@@ -40,20 +45,26 @@ std::size_t scan(const Candidates& candidates, std::span<const Probe> probes, co
   return count;
 }
 
-std::size_t scan_overlaps(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
+std::size_t scan_overlaps(const Candidates& candidates, std::span<const Probe> probes,
+                          const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
                           std::uint32_t* ends) {
-  return scan(candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe) {
-    const float now = clearance(candidates.now, i, probe.now);
-    return Outcome{now >= 0.0f, false, now == 0.0f};
-  });
+  return scan(candidates, probes, stretches, judge, found, ends,
+              [&](std::size_t i, const Probe& probe) {
+                const float now = clearance(candidates.now, i, probe.now);
+                return Outcome{now >= 0.0f, false, now == 0.0f};
+              });
 }
 
-std::size_t scan_changes(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
+std::size_t scan_changes(const Candidates& candidates, std::span<const Probe> probes,
+                         const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
                          std::uint32_t* ends) {
-  return scan(candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe) {
-    const float before = clearance(candidates.before, i, probe.before), now = clearance(candidates.now, i, probe.now);
-    return Outcome{(before >= 0.0f) != (now >= 0.0f), now >= 0.0f, before == 0.0f || now == 0.0f};
-  });
+  return scan(candidates, probes, stretches, judge, found, ends,
+              [&](std::size_t i, const Probe& probe) {
+                const float before = clearance(candidates.before, i, probe.before),
+                            now = clearance(candidates.now, i, probe.now);
+                return Outcome{(before >= 0.0f) != (now >= 0.0f), now >= 0.0f,
+                               before == 0.0f || now == 0.0f};
+              });
 }
 
 struct Nearness {
@@ -62,35 +73,53 @@ struct Nearness {
 
 /// Of the disc that `disc` holds and the nearest point of `box` (disc_error.h).
 inline Nearness nearness(const FloatBox& disc, const FloatBox& box) {
-  const float middle_x = disc.low_x + disc.high_x, middle_y = disc.low_y + disc.high_y, width = disc.high_x - disc.low_x, height = disc.high_y - disc.low_y;
-  const float size = width + height + std::abs(middle_x) + std::abs(middle_y), diameter = std::min(width, height);
-  const auto offset = [](float middle, float low, float high) { return std::min(std::max(std::max(2.0f * low - middle, middle - 2.0f * high), 0.0f), disc_offset_max); };
-  const float x = offset(middle_x, box.low_x, box.high_x), y = offset(middle_y, box.low_y, box.high_y), away = x + y;
-  const float excess = x * x + y * y - diameter * diameter, all = away + size, error = ((away + diameter) * disc_error_first + all * disc_error_second) * all + disc_error_least;
+  const float middle_x = disc.low_x + disc.high_x, middle_y = disc.low_y + disc.high_y,
+              width = disc.high_x - disc.low_x, height = disc.high_y - disc.low_y;
+  const float size = width + height + std::abs(middle_x) + std::abs(middle_y),
+              diameter = std::min(width, height);
+  const auto offset = [](float middle, float low, float high) {
+    return std::min(std::max(std::max(2.0f * low - middle, middle - 2.0f * high), 0.0f),
+                    disc_offset_max);
+  };
+  const float x = offset(middle_x, box.low_x, box.high_x),
+              y = offset(middle_y, box.low_y, box.high_y), away = x + y;
+  const float excess = x * x + y * y - diameter * diameter, all = away + size,
+              error = ((away + diameter) * disc_error_first + all * disc_error_second) * all +
+                      disc_error_least;
   const bool is_somewhere = disc.low_x <= disc.high_x && box.low_x <= box.high_x;
-  return {is_somewhere && excess < 0.0f, is_somewhere && !(std::abs(excess) > error && size < disc_size_max)};
+  return {is_somewhere && excess < 0.0f,
+          is_somewhere && !(std::abs(excess) > error && size < disc_size_max)};
 }
 
-inline FloatBox box_at(const BoxColumns& boxes, std::size_t i) { return {boxes.low_x[i], boxes.low_y[i], boxes.high_x[i], boxes.high_y[i]}; }
+inline FloatBox box_at(const BoxColumns& boxes, std::size_t i) {
+  return {boxes.low_x[i], boxes.low_y[i], boxes.high_x[i], boxes.high_y[i]};
+}
 
 template <bool is_of_askers>
-std::size_t scan_discs(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
+std::size_t scan_discs(const Candidates& candidates, std::span<const Probe> probes,
+                       const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
                        std::uint32_t* ends) {
-  return scan(candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe) {
-    const FloatBox was = box_at(candidates.before, i), is = box_at(candidates.now, i);
-    const Nearness before = is_of_askers ? nearness(probe.before, was) : nearness(was, probe.before), now = is_of_askers ? nearness(probe.now, is) : nearness(is, probe.now);
-    return Outcome{before.is_inside != now.is_inside, now.is_inside, before.is_doubtful || now.is_doubtful};
-  });
+  return scan(
+      candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe) {
+        const FloatBox was = box_at(candidates.before, i), is = box_at(candidates.now, i);
+        const Nearness before =
+                           is_of_askers ? nearness(probe.before, was) : nearness(was, probe.before),
+                       now = is_of_askers ? nearness(probe.now, is) : nearness(is, probe.now);
+        return Outcome{before.is_inside != now.is_inside, now.is_inside,
+                       before.is_doubtful || now.is_doubtful};
+      });
 }
 
 }  // namespace
 
-const Scans scalar_scans{scan_overlaps, scan_changes, scan_discs<true>, scan_discs<false>, "scalar"};
+const Scans scalar_scans{scan_overlaps, scan_changes, scan_discs<true>, scan_discs<false>,
+                         "scalar"};
 
 const Scans& scans(Instructions instructions) {
   static const bool has_avx2 = [] {
 #if defined(__x86_64__)
-    return avx2_scans != nullptr && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
+    return avx2_scans != nullptr && __builtin_cpu_supports("avx2") &&
+           __builtin_cpu_supports("popcnt");
 #else
     return false;
 #endif

@@ -4,7 +4,8 @@
 namespace rink::im {
 namespace {
 
-/// A box eight times smaller than the widest of its level costs a few tests more; a level of its own costs a visit by every query.
+/// A box eight times smaller than the widest of its level costs a few tests more; a level of its
+/// own costs a visit by every query.
 constexpr std::size_t octaves_per_level = 3;
 /// A level with fewer boxes than this part of the one above costs more visits than it saves tests.
 constexpr std::size_t merged_below = 16;

@@ -7,7 +7,8 @@
 
 namespace rink::im {
 
-/// Classes by powers of two of the longer side. Count all sides, then `choose`, then ask for each one's level.
+/// Classes by powers of two of the longer side. Count all sides, then `choose`, then ask for each
+/// one's level.
 class SizeLevels {
  public:
   static constexpr std::size_t level_max = 8;
@@ -22,8 +23,9 @@ class SizeLevels {
     if (bucket != run_bucket_) end_run(bucket);
     ++run_length_;
   }
-  /// Levels from the largest boxes down, each of a factor of at most eight (the last of all below); a level with few boxes joins the one above it.
-  /// There is at least one level, and every side has one, counted or not.
+  /// Levels from the largest boxes down, each of a factor of at most eight (the last of all below);
+  /// a level with few boxes joins the one above it. There is at least one level, and every side has
+  /// one, counted or not.
   void choose();
 
   std::size_t size() const { return size_; }
@@ -37,7 +39,9 @@ class SizeLevels {
     run_bucket_ = next;
     run_length_ = 0;
   }
-  static std::uint32_t bucket_of(float side) { return std::bit_cast<std::uint32_t>(side) >> 23 & 0xFFu; }
+  static std::uint32_t bucket_of(float side) {
+    return std::bit_cast<std::uint32_t>(side) >> 23 & 0xFFu;
+  }
 
   std::array<std::uint32_t, 256> counts_{};
   std::array<std::uint8_t, 256> level_of_{};

@@ -9,7 +9,8 @@
 namespace rink::loadgen {
 namespace {
 
-/// The continued fraction of I_x(a, b) without its factor; converges fast for x < (a + 1)/(a + b + 2).
+/// The continued fraction of I_x(a, b) without its factor; converges fast for x < (a + 1)/(a + b +
+/// 2).
 double beta_fraction(double x, double a, double b) {
   constexpr double tiny = 1e-300, enough = 1e-16;
   constexpr int terms_max = 10'000;  // it takes O(sqrt(max(a, b))) terms
@@ -31,14 +32,17 @@ double beta_fraction(double x, double a, double b) {
 }
 
 /// The probability that Student's t exceeds `t` >= 0.
-double student_t_tail(double t, double freedom) { return 0.5 * regularized_beta(freedom / (freedom + t * t), 0.5 * freedom, 0.5); }
+double student_t_tail(double t, double freedom) {
+  return 0.5 * regularized_beta(freedom / (freedom + t * t), 0.5 * freedom, 0.5);
+}
 
 }  // namespace
 
 double regularized_beta(double x, double a, double b) {
   assert(x >= 0.0 && x <= 1.0 && a > 0.0 && b > 0.0);
   if (x == 0.0 || x == 1.0) return x;
-  const double factor = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
+  const double factor = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
+                                 a * std::log(x) + b * std::log1p(-x));
   if (x < (a + 1.0) / (a + b + 2.0)) return factor * beta_fraction(x, a, b) / a;
   return 1.0 - factor * beta_fraction(1.0 - x, b, a) / b;
 }
@@ -48,7 +52,8 @@ double student_t_quantile(double probability, double freedom) {
   if (probability == 0.5) return 0.0;
   const double tail = probability < 0.5 ? probability : 1.0 - probability;
   double low = 0.0, high = 1.0;
-  while (student_t_tail(high, freedom) > tail && high < std::numeric_limits<double>::max() / 4.0) low = high, high *= 2.0;
+  while (student_t_tail(high, freedom) > tail && high < std::numeric_limits<double>::max() / 4.0)
+    low = high, high *= 2.0;
   while (high - low > 1e-15 * high) {
     const double middle = low + 0.5 * (high - low);
     if (middle == low || middle == high) break;
@@ -61,7 +66,8 @@ double binomial_tail(std::uint64_t count, std::uint64_t trials, double probabili
   assert(probability > 0.0 && probability < 1.0);
   if (count == 0) return 1.0;
   if (count > trials) return 0.0;
-  return regularized_beta(probability, static_cast<double>(count), static_cast<double>(trials - count + 1));
+  return regularized_beta(probability, static_cast<double>(count),
+                          static_cast<double>(trials - count + 1));
 }
 
 double f_tail(double f, double above, double below) {

@@ -1,4 +1,5 @@
-// Log-linear buckets: where a duration falls, what a bucket stands for, and how counts travel as JSON.
+// Log-linear buckets: where a duration falls, what a bucket stands for, and how counts travel as
+// JSON.
 #include "loadgen/measure/statistics/histogram.h"
 
 #include <algorithm>
@@ -22,16 +23,20 @@ std::uint64_t clamped_ns(double duration_s) {
 
 std::size_t bucket_of(std::uint64_t duration_ns) {
   const int shift = static_cast<int>(std::bit_width(duration_ns)) - 10;
-  return (static_cast<std::size_t>(shift) - 1) * parts_per_octave + static_cast<std::size_t>((duration_ns >> shift) - parts_per_octave);
+  return (static_cast<std::size_t>(shift) - 1) * parts_per_octave +
+         static_cast<std::size_t>((duration_ns >> shift) - parts_per_octave);
 }
 
 double middle_s(std::size_t bucket) {
   const std::size_t shift = bucket / parts_per_octave + 1;
-  const double low_ns = static_cast<double>((bucket % parts_per_octave + parts_per_octave) << shift);
+  const double low_ns =
+      static_cast<double>((bucket % parts_per_octave + parts_per_octave) << shift);
   return (low_ns + 0.5 * static_cast<double>(std::uint64_t{1} << shift)) * 1e-9;
 }
 
-bool is_non_negative_number(const nlohmann::json& value) { return value.is_number() && value.get<double>() >= 0.0; }
+bool is_non_negative_number(const nlohmann::json& value) {
+  return value.is_number() && value.get<double>() >= 0.0;
+}
 
 }  // namespace
 
@@ -40,7 +45,8 @@ Histogram::Histogram() : buckets_(bucket_count, 0) {}
 void Histogram::record(double duration_s, std::uint64_t times) {
   if (times == 0) return;
   buckets_[bucket_of(clamped_ns(duration_s))] += times;
-  const double finite_s = std::isfinite(duration_s) ? std::max(duration_s, 0.0) : static_cast<double>(longest_ns) * 1e-9;
+  const double finite_s = std::isfinite(duration_s) ? std::max(duration_s, 0.0)
+                                                    : static_cast<double>(longest_ns) * 1e-9;
   min_s_ = count_ == 0 ? finite_s : std::min(min_s_, finite_s);
   max_s_ = std::max(max_s_, finite_s);
   sum_s_ += finite_s * static_cast<double>(times);
@@ -49,7 +55,8 @@ void Histogram::record(double duration_s, std::uint64_t times) {
 
 void Histogram::merge(const Histogram& other) {
   if (other.count_ == 0) return;
-  for (std::size_t bucket = 0; bucket < bucket_count; ++bucket) buckets_[bucket] += other.buckets_[bucket];
+  for (std::size_t bucket = 0; bucket < bucket_count; ++bucket)
+    buckets_[bucket] += other.buckets_[bucket];
   min_s_ = count_ == 0 ? other.min_s_ : std::min(min_s_, other.min_s_);
   max_s_ = std::max(max_s_, other.max_s_);
   sum_s_ += other.sum_s_;
@@ -63,7 +70,8 @@ std::optional<double> Histogram::mean_s() const {
 
 bool Histogram::supports(std::uint64_t count, double fraction) {
   assert(fraction >= 0.0 && fraction <= 1.0);
-  return static_cast<double>(count) * (1.0 - fraction) >= 10.0 - 1e-6;  // 1 - 0.999 is not quite 0.001
+  return static_cast<double>(count) * (1.0 - fraction) >=
+         10.0 - 1e-6;  // 1 - 0.999 is not quite 0.001
 }
 
 std::optional<double> Histogram::percentile_s(double fraction) const {
@@ -84,7 +92,12 @@ Percentiles Histogram::percentiles_ms() const {
     if (value) *value *= 1e3;
     return value;
   };
-  Percentiles result{.p50 = in_ms(0.5), .p90 = in_ms(0.9), .p95 = in_ms(0.95), .p99 = in_ms(0.99), .p999 = in_ms(0.999), .max = std::nullopt};
+  Percentiles result{.p50 = in_ms(0.5),
+                     .p90 = in_ms(0.9),
+                     .p95 = in_ms(0.95),
+                     .p99 = in_ms(0.99),
+                     .p999 = in_ms(0.999),
+                     .max = std::nullopt};
   if (count_ > 0) result.max = max_s_ * 1e3;
   return result;
 }
@@ -94,7 +107,11 @@ nlohmann::json Histogram::to_json() const {
   for (std::size_t bucket = 0; bucket < bucket_count; ++bucket) {
     if (buckets_[bucket] > 0) filled.push_back({bucket, buckets_[bucket]});
   }
-  return {{"count", count_}, {"sum_s", sum_s_}, {"min_s", min_s()}, {"max_s", max_s_}, {"buckets", std::move(filled)}};
+  return {{"count", count_},
+          {"sum_s", sum_s_},
+          {"min_s", min_s()},
+          {"max_s", max_s_},
+          {"buckets", std::move(filled)}};
 }
 
 std::optional<Histogram> Histogram::from_json(const nlohmann::json& written) {
@@ -102,14 +119,19 @@ std::optional<Histogram> Histogram::from_json(const nlohmann::json& written) {
   for (const char* key : {"count", "sum_s", "min_s", "max_s"}) {
     if (!written.contains(key) || !is_non_negative_number(written[key])) return std::nullopt;
   }
-  if (!written["count"].is_number_unsigned() || !written.contains("buckets") || !written["buckets"].is_array()) return std::nullopt;
+  if (!written["count"].is_number_unsigned() || !written.contains("buckets") ||
+      !written["buckets"].is_array())
+    return std::nullopt;
   Histogram result;
   std::size_t next = 0;
   for (const nlohmann::json& entry : written["buckets"]) {
-    if (!entry.is_array() || entry.size() != 2 || !entry[0].is_number_unsigned() || !entry[1].is_number_unsigned()) return std::nullopt;
+    if (!entry.is_array() || entry.size() != 2 || !entry[0].is_number_unsigned() ||
+        !entry[1].is_number_unsigned())
+      return std::nullopt;
     const auto bucket = entry[0].get<std::uint64_t>();
     const auto times = entry[1].get<std::uint64_t>();
-    if (bucket < next || bucket >= bucket_count || times == 0 || times > UINT64_MAX - result.count_) return std::nullopt;
+    if (bucket < next || bucket >= bucket_count || times == 0 || times > UINT64_MAX - result.count_)
+      return std::nullopt;
     result.buckets_[bucket] = times;
     result.count_ += times;
     next = bucket + 1;

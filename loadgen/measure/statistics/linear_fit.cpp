@@ -19,7 +19,8 @@ LinearFit weighted(std::span<const FitPoint> points, const LinearFit& last) {
   double w = 0.0, wx = 0.0, wy = 0.0, wxx = 0.0, wxy = 0.0;
   for (const FitPoint& point : points) {
     const double weight = 1.0 / (last.at(point.x) * last.at(point.x));
-    w += weight, wx += weight * point.x, wy += weight * point.y, wxx += weight * point.x * point.x, wxy += weight * point.x * point.y;
+    w += weight, wx += weight * point.x, wy += weight * point.y, wxx += weight * point.x * point.x,
+        wxy += weight * point.x * point.y;
   }
   const double x_mean = wx / w, y_mean = wy / w;
   LinearFit fit;
@@ -54,7 +55,8 @@ std::optional<LinearFit> fit_line(std::span<const FitPoint> points) {
 
 double log_residual(const PowerFit& fit, std::span<const FitPoint> points) {
   double sum = 0.0;
-  for (const FitPoint& point : points) sum += squared_log(point.y, fit.factor * std::pow(point.x, fit.exponent));
+  for (const FitPoint& point : points)
+    sum += squared_log(point.y, fit.factor * std::pow(point.x, fit.exponent));
   return sum;
 }
 

@@ -8,8 +8,10 @@
 
 namespace rink::loadgen {
 
-/// y = constant + slope x, by least squares on relative distances: each point weighs 1 / y^2 of its fitted value, found by repetition, for costs scatter in proportion to their
-/// size (iteratively reweighted least squares; Draper & Smith, Applied Regression Analysis, 1998, 9.2 and 24). Neither part is below 0: what would be is 0.
+/// y = constant + slope x, by least squares on relative distances: each point weighs 1 / y^2 of its
+/// fitted value, found by repetition, for costs scatter in proportion to their size (iteratively
+/// reweighted least squares; Draper & Smith, Applied Regression Analysis, 1998, 9.2 and 24).
+/// Neither part is below 0: what would be is 0.
 struct LinearFit {
   double constant = 0.0, slope = 0.0;
   double log_residual = 0.0;  ///< sum over the points of the squared logarithm of y / fitted y

@@ -20,7 +20,8 @@ struct Moments {
 Moments moments_of(std::span<const FitPoint> logs) {
   Moments moments;
   const auto count = static_cast<double>(logs.size());
-  for (const FitPoint& point : logs) moments.x_mean += point.x / count, moments.y_mean += point.y / count;
+  for (const FitPoint& point : logs)
+    moments.x_mean += point.x / count, moments.y_mean += point.y / count;
   for (const FitPoint& point : logs) {
     const double dx = point.x - moments.x_mean, dy = point.y - moments.y_mean;
     moments.xx += dx * dx;
@@ -37,19 +38,24 @@ struct Place {
   double scatter() const { return std::max(0.0, squares - sum * sum / count); }
 };
 
-/// The F test for lack of fit (Draper & Smith, Applied Regression Analysis, 1998, 2.1): needs replications and more places than the line has parameters.
-std::optional<double> misfit_probability(const std::map<double, Place>& places, double residual, std::size_t count) {
+/// The F test for lack of fit (Draper & Smith, Applied Regression Analysis, 1998, 2.1): needs
+/// replications and more places than the line has parameters.
+std::optional<double> misfit_probability(const std::map<double, Place>& places, double residual,
+                                         std::size_t count) {
   double pure = 0.0;
   for (const auto& [x, place] : places) pure += place.scatter();
   if (places.size() < 3 || count <= places.size()) return std::nullopt;
-  const auto above = static_cast<double>(places.size() - 2), below = static_cast<double>(count - places.size());
+  const auto above = static_cast<double>(places.size() - 2),
+             below = static_cast<double>(count - places.size());
   if (pure <= 0.0) return residual > 0.0 ? 0.0 : 1.0;
   return f_tail(std::max(0.0, residual - pure) / above / (pure / below), above, below);
 }
 
 }  // namespace
 
-bool PowerFit::is_rejected() const { return bend > bend_max && misfit_p.value_or(0.0) < misfit_significance; }
+bool PowerFit::is_rejected() const {
+  return bend > bend_max && misfit_p.value_or(0.0) < misfit_significance;
+}
 
 std::optional<PowerFit> fit_power(std::span<const FitPoint> points) {
   std::vector<FitPoint> logs;
@@ -76,14 +82,20 @@ std::optional<PowerFit> fit_power(std::span<const FitPoint> points) {
   if (moments.yy > 0.0) fit.r_squared = 1.0 - residual / moments.yy;
   if (logs.size() > 2) {
     const auto freedom = static_cast<double>(logs.size() - 2);
-    const double half = student_t_quantile(0.5 + 0.5 * confidence, freedom) * std::sqrt(residual / freedom / moments.xx);
+    const double half = student_t_quantile(0.5 + 0.5 * confidence, freedom) *
+                        std::sqrt(residual / freedom / moments.xx);
     fit.exponent_low = fit.exponent - half;
     fit.exponent_high = fit.exponent + half;
   }
-  for (const auto& [x, place] : places) fit.bend = std::max(fit.bend, std::expm1(std::abs(place.mean() - fit.exponent * (x - moments.x_mean))));
+  for (const auto& [x, place] : places)
+    fit.bend = std::max(fit.bend,
+                        std::expm1(std::abs(place.mean() - fit.exponent * (x - moments.x_mean))));
   fit.misfit_p = misfit_probability(places, residual, logs.size());
-  for (auto next = std::next(places.begin()), place = places.begin(); next != places.end(); ++place, ++next) {
-    fit.locals.push_back({std::exp(place->first), std::exp(next->first), (next->second.mean() - place->second.mean()) / (next->first - place->first)});
+  for (auto next = std::next(places.begin()), place = places.begin(); next != places.end();
+       ++place, ++next) {
+    fit.locals.push_back(
+        {std::exp(place->first), std::exp(next->first),
+         (next->second.mean() - place->second.mean()) / (next->first - place->first)});
   }
   return fit;
 }

@@ -20,7 +20,8 @@ void SampleDistribution::merge(const SampleDistribution& other) {
   never_ += other.never_;
 }
 
-std::vector<SampleDistribution::Point> SampleDistribution::distribution(std::size_t points_max) const {
+std::vector<SampleDistribution::Point> SampleDistribution::distribution(
+    std::size_t points_max) const {
   assert(points_max >= 3);
   std::vector<Point> points;
   if (samples() == 0) return points;
@@ -45,13 +46,21 @@ nlohmann::ordered_json SampleDistribution::to_json() const {
 }
 
 std::optional<SampleDistribution> SampleDistribution::from_json(const nlohmann::json& written) {
-  if (!written.is_object() || !written.contains("never") || !written["never"].is_number_unsigned() || !written.contains("millionths") || !written["millionths"].is_array()) return std::nullopt;
+  if (!written.is_object() || !written.contains("never") ||
+      !written["never"].is_number_unsigned() || !written.contains("millionths") ||
+      !written["millionths"].is_array())
+    return std::nullopt;
   SampleDistribution distribution;
   distribution.never_ = written["never"].get<std::uint64_t>();
   for (const nlohmann::json& entry : written["millionths"]) {
-    if (!entry.is_array() || entry.size() != 2 || !entry[0].is_number_unsigned() || !entry[1].is_number_unsigned()) return std::nullopt;
-    const std::uint64_t value = entry[0].get<std::uint64_t>(), count = entry[1].get<std::uint64_t>();
-    if (count == 0 || (!distribution.counts_.empty() && distribution.counts_.rbegin()->first >= value)) return std::nullopt;
+    if (!entry.is_array() || entry.size() != 2 || !entry[0].is_number_unsigned() ||
+        !entry[1].is_number_unsigned())
+      return std::nullopt;
+    const std::uint64_t value = entry[0].get<std::uint64_t>(),
+                        count = entry[1].get<std::uint64_t>();
+    if (count == 0 ||
+        (!distribution.counts_.empty() && distribution.counts_.rbegin()->first >= value))
+      return std::nullopt;
     distribution.counts_[value] = count;
     distribution.ended_ += count;
   }

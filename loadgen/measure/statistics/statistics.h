@@ -1,4 +1,5 @@
-// What replications say together: a mean or a ratio, its 95 % confidence interval, and whether a difference can be told from chance.
+// What replications say together: a mean or a ratio, its 95 % confidence interval, and whether a
+// difference can be told from chance.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,8 @@
 
 namespace rink::loadgen {
 
-/// All intervals here are of this confidence; replications are taken as independent and roughly normal (ratios: their logarithms).
+/// All intervals here are of this confidence; replications are taken as independent and roughly
+/// normal (ratios: their logarithms).
 inline constexpr double interval_confidence = 0.95;
 
 struct Interval {
@@ -26,20 +28,25 @@ enum class Scale : std::uint8_t {
   fraction    ///< 0 to 1
 };
 
-/// The interval of the mean of `values` by Student's t with n - 1 degrees of freedom (Jain, The Art of Computer Systems Performance Analysis, 1991, 13.2; Le
-/// Boudec, Performance Evaluation of Computer and Communication Systems, 2010, theorem 2.2.2); nothing for fewer than two values. With m the mean, h half the
-/// width: m -+ h if unbounded; m exp(-+ h / m) if positive; logit m -+ h / (m (1 - m)), turned back, of a fraction. The standard error is carried to the scale
-/// by its slope at m (the delta method: Meeker and Escobar, Statistical Methods for Reliability Data, 1998, chapter 8), so single values of 0 or 1, which have
-/// no logarithm or logit, need no shifting, and the interval is about the arithmetic mean; averaged logarithms would give that of the geometric one. If all values are 0, or all
-/// 1, the interval is that point. Values beyond what `scale` says widen it: a fraction with one above 1 is taken as positive, one below 0 as unbounded.
+/// The interval of the mean of `values` by Student's t with n - 1 degrees of freedom (Jain, The Art
+/// of Computer Systems Performance Analysis, 1991, 13.2; Le Boudec, Performance Evaluation of
+/// Computer and Communication Systems, 2010, theorem 2.2.2); nothing for fewer than two values.
+/// With m the mean, h half the width: m -+ h if unbounded; m exp(-+ h / m) if positive; logit m -+
+/// h / (m (1 - m)), turned back, of a fraction. The standard error is carried to the scale by its
+/// slope at m (the delta method: Meeker and Escobar, Statistical Methods for Reliability Data,
+/// 1998, chapter 8), so single values of 0 or 1, which have no logarithm or logit, need no
+/// shifting, and the interval is about the arithmetic mean; averaged logarithms would give that of
+/// the geometric one. If all values are 0, or all 1, the interval is that point. Values beyond what
+/// `scale` says widen it: a fraction with one above 1 is taken as positive, one below 0 as
+/// unbounded.
 std::optional<Interval> interval_of_mean(std::span<const double> values, Scale scale);
 
 /// Whether replications tell two things apart.
 enum class Difference : std::uint8_t {
-  lower,         ///< the interval of the ratio lies below 1
-  higher,        ///< ... above 1
-  insignificant, ///< ... contains 1
-  unknown        ///< there is no interval: one replication cannot tell
+  lower,          ///< the interval of the ratio lies below 1
+  higher,         ///< ... above 1
+  insignificant,  ///< ... contains 1
+  unknown         ///< there is no interval: one replication cannot tell
 };
 
 /// How something compares with its baseline.
@@ -53,9 +60,10 @@ struct Ratio {
   Ratio inverse() const;
 };
 
-/// The ratio over `pairs` of (own, baseline), one pair per seed: both played the same game, and what is particular to that game cancels, so the pairs' log ratios
-/// are averaged and not the parts (Jain 1991, 13.4.1, paired observations; 12.7 for why ratios are averaged geometrically). Nothing if there is no pair, or if one
-/// is not above 0 on both sides.
+/// The ratio over `pairs` of (own, baseline), one pair per seed: both played the same game, and
+/// what is particular to that game cancels, so the pairs' log ratios are averaged and not the parts
+/// (Jain 1991, 13.4.1, paired observations; 12.7 for why ratios are averaged geometrically).
+/// Nothing if there is no pair, or if one is not above 0 on both sides.
 std::optional<Ratio> ratio_of(std::span<const std::pair<double, double>> pairs);
 
 /// In words: "lower", "higher", "no significant difference", "cannot be told from one replication".

@@ -20,11 +20,14 @@ using Json = nlohmann::ordered_json;
 constexpr int version = 1;
 constexpr double nanometres = 1e9;
 
-std::int64_t rounded(double number, double parts) { return std::llround(std::clamp(number, -1e9, 1e9) * parts); }
+std::int64_t rounded(double number, double parts) {
+  return std::llround(std::clamp(number, -1e9, 1e9) * parts);
+}
 
 void add_number(std::string& text, std::int64_t number) {
   std::array<char, 24> digits;
-  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+  text.append(digits.data(),
+              std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
 }
 
 void add_position(std::string& text, const physics::Vector2& position) {
@@ -34,26 +37,35 @@ void add_position(std::string& text, const physics::Vector2& position) {
   }
 }
 
-/// Object and bytes; where it was in scope, also where it was believed to be at the matched instant, and where at the displayed one if that differs.
+/// Object and bytes; where it was in scope, also where it was believed to be at the matched
+/// instant, and where at the displayed one if that differs.
 void add_entry(std::string& text, const BotsEvidence::Belief& belief) {
   text += '[';
   add_number(text, belief.object);
   text += ',';
   add_number(text, belief.bytes);
   if (belief.is_in_scope) add_position(text, belief.matched);
-  if (belief.is_in_scope && belief.displayed != belief.matched) add_position(text, belief.displayed);
+  if (belief.is_in_scope && belief.displayed != belief.matched)
+    add_position(text, belief.displayed);
   text += ']';
 }
 
 Json line_of(const BotsEvidence::Bot& bot) {
   Json changes = Json::array();
-  for (const BotsEvidence::ScopeChange& change : bot.changes) changes.push_back({rounded(change.instant_s, 1e6), change.object, change.is_in ? 1 : 0});
+  for (const BotsEvidence::ScopeChange& change : bot.changes)
+    changes.push_back({rounded(change.instant_s, 1e6), change.object, change.is_in ? 1 : 0});
   return {{"bat", bot.object}, {"changes_us", changes}};
 }
 
-/// Written and read number by number: there are millions of them in a run, and a tree of values takes more than twice as long.
+/// Written and read number by number: there are millions of them in a run, and a tree of values
+/// takes more than twice as long.
 std::string line_of(const BotsEvidence& evidence, const BotsEvidence::Sample& sample) {
-  std::string text = Json{{"bot", sample.bot}, {"displayed_s", sample.displayed_s}, {"matched_s", sample.matched_s}, {"window_s", sample.window_s}}.dump();
+  std::string text = Json{
+      {"bot", sample.bot},
+      {"displayed_s", sample.displayed_s},
+      {"matched_s", sample.matched_s},
+      {"window_s",
+       sample.window_s}}.dump();
   text.back() = ',';
   text += "\"entities_nm\":[";
   for (std::size_t i = sample.first; i < sample.last; ++i) {
@@ -72,9 +84,15 @@ class SampleReader : public nlohmann::json_sax<nlohmann::json> {
   bool has_entities = false;
   std::string expected;  ///< and not found; empty if nothing more is known
 
-  bool number_integer(std::int64_t value) override { return number(static_cast<double>(value), value); }
-  bool number_unsigned(std::uint64_t value) override { return number(static_cast<double>(value), static_cast<std::int64_t>(value)); }
-  bool number_float(double value, const std::string&) override { return depth_ == 1 && (facts[name_] = value, true); }
+  bool number_integer(std::int64_t value) override {
+    return number(static_cast<double>(value), value);
+  }
+  bool number_unsigned(std::uint64_t value) override {
+    return number(static_cast<double>(value), static_cast<std::int64_t>(value));
+  }
+  bool number_float(double value, const std::string&) override {
+    return depth_ == 1 && (facts[name_] = value, true);
+  }
   bool key(std::string& name) override { return name_ = name, true; }
   bool start_object(std::size_t) override { return depth_++ == 0; }
   bool end_object() override { return --depth_ == 0; }
@@ -91,7 +109,9 @@ class SampleReader : public nlohmann::json_sax<nlohmann::json> {
   bool boolean(bool) override { return false; }
   bool string(std::string&) override { return false; }
   bool binary(binary_t&) override { return false; }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return expected = "JSON", false; }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+    return expected = "JSON", false;
+  }
 
  private:
   bool number(double value, std::int64_t whole) {
@@ -102,17 +122,23 @@ class SampleReader : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool entry() {
-    if (count_ != 2 && count_ != 4 && count_ != 6) return expected = "an entity as object, bytes and no, one or two positions", false;
+    if (count_ != 2 && count_ != 4 && count_ != 6)
+      return expected = "an entity as object, bytes and no, one or two positions", false;
     for (const std::int64_t whole : {numbers_[0], numbers_[1]})
       if (whole < 0 || whole > std::numeric_limits<std::uint32_t>::max()) return false;
-    BotsEvidence::Belief belief{.object = static_cast<std::uint32_t>(numbers_[0]), .bytes = static_cast<std::uint32_t>(numbers_[1]), .is_in_scope = count_ > 2};
+    BotsEvidence::Belief belief{.object = static_cast<std::uint32_t>(numbers_[0]),
+                                .bytes = static_cast<std::uint32_t>(numbers_[1]),
+                                .is_in_scope = count_ > 2};
     if (count_ > 2) belief.matched = belief.displayed = position(2);
     if (count_ > 4) belief.displayed = position(4);
     beliefs_.push_back(belief);
     return true;
   }
 
-  physics::Vector2 position(std::size_t at) const { return {static_cast<double>(numbers_[at]) / nanometres, static_cast<double>(numbers_[at + 1]) / nanometres}; }
+  physics::Vector2 position(std::size_t at) const {
+    return {static_cast<double>(numbers_[at]) / nanometres,
+            static_cast<double>(numbers_[at + 1]) / nanometres};
+  }
 
   std::vector<BotsEvidence::Belief>& beliefs_;
   std::string name_;
@@ -124,7 +150,9 @@ class SampleReader : public nlohmann::json_sax<nlohmann::json> {
 BotsEvidence::Sample read_sample(game::EvidenceReader& reader, BotsEvidence& evidence) {
   BotsEvidence::Sample sample{.first = evidence.beliefs.size()};
   SampleReader line(evidence.beliefs);
-  if (!nlohmann::json::sax_parse(reader.next_text(), &line)) reader.refuse(line.expected.empty() ? "a sample as docs/metrics.md describes it" : line.expected);
+  if (!nlohmann::json::sax_parse(reader.next_text(), &line))
+    reader.refuse(line.expected.empty() ? "a sample as docs/metrics.md describes it"
+                                        : line.expected);
   const auto fact = [&](const char* name) {
     const auto found = line.facts.find(name);
     if (found == line.facts.end()) reader.refuse(std::string("a sample with ") + name);
@@ -132,9 +160,11 @@ BotsEvidence::Sample read_sample(game::EvidenceReader& reader, BotsEvidence& evi
   };
   if (!line.has_entities) reader.refuse("a sample with entities_nm");
   const double bot = fact("bot");
-  if (!(bot >= 0.0 && bot < static_cast<double>(evidence.bots.size()))) reader.refuse("a bot below " + std::to_string(evidence.bots.size()));
+  if (!(bot >= 0.0 && bot < static_cast<double>(evidence.bots.size())))
+    reader.refuse("a bot below " + std::to_string(evidence.bots.size()));
   sample.bot = static_cast<std::uint32_t>(bot);
-  sample.displayed_s = fact("displayed_s"), sample.matched_s = fact("matched_s"), sample.window_s = fact("window_s");
+  sample.displayed_s = fact("displayed_s"), sample.matched_s = fact("matched_s"),
+  sample.window_s = fact("window_s");
   sample.last = evidence.beliefs.size();
   return sample;
 }
@@ -151,9 +181,12 @@ BotsEvidence read_lines(game::EvidenceReader& reader) {
     const nlohmann::json line = reader.next();
     BotsEvidence::Bot& bot = evidence.bots.emplace_back();
     bot.object = line.at("bat");
-    for (const nlohmann::json& change : line.at("changes_us")) bot.changes.push_back({1e-6 * change.at(0).get<double>(), change.at(1), change.at(2).get<int>() != 0});
+    for (const nlohmann::json& change : line.at("changes_us"))
+      bot.changes.push_back(
+          {1e-6 * change.at(0).get<double>(), change.at(1), change.at(2).get<int>() != 0});
   }
-  for (std::size_t i = 0; i < header.at("samples").get<std::size_t>(); ++i) evidence.samples.push_back(read_sample(reader, evidence));
+  for (std::size_t i = 0; i < header.at("samples").get<std::size_t>(); ++i)
+    evidence.samples.push_back(read_sample(reader, evidence));
   return evidence;
 }
 
@@ -176,10 +209,16 @@ BotsEvidence rounded(BotsEvidence evidence) {
 
 void write_evidence(const std::string& file, const BotsEvidence& evidence) {
   game::EvidenceWriter writer(file);
-  writer.line({{"rink-bots-evidence", version}, {"clients", evidence.clients}, {"from_s", evidence.from_s}, {"until_s", evidence.until_s}, {"is_complete", evidence.is_complete},
-               {"bots", evidence.bots.size()}, {"samples", evidence.samples.size()}});
+  writer.line({{"rink-bots-evidence", version},
+               {"clients", evidence.clients},
+               {"from_s", evidence.from_s},
+               {"until_s", evidence.until_s},
+               {"is_complete", evidence.is_complete},
+               {"bots", evidence.bots.size()},
+               {"samples", evidence.samples.size()}});
   for (const BotsEvidence::Bot& bot : evidence.bots) writer.line(line_of(bot));
-  for (const BotsEvidence::Sample& sample : evidence.samples) writer.line_of_text(line_of(evidence, sample));
+  for (const BotsEvidence::Sample& sample : evidence.samples)
+    writer.line_of_text(line_of(evidence, sample));
   writer.finish();
 }
 
@@ -188,7 +227,8 @@ BotsEvidence read_bots_evidence(const std::string& file) {
   try {
     return read_lines(reader);
   } catch (const nlohmann::json::exception& error) {
-    reader.refuse(std::string("the bots' evidence as docs/metrics.md describes it (") + error.what() + ")");
+    reader.refuse(std::string("the bots' evidence as docs/metrics.md describes it (") +
+                  error.what() + ")");
   }
 }
 

@@ -1,4 +1,5 @@
-// What the bots say of what they were told and believed, for others to judge: changes of scope, and the mirrors of some at drawn instants.
+// What the bots say of what they were told and believed, for others to judge: changes of scope, and
+// the mirrors of some at drawn instants.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ struct BotsEvidence {
   /// One entity in a mirror. Where it was believed to be is meaningless if it was not in scope.
   struct Belief {
     std::uint32_t object = 0;
-    std::uint32_t bytes = 0;                         ///< of its updates that arrived within the window before the sample
+    std::uint32_t bytes = 0;  ///< of its updates that arrived within the window before the sample
     bool is_in_scope = false;
     physics::Vector2 matched{0.0, 0.0}, displayed{0.0, 0.0};  ///< m, at the sample's two instants
   };
@@ -28,17 +29,18 @@ struct BotsEvidence {
     std::vector<ScopeChange> changes;
   };
   struct Sample {
-    std::uint32_t bot = 0;                           ///< index in `bots`
-    double displayed_s = 0.0, matched_s = 0.0;       ///< the clock's simulated instant, and the newest stamp in the mirror
+    std::uint32_t bot = 0;  ///< index in `bots`
+    double displayed_s = 0.0,
+           matched_s = 0.0;  ///< the clock's simulated instant, and the newest stamp in the mirror
     double window_s = 0.0;
-    std::size_t first = 0, last = 0;                 ///< in `beliefs`
+    std::size_t first = 0, last = 0;  ///< in `beliefs`
   };
 
   std::uint32_t clients = 0;
-  double from_s = 0.0, until_s = 0.0;                ///< the measured span of simulated time
-  bool is_complete = true;                           ///< false: more changed than there is room for, and the rest is missing
+  double from_s = 0.0, until_s = 0.0;  ///< the measured span of simulated time
+  bool is_complete = true;  ///< false: more changed than there is room for, and the rest is missing
   std::vector<Bot> bots;
-  std::vector<Sample> samples;                       ///< ordered by displayed_s
+  std::vector<Sample> samples;  ///< ordered by displayed_s
   std::vector<Belief> beliefs;
 };
 

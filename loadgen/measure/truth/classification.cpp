@@ -14,9 +14,16 @@ Percentiles percentiles_in(std::vector<double> durations_s, double units_per_s) 
   const auto count = durations_s.size();
   const auto at = [&](double fraction) -> std::optional<double> {
     if (!Histogram::supports(count, fraction)) return std::nullopt;
-    return units_per_s * durations_s[static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(count))) - 1];
+    return units_per_s *
+           durations_s[static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(count))) -
+                       1];
   };
-  Percentiles result{.p50 = at(0.5), .p90 = at(0.9), .p95 = at(0.95), .p99 = at(0.99), .p999 = at(0.999), .max = std::nullopt};
+  Percentiles result{.p50 = at(0.5),
+                     .p90 = at(0.9),
+                     .p95 = at(0.95),
+                     .p99 = at(0.99),
+                     .p999 = at(0.999),
+                     .max = std::nullopt};
   if (count > 0) result.max = units_per_s * durations_s.back();
   return result;
 }
@@ -28,7 +35,8 @@ std::optional<double> part(std::uint64_t some, std::uint64_t all) {
 
 }  // namespace
 
-void Classification::add(std::span<const std::uint32_t> chosen_entities, std::span<const Relevant> relevant_entities) {
+void Classification::add(std::span<const std::uint32_t> chosen_entities,
+                         std::span<const Relevant> relevant_entities) {
   chosen += chosen_entities.size();
   relevant += relevant_entities.size();
   auto next = relevant_entities.begin();
@@ -46,7 +54,8 @@ ErrorFigures PositionErrors::figures() {
   ErrorFigures figures;
   if (squares_.empty() && replaced_ == 0) return figures;
   figures.replaced_samples = replaced_;
-  if (replaced_ > 0) figures.replaced_rms = mm_per_m * std::sqrt(replaced_squares_ / static_cast<double>(replaced_));
+  if (replaced_ > 0)
+    figures.replaced_rms = mm_per_m * std::sqrt(replaced_squares_ / static_cast<double>(replaced_));
   if (squares_.empty()) return figures;
   std::sort(squares_.begin(), squares_.end());
   double sum = 0.0;
@@ -54,7 +63,10 @@ ErrorFigures PositionErrors::figures() {
   const auto count = squares_.size();
   const auto at = [&](double fraction) -> std::optional<double> {
     if (!Histogram::supports(count, fraction)) return std::nullopt;
-    return mm_per_m * std::sqrt(squares_[static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(count))) - 1]);
+    return mm_per_m *
+           std::sqrt(
+               squares_[static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(count))) -
+                        1]);
   };
   figures.rms = mm_per_m * std::sqrt(sum / static_cast<double>(count));
   figures.p50 = at(0.5), figures.p90 = at(0.9), figures.p99 = at(0.99);
@@ -68,8 +80,12 @@ std::vector<double> PositionErrors::distances() const {
   return all;
 }
 
-Percentiles percentiles_ms(std::vector<double> durations_s) { return percentiles_in(std::move(durations_s), 1e3); }
-Percentiles percentiles_us(std::vector<double> durations_s) { return percentiles_in(std::move(durations_s), 1e6); }
+Percentiles percentiles_ms(std::vector<double> durations_s) {
+  return percentiles_in(std::move(durations_s), 1e3);
+}
+Percentiles percentiles_us(std::vector<double> durations_s) {
+  return percentiles_in(std::move(durations_s), 1e6);
+}
 
 std::optional<double> jain_index(std::span<const double> shares) {
   double sum = 0.0, squares = 0.0;

@@ -1,4 +1,5 @@
-// Counts for precision and recall, pooled over samples, and other figures that are arithmetic on counts.
+// Counts for precision and recall, pooled over samples, and other figures that are arithmetic on
+// counts.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +12,15 @@
 
 namespace rink::loadgen {
 
-/// Sizes of two sets and of what they share, summed over samples (van Rijsbergen 1979, chapter 7): each (player, entity) pair counts alike, so a sample in a dense place
-/// weighs more than one in an empty one.
+/// Sizes of two sets and of what they share, summed over samples (van Rijsbergen 1979, chapter 7):
+/// each (player, entity) pair counts alike, so a sample in a dense place weighs more than one in an
+/// empty one.
 struct Classification {
   std::uint64_t chosen = 0, relevant = 0, both = 0;
 
   /// `chosen_entities` in ascending order, without the own bat.
-  void add(std::span<const std::uint32_t> chosen_entities, std::span<const Relevant> relevant_entities);
+  void add(std::span<const std::uint32_t> chosen_entities,
+           std::span<const Relevant> relevant_entities);
   std::optional<double> precision() const;  ///< both / chosen; nothing if nothing was chosen
   std::optional<double> recall() const;     ///< both / relevant; nothing if nothing was relevant
 };
@@ -26,8 +29,11 @@ struct Classification {
 class PositionErrors {
  public:
   void add(double distance_m) { squares_.push_back(distance_m * distance_m); }
-  /// Of an entity that was put back elsewhere, of which there was no news yet: a few such would outweigh all else in a root mean square.
-  void add_replaced(double distance_m) { replaced_squares_ += distance_m * distance_m, ++replaced_; }
+  /// Of an entity that was put back elsewhere, of which there was no news yet: a few such would
+  /// outweigh all else in a root mean square.
+  void add_replaced(double distance_m) {
+    replaced_squares_ += distance_m * distance_m, ++replaced_;
+  }
   /// Percentiles only if ten lie beyond them (see Histogram).
   ErrorFigures figures();
   std::size_t count() const { return squares_.size(); }
@@ -40,11 +46,13 @@ class PositionErrors {
   std::uint64_t replaced_ = 0;
 };
 
-/// Percentiles of durations [s], in milli- or microseconds: exact order statistics, as far as the sample supports them.
+/// Percentiles of durations [s], in milli- or microseconds: exact order statistics, as far as the
+/// sample supports them.
 Percentiles percentiles_ms(std::vector<double> durations_s);
 Percentiles percentiles_us(std::vector<double> durations_s);
 
-/// (sum x)^2 / (n sum x^2): 1 if all get the same, 1/n if one gets all (Jain, Chiu and Hawe 1984). Nothing for nobody or if nobody gets anything.
+/// (sum x)^2 / (n sum x^2): 1 if all get the same, 1/n if one gets all (Jain, Chiu and Hawe 1984).
+/// Nothing for nobody or if nobody gets anything.
 std::optional<double> jain_index(std::span<const double> shares);
 
 }  // namespace rink::loadgen

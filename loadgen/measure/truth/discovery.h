@@ -1,4 +1,5 @@
-// How long players did not know what they should have, and how far off what they were shown was: whole distributions.
+// How long players did not know what they should have, and how far off what they were shown was:
+// whole distributions.
 #pragma once
 
 #include "loadgen/measure/statistics/sample_distribution.h"
@@ -7,11 +8,15 @@ namespace rink::loadgen {
 
 /// Of one run, or of all replications of a cell (docs/metrics.md, "Truth").
 struct Discoveries {
-  SampleDistribution late_discovery;  ///< s, of every stay: from its beginning to the first delivered state; 0 if it was there before
-  SampleDistribution missed_contact;  ///< s, of every contact with a body that the player did not know of: from the contact to the next delivered state
-  SampleDistribution displayed_error{};  ///< m, of every displayed entity that was relevant; those put back unheard of are left out, as everywhere
+  SampleDistribution late_discovery;  ///< s, of every stay: from its beginning to the first
+                                      ///< delivered state; 0 if it was there before
+  SampleDistribution missed_contact;  ///< s, of every contact with a body that the player did not
+                                      ///< know of: from the contact to the next delivered state
+  SampleDistribution displayed_error{};  ///< m, of every displayed entity that was relevant; those
+                                         ///< put back unheard of are left out, as everywhere
   void merge(const Discoveries& other) {
-    late_discovery.merge(other.late_discovery), missed_contact.merge(other.missed_contact), displayed_error.merge(other.displayed_error);
+    late_discovery.merge(other.late_discovery), missed_contact.merge(other.missed_contact),
+        displayed_error.merge(other.displayed_error);
   }
   friend bool operator==(const Discoveries&, const Discoveries&) = default;
 };

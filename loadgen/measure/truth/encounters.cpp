@@ -33,15 +33,19 @@ void Encounters::build(std::span<const Reaching> bodies) {
   bodies_.assign(bodies.begin(), bodies.end());
   cell_of_.resize(bodies.size()), sorted_.resize(bodies.size()), listed_.resize(bodies.size() + 1);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    cell_of_[i] = bodies[i].around > wide_from_ ? wide : row(bodies[i].centre.y()) * columns_ + column(bodies[i].centre.x());
+    cell_of_[i] = bodies[i].around > wide_from_
+                      ? wide
+                      : row(bodies[i].centre.y()) * columns_ + column(bodies[i].centre.x());
     ++begins_[cell_of_[i] + 1];
   }
   for (std::size_t cell = 1; cell < begins_.size(); ++cell) begins_[cell] += begins_[cell - 1];
   words_ = (bodies.size() + word_bits - 1) / word_bits;
   pucks_.assign(words_, 0);
-  if (!bodies.empty() && bodies.back().entity >= index_of_.size()) index_of_.resize(bodies.back().entity + 1);
+  if (!bodies.empty() && bodies.back().entity >= index_of_.size())
+    index_of_.resize(bodies.back().entity + 1);
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    sorted_[begins_[cell_of_[i]]++] = {bodies[i].centre.x(), bodies[i].centre.y(), bodies[i].around, i};
+    sorted_[begins_[cell_of_[i]]++] = {bodies[i].centre.x(), bodies[i].centre.y(), bodies[i].around,
+                                       i};
     index_of_[bodies[i].entity] = i;
     if (bodies[i].is_puck) pucks_[i / word_bits] |= Word{1} << i % word_bits;
   }
@@ -64,7 +68,8 @@ void Encounters::add_near(const Reaching& body, std::uint32_t first, std::uint32
   listed_count_ = count;
 }
 
-/// As bits, for they are united 30 at a time for each player: lists merged one by one took twice as long.
+/// As bits, for they are united 30 at a time for each player: lists merged one by one took twice as
+/// long.
 const Encounters::Word* Encounters::near(std::uint32_t index) {
   if (near_row_[index] != 0) return near_.data() + (near_row_[index] - 1) * words_;
   near_row_[index] = ++near_rows_;
@@ -77,14 +82,17 @@ const Encounters::Word* Encounters::near(std::uint32_t index) {
   for (std::uint32_t y = row(centre.y() - range); y <= top; ++y) {
     // The rim's rows hold what lies beyond them as well.
     const double below = y * cell_ - centre.y(), above = centre.y() - (y + 1) * cell_;
-    const double off = std::min(range, std::max({0.0, y > 0 ? below : 0.0, y + 1 < rows_ ? above : 0.0}));
+    const double off =
+        std::min(range, std::max({0.0, y > 0 ? below : 0.0, y + 1 < rows_ ? above : 0.0}));
     const double half = std::sqrt(range * range - off * off);
-    add_near(own, begins_[y * columns_ + column(centre.x() - half)], begins_[y * columns_ + column(centre.x() + half) + 1]);
+    add_near(own, begins_[y * columns_ + column(centre.x() - half)],
+             begins_[y * columns_ + column(centre.x() + half) + 1]);
   }
   add_near(own, begins_[columns_ * rows_], begins_[columns_ * rows_ + 1]);
   Word* const near = near_.data() + (near_rows_ - 1) * words_;
   std::fill_n(near, words_, Word{0});
-  for (std::size_t i = 0; i < listed_count_; ++i) near[listed_[i] / word_bits] |= Word{1} << listed_[i] % word_bits;
+  for (std::size_t i = 0; i < listed_count_; ++i)
+    near[listed_[i] / word_bits] |= Word{1} << listed_[i] % word_bits;
   near[index / word_bits] &= ~(Word{1} << index % word_bits);
   return near;
 }
@@ -95,19 +103,25 @@ void Encounters::find(std::uint32_t own, std::vector<Relevant>& found) {
   const Word* const direct = near(bat);
   found_.assign(direct, direct + words_);
   for (std::size_t word = 0; word < words_; ++word)
-    for (Word left = near(bat)[word] & pucks_[word]; left != 0; left &= left - 1) {  // near() again: another's may have moved the rows
-      const Word* const other = near(static_cast<std::uint32_t>(word) * word_bits + static_cast<std::uint32_t>(std::countr_zero(left)));
+    for (Word left = near(bat)[word] & pucks_[word]; left != 0;
+         left &= left - 1) {  // near() again: another's may have moved the rows
+      const Word* const other = near(static_cast<std::uint32_t>(word) * word_bits +
+                                     static_cast<std::uint32_t>(std::countr_zero(left)));
       for (std::size_t i = 0; i < words_; ++i) found_[i] |= other[i];
     }
   found_[bat / word_bits] &= ~(Word{1} << bat % word_bits);
   found.clear();
   for (std::size_t word = 0; word < words_; ++word)
     for (Word left = found_[word]; left != 0; left &= left - 1)
-      found.push_back({bodies_[word * word_bits + static_cast<std::size_t>(std::countr_zero(left))].entity, 0.0});
+      found.push_back(
+          {bodies_[word * word_bits + static_cast<std::size_t>(std::countr_zero(left))].entity,
+           0.0});
 }
 
 Encounters::Way Encounters::way(std::uint32_t own, std::uint32_t entity) const {
-  const auto depth = [](const Reaching& a, const Reaching& b) { return a.around + b.around - (a.centre - b.centre).norm(); };
+  const auto depth = [](const Reaching& a, const Reaching& b) {
+    return a.around + b.around - (a.centre - b.centre).norm();
+  };
   Way deepest{depth(body(own), body(entity)), std::nullopt};
   for (const Reaching& each : bodies_) {
     if (!each.is_puck || each.entity == own || each.entity == entity) continue;

@@ -1,4 +1,5 @@
-// Who can touch whom within a time, at one instant: discs that hold all places a body can get to, in cells.
+// Who can touch whom within a time, at one instant: discs that hold all places a body can get to,
+// in cells.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,8 @@
 
 namespace rink::loadgen {
 
-/// A body under a number of the caller's. No point of it leaves the disc of radius `around` [m] within the time.
+/// A body under a number of the caller's. No point of it leaves the disc of radius `around` [m]
+/// within the time.
 struct Reaching {
   std::uint32_t entity = 0;
   Vector2 centre{0.0, 0.0};
@@ -18,22 +20,25 @@ struct Reaching {
   bool is_puck = false;
 };
 
-/// Two bodies can touch if their discs do. Bodies are binned by counting sort into cells that hold one on average, and looked for as far as the widest
-/// disc reaches. Those of more than twice the mean radius are kept in a list of their own: one fast body does not make everybody look far, and at most half
-/// are such.
+/// Two bodies can touch if their discs do. Bodies are binned by counting sort into cells that hold
+/// one on average, and looked for as far as the widest disc reaches. Those of more than twice the
+/// mean radius are kept in a list of their own: one fast body does not make everybody look far, and
+/// at most half are such.
 class Encounters {
  public:
   /// `length` x `width` [m] is where most bodies are.
   Encounters(double length, double width) : length_(length), width_(width) {}
 
-  /// Forgets what was and takes in `bodies`, whose numbers ascend (asserted) and are small and dense.
+  /// Forgets what was and takes in `bodies`, whose numbers ascend (asserted) and are small and
+  /// dense.
   void build(std::span<const Reaching> bodies);
-  /// All that can touch `own`, or a puck that can touch it, but itself: in ascending order, in `found`, which is overwritten. `own` must be among the bodies.
-  /// Depths are not worked out but 0: nearly always nobody asks.
+  /// All that can touch `own`, or a puck that can touch it, but itself: in ascending order, in
+  /// `found`, which is overwritten. `own` must be among the bodies. Depths are not worked out but
+  /// 0: nearly always nobody asks.
   void find(std::uint32_t own, std::vector<Relevant>& found);
 
-  /// How one of those found for `own` gets to it: by itself, or by way of the puck `via`. Depth [m] is the sum of the radii less the distance, or the lesser
-  /// of two such.
+  /// How one of those found for `own` gets to it: by itself, or by way of the puck `via`. Depth [m]
+  /// is the sum of the radii less the distance, or the lesser of two such.
   struct Way {
     double depth = 0.0;
     std::optional<std::uint32_t> via{};
@@ -53,7 +58,9 @@ class Encounters {
   const Reaching& body(std::uint32_t entity) const { return bodies_[index_of_[entity]]; }
 
   double length_, width_, cell_ = 1.0;
-  double wide_from_ = 0.0, narrow_max_ = 0.0;  ///< radius [m] from which on a disc is in the list, and the largest below
+  double wide_from_ = 0.0,
+         narrow_max_ =
+             0.0;  ///< radius [m] from which on a disc is in the list, and the largest below
   std::uint32_t columns_ = 1, rows_ = 1;
   std::vector<std::uint32_t> begins_, cell_of_;
   struct Disc {
@@ -65,9 +72,10 @@ class Encounters {
   std::vector<Disc> sorted_;             ///< by cell, the wide ones last
   std::size_t words_ = 0;                ///< that hold a bit for each body
   std::vector<Word> pucks_;              ///< a bit for each body
-  std::vector<Word> near_;               ///< `words_` for each body whose neighbours are known: their bits
-  std::vector<std::uint32_t> near_row_;  ///< by body: which in near_, from 1 on; 0 if they are not known
-  std::vector<std::uint32_t> listed_;    ///< neighbours as they are found
+  std::vector<Word> near_;  ///< `words_` for each body whose neighbours are known: their bits
+  std::vector<std::uint32_t>
+      near_row_;  ///< by body: which in near_, from 1 on; 0 if they are not known
+  std::vector<std::uint32_t> listed_;  ///< neighbours as they are found
   std::size_t listed_count_ = 0;
   std::uint32_t near_rows_ = 0;
   std::vector<Word> found_;

@@ -1,4 +1,5 @@
-// Bats are subscribed when first asked for; those that look somewhere from the beginning, for where they look is remembered.
+// Bats are subscribed when first asked for; those that look somewhere from the beginning, for where
+// they look is remembered.
 #include "loadgen/measure/truth/filter_relevance.h"
 
 #include <algorithm>
@@ -10,14 +11,22 @@
 namespace rink::loadgen {
 namespace {
 
-im::Region around(const Vector2& centre, const Vector2& half) { return {centre.x() - half.x(), centre.y() - half.y(), centre.x() + half.x(), centre.y() + half.y()}; }
+im::Region around(const Vector2& centre, const Vector2& half) {
+  return {centre.x() - half.x(), centre.y() - half.y(), centre.x() + half.x(),
+          centre.y() + half.y()};
+}
 
-std::uint32_t team_number(game::Team team) { return team == game::Team::none ? im::Role::none : static_cast<std::uint32_t>(team); }
+std::uint32_t team_number(game::Team team) {
+  return team == game::Team::none ? im::Role::none : static_cast<std::uint32_t>(team);
+}
 
 }  // namespace
 
 FilterRelevance::FilterRelevance(const RelevanceArea& area, const game::Scene& scene)
-    : area_(area), filter_(im::make_filter(area.expression, game::federation_settings(scene, area.expression, 0.0).filter_settings)) {
+    : area_(area),
+      filter_(
+          im::make_filter(area.expression,
+                          game::federation_settings(scene, area.expression, 0.0).filter_settings)) {
   assert(area.shape == RelevanceArea::Shape::filter && !im::fault_in_momentary(area.expression));
 }
 
@@ -28,7 +37,8 @@ void FilterRelevance::look_around(const game::Game& game, Centres centres) {
     if (are_there_[entity] && (entity >= centres.size() || !centres[entity])) forget(entity);
   for (const game::Entity& entity : game.entities()) {
     take_in(entity, *centres[entity.id.index]);
-    if (entity.player && (looks_back() || relevant_[entity.id.index])) subscribe(entity, game, *centres[entity.id.index]);
+    if (entity.player && (looks_back() || relevant_[entity.id.index]))
+      subscribe(entity, game, *centres[entity.id.index]);
   }
   match();
 }
@@ -38,10 +48,13 @@ void FilterRelevance::take_in(const game::Entity& entity, const Vector2& centre)
   filter_->set_update_region(number, around(centre, entity.half_extent));
   if (are_there_[number]) return;
   are_there_[number] = true;
-  filter_->set_entity_role(number, {.team = team_number(entity.team), .owner = entity.player.value_or(im::Role::none), .is_always_relevant = area_.always_by_role.has(entity.kind)});
+  filter_->set_entity_role(number, {.team = team_number(entity.team),
+                                    .owner = entity.player.value_or(im::Role::none),
+                                    .is_always_relevant = area_.always_by_role.has(entity.kind)});
 }
 
-void FilterRelevance::subscribe(const game::Entity& bat, const game::Game& game, const Vector2& centre) {
+void FilterRelevance::subscribe(const game::Entity& bat, const game::Game& game,
+                                const Vector2& centre) {
   const std::uint32_t number = bat.id.index;
   filter_->set_subscription_region(number, around(centre, {area_.reach, area_.reach}));
   if (!relevant_[number]) {
@@ -72,7 +85,8 @@ void FilterRelevance::match() {
   }
 }
 
-void FilterRelevance::find(std::uint32_t own, const game::Game& game, Centres centres, std::vector<Relevant>& found) {
+void FilterRelevance::find(std::uint32_t own, const game::Game& game, Centres centres,
+                           std::vector<Relevant>& found) {
   if (!relevant_[own]) {
     subscribe(game.entity({own}), game, *centres[own]);
     match();

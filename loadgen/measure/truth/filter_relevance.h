@@ -13,7 +13,8 @@
 
 namespace rink::loadgen {
 
-/// A filter of its own that is handed what a server would hand in (game/net/server/acquaint.h), but of the game played again and at each look: true bounding boxes, the view around the true centre
+/// A filter of its own that is handed what a server would hand in (game/net/server/acquaint.h), but
+/// of the game played again and at each look: true bounding boxes, the view around the true centre
 /// of each bat without any margin, roles, and where players look.
 class FilterRelevance {
  public:
@@ -27,8 +28,10 @@ class FilterRelevance {
 
   /// Takes in where everything is now.
   void look_around(const game::Game& game, Centres centres);
-  /// What is relevant to the bat `own`, ascending, with a depth of 0, in `found`, which is overwritten. At the instant of the last look around.
-  void find(std::uint32_t own, const game::Game& game, Centres centres, std::vector<Relevant>& found);
+  /// What is relevant to the bat `own`, ascending, with a depth of 0, in `found`, which is
+  /// overwritten. At the instant of the last look around.
+  void find(std::uint32_t own, const game::Game& game, Centres centres,
+            std::vector<Relevant>& found);
 
  private:
   void take_in(const game::Entity& entity, const Vector2& centre);
@@ -38,8 +41,9 @@ class FilterRelevance {
 
   RelevanceArea area_;
   std::unique_ptr<im::Filter> filter_;
-  std::vector<std::optional<std::vector<std::uint32_t>>> relevant_;  ///< ascending, by bat; of those that somebody asked for
-  std::vector<bool> are_there_;                                      ///< by entity
+  std::vector<std::optional<std::vector<std::uint32_t>>>
+      relevant_;                 ///< ascending, by bat; of those that somebody asked for
+  std::vector<bool> are_there_;  ///< by entity
 };
 
 }  // namespace rink::loadgen

@@ -8,7 +8,8 @@
 
 namespace rink::loadgen {
 
-Reach::Reach(double time_s, double drag, double friction) : time_s_(time_s), drag_(drag), friction_(friction) {
+Reach::Reach(double time_s, double drag, double friction)
+    : time_s_(time_s), drag_(drag), friction_(friction) {
   assert(time_s > 0.0 && drag >= 0.0 && friction >= 0.0);
   const physics::WarpedTime warped = physics::warp(time_s, drag);
   s_ = warped.s, q_ = warped.q;
@@ -17,7 +18,8 @@ Reach::Reach(double time_s, double drag, double friction) : time_s_(time_s), dra
 double Reach::of(double speed, double thrust) const {
   assert(friction_ == 0.0 || thrust == 0.0);
   if (friction_ == 0.0) return speed * s_ + thrust * q_;
-  const double rest_s = drag_ > 0.0 ? std::log1p(drag_ * speed / friction_) / drag_ : speed / friction_;
+  const double rest_s =
+      drag_ > 0.0 ? std::log1p(drag_ * speed / friction_) / drag_ : speed / friction_;
   if (rest_s >= time_s_) return speed * s_ - friction_ * q_;
   const physics::WarpedTime warped = physics::warp(rest_s, drag_);
   return speed * warped.s - friction_ * warped.q;

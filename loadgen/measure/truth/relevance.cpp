@@ -8,29 +8,43 @@
 
 namespace rink::loadgen {
 
-double depth(const RelevanceArea& area, const Vector2& bat, const Vector2& centre, const Vector2& half_extent) {
+double depth(const RelevanceArea& area, const Vector2& bat, const Vector2& centre,
+             const Vector2& half_extent) {
   assert(area.shape == RelevanceArea::Shape::square || area.shape == RelevanceArea::Shape::disc);
   const Vector2 offset = centre - bat;
   if (area.shape == RelevanceArea::Shape::disc) return area.reach - offset.norm();
-  return std::min(area.reach + half_extent.x() - std::abs(offset.x()), area.reach + half_extent.y() - std::abs(offset.y()));
+  return std::min(area.reach + half_extent.x() - std::abs(offset.x()),
+                  area.reach + half_extent.y() - std::abs(offset.y()));
 }
 
-bool is_relevant_anywhere(const RelevanceArea& area, game::Team own, physics::BodyKind kind, game::Team team) {
-  return (area.has_team && kind == physics::BodyKind::bat && team == own && own != game::Team::none) || (area.always && area.always->has(kind));
+bool is_relevant_anywhere(const RelevanceArea& area, game::Team own, physics::BodyKind kind,
+                          game::Team team) {
+  return (area.has_team && kind == physics::BodyKind::bat && team == own &&
+          own != game::Team::none) ||
+         (area.always && area.always->has(kind));
 }
 
 std::string text_of(const RelevanceArea& area) {
   char text[96];
-  if (area.shape == RelevanceArea::Shape::disc) std::snprintf(text, sizeof text, "disc of radius %.3g m around the bat, holding the entity's centre", area.reach);
+  if (area.shape == RelevanceArea::Shape::disc)
+    std::snprintf(text, sizeof text,
+                  "disc of radius %.3g m around the bat, holding the entity's centre", area.reach);
   else if (area.shape == RelevanceArea::Shape::contact)
-    std::snprintf(text, sizeof text, "whoever can touch the bat within %.3g s, or a puck that can", area.contact_s);
-  else std::snprintf(text, sizeof text, "square of %.3g m around the bat, touched by the entity's box", 2.0 * area.reach);
-  std::string words = area.shape == RelevanceArea::Shape::filter ? "whoever '" + area.expression + "' lets through, of a " + std::string(text).substr(0, std::string(text).find(',')) : text;
+    std::snprintf(text, sizeof text, "whoever can touch the bat within %.3g s, or a puck that can",
+                  area.contact_s);
+  else
+    std::snprintf(text, sizeof text, "square of %.3g m around the bat, touched by the entity's box",
+                  2.0 * area.reach);
+  std::string words = area.shape == RelevanceArea::Shape::filter
+                          ? "whoever '" + area.expression + "' lets through, of a " +
+                                std::string(text).substr(0, std::string(text).find(','))
+                          : text;
   if (area.has_team) words += ", or a bat of the player's team";
   if (!area.always) return words;
   std::string kinds;
   for (std::size_t kind = 0; kind < game::relevant_kind_names.size(); ++kind)
-    if (area.always->has(static_cast<physics::BodyKind>(kind))) kinds += (kinds.empty() ? "" : " or ") + game::relevant_kind_names[kind];
+    if (area.always->has(static_cast<physics::BodyKind>(kind)))
+      kinds += (kinds.empty() ? "" : " or ") + game::relevant_kind_names[kind];
   return words + ", or any " + kinds;
 }
 

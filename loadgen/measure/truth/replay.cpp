@@ -13,23 +13,37 @@
 
 namespace rink::loadgen {
 
-Replay::Replay(const game::ServerEvidence& evidence, const RelevanceArea& area) : Replay(game::chosen_scene(evidence.choice), evidence, area) {}
+Replay::Replay(const game::ServerEvidence& evidence, const RelevanceArea& area)
+    : Replay(game::chosen_scene(evidence.choice), evidence, area) {}
 
-Replay::Replay(const game::Scene& scene, const game::ServerEvidence& evidence, const RelevanceArea& area)
-    : game_(evidence.state_file.empty() ? game::Game(scene) : game::game_in_state(evidence.state, scene, evidence.state_file)), begin_s_(game_.now()), area_(area),
+Replay::Replay(const game::Scene& scene, const game::ServerEvidence& evidence,
+               const RelevanceArea& area)
+    : game_(evidence.state_file.empty()
+                ? game::Game(scene)
+                : game::game_in_state(evidence.state, scene, evidence.state_file)),
+      begin_s_(game_.now()),
+      area_(area),
       surroundings_(area, scene.world.field.length, scene.world.field.width),
-      puck_reach_(area.contact_s, scene.world.puck_drag, scene.world.puck_friction), bat_reach_(area.contact_s, scene.world.bat_drag, 0.0),
-      encounters_(scene.world.field.length, scene.world.field.width), rate_hz_(evidence.rate_hz) {
-  for (const game::Bat& bat : scene.bodies.bats) thrust_max_.push_back(std::numbers::sqrt2 * bat.thrust);  // two neighbouring keys
+      puck_reach_(area.contact_s, scene.world.puck_drag, scene.world.puck_friction),
+      bat_reach_(area.contact_s, scene.world.bat_drag, 0.0),
+      encounters_(scene.world.field.length, scene.world.field.width),
+      rate_hz_(evidence.rate_hz) {
+  for (const game::Bat& bat : scene.bodies.bats)
+    thrust_max_.push_back(std::numbers::sqrt2 * bat.thrust);  // two neighbouring keys
   if (area.shape == RelevanceArea::Shape::filter) filter_.emplace(area, scene);
   game_.record_events(true);
   for (const game::InputEvent& event : evidence.keys) {
     if (event.player >= game_.player_count())
-      throw game::EvidenceError("the server's evidence has keys of player " + std::to_string(event.player) + ", but its scene has " + std::to_string(game_.player_count()) + " bats");
-    if (event.time < begin_s_) throw game::EvidenceError("the server's evidence has keys from before " + evidence.state_file + ", which it began from");
+      throw game::EvidenceError("the server's evidence has keys of player " +
+                                std::to_string(event.player) + ", but its scene has " +
+                                std::to_string(game_.player_count()) + " bats");
+    if (event.time < begin_s_)
+      throw game::EvidenceError("the server's evidence has keys from before " +
+                                evidence.state_file + ", which it began from");
     game_.submit(event);
   }
-  for (const game::ServerEvidence::Naming& naming : evidence.objects) entities_[naming.object] = naming.body;
+  for (const game::ServerEvidence::Naming& naming : evidence.objects)
+    entities_[naming.object] = naming.body;
 }
 
 void Replay::advance(double instant_s) {
@@ -49,8 +63,10 @@ void Replay::look_around() {
       continue;
     }
     const bool is_disc = entity.kind != physics::BodyKind::bat;
-    around_[entity.id.index] = (is_disc ? entity.half_extent.x() : entity.half_extent.norm()) + reach(entity);
-    reaching_.push_back({entity.id.index, centre, around_[entity.id.index], entity.kind == physics::BodyKind::puck});
+    around_[entity.id.index] =
+        (is_disc ? entity.half_extent.x() : entity.half_extent.norm()) + reach(entity);
+    reaching_.push_back({entity.id.index, centre, around_[entity.id.index],
+                         entity.kind == physics::BodyKind::puck});
   }
   if (filter_) filter_->look_around(game_, centres_);
   else if (is_of_contact()) encounters_.build(reaching_);
@@ -61,9 +77,14 @@ void Replay::look_around() {
 double Replay::reach(const game::Entity& entity) const {
   if (entity.kind == physics::BodyKind::post || away_[entity.id.index]) return 0.0;
   const physics::Motion motion = game_.world().motion(entity.id);
-  const bool is_adrift = motion.acceleration.isZero(0.0) && motion.drag.x() == motion.drag.y();  // nearly all are, and then it costs half
-  const double speed = is_adrift ? motion.velocity.norm() * std::exp(-motion.drag.x() * (game_.now() - motion.time)) : game_.velocity(entity.id).norm();
-  return entity.kind == physics::BodyKind::bat ? bat_reach_.of(speed, thrust_max_[*entity.player]) : puck_reach_.of(speed);
+  const bool is_adrift =
+      motion.acceleration.isZero(0.0) &&
+      motion.drag.x() == motion.drag.y();  // nearly all are, and then it costs half
+  const double speed =
+      is_adrift ? motion.velocity.norm() * std::exp(-motion.drag.x() * (game_.now() - motion.time))
+                : game_.velocity(entity.id).norm();
+  return entity.kind == physics::BodyKind::bat ? bat_reach_.of(speed, thrust_max_[*entity.player])
+                                               : puck_reach_.of(speed);
 }
 
 double Replay::passed(std::uint32_t own, const Relevant& now) {
@@ -74,7 +95,8 @@ double Replay::passed(std::uint32_t own, const Relevant& now) {
   return before && *before < 0.0 ? *before / (*before - way.depth) : 1.0;
 }
 
-std::optional<double> Replay::depth_before(std::uint32_t own, std::uint32_t entity, const Encounters::Way& way) const {
+std::optional<double> Replay::depth_before(std::uint32_t own, std::uint32_t entity,
+                                           const Encounters::Way& way) const {
   if (!way.via) return depth_before(own, entity);
   const auto first = depth_before(own, *way.via), second = depth_before(*way.via, entity);
   return first && second ? std::optional(std::min(*first, *second)) : std::nullopt;
@@ -82,7 +104,8 @@ std::optional<double> Replay::depth_before(std::uint32_t own, std::uint32_t enti
 
 std::optional<double> Replay::depth_before(std::uint32_t a, std::uint32_t b) const {
   if (a >= before_.size() || b >= before_.size() || !before_[a] || !before_[b]) return std::nullopt;
-  if (is_of_contact()) return around_before_[a] + around_before_[b] - (*before_[a] - *before_[b]).norm();
+  if (is_of_contact())
+    return around_before_[a] + around_before_[b] - (*before_[a] - *before_[b]).norm();
   return depth(area_, *before_[a], *before_[b], half_extent(b));
 }
 
@@ -96,23 +119,31 @@ void Replay::find(std::uint32_t own, std::vector<Relevant>& found) {
   for (const game::Entity& each : game_.entities()) {
     if (each.id.index == own || !is_relevant_anywhere(area_, team, each.kind, each.team)) continue;
     const auto end = found.begin() + static_cast<std::ptrdiff_t>(near);
-    const auto place = std::lower_bound(found.begin(), end, each.id.index, [](const Relevant& a, std::uint32_t b) { return a.entity < b; });
-    if (place != end && place->entity == each.id.index) place->depth = std::numeric_limits<double>::infinity();
+    const auto place =
+        std::lower_bound(found.begin(), end, each.id.index,
+                         [](const Relevant& a, std::uint32_t b) { return a.entity < b; });
+    if (place != end && place->entity == each.id.index)
+      place->depth = std::numeric_limits<double>::infinity();
     else found.push_back({each.id.index, std::numeric_limits<double>::infinity()});
   }
-  std::inplace_merge(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(near), found.end(), [](const Relevant& a, const Relevant& b) { return a.entity < b.entity; });
+  std::inplace_merge(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(near), found.end(),
+                     [](const Relevant& a, const Relevant& b) { return a.entity < b.entity; });
 }
 
-/// A puck that is put back at a face-off comes by no path: until the next tick, the first that can tell of it, it counts as lying where it left play.
+/// A puck that is put back at a face-off comes by no path: until the next tick, the first that can
+/// tell of it, it counts as lying where it left play.
 Vector2 Replay::announced_centre(game::EntityId entity) {
   const Vector2 centre = game_.position(entity);
-  if (away_.size() <= entity.index) away_.resize(entity.index + 1), replaced_s_.resize(entity.index + 1);
+  if (away_.size() <= entity.index)
+    away_.resize(entity.index + 1), replaced_s_.resize(entity.index + 1);
   std::optional<Away>& away = away_[entity.index];
   if (!game_.world().is_in_play(entity)) {
     away = Away{centre, std::nullopt};
   } else if (away) {
     constexpr double rounding = 1e-6;  // of a tick
-    if (!away->until_s) away->until_s = std::ceil(game_.world().motion(entity).time * rate_hz_ - rounding) / rate_hz_;  // its first event was being put back
+    if (!away->until_s)
+      away->until_s = std::ceil(game_.world().motion(entity).time * rate_hz_ - rounding) /
+                      rate_hz_;  // its first event was being put back
     if (game_.now() < *away->until_s - rounding / rate_hz_) return away->centre;
     replaced_s_[entity.index] = away->until_s;
     away.reset();

@@ -9,8 +9,8 @@
 
 #include "game/control/game.h"
 #include "game/net/evidence.h"
-#include "loadgen/measure/truth/filter_relevance.h"
 #include "loadgen/measure/truth/encounters.h"
+#include "loadgen/measure/truth/filter_relevance.h"
 #include "loadgen/measure/truth/reach.h"
 #include "loadgen/measure/truth/surroundings.h"
 
@@ -19,8 +19,8 @@ namespace rink::loadgen {
 /// Entities are named by the numbers of their bodies. Instants never decrease.
 class Replay {
  public:
-  /// Throws game::EvidenceError if the evidence speaks of players that the scene lacks, game::SceneError if there is no such scene or
-  /// its saved game is none of it.
+  /// Throws game::EvidenceError if the evidence speaks of players that the scene lacks,
+  /// game::SceneError if there is no such scene or its saved game is none of it.
   Replay(const game::ServerEvidence& evidence, const RelevanceArea& area);
 
   /// Of the game: 0, or where its saved state stands [s].
@@ -30,20 +30,28 @@ class Replay {
   /// Takes in where everything is now; asked for once for each instant at which `find` is used.
   void look_around();
 
-  /// Whether what is relevant depends on how things went since the beginning, so that someone has to have looked around all the while.
+  /// Whether what is relevant depends on how things went since the beginning, so that someone has
+  /// to have looked around all the while.
   bool looks_back() const { return filter_ && filter_->looks_back(); }
 
-  bool is_there(std::uint32_t entity) const { return entity < centres_.size() && centres_[entity].has_value(); }
+  bool is_there(std::uint32_t entity) const {
+    return entity < centres_.size() && centres_[entity].has_value();
+  }
   /// At the last look; `entity` must have been there.
   const Vector2& centre(std::uint32_t entity) const { return *centres_[entity]; }
   /// Keeps this look for `passed`.
   void remember() { before_ = centres_, around_before_ = around_; }
-  /// Of what is relevant to the bat `own` now and was not at the look remembered: see Stays::Passed. By the way by which it is relevant now.
+  /// Of what is relevant to the bat `own` now and was not at the look remembered: see
+  /// Stays::Passed. By the way by which it is relevant now.
   double passed(std::uint32_t own, const Relevant& now);
-  /// The first tick that could tell of `entity` having been put back at its latest face-off, if there was one by the last look; from then on it counts there.
-  std::optional<double> replaced_s(std::uint32_t entity) const { return entity < replaced_s_.size() ? replaced_s_[entity] : std::nullopt; }
+  /// The first tick that could tell of `entity` having been put back at its latest face-off, if
+  /// there was one by the last look; from then on it counts there.
+  std::optional<double> replaced_s(std::uint32_t entity) const {
+    return entity < replaced_s_.size() ? replaced_s_[entity] : std::nullopt;
+  }
   Vector2 half_extent(std::uint32_t entity) const { return game_.world().half_extent({entity}); }
-  /// What is relevant to the bat `own`, ascending; what is so wherever it is counts as infinitely deep.
+  /// What is relevant to the bat `own`, ascending; what is so wherever it is counts as infinitely
+  /// deep.
   void find(std::uint32_t own, std::vector<Relevant>& found);
 
   std::optional<std::uint32_t> entity_of_object(std::uint32_t object) const;
@@ -63,7 +71,8 @@ class Replay {
   Vector2 announced_centre(game::EntityId entity);
   double reach(const game::Entity& entity) const;
   std::optional<double> depth_before(std::uint32_t a, std::uint32_t b) const;
-  std::optional<double> depth_before(std::uint32_t own, std::uint32_t entity, const Encounters::Way& way) const;
+  std::optional<double> depth_before(std::uint32_t own, std::uint32_t entity,
+                                     const Encounters::Way& way) const;
   bool is_of_contact() const { return area_.shape == RelevanceArea::Shape::contact; }
 
   game::Game game_;
@@ -75,12 +84,12 @@ class Replay {
   Encounters encounters_;
   std::optional<FilterRelevance> filter_;
   double rate_hz_;
-  std::vector<std::optional<Away>> away_;  ///< by entity; pucks out of play
-  std::vector<std::optional<double>> replaced_s_;  ///< by entity
+  std::vector<std::optional<Away>> away_;                      ///< by entity; pucks out of play
+  std::vector<std::optional<double>> replaced_s_;              ///< by entity
   std::unordered_map<std::uint32_t, std::uint32_t> entities_;  ///< by object
   std::vector<Placed> placed_;
   std::vector<Reaching> reaching_;
-  std::vector<double> around_, around_before_;  ///< by entity; of `contact` alone
+  std::vector<double> around_, around_before_;            ///< by entity; of `contact` alone
   std::vector<std::optional<Vector2>> centres_, before_;  ///< by entity
 };
 

@@ -20,7 +20,8 @@ void ScopeHistory::list(std::uint32_t own, std::vector<std::uint32_t>& entities)
     if (entered_s_[entity] && entity != own) entities.push_back(entity);
 }
 
-ScopeChanges count_changes(std::span<const ScopeStep> steps, std::uint32_t own, double from_s, double until_s) {
+ScopeChanges count_changes(std::span<const ScopeStep> steps, std::uint32_t own, double from_s,
+                           double until_s) {
   struct Known {
     bool is_in = false;
     double left_s = -std::numeric_limits<double>::infinity();

@@ -23,9 +23,13 @@ class ScopeHistory {
 
   /// Takes every step up to and including `instant_s`, which never decreases.
   void advance(double instant_s);
-  bool contains(std::uint32_t entity) const { return entity < entered_s_.size() && entered_s_[entity].has_value(); }
+  bool contains(std::uint32_t entity) const {
+    return entity < entered_s_.size() && entered_s_[entity].has_value();
+  }
   /// Since when `entity` is in scope, if it is.
-  std::optional<double> entered_s(std::uint32_t entity) const { return contains(entity) ? entered_s_[entity] : std::nullopt; }
+  std::optional<double> entered_s(std::uint32_t entity) const {
+    return contains(entity) ? entered_s_[entity] : std::nullopt;
+  }
   /// All in scope but `own`, ascending, in `entities`, which is overwritten.
   void list(std::uint32_t own, std::vector<std::uint32_t>& entities) const;
 
@@ -43,7 +47,9 @@ struct ScopeChanges {
 
 inline constexpr double flap_s = 1.0;
 
-/// Steps count from `from_s` up to, not including, `until_s`; those before serve to know what left when.
-ScopeChanges count_changes(std::span<const ScopeStep> steps, std::uint32_t own, double from_s, double until_s);
+/// Steps count from `from_s` up to, not including, `until_s`; those before serve to know what left
+/// when.
+ScopeChanges count_changes(std::span<const ScopeStep> steps, std::uint32_t own, double from_s,
+                           double until_s);
 
 }  // namespace rink::loadgen

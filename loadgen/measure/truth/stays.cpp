@@ -5,14 +5,18 @@
 
 namespace rink::loadgen {
 
-void Stays::look(double instant_s, std::span<const Relevant> relevant, const ScopeHistory& delivered, const Passed& passed) {
+void Stays::look(double instant_s, std::span<const Relevant> relevant,
+                 const ScopeHistory& delivered, const Passed& passed) {
   const bool is_first = ++looks_ == 1;
   for (const Relevant& each : relevant) {
     if (each.entity >= stays_.size()) stays_.resize(each.entity + 1);
     Stay& stay = stays_[each.entity];
     if (!stay.is_open) {
       const double part = is_first ? 1.0 : passed(each);
-      stay = {.begin_s = last_s_ + (instant_s - last_s_) * part, .seen = 0, .is_open = true, .is_settled = is_first};
+      stay = {.begin_s = last_s_ + (instant_s - last_s_) * part,
+              .seen = 0,
+              .is_open = true,
+              .is_settled = is_first};
       open_.push_back(each.entity);
     }
     stay.seen = looks_;

@@ -12,17 +12,20 @@
 
 namespace rink::loadgen {
 
-/// Follows the stays of entities within one player's area. A stay begins between two looks, at the instant at which its depth, taken as linear, passes 0. Its entity is
-/// late from then to its first delivered state; one that is never delivered is late for its whole stay, as far as it was seen.
+/// Follows the stays of entities within one player's area. A stay begins between two looks, at the
+/// instant at which its depth, taken as linear, passes 0. Its entity is late from then to its first
+/// delivered state; one that is never delivered is late for its whole stay, as far as it was seen.
 class Stays {
  public:
-  /// Of what is relevant now and was not at the look before: the part of the time between the two that had passed when its depth passed 0; 1 if it was
-  /// not there.
+  /// Of what is relevant now and was not at the look before: the part of the time between the two
+  /// that had passed when its depth passed 0; 1 if it was not there.
   using Passed = std::function<double(const Relevant& now)>;
 
-  /// Looks at what is relevant at `instant_s`, ascending by entity, and at what had been delivered by then: `delivered` must have been advanced to it.
-  /// Instants ascend. What is relevant at the first look began at an unknown instant and is left out.
-  void look(double instant_s, std::span<const Relevant> relevant, const ScopeHistory& delivered, const Passed& passed);
+  /// Looks at what is relevant at `instant_s`, ascending by entity, and at what had been delivered
+  /// by then: `delivered` must have been advanced to it. Instants ascend. What is relevant at the
+  /// first look began at an unknown instant and is left out.
+  void look(double instant_s, std::span<const Relevant> relevant, const ScopeHistory& delivered,
+            const Passed& passed);
   /// Ends what is still there; no look may follow.
   void end();
 

@@ -1,4 +1,5 @@
-// Counting sort by cell; a query looks at the cells that its area, grown by the largest entity, touches.
+// Counting sort by cell; a query looks at the cells that its area, grown by the largest entity,
+// touches.
 #include "loadgen/measure/truth/surroundings.h"
 
 #include <algorithm>
@@ -12,7 +13,8 @@ constexpr double cells_per_side_max = 256.0;
 }  // namespace
 
 std::uint32_t clamped_cell(double cell, std::uint32_t count) {
-  return static_cast<std::uint32_t>(std::clamp(std::floor(cell), 0.0, static_cast<double>(count - 1)));
+  return static_cast<std::uint32_t>(
+      std::clamp(std::floor(cell), 0.0, static_cast<double>(count - 1)));
 }
 
 Surroundings::Surroundings(const RelevanceArea& area, double length, double width) : area_(area) {
@@ -49,7 +51,8 @@ void Surroundings::find(const Vector2& bat, std::uint32_t own, std::vector<Relev
       const double within = depth(area_, bat, sorted_[i].centre, sorted_[i].half_extent);
       if (within >= 0.0 && sorted_[i].entity != own) found.push_back({sorted_[i].entity, within});
     }
-  std::sort(found.begin(), found.end(), [](const Relevant& a, const Relevant& b) { return a.entity < b.entity; });
+  std::sort(found.begin(), found.end(),
+            [](const Relevant& a, const Relevant& b) { return a.entity < b.entity; });
 }
 
 }  // namespace rink::loadgen

@@ -21,10 +21,12 @@ struct Relevant {
   friend bool operator==(const Relevant&, const Relevant&) = default;
 };
 
-/// The cell of `count` in a row in which `cell`, a distance in cells, is; the first or last for what is outside.
+/// The cell of `count` in a row in which `cell`, a distance in cells, is; the first or last for
+/// what is outside.
 std::uint32_t clamped_cell(double cell, std::uint32_t count);
 
-/// Binned by counting sort into cells of the area's reach. Placed entities lie anywhere; those outside the world share its rim cells.
+/// Binned by counting sort into cells of the area's reach. Placed entities lie anywhere; those
+/// outside the world share its rim cells.
 class Surroundings {
  public:
   /// `length` x `width` [m] is where most entities are.
@@ -32,7 +34,8 @@ class Surroundings {
 
   /// Forgets what was and takes in `placed`.
   void build(std::span<const Placed> placed);
-  /// All that is relevant to a bat at `bat` but `own`, which is the bat itself, in ascending order; in `found`, which is overwritten.
+  /// All that is relevant to a bat at `bat` but `own`, which is the bat itself, in ascending order;
+  /// in `found`, which is overwritten.
   void find(const Vector2& bat, std::uint32_t own, std::vector<Relevant>& found) const;
 
  private:

@@ -1,4 +1,5 @@
-// Where everything truly was at each instant at which a run was judged, as lines for programs that judge it again.
+// Where everything truly was at each instant at which a run was judged, as lines for programs that
+// judge it again.
 #pragma once
 
 #include <string>

@@ -23,7 +23,8 @@ constexpr double look_s_max = 4e-3;
 
 /// A watched bot, and what it had been told by the instant at hand.
 struct Player {
-  explicit Player(std::vector<ScopeStep> told) : steps(told), delivered(told), at_contacts(std::move(told)) {}
+  explicit Player(std::vector<ScopeStep> told)
+      : steps(told), delivered(told), at_contacts(std::move(told)) {}
   std::optional<std::uint32_t> bat;
   std::vector<ScopeStep> steps;
   ScopeHistory delivered, at_contacts;
@@ -40,7 +41,8 @@ struct Look {
 
 class ReplayJudgement {
  public:
-  ReplayJudgement(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area, Entries entries = Entries::found)
+  ReplayJudgement(const game::ServerEvidence& server, const BotsEvidence& bots,
+                  const RelevanceArea& area, Entries entries = Entries::found)
       : server_(server), bots_(bots), area_(area), entries_(entries), replay_(server, area) {
     for (const BotsEvidence::Bot& bot : bots.bots) add_player(bot);
     plan_looks();
@@ -66,7 +68,9 @@ class ReplayJudgement {
     }
     replay_.advance(server_.end_s);
     judge_contacts();
-    if (replay_.hash() != server_.state_hash) throw DifferentGame("the game played again from the server's evidence does not end in the server's state");
+    if (replay_.hash() != server_.state_hash)
+      throw DifferentGame(
+          "the game played again from the server's evidence does not end in the server's state");
     return sums();
   }
 
@@ -79,50 +83,71 @@ class ReplayJudgement {
   void add_player(const BotsEvidence::Bot& bot) {
     std::vector<ScopeStep> steps;
     for (const BotsEvidence::ScopeChange& change : bot.changes)
-      if (const auto entity = replay_.entity_of_object(change.object)) steps.push_back({change.instant_s, *entity, change.is_in});
-    std::stable_sort(steps.begin(), steps.end(), [](const ScopeStep& a, const ScopeStep& b) { return a.instant_s < b.instant_s; });
+      if (const auto entity = replay_.entity_of_object(change.object))
+        steps.push_back({change.instant_s, *entity, change.is_in});
+    std::stable_sort(steps.begin(), steps.end(), [](const ScopeStep& a, const ScopeStep& b) {
+      return a.instant_s < b.instant_s;
+    });
     players_.emplace_back(std::move(steps)).bat = replay_.entity_of_object(bot.object);
   }
 
   void plan_looks() {
     const double look_s = std::min(look_s_max, 0.125 / server_.rate_hz);
     const double until_s = std::min(server_.until_s, server_.end_s);
-    for (std::size_t i = 0; entries_ == Entries::found && server_.from_s + static_cast<double>(i) * look_s <= until_s; ++i)
+    for (std::size_t i = 0;
+         entries_ == Entries::found && server_.from_s + static_cast<double>(i) * look_s <= until_s;
+         ++i)
       looks_.push_back({server_.from_s + static_cast<double>(i) * look_s, Look::Kind::step, i});
-    for (std::size_t i = 0; replay_.looks_back() && static_cast<double>(i) * look_s < server_.from_s; ++i) looks_.push_back({static_cast<double>(i) * look_s, Look::Kind::before, i});
-    for (std::size_t i = 0; i < server_.decisions.size(); ++i) looks_.push_back({server_.decisions[i].instant_s, Look::Kind::decision, i});
+    for (std::size_t i = 0;
+         replay_.looks_back() && static_cast<double>(i) * look_s < server_.from_s; ++i)
+      looks_.push_back({static_cast<double>(i) * look_s, Look::Kind::before, i});
+    for (std::size_t i = 0; i < server_.decisions.size(); ++i)
+      looks_.push_back({server_.decisions[i].instant_s, Look::Kind::decision, i});
     for (std::size_t i = 0; i < bots_.samples.size(); ++i) {
       looks_.push_back({bots_.samples[i].displayed_s, Look::Kind::displayed, i});
       looks_.push_back({bots_.samples[i].matched_s, Look::Kind::matched, i});
     }
-    std::erase_if(looks_, [&](const Look& look) { return !(look.instant_s >= replay_.begin_s() && look.instant_s <= server_.end_s); });
-    std::stable_sort(looks_.begin(), looks_.end(), [](const Look& a, const Look& b) { return a.instant_s < b.instant_s; });
+    std::erase_if(looks_, [&](const Look& look) {
+      return !(look.instant_s >= replay_.begin_s() && look.instant_s <= server_.end_s);
+    });
+    std::stable_sort(looks_.begin(), looks_.end(),
+                     [](const Look& a, const Look& b) { return a.instant_s < b.instant_s; });
   }
 
   void judge(const Look& look) {
     switch (look.kind) {
-      case Look::Kind::before: return;
-      case Look::Kind::step: return judge_entries(look.instant_s);
-      case Look::Kind::decision: return judge_decision(server_.decisions[look.index]);
-      case Look::Kind::displayed: return judge_displayed(bots_.samples[look.index]);
-      case Look::Kind::matched: return judge_matched(bots_.samples[look.index]);
+      case Look::Kind::before:
+        return;
+      case Look::Kind::step:
+        return judge_entries(look.instant_s);
+      case Look::Kind::decision:
+        return judge_decision(server_.decisions[look.index]);
+      case Look::Kind::displayed:
+        return judge_displayed(bots_.samples[look.index]);
+      case Look::Kind::matched:
+        return judge_matched(bots_.samples[look.index]);
     }
   }
 
-  bool is_present(const Player& player) const { return player.bat && replay_.is_there(*player.bat); }
+  bool is_present(const Player& player) const {
+    return player.bat && replay_.is_there(*player.bat);
+  }
 
   void judge_entries(double instant_s) {
     for (Player& player : players_) {
       if (!is_present(player)) continue;
       replay_.find(*player.bat, relevant_);
       player.delivered.advance(instant_s);
-      player.stays.look(instant_s, relevant_, player.delivered, [&](const Relevant& now) { return replay_.passed(*player.bat, now); });
+      player.stays.look(instant_s, relevant_, player.delivered,
+                        [&](const Relevant& now) { return replay_.passed(*player.bat, now); });
     }
     replay_.remember();
   }
 
   void judge_decision(const game::ServerEvidence::Decision& decision) {
-    if (decision.player >= replay_.player_count()) throw game::EvidenceError("the server's evidence has a decision for player " + std::to_string(decision.player) + ", who is not in its scene");
+    if (decision.player >= replay_.player_count())
+      throw game::EvidenceError("the server's evidence has a decision for player " +
+                                std::to_string(decision.player) + ", who is not in its scene");
     const auto bat = replay_.bat_of(decision.player);
     if (!bat) return;
     chosen_.clear();
@@ -136,24 +161,30 @@ class ReplayJudgement {
   }
 
   bool is_relevant(std::uint32_t entity) const {
-    const auto found = std::lower_bound(relevant_.begin(), relevant_.end(), entity, [](const Relevant& a, std::uint32_t b) { return a.entity < b; });
+    const auto found =
+        std::lower_bound(relevant_.begin(), relevant_.end(), entity,
+                         [](const Relevant& a, std::uint32_t b) { return a.entity < b; });
     return found != relevant_.end() && found->entity == entity;
   }
 
-  /// Whether `entity` was put back at a face-off that the mirror of `sample` had no news of: the mirror's newest stamp is from before, or nothing came about
-  /// the entity within a window that reaches back before it, be it an update or the state on an entry.
-  bool is_replaced_unheard(const BotsEvidence::Sample& sample, const BotsEvidence::Belief& belief, std::uint32_t entity) const {
+  /// Whether `entity` was put back at a face-off that the mirror of `sample` had no news of: the
+  /// mirror's newest stamp is from before, or nothing came about the entity within a window that
+  /// reaches back before it, be it an update or the state on an entry.
+  bool is_replaced_unheard(const BotsEvidence::Sample& sample, const BotsEvidence::Belief& belief,
+                           std::uint32_t entity) const {
     constexpr double rounding_s = 1e-6;
     const std::optional<double> replaced_s = replay_.replaced_s(entity);
     if (!replaced_s) return false;
     if (sample.matched_s < *replaced_s - rounding_s) return true;
     if (belief.bytes > 0 || *replaced_s <= sample.displayed_s - sample.window_s) return false;
     return std::ranges::none_of(players_[sample.bot].steps, [&](const ScopeStep& step) {
-      return step.is_in && step.entity == entity && step.instant_s >= *replaced_s && step.instant_s <= sample.displayed_s;
+      return step.is_in && step.entity == entity && step.instant_s >= *replaced_s &&
+             step.instant_s <= sample.displayed_s;
     });
   }
 
-  void add_error(PositionErrors& errors, const BotsEvidence::Sample& sample, const BotsEvidence::Belief& belief, std::uint32_t entity,
+  void add_error(PositionErrors& errors, const BotsEvidence::Sample& sample,
+                 const BotsEvidence::Belief& belief, std::uint32_t entity,
                  const Vector2& believed) {
     const double distance = (believed - replay_.centre(entity)).norm();
     if (is_replaced_unheard(sample, belief, entity)) errors.add_replaced(distance);
@@ -173,7 +204,8 @@ class ReplayJudgement {
       if (!entity || *entity == *player.bat) continue;
       bytes_ += belief.bytes;
       if (!is_relevant(*entity)) wasted_bytes_ += belief.bytes;
-      else if (belief.is_in_scope) add_error(displayed_error_, sample, belief, *entity, belief.displayed);
+      else if (belief.is_in_scope)
+        add_error(displayed_error_, sample, belief, *entity, belief.displayed);
     }
   }
 
@@ -184,7 +216,8 @@ class ReplayJudgement {
     for (std::size_t i = sample.first; i < sample.last; ++i) {
       const BotsEvidence::Belief& belief = bots_.beliefs[i];
       const auto entity = replay_.entity_of_object(belief.object);
-      if (!belief.is_in_scope || !entity || *entity == *player.bat || !is_relevant(*entity)) continue;
+      if (!belief.is_in_scope || !entity || *entity == *player.bat || !is_relevant(*entity))
+        continue;
       add_error(matched_error_, sample, belief, *entity, belief.matched);
     }
   }
@@ -192,14 +225,19 @@ class ReplayJudgement {
   /// A contact counts for each of its bodies that is a watched player's bat.
   void judge_contacts() {
     for (const physics::Event& impact : replay_.events()) {
-      if (!physics::is_impact(impact.kind) || impact.time <= contacts_until_s_ || impact.time < server_.from_s || impact.time >= server_.until_s || !impact.other) continue;
+      if (!physics::is_impact(impact.kind) || impact.time <= contacts_until_s_ ||
+          impact.time < server_.from_s || impact.time >= server_.until_s || !impact.other)
+        continue;
       if (trace_) trace_->contact(impact.time, impact.body.index, impact.other->index);
       for (Player& player : players_) {
-        if (player.bat == impact.body.index) judge_contact(player, impact.other->index, impact.time);
-        if (player.bat == impact.other->index) judge_contact(player, impact.body.index, impact.time);
+        if (player.bat == impact.body.index)
+          judge_contact(player, impact.other->index, impact.time);
+        if (player.bat == impact.other->index)
+          judge_contact(player, impact.body.index, impact.time);
       }
     }
-    if (!replay_.events().empty()) contacts_until_s_ = std::max(contacts_until_s_, replay_.events().back().time);
+    if (!replay_.events().empty())
+      contacts_until_s_ = std::max(contacts_until_s_, replay_.events().back().time);
   }
 
   void judge_contact(Player& player, std::uint32_t entity, double instant_s) {
@@ -207,7 +245,9 @@ class ReplayJudgement {
     ++contacts_;
     if (player.at_contacts.contains(entity)) return;
     ++missed_contacts_;
-    const auto is_discovery = [&](const ScopeStep& step) { return step.is_in && step.entity == entity && step.instant_s > instant_s; };
+    const auto is_discovery = [&](const ScopeStep& step) {
+      return step.is_in && step.entity == entity && step.instant_s > instant_s;
+    };
     const auto discovered = std::ranges::find_if(player.steps, is_discovery);
     if (discovered == player.steps.end()) missed_.add_never();
     else missed_.add(discovered->instant_s - instant_s);
@@ -251,11 +291,14 @@ Discoveries ReplayJudgement::discoveries() const {
   Discoveries result;
   if (!bots_.is_complete) return result;
   for (const Player& player : players_) {
-    for (const double delay_s : player.stays.delivered_after_s()) result.late_discovery.add(delay_s);
-    for (std::uint64_t i = 0; i < player.stays.never_delivered(); ++i) result.late_discovery.add_never();
+    for (const double delay_s : player.stays.delivered_after_s())
+      result.late_discovery.add(delay_s);
+    for (std::uint64_t i = 0; i < player.stays.never_delivered(); ++i)
+      result.late_discovery.add_never();
   }
   result.missed_contact = missed_;
-  for (const double distance_m : displayed_error_.distances()) result.displayed_error.add(distance_m);
+  for (const double distance_m : displayed_error_.distances())
+    result.displayed_error.add(distance_m);
   return result;
 }
 
@@ -268,7 +311,8 @@ TruthFigures ReplayJudgement::sums() {
   ScopeChanges changes;
   for (const Player& player : players_) {
     if (!player.bat) continue;
-    const ScopeChanges own = count_changes(player.steps, *player.bat, server_.from_s, server_.until_s);
+    const ScopeChanges own =
+        count_changes(player.steps, *player.bat, server_.from_s, server_.until_s);
     changes.entries += own.entries, changes.exits += own.exits, changes.flaps += own.flaps;
   }
   figures.delivered_precision = delivered_.precision();
@@ -278,22 +322,28 @@ TruthFigures ReplayJudgement::sums() {
   figures.late_entry_ms = late_entries();
   figures.position_error_mm = matched_error_.figures();
   figures.displayed_error_mm = displayed_error_.figures();
-  figures.churn_per_client_per_s = ratio(static_cast<double>(changes.entries + changes.exits), static_cast<double>(players_.size()) * (server_.until_s - server_.from_s));
-  figures.flapping_fraction = ratio(static_cast<double>(changes.flaps), static_cast<double>(changes.entries));
-  figures.wasted_bytes_fraction = ratio(static_cast<double>(wasted_bytes_), static_cast<double>(bytes_));
+  figures.churn_per_client_per_s =
+      ratio(static_cast<double>(changes.entries + changes.exits),
+            static_cast<double>(players_.size()) * (server_.until_s - server_.from_s));
+  figures.flapping_fraction =
+      ratio(static_cast<double>(changes.flaps), static_cast<double>(changes.entries));
+  figures.wasted_bytes_fraction =
+      ratio(static_cast<double>(wasted_bytes_), static_cast<double>(bytes_));
   return figures;
 }
 
 }  // namespace
 
-TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area, Discoveries* discoveries, Entries entries) {
+TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots,
+                      const RelevanceArea& area, Discoveries* discoveries, Entries entries) {
   ReplayJudgement judgement(server, bots, area, entries);
   const TruthFigures figures = judgement.figures();
   if (discoveries) *discoveries = judgement.discoveries();
   return figures;
 }
 
-void write_trace(const std::string& file, const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) {
+void write_trace(const std::string& file, const game::ServerEvidence& server,
+                 const BotsEvidence& bots, const RelevanceArea& area) {
   TruthTrace trace(file);
   ReplayJudgement judgement(server, bots, area);
   judgement.trace_to(trace);
@@ -301,13 +351,19 @@ void write_trace(const std::string& file, const game::ServerEvidence& server, co
   trace.finish();
 }
 
-RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const game::Scene& scene) {
+RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell,
+                           const game::Scene& scene) {
   const physics::Field& field = scene.world.field;
-  const double reach = game::view_half_side(experiment.view_area, cell.parameters.view_fraction, field.length, field.width);
+  const double reach = game::view_half_side(experiment.view_area, cell.parameters.view_fraction,
+                                            field.length, field.width);
   using Shape = RelevanceArea::Shape;
   constexpr Shape shapes[] = {Shape::square, Shape::disc, Shape::contact, Shape::filter};
-  RelevanceArea area{.shape = shapes[static_cast<std::size_t>(experiment.relevance)], .reach = reach, .contact_s = experiment.contact_s};
-  if (area.shape == Shape::filter) area.expression = experiment.relevant, area.always_by_role = game::relevant_kinds_of(scene, experiment.always);
+  RelevanceArea area{.shape = shapes[static_cast<std::size_t>(experiment.relevance)],
+                     .reach = reach,
+                     .contact_s = experiment.contact_s};
+  if (area.shape == Shape::filter)
+    area.expression = experiment.relevant,
+    area.always_by_role = game::relevant_kinds_of(scene, experiment.always);
   for (const std::string& more : experiment.also_relevant) {
     if (more == "team") area.has_team = true;
     else area.always = game::relevant_kinds_of(scene, experiment.always);
@@ -317,8 +373,10 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const
 
 namespace {
 
-void judge(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots, Discoveries* discoveries, Entries entries) {
-  const RelevanceArea area = relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
+void judge(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server,
+           const BotsEvidence& bots, Discoveries* discoveries, Entries entries) {
+  const RelevanceArea area =
+      relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
   TruthFigures figures = truth_of(server, bots, area, discoveries, entries);
   figures.control_bytes_fraction = record.truth.control_bytes_fraction;
   figures.fairness_jain = record.truth.fairness_jain;
@@ -328,8 +386,10 @@ void judge(RunRecord& record, const Experiment& experiment, const game::ServerEv
 /// Under a virtual clock nothing takes time.
 void add_tick_costs(RunRecord& record, const game::ServerEvidence& server) {
   std::vector<double> ticks_s;
-  for (const game::ServerEvidence::Tick& tick : server.ticks) ticks_s.push_back(tick.physics_s + tick.filter_s + tick.send_s);
-  if (std::any_of(ticks_s.begin(), ticks_s.end(), [](double tick_s) { return tick_s > 0.0; })) record.tick_us = percentiles_us(std::move(ticks_s));
+  for (const game::ServerEvidence::Tick& tick : server.ticks)
+    ticks_s.push_back(tick.physics_s + tick.filter_s + tick.send_s);
+  if (std::any_of(ticks_s.begin(), ticks_s.end(), [](double tick_s) { return tick_s > 0.0; }))
+    record.tick_us = percentiles_us(std::move(ticks_s));
 }
 
 /// What goes wrong in `act` is why there are no figures, or why the run does not count.
@@ -345,24 +405,29 @@ void record_trouble(RunRecord& record, const Act& act) {
   }
 }
 
-const char* const too_many_changes = "more scopes changed than there was room for; what was delivered is not judged";
+const char* const too_many_changes =
+    "more scopes changed than there was room for; what was delivered is not judged";
 
 }  // namespace
 
-void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots) {
+void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server,
+               const BotsEvidence& bots) {
   record_trouble(record, [&] {
     judge(record, experiment, server, bots, nullptr, Entries::passed_over);
     if (!bots.is_complete) record.truth.trouble = too_many_changes;
   });
 }
 
-void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file, const std::filesystem::path& discovery_file) {
+void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file,
+               const std::string& bots_file, const std::filesystem::path& discovery_file) {
   std::optional<Discoveries> discoveries;
   std::error_code ignored;
-  if (!discovery_file.empty()) std::filesystem::remove(discovery_file, ignored);  // of an earlier run
+  if (!discovery_file.empty())
+    std::filesystem::remove(discovery_file, ignored);  // of an earlier run
   record_trouble(record, [&] {
     const game::ServerEvidence server = game::read_server_evidence(server_file);
-    record.truth.relevance = text_of(relevance_of(experiment, record.cell, game::chosen_scene(server.choice)));
+    record.truth.relevance =
+        text_of(relevance_of(experiment, record.cell, game::chosen_scene(server.choice)));
     add_tick_costs(record, server);
     const BotsEvidence bots = read_bots_evidence(bots_file);
     Discoveries found;

@@ -28,10 +28,14 @@ const std::vector<Setting>& settings() {
   static const std::vector<Setting> all = [] {
     std::vector<Setting> list;
     for (const ParameterKind& kind : parameter_kinds())
-      if (!kind.is_switch) list.push_back({[kind](const Cell& cell) { return kind.scale * kind.of(cell.parameters); }, kind.before, kind.scale == 100.0 ? " %" : kind.after});
-    list.push_back({[](const Cell& cell) { return static_cast<double>(cell.pucks); }, "", " pucks"});
+      if (!kind.is_switch)
+        list.push_back({[kind](const Cell& cell) { return kind.scale * kind.of(cell.parameters); },
+                        kind.before, kind.scale == 100.0 ? " %" : kind.after});
+    list.push_back(
+        {[](const Cell& cell) { return static_cast<double>(cell.pucks); }, "", " pucks"});
     list.push_back({[](const Cell& cell) { return static_cast<double>(cell.bats); }, "", " bats"});
-    list.push_back({[](const Cell& cell) { return static_cast<double>(cell.server_cores); }, "", " cores"});
+    list.push_back(
+        {[](const Cell& cell) { return static_cast<double>(cell.server_cores); }, "", " cores"});
     return list;
   }();
   return all;
@@ -51,7 +55,8 @@ std::string name_among(const std::vector<CellLine>& lines, const Cell& cell) {
   std::string name = cell.scheme;
   if (differs(lines, "", policy_name)) name += ", " + policy_name(cell);
   for (const Setting& setting : settings()) {
-    if (differs(lines, cell.scheme, setting.of)) name += std::string(", ") + setting.before + short_number(setting.of(cell)) + setting.after;
+    if (differs(lines, cell.scheme, setting.of))
+      name += std::string(", ") + setting.before + short_number(setting.of(cell)) + setting.after;
   }
   if (differs(lines, "", [](const Cell& other) { return other.mode; })) name += ", " + cell.mode;
   if (differs(lines, "", [](const Cell& other) { return other.part; })) name += ", " + cell.part;
@@ -74,7 +79,8 @@ void name_and_style(std::vector<CellLine>& lines) {
     lines[i].style = {place(schemes, cell.scheme), place(policies, policy_name(cell)), i};
   }
   if (schemes.size() > 1) return;
-  for (std::size_t i = 0; i < lines.size(); ++i) lines[i].style.colour = i;  // of one scheme, colours tell what differs
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    lines[i].style.colour = i;  // of one scheme, colours tell what differs
 }
 
 MeanInterval mean_interval(const std::vector<double>& values, Scale scale) {
@@ -82,7 +88,8 @@ MeanInterval mean_interval(const std::vector<double>& values, Scale scale) {
   double sum = 0.0;
   for (const double value : values) sum += value;
   MeanInterval result{sum / static_cast<double>(values.size())};
-  if (const auto interval = interval_of_mean(values, scale)) result.interval = {interval->low, interval->high};
+  if (const auto interval = interval_of_mean(values, scale))
+    result.interval = {interval->low, interval->high};
   return result;
 }
 
@@ -104,25 +111,32 @@ std::optional<MeanInterval> CellGroup::mean(FigureOf figure) const {
 std::vector<CellLine> lines_of(std::span<const RunRecord> runs) {
   std::vector<CellLine> lines;
   for (const RunRecord& run : runs) {
-    auto line = std::find_if(lines.begin(), lines.end(),
-                             [&run](const CellLine& other) { return without_clients(other.groups.front().cell) == without_clients(run.cell); });
-    if (line == lines.end()) line = lines.insert(line, CellLine{"", {}, {CellGroup{run.cell, {}, 0}}});
-    auto group = std::find_if(line->groups.begin(), line->groups.end(),
-                              [&run](const CellGroup& other) { return without_seed(other.cell) == without_seed(run.cell); });
+    auto line = std::find_if(lines.begin(), lines.end(), [&run](const CellLine& other) {
+      return without_clients(other.groups.front().cell) == without_clients(run.cell);
+    });
+    if (line == lines.end())
+      line = lines.insert(line, CellLine{"", {}, {CellGroup{run.cell, {}, 0}}});
+    auto group =
+        std::find_if(line->groups.begin(), line->groups.end(), [&run](const CellGroup& other) {
+          return without_seed(other.cell) == without_seed(run.cell);
+        });
     if (group == line->groups.end()) group = line->groups.insert(group, CellGroup{run.cell, {}, 0});
     if (run.valid) group->runs.push_back(&run);
     else ++group->invalid_runs;
   }
   for (CellLine& line : lines) {
-    std::stable_sort(line.groups.begin(), line.groups.end(), [](const CellGroup& a, const CellGroup& b) { return a.cell.clients < b.cell.clients; });
+    std::stable_sort(
+        line.groups.begin(), line.groups.end(),
+        [](const CellGroup& a, const CellGroup& b) { return a.cell.clients < b.cell.clients; });
   }
   name_and_style(lines);
   return lines;
 }
 
 std::string line_name(std::span<const CellLine> lines, const Cell& cell) {
-  const auto line = std::find_if(lines.begin(), lines.end(),
-                                 [&cell](const CellLine& other) { return without_clients(other.groups.front().cell) == without_clients(cell); });
+  const auto line = std::find_if(lines.begin(), lines.end(), [&cell](const CellLine& other) {
+    return without_clients(other.groups.front().cell) == without_clients(cell);
+  });
   return line == lines.end() ? "" : line->name;
 }
 
@@ -138,7 +152,8 @@ std::vector<std::uint32_t> thinned(const std::vector<std::uint32_t>& values, std
   assert(count >= 2);
   if (values.size() <= count) return values;
   std::vector<std::uint32_t> result;
-  for (std::size_t i = 0; i < count; ++i) result.push_back(values[i * (values.size() - 1) / (count - 1)]);
+  for (std::size_t i = 0; i < count; ++i)
+    result.push_back(values[i * (values.size() - 1) / (count - 1)]);
   return result;
 }
 

@@ -1,4 +1,5 @@
-// Runs sorted into what plots draw: lines over client counts, each point the replications of one cell.
+// Runs sorted into what plots draw: lines over client counts, each point the replications of one
+// cell.
 #pragma once
 
 #include <concepts>
@@ -7,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "loadgen/report/plots/svg.h"
 #include "loadgen/measure/run_record.h"
 #include "loadgen/measure/statistics/statistics.h"
+#include "loadgen/report/plots/svg.h"
 
 namespace rink::loadgen {
 
@@ -18,7 +19,8 @@ class FigureOf {
  public:
   using Reader = std::optional<double> (*)(const RunRecord&);
   template <std::convertible_to<Reader> Read>
-  constexpr FigureOf(Read read, Scale values = Scale::positive) : scale(values), read_(read) {}  // a function that reads is a figure
+  constexpr FigureOf(Read read, Scale values = Scale::positive)
+      : scale(values), read_(read) {}  // a function that reads is a figure
   std::optional<double> operator()(const RunRecord& run) const { return read_(run); }
 
   Scale scale;
@@ -41,7 +43,8 @@ struct CellGroup {
   std::vector<const RunRecord*> runs;
   std::size_t invalid_runs = 0;
 
-  /// The figure of every run, in the runs' order; empty unless each has it, for a mean over those that happen to have it would favour them.
+  /// The figure of every run, in the runs' order; empty unless each has it, for a mean over those
+  /// that happen to have it would favour them.
   std::vector<double> values(FigureOf figure) const;
   std::optional<MeanInterval> mean(FigureOf figure) const;
 };
@@ -53,8 +56,9 @@ struct CellLine {
   std::vector<CellGroup> groups;  ///< clients ascending
 };
 
-/// All lines, in order of first appearance. A name has the scheme, the policy if there are several, and whatever else differs between lines of its scheme.
-/// Colours follow the scheme, dashes the policy, shapes the line. The runs must outlive what is returned.
+/// All lines, in order of first appearance. A name has the scheme, the policy if there are several,
+/// and whatever else differs between lines of its scheme. Colours follow the scheme, dashes the
+/// policy, shapes the line. The runs must outlive what is returned.
 std::vector<CellLine> lines_of(std::span<const RunRecord> runs);
 
 /// Names and styles `lines` as `lines_of` does, whatever their groups differ in.

@@ -1,8 +1,8 @@
 // What a tick costs the server by part, held against the time there is.
 #include <algorithm>
 
-#include "loadgen/report/plots/bar_plot.h"
 #include "loadgen/report/exhibits/exhibit.h"
+#include "loadgen/report/plots/bar_plot.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -14,7 +14,8 @@ constexpr double mark_share_least = 0.3;  // below that the budget would press t
 std::optional<double> physics(const RunRecord& run) { return run.physics_us_per_tick; }
 std::optional<double> filter(const RunRecord& run) { return run.filter_us_per_tick; }
 std::optional<double> send(const RunRecord& run) { return run.send_us_per_tick; }
-constexpr FigureOf on_time{[](const RunRecord& run) { return run.ticks_on_time_fraction; }, Scale::fraction};
+constexpr FigureOf on_time{[](const RunRecord& run) { return run.ticks_on_time_fraction; },
+                           Scale::fraction};
 
 constexpr FigureOf parts[] = {physics, filter, send};
 
@@ -26,7 +27,8 @@ std::optional<BarPlot::Bar> bar_of(const CellGroup& group) {
     bar.parts.push_back(mean->mean);
   }
   const auto share = group.mean(on_time);
-  if (share && share->mean < on_time_least) bar.flag = plain_number(100.0 * share->mean) + " % on time";
+  if (share && share->mean < on_time_least)
+    bar.flag = plain_number(100.0 * share->mean) + " % on time";
   return bar;
 }
 
@@ -34,16 +36,29 @@ std::optional<BarPlot::Bar> bar_of(const CellGroup& group) {
 
 Exhibit cost_exhibit(const Findings& findings) {
   Exhibit exhibit;
-  const double budget_us = 1e6 / *std::max_element(findings.experiment.tick_rates_hz.begin(), findings.experiment.tick_rates_hz.end());
-  PlotTable table{"cost-per-tick", "Wall time of the server's parts per tick: means over replications with their 95 % intervals", cell_columns()};
+  const double budget_us = 1e6 / *std::max_element(findings.experiment.tick_rates_hz.begin(),
+                                                   findings.experiment.tick_rates_hz.end());
+  PlotTable table{
+      "cost-per-tick",
+      "Wall time of the server's parts per tick: means over replications with their 95 % intervals",
+      cell_columns()};
   for (const char* part : {"physics", "filter", "send"}) {
-    for (const char* suffix : {"_us_per_tick", "_low_95", "_high_95"}) table.columns.push_back(std::string(part) + suffix);
+    for (const char* suffix : {"_us_per_tick", "_low_95", "_high_95"})
+      table.columns.push_back(std::string(part) + suffix);
   }
   table.columns.push_back("ticks_on_time_fraction");
   std::vector<BarPlot> plots;
   double highest = 0.0;
   for (const CellLine& line : plotted_lines(findings)) {
-    BarPlot plot{line.name, "clients", "us per tick", "Physics, filter and send, stacked, for each client count.", {"physics", "filter", "send"}, {}, {}, budget_us, "budget of a tick"};
+    BarPlot plot{line.name,
+                 "clients",
+                 "us per tick",
+                 "Physics, filter and send, stacked, for each client count.",
+                 {"physics", "filter", "send"},
+                 {},
+                 {},
+                 budget_us,
+                 "budget of a tick"};
     for (const CellGroup& group : line.groups) {
       const auto bar = bar_of(group);
       if (!bar) continue;
@@ -58,13 +73,18 @@ Exhibit cost_exhibit(const Findings& findings) {
     if (!plot.bars.empty()) plots.push_back(std::move(plot));
   }
   if (plots.empty()) {
-    exhibit.add_absence("No run has processor costs (in virtual time none are taken), so there is no plot.");
+    exhibit.add_absence(
+        "No run has processor costs (in virtual time none are taken), so there is no plot.");
     return exhibit;
   }
   const bool has_mark = highest >= mark_share_least * budget_us;
-  exhibit.html += "<p class=\"faint\">Lower is better; all panels share one scale. A tick has " + plain_number(budget_us / 1e3) + " ms: the fullest bar takes " +
-                  plain_number(100.0 * highest / budget_us) + " % of it" + (has_mark ? "; the dashed line is where the server saturates." : ", so the line where the server saturates lies beyond these plots.") +
-                  " A note above a bar says that fewer than 99 % of its ticks were on time.</p>\n<div class=\"plots small\">\n";
+  exhibit.html += "<p class=\"faint\">Lower is better; all panels share one scale. A tick has " +
+                  plain_number(budget_us / 1e3) + " ms: the fullest bar takes " +
+                  plain_number(100.0 * highest / budget_us) + " % of it" +
+                  (has_mark ? "; the dashed line is where the server saturates."
+                            : ", so the line where the server saturates lies beyond these plots.") +
+                  " A note above a bar says that fewer than 99 % of its ticks were on "
+                  "time.</p>\n<div class=\"plots small\">\n";
   for (BarPlot& plot : plots) {
     plot.y_high = has_mark ? std::max(highest, budget_us) : highest;
     exhibit.add_panel(table.name, to_svg(plot), "");

@@ -17,9 +17,13 @@ struct Discovered {
 };
 
 constexpr Discovered discovered_kinds[] = {
-    {"late-discovery", "Late discoveries", "From the true instant at which an entity became relevant to its first delivered state, of all that became relevant; what was in scope already is at the left edge. ",
+    {"late-discovery", "Late discoveries",
+     "From the true instant at which an entity became relevant to its first delivered state, of "
+     "all that became relevant; what was in scope already is at the left edge. ",
      "nothing became relevant", &Discoveries::late_discovery},
-    {"missed-contact", "Missed contacts", "From a contact of the player's bat with a body that the player did not know of to the next state of it, of all such contacts. ",
+    {"missed-contact", "Missed contacts",
+     "From a contact of the player's bat with a body that the player did not know of to the next "
+     "state of it, of all such contacts. ",
      "no player touched a body that it did not know of", &Discoveries::missed_contact}};
 
 /// The delays of one cell that are drawn.
@@ -30,7 +34,8 @@ struct DrawnDelays {
   std::vector<SampleDistribution::Point> points;
 };
 
-/// The parts that have the largest number of clients of all, in the order of the experiment; one without a name if it has no parts.
+/// The parts that have the largest number of clients of all, in the order of the experiment; one
+/// without a name if it has no parts.
 std::vector<std::string> parts_of_largest_crowds(const Findings& findings) {
   std::vector<std::string> parts;
   for (const CellLine& line : largest_crowds(findings.lines)) {
@@ -40,14 +45,17 @@ std::vector<std::string> parts_of_largest_crowds(const Findings& findings) {
   return parts;
 }
 
-std::vector<DrawnDelays> drawn_of(const Findings& findings, const std::string& part, const Discovered& kind) {
+std::vector<DrawnDelays> drawn_of(const Findings& findings, const std::string& part,
+                                  const Discovered& kind) {
   std::vector<DrawnDelays> all;
   for (const CellLine& line : largest_crowds(plotted_lines(findings, part)))
     for (const CellGroup& group : line.groups) {
-      const auto found = std::ranges::find(findings.discoveries, without_seed(group.cell), &CellDiscoveries::cell);
+      const auto found =
+          std::ranges::find(findings.discoveries, without_seed(group.cell), &CellDiscoveries::cell);
       if (found == findings.discoveries.end()) continue;
       const SampleDistribution& delays = found->discoveries.*kind.of;
-      if (delays.samples() > 0) all.push_back({line, group, &delays, delays.distribution(discovery_points_max)});
+      if (delays.samples() > 0)
+        all.push_back({line, group, &delays, delays.distribution(discovery_points_max)});
     }
   return all;
 }
@@ -61,8 +69,14 @@ std::vector<PlotPoint> stairs(const DrawnDelays& drawn, double low, double high)
     if (delay_ms <= low) points.front().y = fraction;
   }
   const std::uint64_t never = drawn.delays->never(), samples = drawn.delays->samples();
-  const std::string gap = plain_number(100.0 * static_cast<double>(never) / static_cast<double>(samples)) + " % never";
-  points.push_back({high, points.back().y, {}, {}, drawn.line.name + ": " + std::to_string(never) + " of " + std::to_string(samples) + " never discovered (" + gap + ")"});
+  const std::string gap =
+      plain_number(100.0 * static_cast<double>(never) / static_cast<double>(samples)) + " % never";
+  points.push_back({high,
+                    points.back().y,
+                    {},
+                    {},
+                    drawn.line.name + ": " + std::to_string(never) + " of " +
+                        std::to_string(samples) + " never discovered (" + gap + ")"});
   return points;
 }
 
@@ -85,23 +99,47 @@ void add_plot(Exhibit& exhibit, const Discovered& kind, const std::vector<DrawnD
     }
   low = std::min(0.9 * low, 0.1 * high);
   const std::uint32_t clients = drawn.front().group.cell.clients;
-  LinePlot plot{std::string(kind.title) + ", " + std::to_string(clients) + (clients == 1 ? " client" : " clients") + (part.empty() ? "" : ", " + part), "delay, ms", "fraction discovered within", "", true, false, {}, {}, {}, {{low, high}}, {}};
-  PlotTable table{kind.name + (part.empty() ? "" : "-" + part), std::string(kind.title) + ": the fraction of the sample that was discovered within the delay, all valid replications together", cell_columns()};
+  LinePlot plot{std::string(kind.title) + ", " + std::to_string(clients) +
+                    (clients == 1 ? " client" : " clients") + (part.empty() ? "" : ", " + part),
+                "delay, ms",
+                "fraction discovered within",
+                "",
+                true,
+                false,
+                {},
+                {},
+                {},
+                {{low, high}},
+                {}};
+  PlotTable table{kind.name + (part.empty() ? "" : "-" + part),
+                  std::string(kind.title) +
+                      ": the fraction of the sample that was discovered within the delay, all "
+                      "valid replications together",
+                  cell_columns()};
   table.columns.insert(table.columns.end(), {"delay_ms", "fraction", "samples", "never"});
   std::string never;
   for (const DrawnDelays& each : drawn) {
     std::vector<PlotPoint> points = stairs(each, low, high);
     const std::size_t last = points.size();
-    if (each.delays->never() > 0) never += (never.empty() ? "" : ", ") + each.line.name + " " + std::to_string(each.delays->never()) + " of " + std::to_string(each.delays->samples());
+    if (each.delays->never() > 0)
+      never += (never.empty() ? "" : ", ") + each.line.name + " " +
+               std::to_string(each.delays->never()) + " of " +
+               std::to_string(each.delays->samples());
     plot.lines.push_back({each.line.name, each.line.style, std::move(points), last});
     for (const SampleDistribution::Point& point : each.points) {
       auto row = cell_values(each.line, each.group);
-      for (const std::string& text : {exact_number(point.thousandths), exact_number(point.fraction), std::to_string(each.delays->samples()), std::to_string(each.delays->never())}) row.push_back(text);
+      for (const std::string& text :
+           {exact_number(point.thousandths), exact_number(point.fraction),
+            std::to_string(each.delays->samples()), std::to_string(each.delays->never())})
+        row.push_back(text);
       table.rows.push_back(std::move(row));
     }
   }
   plot.y_range = fractions_shown(plot.lines);
-  plot.alternative = std::string(kind.meaning) + "Higher and farther left is better; the gap between a curve's right end and 1 is what was never discovered" + (never.empty() ? ", here nothing." : ": " + never + ".");
+  plot.alternative = std::string(kind.meaning) +
+                     "Higher and farther left is better; the gap between a curve's right end and 1 "
+                     "is what was never discovered" +
+                     (never.empty() ? ", here nothing." : ": " + never + ".");
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 
@@ -112,13 +150,16 @@ void add_kind(Exhibit& exhibit, const Findings& findings, const Discovered& kind
     if (!drawn.empty()) add_plot(exhibit, kind, drawn);
     has_any = has_any || !drawn.empty();
   }
-  if (!has_any) exhibit.add_absence(std::string(kind.title) + ": " + kind.none + ", so there is no plot.");
+  if (!has_any)
+    exhibit.add_absence(std::string(kind.title) + ": " + kind.none + ", so there is no plot.");
 }
 
 }  // namespace
 
 Exhibit discovery_exhibit(const Findings& findings) {
-  Exhibit exhibit{"<p class=\"faint\">Discovery latency by truth: what a player should have known, and when it was told. All cells are in discovery.csv.</p>\n<div class=\"plots\">\n"};
+  Exhibit exhibit{
+      "<p class=\"faint\">Discovery latency by truth: what a player should have known, and when it "
+      "was told. All cells are in discovery.csv.</p>\n<div class=\"plots\">\n"};
   for (const Discovered& kind : discovered_kinds) add_kind(exhibit, findings, kind);
   exhibit.html += "</div>\n";
   return exhibit;

@@ -11,7 +11,9 @@ namespace rink::loadgen {
 
 namespace {
 
-std::string figcaption(const std::string& caption) { return caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n"; }
+std::string figcaption(const std::string& caption) {
+  return caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n";
+}
 
 }  // namespace
 
@@ -23,12 +25,15 @@ void Exhibit::add(const std::string& svg, const std::string& caption, PlotTable 
   if (!table.is_empty()) tables.push_back(std::move(table));
 }
 
-void Exhibit::add_panel(const std::string& table_name, const std::string& svg, const std::string& caption) {
+void Exhibit::add_panel(const std::string& table_name, const std::string& svg,
+                        const std::string& caption) {
   pictures.push_back({table_name, svg});
   html += "<figure>\n" + svg + figcaption(caption) + "</figure>\n";
 }
 
-void Exhibit::add_absence(const std::string& sentence) { html += "<p class=\"faint\">" + escaped(sentence) + "</p>\n"; }
+void Exhibit::add_absence(const std::string& sentence) {
+  html += "<p class=\"faint\">" + escaped(sentence) + "</p>\n";
+}
 
 void Exhibit::add(Exhibit other) {
   html += other.html;
@@ -36,28 +41,43 @@ void Exhibit::add(Exhibit other) {
   std::move(other.pictures.begin(), other.pictures.end(), std::back_inserter(pictures));
 }
 
-std::vector<std::string> cell_columns() { return {"line", "mode", "scheme", "policy", "clients", "runs"}; }
+std::vector<std::string> cell_columns() {
+  return {"line", "mode", "scheme", "policy", "clients", "runs"};
+}
 
 std::vector<std::string> cell_values(const CellLine& line, const CellGroup& group) {
-  return {line.name, group.cell.mode, group.cell.scheme, group.cell.policy, std::to_string(group.cell.clients), std::to_string(group.runs.size())};
+  return {line.name,
+          group.cell.mode,
+          group.cell.scheme,
+          group.cell.policy,
+          std::to_string(group.cell.clients),
+          std::to_string(group.runs.size())};
 }
 
 std::vector<CellLine> plotted_lines(const Findings& findings) {
   if (findings.lines.empty()) return {};
-  const auto counts = [](const CellLine& line) { return std::ranges::any_of(line.groups, [](const CellGroup& group) { return !group.runs.empty(); }); };
+  const auto counts = [](const CellLine& line) {
+    return std::ranges::any_of(line.groups,
+                               [](const CellGroup& group) { return !group.runs.empty(); });
+  };
   const auto first = std::ranges::find_if(findings.lines, counts);
-  return plotted_lines(findings, (first == findings.lines.end() ? findings.lines.front() : *first).groups.front().cell.part);
+  return plotted_lines(
+      findings,
+      (first == findings.lines.end() ? findings.lines.front() : *first).groups.front().cell.part);
 }
 
 std::vector<CellLine> plotted_lines(const Findings& findings, const std::string& part) {
   constexpr std::size_t lines_max = 12;
   std::vector<CellLine> lines = findings.lines;
   if (!findings.experiment.parts.empty()) {
-    std::erase_if(lines, [&part](const CellLine& line) { return line.groups.front().cell.part != part; });
+    std::erase_if(lines,
+                  [&part](const CellLine& line) { return line.groups.front().cell.part != part; });
     name_and_style(lines);
   }
   if (lines.size() <= lines_max) return lines;
-  std::erase_if(lines, [&findings](const CellLine& line) { return !is_at_first_values(findings.experiment, line.groups.front().cell); });
+  std::erase_if(lines, [&findings](const CellLine& line) {
+    return !is_at_first_values(findings.experiment, line.groups.front().cell);
+  });
   name_and_style(lines);
   return lines;
 }

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "loadgen/experiment/experiment.h"
 #include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/equal_error.h"
-#include "loadgen/experiment/experiment.h"
 #include "loadgen/measure/statistics/histogram.h"
 #include "loadgen/report/exhibits/cell_lines.h"
-#include "loadgen/report/plots/picture.h"
 #include "loadgen/report/plot_table.h"
+#include "loadgen/report/plots/picture.h"
 
 namespace rink::loadgen {
 
@@ -28,7 +28,8 @@ struct Findings {
   std::span<const RunRecord> runs;
   std::span<const CellLatencies> latencies;
   std::vector<CellLine> lines;
-  std::string relevance;  ///< what truth calls relevant, in words; empty if no run was held against truth
+  std::string
+      relevance;  ///< what truth calls relevant, in words; empty if no run was held against truth
   std::span<const CellDiscoveries> discoveries{};
 };
 
@@ -50,17 +51,20 @@ struct Exhibit {
 /// The columns that every table by cell begins with, and their values.
 std::vector<std::string> cell_columns();
 std::vector<std::string> cell_values(const CellLine& line, const CellGroup& group);
-/// The lines that plots over clients draw: all, of several parts those of the first, or where a sweep makes too many to tell apart, those with the first value of every parameter.
+/// The lines that plots over clients draw: all, of several parts those of the first, or where a
+/// sweep makes too many to tell apart, those with the first value of every parameter.
 std::vector<CellLine> plotted_lines(const Findings& findings);
 /// The same of the part called `part`.
 std::vector<CellLine> plotted_lines(const Findings& findings, const std::string& part);
 /// Appends mean, low and high of `mean` to `row`, empty where absent.
 void append_interval(std::vector<std::string>& row, const std::optional<MeanInterval>& mean);
 
-/// Of `lines` the largest number of clients alone; and that this was done, in words, empty if there is but one number.
+/// Of `lines` the largest number of clients alone; and that this was done, in words, empty if there
+/// is but one number.
 std::vector<CellLine> largest_crowds(std::vector<CellLine> lines);
 std::string largest_crowd_words(const Findings& findings);
-/// The range of a linear axis that shows data between `low` and `high`, both at least 0, with a little room, from 0 on.
+/// The range of a linear axis that shows data between `low` and `high`, both at least 0, with a
+/// little room, from 0 on.
 std::pair<double, double> zoomed(double low, double high);
 
 /// Bytes by what they are about, stacked.
@@ -75,18 +79,23 @@ Exhibit traffic_exhibit(const Findings& findings);
 Exhibit modes_exhibit(const Findings& findings);
 /// Bytes against error, and what filter and policy gain.
 Exhibit gains_exhibit(const Findings& findings);
-/// Rivals at equal displayed error and recall, which must not be empty, and the curves of `runs` behind them; and the best of them in a sentence, empty if there is none.
-Exhibit equal_error_exhibit(const Experiment& experiment, std::span<const RunRecord> runs, const std::vector<EqualError>& comparisons);
+/// Rivals at equal displayed error and recall, which must not be empty, and the curves of `runs`
+/// behind them; and the best of them in a sentence, empty if there is none.
+Exhibit equal_error_exhibit(const Experiment& experiment, std::span<const RunRecord> runs,
+                            const std::vector<EqualError>& comparisons);
 std::string equal_error_headline(const std::vector<EqualError>& comparisons);
 /// Precision against recall.
 Exhibit relevance_exhibit(const Findings& findings);
-/// Bytes against the recall and against the precision of the filter's decisions, for each line that is drawn; nothing if no run was held against truth.
+/// Bytes against the recall and against the precision of the filter's decisions, for each line that
+/// is drawn; nothing if no run was held against truth.
 void add_bytes_against_relevance(Exhibit& exhibit, const Findings& findings);
-/// Late discoveries and missed contacts as distribution functions, of the largest number of clients.
+/// Late discoveries and missed contacts as distribution functions, of the largest number of
+/// clients.
 Exhibit discovery_exhibit(const Findings& findings);
 /// What each parameter does that the experiment lists several values of.
 Exhibit sweep_exhibit(const Findings& findings);
-/// Whether some of the compared expressions differ in their numbers alone, and bytes against error and recall with a curve for each form of them.
+/// Whether some of the compared expressions differ in their numbers alone, and bytes against error
+/// and recall with a curve for each form of them.
 bool has_expressions_of_one_form(const Findings& findings);
 Exhibit stages_exhibit(const Findings& findings);
 /// Whole curves of latency percentiles.

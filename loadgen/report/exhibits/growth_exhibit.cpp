@@ -5,10 +5,10 @@
 #include <set>
 
 #include "loadgen/measure/growth.h"
+#include "loadgen/measure/server_cores.h"
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/plots/line_plot.h"
 #include "loadgen/report/plots/text.h"
-#include "loadgen/measure/server_cores.h"
 
 namespace rink::loadgen {
 namespace {
@@ -30,7 +30,8 @@ std::vector<Sweep> sweeps_over(const GrowthFactor& factor, std::span<const RunRe
     Cell key = run.cell;
     key.seed = 0;
     key.*factor.number = 0;
-    auto sweep = std::find_if(sweeps.begin(), sweeps.end(), [&key](const Sweep& other) { return other.cell == key; });
+    auto sweep = std::find_if(sweeps.begin(), sweeps.end(),
+                              [&key](const Sweep& other) { return other.cell == key; });
     if (sweep == sweeps.end()) sweep = sweeps.insert(sweep, Sweep{key, {}});
     sweep->costs[value].push_back(*cost);
   }
@@ -42,7 +43,8 @@ std::string sweep_name(const GrowthFactor& factor, const Sweep& sweep, bool name
   std::string name = sweep.cell.scheme + ", " + sweep.cell.policy;
   if (!names_rest) return name;
   for (const GrowthFactor& other : growth_factors) {
-    if (other.number != factor.number && sweep.cell.*other.number > 0) name += ", " + std::to_string(sweep.cell.*other.number) + " " + other.name;
+    if (other.number != factor.number && sweep.cell.*other.number > 0)
+      name += ", " + std::to_string(sweep.cell.*other.number) + " " + other.name;
   }
   return name + (sweep.cell.server_cores > 1 ? ", 2 cores" : "");
 }
@@ -56,12 +58,16 @@ ReferenceCurve fit_of(const Sweep& sweep) {
   const auto power = fit_power(points);
   if (!line || !power) return {};
   const bool is_line = line->log_residual < log_residual(*power, points);
-  ReferenceCurve curve{is_line ? plain_number(line->constant) + " + " + plain_number(line->slope) + " n" : plain_number(power->factor) + " n^" + plain_number(power->exponent), {}};
+  ReferenceCurve curve{is_line
+                           ? plain_number(line->constant) + " + " + plain_number(line->slope) + " n"
+                           : plain_number(power->factor) + " n^" + plain_number(power->exponent),
+                       {}};
   constexpr int steps = 40;
   const double first = sweep.costs.begin()->first, last = sweep.costs.rbegin()->first;
   for (int i = 0; i <= steps; ++i) {
     const double x = first * std::pow(last / first, static_cast<double>(i) / steps);
-    curve.points.emplace_back(x, is_line ? line->at(x) : power->factor * std::pow(x, power->exponent));
+    curve.points.emplace_back(x,
+                              is_line ? line->at(x) : power->factor * std::pow(x, power->exponent));
   }
   return curve;
 }
@@ -71,9 +77,21 @@ void add_plot(Exhibit& exhibit, const Findings& findings, const GrowthFactor& fa
   if (sweeps.empty()) return;
   std::set<std::string> short_names;
   for (const Sweep& sweep : sweeps) short_names.insert(sweep_name(factor, sweep, false));
-  LinePlot plot{std::string("Cost of a tick against ") + factor.name, factor.name, "us per tick, all parts", "", true, true, {}, {}, {}, {}, {}};
-  PlotTable table{std::string("growth-over-") + factor.name, "Physics, filter and send together per tick: mean over replications and its 95 % interval",
-                  {"line", factor.name, "total_us_per_tick", "low_95", "high_95"}};
+  LinePlot plot{std::string("Cost of a tick against ") + factor.name,
+                factor.name,
+                "us per tick, all parts",
+                "",
+                true,
+                true,
+                {},
+                {},
+                {},
+                {},
+                {}};
+  PlotTable table{
+      std::string("growth-over-") + factor.name,
+      "Physics, filter and send together per tick: mean over replications and its 95 % interval",
+      {"line", factor.name, "total_us_per_tick", "low_95", "high_95"}};
   std::vector<ReferenceCurve> fits;
   std::vector<std::string> schemes, policies;
   const auto place = [](std::vector<std::string>& seen, const std::string& text) {
@@ -82,7 +100,10 @@ void add_plot(Exhibit& exhibit, const Findings& findings, const GrowthFactor& fa
     return static_cast<std::size_t>(std::find(seen.begin(), seen.end(), text) - seen.begin());
   };
   for (const Sweep& sweep : sweeps) {
-    PlotLine line{sweep_name(factor, sweep, short_names.size() < sweeps.size()), {place(schemes, sweep.cell.scheme), place(policies, sweep.cell.policy), plot.lines.size()}, {}};
+    PlotLine line{
+        sweep_name(factor, sweep, short_names.size() < sweeps.size()),
+        {place(schemes, sweep.cell.scheme), place(policies, sweep.cell.policy), plot.lines.size()},
+        {}};
     for (const auto& [value, costs] : sweep.costs) {
       const MeanInterval mean = mean_interval(costs);
       line.points.push_back({static_cast<double>(value), mean.mean, mean.interval, {}, ""});
@@ -94,7 +115,12 @@ void add_plot(Exhibit& exhibit, const Findings& findings, const GrowthFactor& fa
   }
   for (const ReferenceCurve& fit : fits)
     if (!fit.points.empty()) plot.references.push_back(fit);
-  plot.alternative = std::string("On these axes a power law is a straight line and its slope the exponent: twice the ") + factor.name + " cost 2 to the exponent times as much. Bars: 95 % intervals; faint: the better of a constant with a proportional part and a power law, through all replications.";
+  plot.alternative =
+      std::string(
+          "On these axes a power law is a straight line and its slope the exponent: twice the ") +
+      factor.name +
+      " cost 2 to the exponent times as much. Bars: 95 % intervals; faint: the better of a "
+      "constant with a proportional part and a power law, through all replications.";
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 
@@ -103,33 +129,52 @@ std::string bounds(const std::optional<double>& low, const std::optional<double>
 }
 
 void add_exponents(Exhibit& exhibit, std::span<const Growth> growths) {
-  exhibit.html += "<h3>Exponents</h3>\n<p class=\"faint\">y grows as x to the exponent, by least squares on logarithms with its 95 % interval. Where the points contradict a power law, the slopes between "
-                  "neighbouring values are given instead.</p>\n<div class=\"scroll\"><table><thead><tr><th class=\"text\">filter</th><th class=\"text\">over</th><th class=\"text\">at</th>"
-                  "<th class=\"text\">figure</th><th>exponent (95 %)</th><th>R\xC2\xB2</th><th class=\"text\">power law?</th></tr></thead><tbody>\n";
+  exhibit.html +=
+      "<h3>Exponents</h3>\n<p class=\"faint\">y grows as x to the exponent, by least squares on "
+      "logarithms with its 95 % interval. Where the points contradict a power law, the slopes "
+      "between "
+      "neighbouring values are given instead.</p>\n<div class=\"scroll\"><table><thead><tr><th "
+      "class=\"text\">filter</th><th class=\"text\">over</th><th class=\"text\">at</th>"
+      "<th class=\"text\">figure</th><th>exponent (95 %)</th><th>R\xC2\xB2</th><th "
+      "class=\"text\">power law?</th></tr></thead><tbody>\n";
   for (const Growth& growth : growths) {
     std::string verdict = "not contradicted";
     if (growth.fit.is_rejected()) {
       verdict = "no; slopes";
       for (const auto& local : growth.fit.locals) verdict += " " + plain_number(local.exponent, 2);
     }
-    exhibit.html += "<tr><td class=\"text\">" + escaped(growth.scheme + ", " + growth.policy) + "</td><td class=\"text\">" + escaped(growth.factor) + "</td><td class=\"text\">" + escaped(growth.held) +
-                    "</td><td class=\"text\">" + escaped(growth.figure) + "</td><td>" + plain_number(growth.fit.exponent) + bounds(growth.fit.exponent_low, growth.fit.exponent_high) + "</td><td>" +
-                    plain_number(growth.fit.r_squared, 4) + "</td><td class=\"text\">" + verdict + "</td></tr>\n";
+    exhibit.html += "<tr><td class=\"text\">" + escaped(growth.scheme + ", " + growth.policy) +
+                    "</td><td class=\"text\">" + escaped(growth.factor) +
+                    "</td><td class=\"text\">" + escaped(growth.held) + "</td><td class=\"text\">" +
+                    escaped(growth.figure) + "</td><td>" + plain_number(growth.fit.exponent) +
+                    bounds(growth.fit.exponent_low, growth.fit.exponent_high) + "</td><td>" +
+                    plain_number(growth.fit.r_squared, 4) + "</td><td class=\"text\">" + verdict +
+                    "</td></tr>\n";
   }
   exhibit.html += "</tbody></table></div>\n";
-  if (const std::string capacity = capacity_text(growths); !capacity.empty()) exhibit.html += "<h3>How many clients the server holds</h3>\n<pre>" + escaped(capacity) + "</pre>\n";
+  if (const std::string capacity = capacity_text(growths); !capacity.empty())
+    exhibit.html +=
+        "<h3>How many clients the server holds</h3>\n<pre>" + escaped(capacity) + "</pre>\n";
   exhibit.html += "<p class=\"data\">Data: growth.csv</p>\n";
 }
 
 void add_cores(Exhibit& exhibit, std::span<const CoresRatio> ratios) {
-  exhibit.html += "<h3>One core against two</h3>\n<p class=\"faint\">Both programs wherever the kernel puts them, as a multiple of the server on a processor of its own; the server has one thread. Geometric "
-                  "mean over seeds, paired, with its 95 % interval.</p>\n<div class=\"scroll\"><table><thead><tr><th>clients</th><th class=\"text\">filter</th><th class=\"text\">figure</th>"
-                  "<th>ratio (95 %)</th><th class=\"text\">difference</th></tr></thead><tbody>\n";
+  exhibit.html +=
+      "<h3>One core against two</h3>\n<p class=\"faint\">Both programs wherever the kernel puts "
+      "them, as a multiple of the server on a processor of its own; the server has one thread. "
+      "Geometric "
+      "mean over seeds, paired, with its 95 % interval.</p>\n<div "
+      "class=\"scroll\"><table><thead><tr><th>clients</th><th class=\"text\">filter</th><th "
+      "class=\"text\">figure</th>"
+      "<th>ratio (95 %)</th><th class=\"text\">difference</th></tr></thead><tbody>\n";
   for (const CoresRatio& ratio : ratios) {
     const auto& interval = ratio.ratio.interval;
-    exhibit.html += "<tr><td>" + std::to_string(ratio.cell.clients) + "</td><td class=\"text\">" + escaped(ratio.cell.scheme + ", " + ratio.cell.policy) + "</td><td class=\"text\">" +
-                    escaped(ratio.figure) + "</td><td>" + plain_number(ratio.ratio.value) + (interval ? bounds(interval->low, interval->high) : "") + "</td><td class=\"text\">" +
-                    words_for(ratio.ratio.difference()) + "</td></tr>\n";
+    exhibit.html +=
+        "<tr><td>" + std::to_string(ratio.cell.clients) + "</td><td class=\"text\">" +
+        escaped(ratio.cell.scheme + ", " + ratio.cell.policy) + "</td><td class=\"text\">" +
+        escaped(ratio.figure) + "</td><td>" + plain_number(ratio.ratio.value) +
+        (interval ? bounds(interval->low, interval->high) : "") + "</td><td class=\"text\">" +
+        words_for(ratio.ratio.difference()) + "</td></tr>\n";
   }
   exhibit.html += "</tbody></table></div>\n<p class=\"data\">Data: server_cores.csv</p>\n";
 }
@@ -146,7 +191,9 @@ Exhibit growth_exhibit(const Findings& findings) {
   if (!ratios.empty()) add_cores(exhibit, ratios);
   if (exhibit.tables.empty() && growths.empty() && ratios.empty()) {
     exhibit.html.clear();
-    exhibit.add_absence("Neither clients, pucks nor bats take three values while all else stays, so nothing can be said about growth.");
+    exhibit.add_absence(
+        "Neither clients, pucks nor bats take three values while all else stays, so nothing can be "
+        "said about growth.");
   }
   return exhibit;
 }

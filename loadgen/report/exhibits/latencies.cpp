@@ -10,7 +10,8 @@ namespace {
 
 CellLatencies& entry_for(std::vector<CellLatencies>& all, Cell cell) {
   cell.seed = 0;
-  const auto found = std::find_if(all.begin(), all.end(), [&cell](const CellLatencies& other) { return other.cell == cell; });
+  const auto found = std::find_if(
+      all.begin(), all.end(), [&cell](const CellLatencies& other) { return other.cell == cell; });
   if (found != all.end()) return *found;
   return all.emplace_back(CellLatencies{cell, {}, {}, {}});
 }
@@ -23,7 +24,8 @@ void merge_from(Histogram& into, const nlohmann::json& report, const char* key) 
 
 }  // namespace
 
-std::vector<CellLatencies> latencies_in(const std::filesystem::path& cells, std::span<const RunRecord> runs) {
+std::vector<CellLatencies> latencies_in(const std::filesystem::path& cells,
+                                        std::span<const RunRecord> runs) {
   std::vector<CellLatencies> result;
   for (const RunRecord& run : runs) {
     if (!run.valid) continue;

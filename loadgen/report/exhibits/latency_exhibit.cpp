@@ -45,7 +45,9 @@ bool is_same_cell(Cell a, Cell b) {
 Ticks nines(double most) {
   Ticks ticks{{{0.0, "0"}, {std::log10(2.0), "50 %"}, {1.0, "90 %"}}, {}};
   std::string text = "99";
-  for (int nine = 2; nine <= static_cast<int>(most + 1e-9); ++nine, text += text.size() == 2 ? ".9" : "9") ticks.major.emplace_back(nine, text + " %");
+  for (int nine = 2; nine <= static_cast<int>(most + 1e-9);
+       ++nine, text += text.size() == 2 ? ".9" : "9")
+    ticks.major.emplace_back(nine, text + " %");
   return ticks;
 }
 
@@ -68,7 +70,11 @@ struct Range {
 /// Means over the runs of the percentiles that each of them has.
 std::vector<PlotPoint> points_of(const CellGroup& group, Percentiles (*summary)(const RunRecord&)) {
   static constexpr std::pair<double, std::optional<double> Percentiles::*> places[] = {
-      {0.5, &Percentiles::p50}, {0.9, &Percentiles::p90}, {0.95, &Percentiles::p95}, {0.99, &Percentiles::p99}, {0.999, &Percentiles::p999}};
+      {0.5, &Percentiles::p50},
+      {0.9, &Percentiles::p90},
+      {0.95, &Percentiles::p95},
+      {0.99, &Percentiles::p99},
+      {0.999, &Percentiles::p999}};
   std::vector<PlotPoint> points;
   for (const auto& [fraction, member] : places) {
     std::vector<double> values;
@@ -82,7 +88,8 @@ std::vector<PlotPoint> points_of(const CellGroup& group, Percentiles (*summary)(
   return points;
 }
 
-PlotLine line_of(const CellLine& line, std::vector<PlotPoint> points, std::size_t mark_stride, Range& range) {
+PlotLine line_of(const CellLine& line, std::vector<PlotPoint> points, std::size_t mark_stride,
+                 Range& range) {
   PlotLine drawn{line.name, line.style, std::move(points), mark_stride};
   for (const PlotPoint& point : drawn.points) {
     if (point.y > 0.0) range.low = std::min(range.low, point.y);
@@ -95,13 +102,26 @@ PlotLine line_of(const CellLine& line, std::vector<PlotPoint> points, std::size_
 /// Null if nothing was counted.
 const Histogram* histogram_of(const Findings& findings, const Cell& cell, const Latency& kind) {
   for (const CellLatencies& latencies : findings.latencies) {
-    if (is_same_cell(latencies.cell, cell) && (latencies.*kind.of).count() > 0) return &(latencies.*kind.of);
+    if (is_same_cell(latencies.cell, cell) && (latencies.*kind.of).count() > 0)
+      return &(latencies.*kind.of);
   }
   return nullptr;
 }
 
-LinePlot panel(const Findings& findings, const Latency& kind, std::uint32_t clients, PlotTable& table, Range& range) {
-  LinePlot plot{std::string(kind.title) + ", " + std::to_string(clients) + (clients == 1 ? " client" : " clients"), "percentile", "ms", "", false, true, {}, {}, {}, {}, {}};
+LinePlot panel(const Findings& findings, const Latency& kind, std::uint32_t clients,
+               PlotTable& table, Range& range) {
+  LinePlot plot{std::string(kind.title) + ", " + std::to_string(clients) +
+                    (clients == 1 ? " client" : " clients"),
+                "percentile",
+                "ms",
+                "",
+                false,
+                true,
+                {},
+                {},
+                {},
+                {},
+                {}};
   plot.width = 400.0;
   plot.frame_height = 210.0;
   plot.alternative = kind.meaning;
@@ -110,7 +130,9 @@ LinePlot panel(const Findings& findings, const Latency& kind, std::uint32_t clie
       if (group.cell.clients != clients) continue;
       const Histogram* histogram = histogram_of(findings, group.cell, kind);
       if (!histogram && !kind.summary) continue;
-      plot.lines.push_back(line_of(line, histogram ? curve_of(*histogram) : points_of(group, kind.summary), histogram ? steps_per_nine / 2 : 1, range));
+      plot.lines.push_back(
+          line_of(line, histogram ? curve_of(*histogram) : points_of(group, kind.summary),
+                  histogram ? steps_per_nine / 2 : 1, range));
       for (const PlotPoint& point : plot.lines.back().points) {
         auto row = cell_values(line, group);
         row.push_back(exact_number(1.0 - std::pow(10.0, -point.x)));
@@ -125,7 +147,11 @@ LinePlot panel(const Findings& findings, const Latency& kind, std::uint32_t clie
 }
 
 bool add_latency(Exhibit& exhibit, const Findings& findings, const Latency& kind) {
-  PlotTable table{kind.name, std::string(kind.title) + ": percentiles over all valid replications together, as far as ten samples lie beyond", cell_columns()};
+  PlotTable table{
+      kind.name,
+      std::string(kind.title) +
+          ": percentiles over all valid replications together, as far as ten samples lie beyond",
+      cell_columns()};
   table.columns.insert(table.columns.end(), {"fraction", "ms", "samples"});
   Range range;
   std::vector<LinePlot> plots;
@@ -143,7 +169,9 @@ bool add_latency(Exhibit& exhibit, const Findings& findings, const Latency& kind
     figures.add_panel(table.name, to_svg(plot), "");
   }
   exhibit.html += std::string("<h3>") + kind.heading + "</h3>\n<p class=\"faint\">" + kind.meaning +
-                  " Lower is better; a curve that turns up at its right end has a tail that means hide.</p>\n<div class=\"plots small\">\n" + figures.html + "</div>\n" + to_details(table);
+                  " Lower is better; a curve that turns up at its right end has a tail that means "
+                  "hide.</p>\n<div class=\"plots small\">\n" +
+                  figures.html + "</div>\n" + to_details(table);
   std::move(figures.pictures.begin(), figures.pictures.end(), std::back_inserter(exhibit.pictures));
   exhibit.tables.push_back(std::move(table));
   return true;
@@ -154,9 +182,13 @@ bool add_latency(Exhibit& exhibit, const Findings& findings, const Latency& kind
 Exhibit latency_exhibit(const Findings& findings) {
   Exhibit exhibit;
   exhibit.html +=
-      "<p class=\"faint\">Each curve ends where fewer than ten samples lie beyond, since the sample says nothing after that. All valid replications of a cell are taken together; where only percentiles of each run are kept, marks are their means over replications.</p>\n";
+      "<p class=\"faint\">Each curve ends where fewer than ten samples lie beyond, since the "
+      "sample says nothing after that. All valid replications of a cell are taken together; where "
+      "only percentiles of each run are kept, marks are their means over replications.</p>\n";
   for (const Latency& kind : kinds) {
-    if (!add_latency(exhibit, findings, kind)) exhibit.add_absence(std::string(kind.title) + ": no sample is large enough, so there is no curve.");
+    if (!add_latency(exhibit, findings, kind))
+      exhibit.add_absence(std::string(kind.title) +
+                          ": no sample is large enough, so there is no curve.");
   }
   return exhibit;
 }

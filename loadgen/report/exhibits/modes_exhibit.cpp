@@ -1,8 +1,8 @@
 // With and without a server: who carries what, and for what.
 #include <algorithm>
 
-#include "loadgen/report/plots/bar_plot.h"
 #include "loadgen/report/exhibits/exhibit.h"
+#include "loadgen/report/plots/bar_plot.h"
 #include "loadgen/report/plots/line_plot.h"
 #include "loadgen/report/plots/text.h"
 
@@ -16,9 +16,12 @@ struct Subject {
 };
 
 constexpr Subject subjects[] = {
-    {"halo", 0, [](const RunRecord& run) { return run.traffic.halo; }},           {"updates", 0, [](const RunRecord& run) { return run.traffic.updates; }},
-    {"claims", 1, [](const RunRecord& run) { return run.traffic.claims; }},       {"agreement", 1, [](const RunRecord& run) { return run.traffic.agreement; }},
-    {"interest", 2, [](const RunRecord& run) { return run.traffic.interest; }},   {"keys", 2, [](const RunRecord& run) { return run.traffic.keys; }},
+    {"halo", 0, [](const RunRecord& run) { return run.traffic.halo; }},
+    {"updates", 0, [](const RunRecord& run) { return run.traffic.updates; }},
+    {"claims", 1, [](const RunRecord& run) { return run.traffic.claims; }},
+    {"agreement", 1, [](const RunRecord& run) { return run.traffic.agreement; }},
+    {"interest", 2, [](const RunRecord& run) { return run.traffic.interest; }},
+    {"keys", 2, [](const RunRecord& run) { return run.traffic.keys; }},
 };
 
 struct Shown {
@@ -27,29 +30,47 @@ struct Shown {
 };
 
 constexpr Shown against_clients[] = {
-    {"busiest-node-bytes", "The busiest node", "payload, bytes per second, both ways", "Payload of the server's link, or of the busiest peer's, without headers, of which many small messages have more: as the next plot shows.",
+    {"busiest-node-bytes", "The busiest node", "payload, bytes per second, both ways",
+     "Payload of the server's link, or of the busiest peer's, without headers, of which many small "
+     "messages have more: as the next plot shows.",
      [](const RunRecord& run) { return run.nodes.busiest_bytes_per_s; }},
-    {"link-bytes", "A node's link with headers", "bytes per second, both ways", "What one machine's link must carry, 66 bytes of headers for each segment included: the server's, or that of a peer in the mean.",
+    {"link-bytes", "A node's link with headers", "bytes per second, both ways",
+     "What one machine's link must carry, 66 bytes of headers for each segment included: the "
+     "server's, or that of a peer in the mean.",
      [](const RunRecord& run) -> std::optional<double> {
        if (!run.wire_bytes_per_client_per_s) return std::nullopt;
-       return *run.wire_bytes_per_client_per_s * (run.cell.mode == peer_mode ? 1.0 : run.cell.clients);
+       return *run.wire_bytes_per_client_per_s *
+              (run.cell.mode == peer_mode ? 1.0 : run.cell.clients);
      }},
-    {"busiest-node-events", "Physics of the busiest node", "events per second", "What one machine must compute: the whole, or a part with the ghosts around it.",
+    {"busiest-node-events", "Physics of the busiest node", "events per second",
+     "What one machine must compute: the whole, or a part with the ghosts around it.",
      [](const RunRecord& run) { return run.nodes.busiest_events_per_s; }},
-    {"busiest-node-cpu", "Processor time of the busiest node", "s", "From start to end, by the kernel.", [](const RunRecord& run) { return run.nodes.busiest_cpu_s; }},
-    {"key-to-effect-median", "From key to effect, median", "ms", "From the instant a key was due to the first state of the own bat that has felt it.", [](const RunRecord& run) { return run.key_to_effect_ms.p50; }},
+    {"busiest-node-cpu", "Processor time of the busiest node", "s",
+     "From start to end, by the kernel.",
+     [](const RunRecord& run) { return run.nodes.busiest_cpu_s; }},
+    {"key-to-effect-median", "From key to effect, median", "ms",
+     "From the instant a key was due to the first state of the own bat that has felt it.",
+     [](const RunRecord& run) { return run.key_to_effect_ms.p50; }},
 };
 
 bool add_plot(Exhibit& exhibit, const Findings& findings, const Shown& shown) {
   LinePlot plot{shown.title, "clients", shown.unit, "", true, true, {}, {}, {}, {}, {}};
-  PlotTable table{shown.name, std::string(shown.title) + ", " + shown.unit + ": mean over replications and its 95 % interval", cell_columns()};
+  PlotTable table{shown.name,
+                  std::string(shown.title) + ", " + shown.unit +
+                      ": mean over replications and its 95 % interval",
+                  cell_columns()};
   table.columns.insert(table.columns.end(), {shown.name, "low_95", "high_95"});
   for (const CellLine& line : findings.lines) {
     PlotLine drawn{line.name, line.style, {}};
     for (const CellGroup& group : line.groups) {
       const auto mean = group.mean(shown.of);
       if (!mean || mean->mean <= 0.0) continue;
-      drawn.points.push_back({static_cast<double>(group.cell.clients), mean->mean, mean->interval, {}, line.name + ", " + std::to_string(group.cell.clients) + " clients: " + short_number(mean->mean)});
+      drawn.points.push_back({static_cast<double>(group.cell.clients),
+                              mean->mean,
+                              mean->interval,
+                              {},
+                              line.name + ", " + std::to_string(group.cell.clients) +
+                                  " clients: " + short_number(mean->mean)});
       auto row = cell_values(line, group);
       append_interval(row, mean);
       table.rows.push_back(std::move(row));
@@ -63,10 +84,25 @@ bool add_plot(Exhibit& exhibit, const Findings& findings, const Shown& shown) {
 }
 
 void add_bars(Exhibit& exhibit, const Findings& findings) {
-  PlotTable table{"traffic-by-subject", "Bytes for each client and second by what they are about: means over replications", cell_columns()};
-  for (const Subject& subject : subjects) table.columns.push_back(std::string(subject.name) + "_bytes_per_client_per_s");
+  PlotTable table{
+      "traffic-by-subject",
+      "Bytes for each client and second by what they are about: means over replications",
+      cell_columns()};
+  for (const Subject& subject : subjects)
+    table.columns.push_back(std::string(subject.name) + "_bytes_per_client_per_s");
   for (const CellLine& line : findings.lines) {
-    BarPlot plot{line.name, "clients", "bytes per second and client", "Bodies' states, what proves windows, and control, stacked, for each client count.", {"halo and updates", "claims and agreement", "interest and keys"}, {}, {}, {}, "", 380.0, 190.0};
+    BarPlot plot{
+        line.name,
+        "clients",
+        "bytes per second and client",
+        "Bodies' states, what proves windows, and control, stacked, for each client count.",
+        {"halo and updates", "claims and agreement", "interest and keys"},
+        {},
+        {},
+        {},
+        "",
+        380.0,
+        190.0};
     for (const CellGroup& group : line.groups) {
       BarPlot::Bar bar{std::to_string(group.cell.clients), {0.0, 0.0, 0.0}, ""};
       auto row = cell_values(line, group);
@@ -88,14 +124,22 @@ void add_bars(Exhibit& exhibit, const Findings& findings) {
 
 Exhibit modes_exhibit(const Findings& findings) {
   Exhibit exhibit{
-      "<p class=\"faint\">The same scenes and keys with a server, which simulates everything and tells each client what concerns it, and among peers, each of which is a player's and simulates a "
-      "part of the field, to the same state hash. A server's bytes are all its clients' together; among peers each carries its own.</p>\n<div class=\"plots\">\n"};
+      "<p class=\"faint\">The same scenes and keys with a server, which simulates everything and "
+      "tells each client what concerns it, and among peers, each of which is a player's and "
+      "simulates a "
+      "part of the field, to the same state hash. A server's bytes are all its clients' together; "
+      "among peers each carries its own.</p>\n<div class=\"plots\">\n"};
   std::string absences;
   for (const Shown& shown : against_clients)
-    if (!add_plot(exhibit, findings, shown)) absences += std::string(absences.empty() ? "" : ", ") + shown.title;
+    if (!add_plot(exhibit, findings, shown))
+      absences += std::string(absences.empty() ? "" : ", ") + shown.title;
   exhibit.html += "</div>\n";
-  if (!absences.empty()) exhibit.add_absence("Not measured in any cell's every run, so without a plot: " + absences + ".");
-  exhibit.html += "<p class=\"faint\">What the bytes are about; each panel has its own scale.</p>\n<div class=\"plots small\">\n";
+  if (!absences.empty())
+    exhibit.add_absence("Not measured in any cell's every run, so without a plot: " + absences +
+                        ".");
+  exhibit.html +=
+      "<p class=\"faint\">What the bytes are about; each panel has its own scale.</p>\n<div "
+      "class=\"plots small\">\n";
   add_bars(exhibit, findings);
   return exhibit;
 }

@@ -3,17 +3,20 @@
 #include <set>
 
 #include "loadgen/report/exhibits/exhibit.h"
-#include "loadgen/report/plots/line_plot.h"
 #include "loadgen/report/exhibits/run_figures.h"
+#include "loadgen/report/plots/line_plot.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
 namespace {
 
-/// Where the harmonic mean of precision p and recall r is `score`, p = score r / (2 r - score), from a recall and a precision of so much on.
+/// Where the harmonic mean of precision p and recall r is `score`, p = score r / (2 r - score),
+/// from a recall and a precision of so much on.
 ReferenceCurve equal_score(double score, double recall_least, double precision_least) {
   const double first = std::max(recall_least, score / (2.0 - score));
-  const double last = 2.0 * precision_least > score ? std::min(1.0, score * precision_least / (2.0 * precision_least - score)) : 1.0;
+  const double last = 2.0 * precision_least > score
+                          ? std::min(1.0, score * precision_least / (2.0 * precision_least - score))
+                          : 1.0;
   ReferenceCurve curve{"F1 " + short_number(score), {}};
   for (int i = 0; i <= 100 && first < last; ++i) {
     const double recall = first + (last - first) * i / 100.0;
@@ -22,10 +25,13 @@ ReferenceCurve equal_score(double score, double recall_least, double precision_l
   return curve;
 }
 
-void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, FigureOf recall, const std::string& name, const std::string& title) {
+void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, FigureOf recall,
+              const std::string& name, const std::string& title) {
   LinePlot plot{title, "recall", "precision", "", false, false, {}, {}, {}, {}, {}};
-  PlotTable table{name, title + ": means over replications with their 95 % intervals", cell_columns()};
-  table.columns.insert(table.columns.end(), {"recall", "recall_low_95", "recall_high_95", "precision", "precision_low_95", "precision_high_95"});
+  PlotTable table{name, title + ": means over replications with their 95 % intervals",
+                  cell_columns()};
+  table.columns.insert(table.columns.end(), {"recall", "recall_low_95", "recall_high_95",
+                                             "precision", "precision_low_95", "precision_high_95"});
   double low_recall = 1.0, low_precision = 1.0;
   for (const CellLine& line : largest_crowds(plotted_lines(findings))) {
     PlotLine drawn{line.name, line.style, {}};
@@ -33,8 +39,11 @@ void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, Fi
       const auto p = group.mean(precision), r = group.mean(recall);
       if (!p || !r) continue;
       drawn.points.push_back({r->mean, p->mean, p->interval, r->interval,
-                              line.name + ", " + std::to_string(group.cell.clients) + " clients: recall " + plain_number(r->mean, 4) + ", precision " + plain_number(p->mean, 4)});
-      low_recall = std::min({low_recall, r->mean, r->interval ? r->interval->first : 1.0}), low_precision = std::min({low_precision, p->mean, p->interval ? p->interval->first : 1.0});
+                              line.name + ", " + std::to_string(group.cell.clients) +
+                                  " clients: recall " + plain_number(r->mean, 4) + ", precision " +
+                                  plain_number(p->mean, 4)});
+      low_recall = std::min({low_recall, r->mean, r->interval ? r->interval->first : 1.0}),
+      low_precision = std::min({low_precision, p->mean, p->interval ? p->interval->first : 1.0});
       auto row = cell_values(line, group);
       append_interval(row, r);
       append_interval(row, p);
@@ -42,16 +51,23 @@ void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, Fi
     }
     if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
   }
-  if (!has_points(plot)) return exhibit.add_absence(title + ": no run was held against truth in this, so there is no plot.");
+  if (!has_points(plot))
+    return exhibit.add_absence(title +
+                               ": no run was held against truth in this, so there is no plot.");
   plot.x_range = zoomed(low_recall, 1.0), plot.y_range = zoomed(low_precision, 1.0);
-  for (const double score : {0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.98}) plot.references.push_back(equal_score(score, plot.x_range->first, plot.y_range->first));
+  for (const double score : {0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.98})
+    plot.references.push_back(equal_score(score, plot.x_range->first, plot.y_range->first));
   plot.alternative =
-      "The upper right corner is perfect: nothing relevant is missing, nothing irrelevant is sent. Faint curves join points of equal F1, the harmonic mean of both. The axes show where the data are: recall from " +
-      plain_number(plot.x_range->first, 4) + ", precision from " + plain_number(plot.y_range->first, 4) + " on." + largest_crowd_words(findings);
+      "The upper right corner is perfect: nothing relevant is missing, nothing irrelevant is sent. "
+      "Faint curves join points of equal F1, the harmonic mean of both. The axes show where the "
+      "data are: recall from " +
+      plain_number(plot.x_range->first, 4) + ", precision from " +
+      plain_number(plot.y_range->first, 4) + " on." + largest_crowd_words(findings);
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 
-constexpr FigureOf delivered_precision{[](const RunRecord& run) { return run.truth.delivered_precision; }, Scale::fraction};
+constexpr FigureOf delivered_precision{
+    [](const RunRecord& run) { return run.truth.delivered_precision; }, Scale::fraction};
 
 struct Quality {
   const char* name;
@@ -65,18 +81,34 @@ constexpr Quality qualities[] = {
     {"filter precision", filter_precision, 1.0},
     {"delivered recall", delivered_recall, 1.0, 5},
     {"delivered precision", delivered_precision, 1.0},
-    {"missed interactions", [](const RunRecord& run) { return run.truth.missed_interactions ? std::optional(static_cast<double>(*run.truth.missed_interactions)) : std::nullopt; }, 1.0},
+    {"missed interactions",
+     [](const RunRecord& run) {
+       return run.truth.missed_interactions
+                  ? std::optional(static_cast<double>(*run.truth.missed_interactions))
+                  : std::nullopt;
+     },
+     1.0},
     {"late entry p99 ms", [](const RunRecord& run) { return run.truth.late_entry_ms.p99; }, 1.0},
-    {"changes of scope per client and s", [](const RunRecord& run) { return run.truth.churn_per_client_per_s; }, 1.0},
-    {"flapping %", {[](const RunRecord& run) { return run.truth.flapping_fraction; }, Scale::fraction}, 100.0},
-    {"wasted bytes %", {[](const RunRecord& run) { return run.truth.wasted_bytes_fraction; }, Scale::fraction}, 100.0},
-    {"control bytes %", {[](const RunRecord& run) { return run.truth.control_bytes_fraction; }, Scale::fraction}, 100.0},
-    {"fairness (Jain)", {[](const RunRecord& run) { return run.truth.fairness_jain; }, Scale::fraction}, 1.0},
+    {"changes of scope per client and s",
+     [](const RunRecord& run) { return run.truth.churn_per_client_per_s; }, 1.0},
+    {"flapping %",
+     {[](const RunRecord& run) { return run.truth.flapping_fraction; }, Scale::fraction},
+     100.0},
+    {"wasted bytes %",
+     {[](const RunRecord& run) { return run.truth.wasted_bytes_fraction; }, Scale::fraction},
+     100.0},
+    {"control bytes %",
+     {[](const RunRecord& run) { return run.truth.control_bytes_fraction; }, Scale::fraction},
+     100.0},
+    {"fairness (Jain)",
+     {[](const RunRecord& run) { return run.truth.fairness_jain; }, Scale::fraction},
+     1.0},
 };
 
 /// One row per cell, with the columns that any cell has.
 void add_quality_table(Exhibit& exhibit, const Findings& findings) {
-  PlotTable table{"quality", "What truth says of each cell: means over replications", cell_columns()};
+  PlotTable table{"quality", "What truth says of each cell: means over replications",
+                  cell_columns()};
   for (const Quality& quality : qualities) table.columns.push_back(quality.name);
   std::string body;
   std::vector<std::string> shown(std::size(qualities));
@@ -89,17 +121,25 @@ void add_quality_table(Exhibit& exhibit, const Findings& findings) {
         const auto mean = group.mean(quality.of);
         has_any = has_any || mean.has_value();
         row.push_back(mean ? exact_number(mean->mean * quality.scale) : "");
-        cells += "<td>" + plain_number(mean ? std::optional(mean->mean * quality.scale) : std::nullopt, quality.digits) + "</td>";
+        cells += "<td>" +
+                 plain_number(mean ? std::optional(mean->mean * quality.scale) : std::nullopt,
+                              quality.digits) +
+                 "</td>";
       }
       if (!has_any) continue;
       table.rows.push_back(std::move(row));
-      body += "<tr><td class=\"text\">" + escaped(line.name) + "</td><td>" + std::to_string(group.cell.clients) + "</td>" + cells + "</tr>\n";
+      body += "<tr><td class=\"text\">" + escaped(line.name) + "</td><td>" +
+              std::to_string(group.cell.clients) + "</td>" + cells + "</tr>\n";
     }
   }
   if (table.is_empty()) return;
-  exhibit.html += "<div class=\"scroll\"><table class=\"wide\"><thead><tr><th class=\"text\">filter</th><th>clients</th>";
-  for (const Quality& quality : qualities) exhibit.html += std::string("<th>") + quality.name + "</th>";
-  exhibit.html += "</tr></thead><tbody>\n" + body + "</tbody></table></div>\n<p class=\"data\">Data: plots/quality.csv</p>\n";
+  exhibit.html +=
+      "<div class=\"scroll\"><table class=\"wide\"><thead><tr><th "
+      "class=\"text\">filter</th><th>clients</th>";
+  for (const Quality& quality : qualities)
+    exhibit.html += std::string("<th>") + quality.name + "</th>";
+  exhibit.html += "</tr></thead><tbody>\n" + body +
+                  "</tbody></table></div>\n<p class=\"data\">Data: plots/quality.csv</p>\n";
   exhibit.tables.push_back(std::move(table));
 }
 
@@ -112,9 +152,12 @@ Exhibit relevance_exhibit(const Findings& findings) {
     return exhibit;
   }
   exhibit.html += "<p class=\"faint\">Relevant to a player: " + escaped(findings.relevance) +
-                  ". Truth is the run's scene and key log simulated again; neither the filter nor a client grades itself.</p>\n<div class=\"plots\">\n";
-  add_plot(exhibit, findings, filter_precision, filter_recall, "precision-recall-filter", "The filter's decisions");
-  add_plot(exhibit, findings, delivered_precision, delivered_recall, "precision-recall-delivered", "What clients held");
+                  ". Truth is the run's scene and key log simulated again; neither the filter nor "
+                  "a client grades itself.</p>\n<div class=\"plots\">\n";
+  add_plot(exhibit, findings, filter_precision, filter_recall, "precision-recall-filter",
+           "The filter's decisions");
+  add_plot(exhibit, findings, delivered_precision, delivered_recall, "precision-recall-delivered",
+           "What clients held");
   add_bytes_against_relevance(exhibit, findings);
   add_recall_against_delay(exhibit, findings);
   exhibit.html += "</div>\n";

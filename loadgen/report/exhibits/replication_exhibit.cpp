@@ -1,6 +1,6 @@
 // Box plots over replications, so that a mean is not taken for more than it is.
-#include "loadgen/report/plots/box_plot.h"
 #include "loadgen/report/exhibits/exhibit.h"
+#include "loadgen/report/plots/box_plot.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -16,20 +16,28 @@ struct BoxedFigure {
 };
 
 constexpr BoxedFigure boxed_figures[] = {
-    {"replications-payload", "Payload to each client", "bytes per second and client", [](const RunRecord& run) { return run.down_bytes_per_client_per_s; }},
-    {"replications-displayed-error", "Displayed error, RMS", "mm", [](const RunRecord& run) { return run.truth.displayed_error_mm.rms; }},
-    {"replications-update-age", "Update age, 99th percentile", "ms", [](const RunRecord& run) { return run.update_age_ms.p99; }},
+    {"replications-payload", "Payload to each client", "bytes per second and client",
+     [](const RunRecord& run) { return run.down_bytes_per_client_per_s; }},
+    {"replications-displayed-error", "Displayed error, RMS", "mm",
+     [](const RunRecord& run) { return run.truth.displayed_error_mm.rms; }},
+    {"replications-update-age", "Update age, 99th percentile", "ms",
+     [](const RunRecord& run) { return run.update_age_ms.p99; }},
 };
 
 bool add_box_plot(Exhibit& exhibit, const Findings& findings, const BoxedFigure& figure) {
-  BoxPlot plot{figure.title, figure.unit, "One row per filter and client count; every dot is a run.", true, {}};
+  BoxPlot plot{figure.title,
+               figure.unit,
+               "One row per filter and client count; every dot is a run.",
+               true,
+               {}};
   PlotTable table{figure.name, std::string(figure.title) + " of every valid run", cell_columns()};
   table.columns.insert(table.columns.end(), {"seed", figure.unit});
   for (const std::uint32_t clients : thinned(client_counts(findings.lines), groups_max)) {
     BoxPlot::Group drawn{std::to_string(clients) + (clients == 1 ? " client" : " clients"), {}};
     for (const CellLine& line : plotted_lines(findings)) {
       for (const CellGroup& group : line.groups) {
-        const auto values = group.cell.clients == clients ? group.values(figure.of) : std::vector<double>{};
+        const auto values =
+            group.cell.clients == clients ? group.values(figure.of) : std::vector<double>{};
         if (values.empty()) continue;
         drawn.rows.push_back({line.name, line.style, values});
         for (std::size_t i = 0; i < values.size(); ++i) {
@@ -51,14 +59,19 @@ bool add_box_plot(Exhibit& exhibit, const Findings& findings, const BoxedFigure&
 
 Exhibit replication_exhibit(const Findings& findings) {
   Exhibit exhibit{
-      "<p class=\"faint\">Every dot is a run. Around five or more stands Tukey's box (1977): the middle half between the hinges, the bar at the median, whiskers to the outermost runs "
-      "within 1.5 hinge spreads. Boxes that overlap much are no ground to prefer either.</p>\n<div class=\"plots\">\n"};
+      "<p class=\"faint\">Every dot is a run. Around five or more stands Tukey's box (1977): the "
+      "middle half between the hinges, the bar at the median, whiskers to the outermost runs "
+      "within 1.5 hinge spreads. Boxes that overlap much are no ground to prefer either.</p>\n<div "
+      "class=\"plots\">\n"};
   std::string absences;
   for (const BoxedFigure& figure : boxed_figures) {
-    if (!add_box_plot(exhibit, findings, figure)) absences += std::string(absences.empty() ? "" : ", ") + figure.title;
+    if (!add_box_plot(exhibit, findings, figure))
+      absences += std::string(absences.empty() ? "" : ", ") + figure.title;
   }
   exhibit.html += "</div>\n";
-  if (!absences.empty()) exhibit.add_absence("Not measured in any cell's every run, so without a plot: " + absences + ".");
+  if (!absences.empty())
+    exhibit.add_absence("Not measured in any cell's every run, so without a plot: " + absences +
+                        ".");
   return exhibit;
 }
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "loadgen/report/exhibits/exhibit.h"
-#include "loadgen/report/plots/line_plot.h"
 #include "loadgen/report/exhibits/run_figures.h"
+#include "loadgen/report/plots/line_plot.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -16,13 +16,15 @@ struct Traffic {
   std::string words{};
 };
 
-/// What other exhibits draw, or if that is of a single number of clients: what ran in virtual time without delay for several, whatever parts those were of.
+/// What other exhibits draw, or if that is of a single number of clients: what ran in virtual time
+/// without delay for several, whatever parts those were of.
 Traffic traffic_of(const Findings& findings) {
   Traffic traffic{.lines = plotted_lines(findings)};
   if (client_counts(traffic.lines).size() > 1 || findings.experiment.parts.empty()) return traffic;
   for (const RunRecord& run : findings.runs) {
     const Experiment part = part_of(findings.experiment, run.cell.part);
-    if (part.transport != TransportKind::virtual_time || part.is_of_curves || part.delay_ms != 0.0) continue;
+    if (part.transport != TransportKind::virtual_time || part.is_of_curves || part.delay_ms != 0.0)
+      continue;
     traffic.runs.push_back(run);
     traffic.runs.back().cell.part.clear();
   }
@@ -48,27 +50,39 @@ std::string extremes(const std::vector<CellLine>& lines, FigureOf figure) {
   }
   if (found.size() < 2) return "";
   const auto [least, most] = std::minmax_element(found.begin(), found.end());
-  return " At " + std::to_string(counts.back()) + " clients: least " + short_bytes_per_s(least->first) + " (" + least->second + "), most " + short_bytes_per_s(most->first) + " (" +
-         most->second + "), " + plain_number(most->first / least->first) + " times as much.";
+  return " At " + std::to_string(counts.back()) + " clients: least " +
+         short_bytes_per_s(least->first) + " (" + least->second + "), most " +
+         short_bytes_per_s(most->first) + " (" + most->second + "), " +
+         plain_number(most->first / least->first) + " times as much.";
 }
 
-void add_plot(Exhibit& exhibit, const Traffic& traffic, FigureOf figure, const std::string& name, const std::string& title, const std::string& reading) {
-  LinePlot plot{title, "clients", "bytes per second and client", "", true, true, {}, {}, {}, {}, {}};
-  PlotTable table{name, title + ": bytes per second and client, mean over replications and its 95 % interval", cell_columns()};
+void add_plot(Exhibit& exhibit, const Traffic& traffic, FigureOf figure, const std::string& name,
+              const std::string& title, const std::string& reading) {
+  LinePlot plot{title, "clients", "bytes per second and client", "", true, true, {}, {}, {},
+                {},    {}};
+  PlotTable table{
+      name, title + ": bytes per second and client, mean over replications and its 95 % interval",
+      cell_columns()};
   table.columns.insert(table.columns.end(), {"bytes_per_client_per_s", "low_95", "high_95"});
   for (const CellLine& line : traffic.lines) {
     PlotLine drawn{line.name, line.style, {}};
     for (const CellGroup& group : line.groups) {
       const auto mean = group.mean(figure);
       if (!mean) continue;
-      drawn.points.push_back({static_cast<double>(group.cell.clients), mean->mean, mean->interval, {}, line.name + ", " + std::to_string(group.cell.clients) + " clients: " + short_bytes_per_s(mean->mean)});
+      drawn.points.push_back({static_cast<double>(group.cell.clients),
+                              mean->mean,
+                              mean->interval,
+                              {},
+                              line.name + ", " + std::to_string(group.cell.clients) +
+                                  " clients: " + short_bytes_per_s(mean->mean)});
       auto row = cell_values(line, group);
       append_interval(row, mean);
       table.rows.push_back(std::move(row));
     }
     if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
   }
-  if (!has_points(plot)) return exhibit.add_absence(title + ": no valid run has this figure, so there is no plot.");
+  if (!has_points(plot))
+    return exhibit.add_absence(title + ": no valid run has this figure, so there is no plot.");
   plot.alternative = reading + extremes(traffic.lines, figure) + traffic.words;
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
@@ -79,9 +93,11 @@ Exhibit traffic_exhibit(const Findings& findings) {
   Exhibit exhibit{"<div class=\"plots\">\n"};
   const Traffic traffic = traffic_of(findings);
   add_plot(exhibit, traffic, payload, "payload-against-clients", "Payload to each client",
-           "Lower is better; a flat line says that a client's traffic does not depend on how many others there are. Bars: 95 % intervals of the mean.");
+           "Lower is better; a flat line says that a client's traffic does not depend on how many "
+           "others there are. Bars: 95 % intervals of the mean.");
   add_plot(exhibit, traffic, on_the_wire, "wire-against-clients", "On the wire for each client",
-           "Both directions with headers: what a client's link carries. Lines come closer where headers outweigh payload.");
+           "Both directions with headers: what a client's link carries. Lines come closer where "
+           "headers outweigh payload.");
   exhibit.html += "</div>\n";
   exhibit.add(bytes_by_kind_exhibit(findings));
   return exhibit;

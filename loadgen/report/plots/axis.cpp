@@ -20,7 +20,8 @@ std::vector<double> linear_places(const Axis& axis, double spacing) {
   const double step = decade * (digit > 5.0 ? 10.0 : digit > 2.0 ? 5.0 : digit > 1.0 ? 2.0 : 1.0);
   std::vector<double> places;
   const auto last = static_cast<long long>(std::floor(axis.high / step + rounding));
-  for (auto i = static_cast<long long>(std::ceil(axis.low / step - rounding)); i <= last; ++i) places.push_back(static_cast<double>(i) * step);
+  for (auto i = static_cast<long long>(std::ceil(axis.low / step - rounding)); i <= last; ++i)
+    places.push_back(static_cast<double>(i) * step);
   return places;
 }
 
@@ -28,11 +29,14 @@ std::vector<double> linear_places(const Axis& axis, double spacing) {
 int digits_that_tell_apart(const std::vector<double>& places) {
   if (places.size() < 2) return 3;
   const double largest = std::max(std::abs(places.front()), std::abs(places.back()));
-  return std::max(3, static_cast<int>(std::floor(std::log10(largest / (places[1] - places[0])) + rounding)) + 1);
+  return std::max(
+      3,
+      static_cast<int>(std::floor(std::log10(largest / (places[1] - places[0])) + rounding)) + 1);
 }
 
 Ticks logarithmic_ticks(const Axis& axis, double spacing) {
-  const int first = static_cast<int>(std::floor(std::log10(axis.low))), last = static_cast<int>(std::ceil(std::log10(axis.high)));
+  const int first = static_cast<int>(std::floor(std::log10(axis.low))),
+            last = static_cast<int>(std::ceil(std::log10(axis.high)));
   const double decade_length = std::abs(axis.to - axis.from) / std::log10(axis.high / axis.low);
   const bool has_digits = decade_length * std::log10(2.0) >= spacing;
   const int stride = std::max(1, static_cast<int>(std::ceil(spacing / decade_length)));
@@ -41,7 +45,8 @@ Ticks logarithmic_ticks(const Axis& axis, double spacing) {
     for (int digit = 1; digit <= 9; ++digit) {
       const double value = digit * std::pow(10.0, decade);
       if (value < axis.low * (1.0 - rounding) || value > axis.high * (1.0 + rounding)) continue;
-      const bool is_major = digit == 1 ? decade % stride == 0 : has_digits && (digit == 2 || digit == 5);
+      const bool is_major =
+          digit == 1 ? decade % stride == 0 : has_digits && (digit == 2 || digit == 5);
       if (is_major) ticks.major.emplace_back(value, short_number(value));
       else ticks.minor.push_back(value);
     }
@@ -52,7 +57,8 @@ Ticks logarithmic_ticks(const Axis& axis, double spacing) {
 }  // namespace
 
 double Axis::at(double value) const {
-  const double share = is_logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+  const double share =
+      is_logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
   return from + share * (to - from);
 }
 

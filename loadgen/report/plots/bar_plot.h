@@ -9,8 +9,8 @@
 
 namespace rink::loadgen {
 
-/// Bars whose parts are stacked in the order of `part_names` (the page's classes p0 to p3), each bar named below, or numbered with
-/// the names in a list where one is wider than its bar's place.
+/// Bars whose parts are stacked in the order of `part_names` (the page's classes p0 to p3), each
+/// bar named below, or numbered with the names in a list where one is wider than its bar's place.
 struct BarPlot {
   struct Bar {
     std::string name;

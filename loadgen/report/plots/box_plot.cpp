@@ -24,13 +24,18 @@ std::string svg_row(const BoxPlot::Row& row, const Axis& x, double y) {
   std::string svg;
   if (row.values.size() >= BoxPlot::least_for_box) {
     const BoxFigures box = box_of(row.values);
-    svg += svg_line(x.clamped_at(box.low_whisker), y, x.clamped_at(box.high_whisker), y, "whisker " + colour);
+    svg += svg_line(x.clamped_at(box.low_whisker), y, x.clamped_at(box.high_whisker), y,
+                    "whisker " + colour);
     const double left = x.clamped_at(box.low_hinge), right = x.clamped_at(box.high_hinge);
-    svg += "<rect" + attributes({{"x", left}, {"y", y - 5.5}, {"width", right - left}, {"height", 11.0}}) + " class=\"box " + colour + "\"/>\n";
-    svg += svg_line(x.clamped_at(box.median), y - 5.5, x.clamped_at(box.median), y + 5.5, "median " + colour);
+    svg += "<rect" +
+           attributes({{"x", left}, {"y", y - 5.5}, {"width", right - left}, {"height", 11.0}}) +
+           " class=\"box " + colour + "\"/>\n";
+    svg += svg_line(x.clamped_at(box.median), y - 5.5, x.clamped_at(box.median), y + 5.5,
+                    "median " + colour);
   }
   for (const double value : row.values) {
-    svg += "<circle" + attributes({{"cx", x.clamped_at(value)}, {"cy", y}, {"r", 2.4}}) + " class=\"dot " + colour + "\"><title>" +
+    svg += "<circle" + attributes({{"cx", x.clamped_at(value)}, {"cy", y}, {"r", 2.4}}) +
+           " class=\"dot " + colour + "\"><title>" +
            escaped(row.name + ": " + short_number(value)) + "</title></circle>\n";
   }
   return svg;
@@ -47,7 +52,8 @@ Axis value_axis(const BoxPlot& plot) {
       }
     }
   }
-  return high < low ? axis_around(1.0, 10.0, plot.is_logarithmic) : axis_around(low, high, plot.is_logarithmic, 4.0);
+  return high < low ? axis_around(1.0, 10.0, plot.is_logarithmic)
+                    : axis_around(low, high, plot.is_logarithmic, 4.0);
 }
 
 }  // namespace
@@ -61,7 +67,9 @@ BoxFigures box_of(std::vector<double> sample) {
   box.low_hinge = median_of(std::span(sample).first(half));
   box.high_hinge = median_of(std::span(sample).last(half));
   const double reach = 1.5 * (box.high_hinge - box.low_hinge);
-  const auto is_outside = [&](double value) { return value < box.low_hinge - reach || value > box.high_hinge + reach; };
+  const auto is_outside = [&](double value) {
+    return value < box.low_hinge - reach || value > box.high_hinge + reach;
+  };
   box.low_whisker = *std::find_if_not(sample.begin(), sample.end(), is_outside);
   box.high_whisker = *std::find_if_not(sample.rbegin(), sample.rend(), is_outside);
   std::copy_if(sample.begin(), sample.end(), std::back_inserter(box.outside), is_outside);
@@ -72,21 +80,27 @@ std::string to_svg(const BoxPlot& plot) {
   double names_width = 0.0, height = 4.0, rows = 0.0;
   for (const BoxPlot::Group& group : plot.groups) {
     height += group.name.empty() ? 6.0 : group_height;
-    for (const BoxPlot::Row& row : group.rows) ++rows, names_width = std::max(names_width, text_width(row.name));
+    for (const BoxPlot::Row& row : group.rows)
+      ++rows, names_width = std::max(names_width, text_width(row.name));
   }
-  const bool are_names_above = names_width + 14.0 > 0.6 * plot.width;  // long ones would leave no room for the data
+  const bool are_names_above =
+      names_width + 14.0 > 0.6 * plot.width;  // long ones would leave no room for the data
   const double above = are_names_above ? name_height : 0.0;
   height += rows * (row_height + above);
-  const Frame frame{are_names_above ? 14.0 : names_width + 14.0, plot.width - 14.0, 28.0, 28.0 + height};
+  const Frame frame{are_names_above ? 14.0 : names_width + 14.0, plot.width - 14.0, 28.0,
+                    28.0 + height};
   Axis x = value_axis(plot);
   x.from = frame.left, x.to = frame.right;
-  std::string svg = svg_opening(plot.width, frame.bottom + 42.0, plot.title, plot.alternative) + svg_x_axis(frame, x, ticks_of(x, 40.0), plot.x_title, true);
+  std::string svg = svg_opening(plot.width, frame.bottom + 42.0, plot.title, plot.alternative) +
+                    svg_x_axis(frame, x, ticks_of(x, 40.0), plot.x_title, true);
   double y = frame.top + 4.0;
   for (const BoxPlot::Group& group : plot.groups) {
     y += group.name.empty() ? 6.0 : group_height;
     if (!group.name.empty()) svg += svg_text(0.0, y - 6.0, "axis", group.name);
     for (const BoxPlot::Row& row : group.rows) {
-      svg += are_names_above ? svg_text(0.0, y + 11.0, "tick", fitted(row.name, plot.width)) : svg_text(frame.left - 8.0, y + 0.5 * row_height + 4.0, "tick end", row.name);
+      svg += are_names_above
+                 ? svg_text(0.0, y + 11.0, "tick", fitted(row.name, plot.width))
+                 : svg_text(frame.left - 8.0, y + 0.5 * row_height + 4.0, "tick end", row.name);
       svg += svg_row(row, x, y + above + 0.5 * row_height);
       y += row_height + above;
     }

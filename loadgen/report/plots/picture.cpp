@@ -13,7 +13,8 @@
 namespace rink::loadgen {
 namespace {
 
-constexpr double margin = 10.0;  // labels of the outermost ticks pass the frame by up to half their width
+constexpr double margin =
+    10.0;  // labels of the outermost ticks pass the frame by up to half their width
 
 /// The value of the light colour called `name`; the page's cards are paper here.
 std::string colour(const std::string& name) {
@@ -55,12 +56,17 @@ std::vector<Picture> numbered(std::vector<Picture> pictures) {
 
 std::string to_file(const Picture& picture) {
   const auto [width, height] = size_of(picture.svg);
-  const auto sizes = attributes({{"width", width + 2.0 * margin}, {"height", height + 2.0 * margin}});
-  const std::string corner = coordinate(-margin), box = corner + " " + corner + " " + coordinate(width + 2.0 * margin) + " " + coordinate(height + 2.0 * margin);
+  const auto sizes =
+      attributes({{"width", width + 2.0 * margin}, {"height", height + 2.0 * margin}});
+  const std::string corner = coordinate(-margin), box = corner + " " + corner + " " +
+                                                        coordinate(width + 2.0 * margin) + " " +
+                                                        coordinate(height + 2.0 * margin);
   const std::size_t rest = picture.svg.find(" role=");
   const std::size_t content = picture.svg.find('>', rest) + 1;
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg viewBox=\"" + box + "\"" + sizes + picture.svg.substr(rest, content - rest) + "\n<style>" + style_with_colours() + "</style>\n<rect" +
-         attributes({{"x", -margin}, {"y", -margin}}) + sizes + " fill=\"" + colour("--paper") + "\"/>" + picture.svg.substr(content);
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg viewBox=\"" + box + "\"" + sizes +
+         picture.svg.substr(rest, content - rest) + "\n<style>" + style_with_colours() +
+         "</style>\n<rect" + attributes({{"x", -margin}, {"y", -margin}}) + sizes + " fill=\"" +
+         colour("--paper") + "\"/>" + picture.svg.substr(content);
 }
 
 }  // namespace rink::loadgen

@@ -14,8 +14,9 @@ struct Picture {
 /// Names that are there already get -2, -3 and so on.
 std::vector<Picture> numbered(std::vector<Picture> pictures);
 
-/// An SVG document that stands alone, on white: width and height in its own units and a little more on each side than the page leaves, and all styles with their colours in place, for
-/// many readers of SVG know no CSS variables.
+/// An SVG document that stands alone, on white: width and height in its own units and a little more
+/// on each side than the page leaves, and all styles with their colours in place, for many readers
+/// of SVG know no CSS variables.
 std::string to_file(const Picture& picture);
 
 }  // namespace rink::loadgen

@@ -5,9 +5,10 @@
 
 namespace rink::loadgen {
 
-/// CSS. Line colours are Okabe and Ito's colour-blind-safe set (2008), darkened for white paper and lightened for the dark page; s0 to s7 are lines, d0 to d3
-/// dashes, p0 to p3 the parts of a bar.
-inline constexpr const char* light_colours = R"css(--ink:#1b1f24;--faint:#59636e;--paper:#fff;--card:#f6f8fa;--grid:#dfe3e8;--warn:#b3261e;--link:#0b5cad;--s0:#0072b2;--s1:#c24e00;--s2:#007a58;--s3:#b3498a;--s4:#8a5d00;--s5:#5b6470;--s6:#6a51a3;--s7:#1b1f24;--p0:#8a94a0;--p1:#e69f00;--p2:#56b4e9;--p3:#b3498a)css";
+/// CSS. Line colours are Okabe and Ito's colour-blind-safe set (2008), darkened for white paper and
+/// lightened for the dark page; s0 to s7 are lines, d0 to d3 dashes, p0 to p3 the parts of a bar.
+inline constexpr const char* light_colours =
+    R"css(--ink:#1b1f24;--faint:#59636e;--paper:#fff;--card:#f6f8fa;--grid:#dfe3e8;--warn:#b3261e;--link:#0b5cad;--s0:#0072b2;--s1:#c24e00;--s2:#007a58;--s3:#b3498a;--s4:#8a5d00;--s5:#5b6470;--s6:#6a51a3;--s7:#1b1f24;--p0:#8a94a0;--p1:#e69f00;--p2:#56b4e9;--p3:#b3498a)css";
 
 /// What the page has above its pictures' rules: colours in the dark, texts and boxes.
 inline constexpr const char* page_style = R"css(
@@ -59,6 +60,9 @@ pre{background:var(--card);padding:.8rem;border-radius:.5rem;overflow-x:auto;fon
 )css";
 
 /// All of it.
-inline std::string report_style() { return std::string("\n:root{color-scheme:light dark;") + light_colours + "}" + page_style + picture_style + page_style_below; }
+inline std::string report_style() {
+  return std::string("\n:root{color-scheme:light dark;") + light_colours + "}" + page_style +
+         picture_style + page_style_below;
+}
 
 }  // namespace rink::loadgen

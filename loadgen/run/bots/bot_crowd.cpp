@@ -10,7 +10,7 @@
 namespace rink::loadgen {
 namespace {
 
-constexpr double longest_wait_s = 0.02;     ///< so that interrupts and the end are noticed
+constexpr double longest_wait_s = 0.02;  ///< so that interrupts and the end are noticed
 constexpr double follow_period_s = 1.0 / 30.0;
 
 CrowdTraffic operator-(CrowdTraffic a, const CrowdTraffic& b) {
@@ -27,33 +27,46 @@ CrowdTraffic operator-(CrowdTraffic a, const CrowdTraffic& b) {
 
 }  // namespace
 
-BotCrowd::BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrowdSettings& settings, std::uint32_t count,
-                   const std::vector<game::InputEvent>& plan, Clock now_s)
+BotCrowd::BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrowdSettings& settings,
+                   std::uint32_t count, const std::vector<game::InputEvent>& plan, Clock now_s)
     : model_(fom), transport_(transport), settings_(settings), now_s_(std::move(now_s)) {
   measurements_.from_s = settings.warm_up_s;
   measurements_.until_s = settings.duration_s;
   for (std::uint32_t bot = 0; bot < count; ++bot) {
-    const game::ClientSettings client{
-        .federation = settings.federation,
-        .name = settings.first + bot < settings.names.size() ? settings.names[settings.first + bot] : "bat-" + std::to_string(settings.first + bot),
-        .view_fraction = settings.view_fraction,
-        .view_area = settings.view_area, .view_margin = settings.view_margin, .declares_regions = settings.declares_regions,
-        .extrapolates = settings.extrapolates};
+    const game::ClientSettings client{.federation = settings.federation,
+                                      .name = settings.first + bot < settings.names.size()
+                                                  ? settings.names[settings.first + bot]
+                                                  : "bat-" + std::to_string(settings.first + bot),
+                                      .view_fraction = settings.view_fraction,
+                                      .view_area = settings.view_area,
+                                      .view_margin = settings.view_margin,
+                                      .declares_regions = settings.declares_regions,
+                                      .extrapolates = settings.extrapolates};
     bots_.push_back(std::make_unique<Bot>(fom, model_, client, measurements_));
     Bot* const bot_there = bots_.back().get();
-    bot_there->client.on_news = [this, bot_there](const rti::Stamp& stamp) { note_news(*bot_there, stamp); };
+    bot_there->client.on_news = [this, bot_there](const rti::Stamp& stamp) {
+      note_news(*bot_there, stamp);
+    };
     if (!settings_.players.do_decide()) continue;
     bots_.back()->player.emplace(settings_.players, settings.first + bot);
     decision_order_.push_back(bot);
   }
-  const auto phase = [this](std::uint32_t bot) { return game::decision_phase(settings_.first + bot); };
-  std::stable_sort(decision_order_.begin(), decision_order_.end(), [&](std::uint32_t a, std::uint32_t b) { return phase(a) < phase(b); });
+  const auto phase = [this](std::uint32_t bot) {
+    return game::decision_phase(settings_.first + bot);
+  };
+  std::stable_sort(decision_order_.begin(), decision_order_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return phase(a) < phase(b); });
   if (settings_.players.do_decide()) return;
   for (const game::InputEvent& event : plan) {
-    const bool is_key = event.kind == game::InputKind::key_down || event.kind == game::InputKind::key_up;
-    if (!is_key || event.player < settings.first || event.player - settings.first >= count || event.time >= settings.duration_s) continue;
+    const bool is_key =
+        event.kind == game::InputKind::key_down || event.kind == game::InputKind::key_up;
+    if (!is_key || event.player < settings.first || event.player - settings.first >= count ||
+        event.time >= settings.duration_s)
+      continue;
     if (settings.start_s > 0.0 && event.time <= settings.start_s) continue;
-    plan_.push_back({event.time, event.player - settings.first, {event.key, event.kind == game::InputKind::key_down}});
+    plan_.push_back({event.time,
+                     event.player - settings.first,
+                     {event.key, event.kind == game::InputKind::key_down}});
   }
 }
 
@@ -66,7 +79,9 @@ void BotCrowd::connect(const Connect& connect) {
   }
 }
 
-void BotCrowd::on_open(rti::ConnectionId connection) { send(*bots_[bot_of_connection_[connection]]); }
+void BotCrowd::on_open(rti::ConnectionId connection) {
+  send(*bots_[bot_of_connection_[connection]]);
+}
 
 void BotCrowd::on_bytes(rti::ConnectionId connection, rti::Bytes bytes) {
   Bot& bot = *bots_[bot_of_connection_[connection]];
@@ -86,7 +101,8 @@ void BotCrowd::on_datagram(rti::ConnectionId connection, rti::Bytes datagram) {
   after_receiving(bot);
 }
 
-/// What is read at once may hold several ticks' news, and datagrams bring those of one tick between those of others: each tick counts once.
+/// What is read at once may hold several ticks' news, and datagrams bring those of one tick between
+/// those of others: each tick counts once.
 void BotCrowd::note_news(Bot& bot, const rti::Stamp& stamp) {
   if (bot.client.state() != game::Client::State::playing || stamp.tag == 0) return;
   if (std::ranges::find(bot.seen_tags, stamp.tag) != bot.seen_tags.end()) return;
@@ -98,23 +114,32 @@ void BotCrowd::note_news(Bot& bot, const rti::Stamp& stamp) {
 
 void BotCrowd::after_receiving(Bot& bot) {
   const game::MirroredEntity* const bat = bot.client.bat();
-  if (bat != nullptr && bot.client.state() == game::Client::State::playing) bot.probe.keys_felt(now_s_(), bat->input.count);
+  if (bat != nullptr && bot.client.state() == game::Client::State::playing)
+    bot.probe.keys_felt(now_s_(), bat->input.count);
   const std::uint32_t number = bot_of_connection_[bot.connection];
-  if (witness_ && witness_->watches(number)) witness_->listen(number, origin_s_ ? std::optional(simulated_now()) : std::nullopt);
+  if (witness_ && witness_->watches(number))
+    witness_->listen(number, origin_s_ ? std::optional(simulated_now()) : std::nullopt);
   sample_when_due();
   take_turn(bot);
-  act_when_due();  // between two bots' batches too: with many bots a tick's batches take longer than a key may be late
+  act_when_due();  // between two bots' batches too: with many bots a tick's batches take longer
+                   // than a key may be late
   const game::MirroredEntity* own = bot.client.bat();
-  if (own != nullptr && !is_synchronous_ && !(own->trajectory && origin_s_)) bot.client.follow_bat();
+  if (own != nullptr && !is_synchronous_ && !(own->trajectory && origin_s_))
+    bot.client.follow_bat();
   const std::optional<rti::Refusal> refusal = bot.client.refusal();
   if (bot.client.state() == game::Client::State::refused)
-    lose(bot, bot.client.trouble(), refusal ? game::exit_status(*refusal) : game::ExitStatus::not_admitted);
-  if (bot.client.state() == game::Client::State::lost) lose(bot, bot.client.trouble(), game::ExitStatus::connection_lost);
+    lose(bot, bot.client.trouble(),
+         refusal ? game::exit_status(*refusal) : game::ExitStatus::not_admitted);
+  if (bot.client.state() == game::Client::State::lost)
+    lose(bot, bot.client.trouble(), game::ExitStatus::connection_lost);
   send(bot);
 }
 
-void BotCrowd::on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) {
-  const game::ExitStatus status = reason == rti::CloseReason::refused ? game::ExitStatus::no_server : game::ExitStatus::connection_lost;
+void BotCrowd::on_close(rti::ConnectionId connection, rti::CloseReason reason,
+                        const std::string& detail) {
+  const game::ExitStatus status = reason == rti::CloseReason::refused
+                                      ? game::ExitStatus::no_server
+                                      : game::ExitStatus::connection_lost;
   lose(*bots_[bot_of_connection_[connection]], detail.empty() ? to_string(reason) : detail, status);
 }
 
@@ -134,9 +159,12 @@ void BotCrowd::send(Bot& bot) {
 void BotCrowd::run_once() {
   double wait_s = longest_wait_s;
   const bool has_schedule = origin_s_ && !is_synchronous_;
-  if (has_schedule && next_key_ < plan_.size()) wait_s = std::clamp(due_s(plan_[next_key_].time) - now_s_(), 0.0, longest_wait_s);
-  if (has_schedule && !decision_order_.empty()) wait_s = std::clamp(due_s(next_decision()) - now_s_(), 0.0, longest_wait_s);
-  if (has_schedule && witness_) wait_s = std::clamp(due_s(witness_->next_sample_s()) - now_s_(), 0.0, wait_s);
+  if (has_schedule && next_key_ < plan_.size())
+    wait_s = std::clamp(due_s(plan_[next_key_].time) - now_s_(), 0.0, longest_wait_s);
+  if (has_schedule && !decision_order_.empty())
+    wait_s = std::clamp(due_s(next_decision()) - now_s_(), 0.0, longest_wait_s);
+  if (has_schedule && witness_)
+    wait_s = std::clamp(due_s(witness_->next_sample_s()) - now_s_(), 0.0, wait_s);
   transport_.poll(std::chrono::nanoseconds(static_cast<std::int64_t>(wait_s * 1e9)), *this);
   advance_clocks();
   act_when_due();
@@ -146,7 +174,8 @@ void BotCrowd::run_once() {
   measure_span();
 }
 
-/// A bat on a trajectory moves without being heard of, so the interest follows it by the clock; one that is told positions is followed when they come.
+/// A bat on a trajectory moves without being heard of, so the interest follows it by the clock; one
+/// that is told positions is followed when they come.
 void BotCrowd::follow_bats() {
   const double now = now_s_();
   if (is_synchronous_ || now < bats_followed_s_ + follow_period_s) return;
@@ -162,13 +191,16 @@ void BotCrowd::follow_bats() {
 std::optional<double> BotCrowd::next_due_s() const {
   if (!origin_s_) return std::nullopt;
   std::optional<double> next_s;
-  const auto consider = [&](double simulated_s) { next_s = std::min(next_s.value_or(due_s(simulated_s)), due_s(simulated_s)); };
+  const auto consider = [&](double simulated_s) {
+    next_s = std::min(next_s.value_or(due_s(simulated_s)), due_s(simulated_s));
+  };
   if (next_key_ < plan_.size()) consider(plan_[next_key_].time);
   if (!decision_order_.empty() && next_decision() < settings_.duration_s) consider(next_decision());
   if (witness_ && std::isfinite(witness_->next_sample_s())) consider(witness_->next_sample_s());
   if (!span_begin_s_) consider(settings_.warm_up_s);
   if (!is_measured_) consider(settings_.duration_s);
-  return std::min(next_s.value_or(bats_followed_s_ + follow_period_s), bats_followed_s_ + follow_period_s);
+  return std::min(next_s.value_or(bats_followed_s_ + follow_period_s),
+                  bats_followed_s_ + follow_period_s);
 }
 
 /// Heartbeats, four times a second: often enough for them, and nothing for the rest.
@@ -186,10 +218,12 @@ void BotCrowd::advance_clocks() {
 /// Who joins a game that runs already decides from now on, not from its beginning.
 void BotCrowd::start_clock(double origin_s, double simulated_s) {
   origin_s_ = origin_s;
-  next_turn_ = static_cast<std::uint64_t>(simulated_s / game::decision_period) * decision_order_.size();
+  next_turn_ =
+      static_cast<std::uint64_t>(simulated_s / game::decision_period) * decision_order_.size();
 }
 
-/// The server waits for this bot: it presses what its plan or its wits say by the newest tick, looks about, and hands the turn back.
+/// The server waits for this bot: it presses what its plan or its wits say by the newest tick,
+/// looks about, and hands the turn back.
 void BotCrowd::take_turn(Bot& bot) {
   game::Client& client = bot.client;
   if (bot.is_lost || !client.has_turn() || client.state() != game::Client::State::playing) return;
@@ -199,7 +233,8 @@ void BotCrowd::take_turn(Bot& bot) {
   if (!origin_s_) start_clock(now_s_(), instant);
   const std::uint32_t number = bot_of_connection_[bot.connection];
   for (; bot.next_key < plan_.size() && plan_[bot.next_key].time <= instant; ++bot.next_key)
-    if (const DueKey& key = plan_[bot.next_key]; key.bot == number) press(bot, {&key.change, 1}, instant);
+    if (const DueKey& key = plan_[bot.next_key]; key.bot == number)
+      press(bot, {&key.change, 1}, instant);
   if (bot.player && bot.next_decision_s <= instant) {
     decide(bot, instant);
     bot.next_decision_s = instant + game::decision_period;
@@ -211,7 +246,9 @@ void BotCrowd::take_turn(Bot& bot) {
 
 /// Simulated time of a crowd that has started.
 double BotCrowd::simulated_now() const { return is_synchronous_ ? turn_s_ : now_s_() - *origin_s_; }
-bool BotCrowd::has_come(double simulated_s) const { return is_synchronous_ ? turn_s_ >= simulated_s : now_s_() >= due_s(simulated_s); }
+bool BotCrowd::has_come(double simulated_s) const {
+  return is_synchronous_ ? turn_s_ >= simulated_s : now_s_() >= due_s(simulated_s);
+}
 
 void BotCrowd::act_when_due() {
   if (!origin_s_ || is_synchronous_) return;
@@ -231,21 +268,28 @@ void BotCrowd::press(Bot& bot, std::span<const KeyChange> changes, double instan
   const bool is_counted = measurements_.is_counted(instant);
   measurements_.keys_due += is_counted ? changes.size() : 0u;
   if (bot.is_lost || bot.client.state() != game::Client::State::playing) return;
-  for (const KeyChange& change : changes) change.is_down ? bot.client.press(change.key) : bot.client.release(change.key);
+  for (const KeyChange& change : changes)
+    change.is_down ? bot.client.press(change.key) : bot.client.release(change.key);
   send(bot);
-  for (std::size_t sent = 0; sent < changes.size(); ++sent) bot.probe.key_sent(is_synchronous_ ? now_s_() : due_s(instant), now_s_(), is_counted);
+  for (std::size_t sent = 0; sent < changes.size(); ++sent)
+    bot.probe.key_sent(is_synchronous_ ? now_s_() : due_s(instant), now_s_(), is_counted);
 }
 
-/// The simulated instant of the next decision of all [s]. Decisions have a schedule of their own, as planned keys have: a bot that is late is late for it.
+/// The simulated instant of the next decision of all [s]. Decisions have a schedule of their own,
+/// as planned keys have: a bot that is late is late for it.
 double BotCrowd::next_decision() const {
   const std::uint64_t count = decision_order_.size();
-  return static_cast<double>(next_turn_ / count) * game::decision_period + game::decision_phase(settings_.first + decision_order_[next_turn_ % count]);
+  return static_cast<double>(next_turn_ / count) * game::decision_period +
+         game::decision_phase(settings_.first + decision_order_[next_turn_ % count]);
 }
 
 void BotCrowd::decide_when_due() {
-  constexpr int most = 64;  // at once: who cannot keep the schedule must go on receiving, or it would lose its connections besides
+  constexpr int most = 64;  // at once: who cannot keep the schedule must go on receiving, or it
+                            // would lose its connections besides
   if (decision_order_.empty()) return;
-  for (int made = 0; made < most && due_s(next_decision()) <= now_s_() && next_decision() < settings_.duration_s; ++made, ++next_turn_)
+  for (int made = 0;
+       made < most && due_s(next_decision()) <= now_s_() && next_decision() < settings_.duration_s;
+       ++made, ++next_turn_)
     decide(*bots_[decision_order_[next_turn_ % decision_order_.size()]], next_decision());
 }
 
@@ -271,14 +315,19 @@ void BotCrowd::measure_span() {
     measured_s_ = now_s_() - *span_begin_s_;
     measured_ = total_traffic() - at_begin_;
     const std::vector<std::uint64_t> now_received = received_by_bot();
-    for (std::size_t i = 0; i < now_received.size(); ++i) received_by_bot_[i] = now_received[i] - received_by_bot_[i];
+    for (std::size_t i = 0; i < now_received.size(); ++i)
+      received_by_bot_[i] = now_received[i] - received_by_bot_[i];
   }
 }
 
 void BotCrowd::collect_evidence(std::uint64_t seed) {
   std::vector<game::Client*> clients;
   for (const std::unique_ptr<Bot>& bot : bots_) clients.push_back(&bot->client);
-  witness_.emplace(game::SamplingSettings{.seed = seed, .clients = bot_count(), .from_s = settings_.warm_up_s, .until_s = settings_.duration_s}, clients);
+  witness_.emplace(game::SamplingSettings{.seed = seed,
+                                          .clients = bot_count(),
+                                          .from_s = settings_.warm_up_s,
+                                          .until_s = settings_.duration_s},
+                   clients);
 }
 
 std::optional<BotsEvidence> BotCrowd::evidence() const {
@@ -288,12 +337,14 @@ std::optional<BotsEvidence> BotCrowd::evidence() const {
 
 void BotCrowd::sample_when_due() {
   if (!witness_ || !origin_s_) return;
-  if (const double simulated_s = simulated_now(); simulated_s >= witness_->next_sample_s()) witness_->sample(simulated_s);
+  if (const double simulated_s = simulated_now(); simulated_s >= witness_->next_sample_s())
+    witness_->sample(simulated_s);
 }
 
 std::vector<std::uint64_t> BotCrowd::received_by_bot() const {
   std::vector<std::uint64_t> bytes;
-  for (const std::unique_ptr<Bot>& bot : bots_) bytes.push_back(rti::with_datagrams(transport_.counters(bot->connection)).bytes_received);
+  for (const std::unique_ptr<Bot>& bot : bots_)
+    bytes.push_back(rti::with_datagrams(transport_.counters(bot->connection)).bytes_received);
   return bytes;
 }
 
@@ -323,7 +374,8 @@ std::size_t BotCrowd::client_memory_bytes() const {
 CrowdTraffic BotCrowd::total_traffic() const {
   CrowdTraffic sum;
   for (const std::unique_ptr<Bot>& bot : bots_) {
-    const rti::TransportCounters counters = rti::with_datagrams(transport_.counters(bot->connection));
+    const rti::TransportCounters counters =
+        rti::with_datagrams(transport_.counters(bot->connection));
     sum.bytes_sent += counters.bytes_sent;
     sum.bytes_received += counters.bytes_received;
     sum.segments_sent += counters.segments_sent;

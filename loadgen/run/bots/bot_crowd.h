@@ -1,4 +1,5 @@
-// Any number of headless clients over one transport, each with a connection, a federate and a key plan of its own.
+// Any number of headless clients over one transport, each with a connection, a federate and a key
+// plan of its own.
 #pragma once
 
 #include <array>
@@ -24,31 +25,37 @@ namespace rink::loadgen {
 
 struct BotCrowdSettings {
   std::string federation = "rink";
-  std::uint32_t first = 0;     ///< the bots play bats first, first + 1, ...
+  std::uint32_t first = 0;           ///< the bots play bats first, first + 1, ...
   std::vector<std::string> names{};  ///< by bat, of those that bear others than the bats' own
-  double view_fraction = 0.05, view_area = 0.0, view_margin = 0.0; ///< see game::ClientSettings
-  bool declares_regions = true; ///< likewise
-  bool extrapolates = true;    ///< likewise
-  double start_s = 0.0;        ///< simulated time at which the game begins: what the plan says up to then has been pressed
-  double warm_up_s = 0.0;      ///< simulated time from which on things are counted
-  double duration_s = 10.0;    ///< simulated time at which the bots stop
-  LivePlayers players{};       ///< unless they are random, they decide for themselves and the plan is not looked at
+  double view_fraction = 0.05, view_area = 0.0, view_margin = 0.0;  ///< see game::ClientSettings
+  bool declares_regions = true;                                     ///< likewise
+  bool extrapolates = true;                                         ///< likewise
+  double start_s = 0.0;  ///< simulated time at which the game begins: what the plan says up to then
+                         ///< has been pressed
+  double warm_up_s = 0.0;    ///< simulated time from which on things are counted
+  double duration_s = 10.0;  ///< simulated time at which the bots stop
+  LivePlayers players{};     ///< unless they are random, they decide for themselves and the plan is
+                             ///< not looked at
 };
 
 /// What the connections of a crowd carried, summed.
 struct CrowdTraffic {
-  std::uint64_t bytes_sent = 0, bytes_received = 0, segments_sent = 0, kernel_bytes_sent = 0, kernel_bytes_received = 0, updates_received = 0;
+  std::uint64_t bytes_sent = 0, bytes_received = 0, segments_sent = 0, kernel_bytes_sent = 0,
+                kernel_bytes_received = 0, updates_received = 0;
   std::uint64_t acknowledgements_sent = 0, kernel_segments_sent = 0;
 };
 
-/// Drives the bots: connects them, presses their keys when due, and measures. Reads no clock: it is handed `now_s` [s], the clock that the server's stamps use.
+/// Drives the bots: connects them, presses their keys when due, and measures. Reads no clock: it is
+/// handed `now_s` [s], the clock that the server's stamps use.
 class BotCrowd : public rti::TransportListener {
  public:
   using Connect = std::function<rti::ConnectionId(std::uint32_t bot)>;
   using Clock = std::function<double()>;
 
-  /// `plan`: the keys of all players, ordered by time; each bot takes those of its bat, unless it decides for itself.
-  BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrowdSettings& settings, std::uint32_t count, const std::vector<game::InputEvent>& plan, Clock now_s);
+  /// `plan`: the keys of all players, ordered by time; each bot takes those of its bat, unless it
+  /// decides for itself.
+  BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrowdSettings& settings,
+           std::uint32_t count, const std::vector<game::InputEvent>& plan, Clock now_s);
 
   /// Watches some of the bots, drawn from `seed`; to be called before `connect`.
   void collect_evidence(std::uint64_t seed);
@@ -59,9 +66,11 @@ class BotCrowd : public rti::TransportListener {
   /// Opens the connections and sends the joins.
   void connect(const Connect& connect);
 
-  /// Waits for the transport, at most until the next key or decision is due, and handles what came; then presses what is due. Call it until `is_over`.
+  /// Waits for the transport, at most until the next key or decision is due, and handles what came;
+  /// then presses what is due. Call it until `is_over`.
   void run_once();
-  /// The instant on the clock [s] from which on `run_once` has something to do though nothing came; nothing if it only waits. Heartbeats, which are not urgent, are left out.
+  /// The instant on the clock [s] from which on `run_once` has something to do though nothing came;
+  /// nothing if it only waits. Heartbeats, which are not urgent, are left out.
   std::optional<double> next_due_s() const;
 
   /// True when the duration has passed, or when no bot is left.
@@ -92,7 +101,8 @@ class BotCrowd : public rti::TransportListener {
 
  private:
   struct Bot {
-    Bot(const rti::Fom& fom, const game::ObjectModel& model, const game::ClientSettings& settings, Measurements& measurements)
+    Bot(const rti::Fom& fom, const game::ObjectModel& model, const game::ClientSettings& settings,
+        Measurements& measurements)
         : client(fom, model, settings), probe(measurements) {}
     game::Client client;
     Probe probe;
@@ -101,7 +111,7 @@ class BotCrowd : public rti::TransportListener {
     std::size_t next_seen = 0;
     bool is_lost = false;
     std::optional<LivePlayer> player;
-    game::KeysHeld held;  ///< by a player who decides
+    game::KeysHeld held;           ///< by a player who decides
     std::size_t next_key = 0;      ///< of the plan, where the server waits for turns
     double next_decision_s = 0.0;  ///< the same
   };
@@ -118,7 +128,8 @@ class BotCrowd : public rti::TransportListener {
   void on_open(rti::ConnectionId connection) override;
   void on_bytes(rti::ConnectionId connection, rti::Bytes bytes) override;
   void on_datagram(rti::ConnectionId connection, rti::Bytes datagram) override;
-  void on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) override;
+  void on_close(rti::ConnectionId connection, rti::CloseReason reason,
+                const std::string& detail) override;
 
   void note_news(Bot& bot, const rti::Stamp& stamp);
   void after_receiving(Bot& bot);
@@ -150,10 +161,12 @@ class BotCrowd : public rti::TransportListener {
   std::vector<std::uint32_t> bot_of_connection_;
   std::vector<DueKey> plan_;
   std::size_t next_key_ = 0;
-  std::vector<std::uint32_t> decision_order_;  ///< bots by the phase of their decisions; empty if none decides
-  std::uint64_t next_turn_ = 0;                ///< decisions made by all; bots take turns
+  std::vector<std::uint32_t>
+      decision_order_;              ///< bots by the phase of their decisions; empty if none decides
+  std::uint64_t next_turn_ = 0;     ///< decisions made by all; bots take turns
   std::optional<double> origin_s_;  ///< the clock at simulated time 0, from the first stamp
-  bool is_synchronous_ = false;     ///< the server waits for turns: simulated time is that of the newest, no matter the clock
+  bool is_synchronous_ = false;     ///< the server waits for turns: simulated time is that of the
+                                    ///< newest, no matter the clock
   double turn_s_ = 0.0;
   std::optional<double> span_begin_s_;
   CrowdTraffic at_begin_, measured_;

@@ -8,8 +8,11 @@
 
 namespace rink::loadgen {
 
-BotsWitness::BotsWitness(const game::SamplingSettings& settings, const std::vector<game::Client*>& clients)
-    : settings_(settings), place_(clients.size(), nobody), instants_(game::sampled_instants(settings, 2)) {
+BotsWitness::BotsWitness(const game::SamplingSettings& settings,
+                         const std::vector<game::Client*>& clients)
+    : settings_(settings),
+      place_(clients.size(), nobody),
+      instants_(game::sampled_instants(settings, 2)) {
   for (const std::uint32_t bot : game::sampled_players(settings)) {
     place_[bot] = static_cast<std::uint32_t>(clients_.size());
     clients_.push_back(clients[bot]);
@@ -32,7 +35,8 @@ void BotsWitness::listen(std::uint32_t bot, std::optional<double> simulated_s) {
   std::vector<rti::ObjectHandle>& awaited = awaited_[place];
   for (const game::Heard::Scope& scope : client.heard().scopes) {
     if (scope.is_in) awaited.push_back(scope.object);
-    else if (std::erase(awaited, scope.object) == 0) note(place, {instant_s, scope.object.value, false});
+    else if (std::erase(awaited, scope.object) == 0)
+      note(place, {instant_s, scope.object.value, false});
   }
   std::erase_if(awaited, [&](rti::ObjectHandle object) {
     const game::MirroredEntity* const entity = client.mirror().find(object);
@@ -41,7 +45,8 @@ void BotsWitness::listen(std::uint32_t bot, std::optional<double> simulated_s) {
     return true;
   });
   if (next_instant_ < instants_.size() && instant_s >= instants_[next_instant_] - window_s)
-    for (const game::Heard::Update& update : client.heard().updates) received_[place].push_back({instant_s, update.object.value, update.bytes});
+    for (const game::Heard::Update& update : client.heard().updates)
+      received_[place].push_back({instant_s, update.object.value, update.bytes});
   if (simulated_s) matched_s_[place] = std::max(matched_s_[place], client.mirror().newest().time);
   client.forget_heard();
 }
@@ -51,24 +56,34 @@ void BotsWitness::note(std::uint32_t place, const BotsEvidence::ScopeChange& cha
   else evidence_.bots[place].changes.push_back(change);
 }
 
-double BotsWitness::next_sample_s() const { return next_instant_ < instants_.size() ? instants_[next_instant_] : std::numeric_limits<double>::infinity(); }
+double BotsWitness::next_sample_s() const {
+  return next_instant_ < instants_.size() ? instants_[next_instant_]
+                                          : std::numeric_limits<double>::infinity();
+}
 
 void BotsWitness::sample(double simulated_s) {
   if (simulated_s < next_sample_s()) return;
   for (std::uint32_t place = 0; place < clients_.size(); ++place) look_into(place, simulated_s);
-  while (next_instant_ < instants_.size() && instants_[next_instant_] <= simulated_s) ++next_instant_;
+  while (next_instant_ < instants_.size() && instants_[next_instant_] <= simulated_s)
+    ++next_instant_;
 }
 
 void BotsWitness::look_into(std::uint32_t place, double simulated_s) {
   std::vector<Received>& received = received_[place];
-  std::erase_if(received, [&](const Received& update) { return update.instant_s <= simulated_s - window_s; });
-  std::sort(received.begin(), received.end(), [](const Received& a, const Received& b) { return a.object < b.object; });
+  std::erase_if(received,
+                [&](const Received& update) { return update.instant_s <= simulated_s - window_s; });
+  std::sort(received.begin(), received.end(),
+            [](const Received& a, const Received& b) { return a.object < b.object; });
   constexpr std::size_t beliefs_max = 150'000;  // with 60 bytes each: 9 MB of file
-  const std::size_t room = std::max<std::size_t>(8, beliefs_max / std::max<std::size_t>(1, instants_.size() * clients_.size()));
+  const std::size_t room = std::max<std::size_t>(
+      8, beliefs_max / std::max<std::size_t>(1, instants_.size() * clients_.size()));
   const game::Mirror& mirror = clients_[place]->mirror();
-  const auto in_scope = static_cast<std::size_t>(std::count_if(mirror.entities().begin(), mirror.entities().end(), [](const auto& entity) { return entity.in_scope; }));
+  const auto in_scope =
+      static_cast<std::size_t>(std::count_if(mirror.entities().begin(), mirror.entities().end(),
+                                             [](const auto& entity) { return entity.in_scope; }));
   const auto step = static_cast<std::uint32_t>((in_scope + room - 1) / room);
-  std::uint32_t skipped = step > 1 ? game::RandomStream(settings_.seed, next_instant_ * 65'536 + place).below(step) : 0;
+  std::uint32_t skipped =
+      step > 1 ? game::RandomStream(settings_.seed, next_instant_ * 65'536 + place).below(step) : 0;
   const std::size_t first = evidence_.beliefs.size();
   for (const game::MirroredEntity& entity : mirror.entities()) {
     // What is left out of a large mirror is not looked up, for bots have little time to sample in.
@@ -76,17 +91,28 @@ void BotsWitness::look_into(std::uint32_t place, double simulated_s) {
     const std::uint32_t bytes = bytes_of(received, entity.object.value);
     if (!entity.in_scope && (bytes == 0 || ++skipped < step)) continue;
     skipped = 0;
-    BotsEvidence::Belief belief{.object = entity.object.value, .bytes = bytes, .is_in_scope = entity.in_scope && entity.is_placed};
-    if (belief.is_in_scope) belief.matched = entity.position_at(matched_s_[place]), belief.displayed = entity.position_at(simulated_s);
+    BotsEvidence::Belief belief{.object = entity.object.value,
+                                .bytes = bytes,
+                                .is_in_scope = entity.in_scope && entity.is_placed};
+    if (belief.is_in_scope)
+      belief.matched = entity.position_at(matched_s_[place]),
+      belief.displayed = entity.position_at(simulated_s);
     evidence_.beliefs.push_back(belief);
   }
-  evidence_.samples.push_back({.bot = place, .displayed_s = simulated_s, .matched_s = matched_s_[place], .window_s = window_s, .first = first, .last = evidence_.beliefs.size()});
+  evidence_.samples.push_back({.bot = place,
+                               .displayed_s = simulated_s,
+                               .matched_s = matched_s_[place],
+                               .window_s = window_s,
+                               .first = first,
+                               .last = evidence_.beliefs.size()});
   received.clear();
 }
 
-std::uint32_t BotsWitness::bytes_of(std::span<const Received> received, std::uint32_t object) const {
+std::uint32_t BotsWitness::bytes_of(std::span<const Received> received,
+                                    std::uint32_t object) const {
   std::uint32_t bytes = 0;
-  auto update = std::lower_bound(received.begin(), received.end(), object, [](const Received& a, std::uint32_t b) { return a.object < b; });
+  auto update = std::lower_bound(received.begin(), received.end(), object,
+                                 [](const Received& a, std::uint32_t b) { return a.object < b; });
   for (; update != received.end() && update->object == object; ++update) bytes += update->bytes;
   return bytes;
 }
@@ -94,13 +120,16 @@ std::uint32_t BotsWitness::bytes_of(std::span<const Received> received, std::uin
 BotsEvidence BotsWitness::evidence() const {
   BotsEvidence result = evidence_;
   for (std::size_t place = 0; place < clients_.size(); ++place)
-    if (const game::MirroredEntity* bat = clients_[place]->bat()) result.bots[place].object = bat->object.value;
+    if (const game::MirroredEntity* bat = clients_[place]->bat())
+      result.bots[place].object = bat->object.value;
   return result;
 }
 
 std::size_t BotsWitness::memory_bytes() const {
-  std::size_t bytes = evidence_.samples.capacity() * sizeof(BotsEvidence::Sample) + evidence_.beliefs.capacity() * sizeof(BotsEvidence::Belief);
-  for (const BotsEvidence::Bot& bot : evidence_.bots) bytes += bot.changes.capacity() * sizeof(BotsEvidence::ScopeChange);
+  std::size_t bytes = evidence_.samples.capacity() * sizeof(BotsEvidence::Sample) +
+                      evidence_.beliefs.capacity() * sizeof(BotsEvidence::Belief);
+  for (const BotsEvidence::Bot& bot : evidence_.bots)
+    bytes += bot.changes.capacity() * sizeof(BotsEvidence::ScopeChange);
   for (const auto& received : received_) bytes += received.capacity() * sizeof(Received);
   return bytes;
 }

@@ -1,4 +1,5 @@
-// Turns a mirror into a player's view: positions where the client believes them to be, velocities from what it was told.
+// Turns a mirror into a player's view: positions where the client believes them to be, velocities
+// from what it was told.
 #include "loadgen/run/bots/live_player.h"
 
 #include <algorithm>
@@ -6,7 +7,8 @@
 namespace rink::loadgen {
 namespace {
 
-/// An entity that was not heard of for so long [s] stands still, as far as its last two positions are to say: one that moves is told of at every tick.
+/// An entity that was not heard of for so long [s] stands still, as far as its last two positions
+/// are to say: one that moves is told of at every tick.
 constexpr double silence_s = 0.15;
 
 }  // namespace
@@ -30,14 +32,17 @@ game::KeysHeld LivePlayer::decide(const game::Client& client, double instant) {
     const game::MirroredEntity* puck = client.mirror().find(track.object);
     if (puck != nullptr && puck->in_scope) pucks_.push_back(seen(*puck, track, instant));
   }
-  return player_->decide({.position = own.position, .velocity = own.velocity, .pucks = pucks_}, instant);
+  return player_->decide({.position = own.position, .velocity = own.velocity, .pucks = pucks_},
+                         instant);
 }
 
 void LivePlayer::take_seat(const game::Client& client, const game::MirroredEntity& bat) {
   const game::PlayerSeat seat{.number = number_,
                               .team = static_cast<game::Team>(bat.shape.team),
-                              .half_extent = {static_cast<double>(bat.shape.half_length), static_cast<double>(bat.shape.half_width)}};
-  player_ = game::make_player(players_.kind, rules_on(players_.rules, *client.mirror().field()), seat, players_.seed);
+                              .half_extent = {static_cast<double>(bat.shape.half_length),
+                                              static_cast<double>(bat.shape.half_width)}};
+  player_ = game::make_player(players_.kind, rules_on(players_.rules, *client.mirror().field()),
+                              seat, players_.seed);
 }
 
 void LivePlayer::look_about(const game::Mirror& mirror, const game::Vector2& from) {
@@ -45,26 +50,31 @@ void LivePlayer::look_about(const game::Mirror& mirror, const game::Vector2& fro
   if (wanted == 0) return;
   nearest_.clear(wanted);
   for (const game::MirroredEntity& entity : mirror.entities()) {
-    if (!entity.in_scope || entity.shape.kind != static_cast<std::uint8_t>(physics::BodyKind::puck)) continue;
+    if (!entity.in_scope || entity.shape.kind != static_cast<std::uint8_t>(physics::BodyKind::puck))
+      continue;
     const game::Vector2 there = entity.position_at(mirror.newest().time);
     nearest_.show(entity.object, (there - from).squaredNorm());
   }
   watched_before_.swap(watched_);
   watched_.clear();
   for (const auto& found : nearest_.found()) {
-    const auto before = std::find_if(watched_before_.begin(), watched_before_.end(), [&](const Track& track) { return track.object == found.thing; });
+    const auto before =
+        std::find_if(watched_before_.begin(), watched_before_.end(),
+                     [&](const Track& track) { return track.object == found.thing; });
     watched_.push_back(before != watched_before_.end() ? *before : Track{.object = found.thing});
   }
 }
 
-game::SeenEntity LivePlayer::seen(const game::MirroredEntity& entity, Track& track, double instant) {
+game::SeenEntity LivePlayer::seen(const game::MirroredEntity& entity, Track& track,
+                                  double instant) {
   constexpr double step_s = 1e-3;
   game::Vector2 position = entity.position_at(instant);
   const game::Vector2 along = (entity.position_at(instant + step_s) - position) / step_s;
   if (along != game::Vector2(0.0, 0.0)) {
     track.velocity = along;  // its trajectory is known
   } else {
-    if (track.stamp_s >= 0.0 && entity.stamp.time > track.stamp_s) track.velocity = (position - track.position) / (entity.stamp.time - track.stamp_s);
+    if (track.stamp_s >= 0.0 && entity.stamp.time > track.stamp_s)
+      track.velocity = (position - track.position) / (entity.stamp.time - track.stamp_s);
     const double age_s = instant - entity.stamp.time;
     if (age_s > silence_s) track.velocity = {0.0, 0.0};
     if (age_s > 0.0) position += track.velocity * age_s;
@@ -73,8 +83,13 @@ game::SeenEntity LivePlayer::seen(const game::MirroredEntity& entity, Track& tra
     track.position = entity.position_at(entity.stamp.time);
     track.stamp_s = entity.stamp.time;
   }
-  const game::Vector2 half_extent(static_cast<double>(entity.shape.half_length), static_cast<double>(entity.shape.half_width));
-  return {.id = entity.object.value, .kind = static_cast<physics::BodyKind>(entity.shape.kind), .position = position, .velocity = track.velocity, .half_extent = half_extent};
+  const game::Vector2 half_extent(static_cast<double>(entity.shape.half_length),
+                                  static_cast<double>(entity.shape.half_width));
+  return {.id = entity.object.value,
+          .kind = static_cast<physics::BodyKind>(entity.shape.kind),
+          .position = position,
+          .velocity = track.velocity,
+          .half_extent = half_extent};
 }
 
 }  // namespace rink::loadgen

@@ -1,4 +1,5 @@
-// A player behind a client: it sees what its client's mirror holds, right or stale, and nothing else.
+// A player behind a client: it sees what its client's mirror holds, right or stale, and nothing
+// else.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +29,11 @@ game::PlayerRules rules_on(game::PlayerRules rules, const game::Extent& extent);
 class LivePlayer {
  public:
   /// Plays bat `number`.
-  LivePlayer(const LivePlayers& players, std::uint32_t number) : players_(players), number_(number) {}
+  LivePlayer(const LivePlayers& players, std::uint32_t number)
+      : players_(players), number_(number) {}
 
-  /// The keys to hold from the simulated `instant` [s] on, for a client that is playing; call it every game::decision_period.
+  /// The keys to hold from the simulated `instant` [s] on, for a client that is playing; call it
+  /// every game::decision_period.
   game::KeysHeld decide(const game::Client& client, double instant);
 
  private:

@@ -1,4 +1,5 @@
-// Latency counts from the instant an action was due, so that a stalled server or bot cannot hide its stall.
+// Latency counts from the instant an action was due, so that a stalled server or bot cannot hide
+// its stall.
 #include "loadgen/run/bots/probe.h"
 
 #include <algorithm>
@@ -10,7 +11,9 @@ namespace rink::loadgen {
 std::string Measurements::schedule_trouble() const {
   constexpr double late_fraction_max = 0.01, level = 0.01;
   if (binomial_tail(late_sends, keys_sent, late_fraction_max) >= level) return "";
-  return std::to_string(late_sends) + " of " + std::to_string(keys_sent) + " keys went out more than " + std::to_string(static_cast<int>(Probe::late_s * 1e3)) + " ms late";
+  return std::to_string(late_sends) + " of " + std::to_string(keys_sent) +
+         " keys went out more than " + std::to_string(static_cast<int>(Probe::late_s * 1e3)) +
+         " ms late";
 }
 
 void Probe::key_sent(double due_s, double sent_s, bool is_counted) {
@@ -27,13 +30,15 @@ void Probe::news_applied(double due_s, double now_s, bool is_counted) {
 
 void Probe::keys_felt(double now_s, std::uint32_t felt) {
   for (; answered_ < felt && !waiting_.empty(); ++answered_) {
-    if (waiting_.front().is_counted) measurements_.key_to_effect.record(now_s - waiting_.front().due_s);
+    if (waiting_.front().is_counted)
+      measurements_.key_to_effect.record(now_s - waiting_.front().due_s);
     waiting_.pop_front();
   }
 }
 
 std::uint64_t Probe::unanswered() const {
-  return static_cast<std::uint64_t>(std::count_if(waiting_.begin(), waiting_.end(), [](const Waiting& key) { return key.is_counted; }));
+  return static_cast<std::uint64_t>(std::count_if(
+      waiting_.begin(), waiting_.end(), [](const Waiting& key) { return key.is_counted; }));
 }
 
 }  // namespace rink::loadgen

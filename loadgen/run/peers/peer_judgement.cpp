@@ -5,23 +5,27 @@
 #include <nlohmann/json.hpp>
 
 #include "loadgen/measure/discovery_table.h"
-#include "loadgen/run/game_plan.h"
 #include "loadgen/measure/truth/truth.h"
+#include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_parts.h"
 
 namespace rink::loadgen {
 
-game::ServerEvidence evidence_of(const Experiment& experiment, const Cell& cell, const game::Game& start, const std::vector<game::InputEvent>& keys, double end_s, const std::string& state_hash) {
+game::ServerEvidence evidence_of(const Experiment& experiment, const Cell& cell,
+                                 const game::Game& start, const std::vector<game::InputEvent>& keys,
+                                 double end_s, const std::string& state_hash) {
   game::ServerEvidence server;
   server.choice = choice_of(experiment, cell);
   server.scheme = cell.scheme, server.policy = cell.policy;
   server.clients = cell.clients;
   server.rate_hz = cell.parameters.tick_rate_hz;
-  server.from_s = experiment.warm_up_s, server.until_s = experiment.warm_up_s + experiment.duration_s;
+  server.from_s = experiment.warm_up_s,
+  server.until_s = experiment.warm_up_s + experiment.duration_s;
   server.end_s = end_s;
   server.keys = keys;
   server.state_hash = std::stoull(state_hash, nullptr, 16);
-  for (const game::Entity& entity : start.entities()) server.objects.push_back({entity.id.index, entity.id.index});
+  for (const game::Entity& entity : start.entities())
+    server.objects.push_back({entity.id.index, entity.id.index});
   return server;
 }
 
@@ -35,7 +39,11 @@ BotsEvidence bots_evidence_of(const game::ServerEvidence& server) {
 void add_player(BotsEvidence& bots, const game::PlayerEvidence& player) {
   const std::size_t before = bots.beliefs.size();
   for (const game::PlayerEvidence::Belief& belief : player.beliefs)
-    bots.beliefs.push_back({.object = belief.body, .bytes = belief.bytes, .is_in_scope = belief.is_in_scope, .matched = belief.matched, .displayed = belief.displayed});
+    bots.beliefs.push_back({.object = belief.body,
+                            .bytes = belief.bytes,
+                            .is_in_scope = belief.is_in_scope,
+                            .matched = belief.matched,
+                            .displayed = belief.displayed});
   for (const game::PlayerEvidence::Sample& sample : player.samples)
     bots.samples.push_back({.bot = static_cast<std::uint32_t>(bots.bots.size()),
                             .displayed_s = sample.displayed_s,
@@ -45,23 +53,30 @@ void add_player(BotsEvidence& bots, const game::PlayerEvidence& player) {
                             .last = before + sample.last});
   BotsEvidence::Bot& bot = bots.bots.emplace_back();
   bot.object = player.bat;
-  for (const game::PlayerEvidence::ScopeChange& change : player.changes) bot.changes.push_back({change.instant_s, change.body, change.is_in});
+  for (const game::PlayerEvidence::ScopeChange& change : player.changes)
+    bot.changes.push_back({change.instant_s, change.body, change.is_in});
 }
 
-void judge_peers(const RunnerSettings& settings, const Experiment& experiment, RunRecord& record, const PeerTotals& totals, const Measurements& measured, const game::ServerEvidence& server,
-                 BotsEvidence& bots) {
-  const nlohmann::ordered_json peers = peers_report(record.cell, totals), players = players_report(record.cell, totals, measured);
+void judge_peers(const RunnerSettings& settings, const Experiment& experiment, RunRecord& record,
+                 const PeerTotals& totals, const Measurements& measured,
+                 const game::ServerEvidence& server, BotsEvidence& bots) {
+  const nlohmann::ordered_json peers = peers_report(record.cell, totals),
+                               players = players_report(record.cell, totals, measured);
   const std::string name = name_of(record.cell);
-  const std::string server_file = settings.directory / (name + ".server.jsonl"), bots_file = settings.directory / (name + ".bots.jsonl");
+  const std::string server_file = settings.directory / (name + ".server.jsonl"),
+                    bots_file = settings.directory / (name + ".bots.jsonl");
   if (settings.wants_truth) {
-    std::stable_sort(bots.samples.begin(), bots.samples.end(), [](const auto& a, const auto& b) { return a.displayed_s < b.displayed_s; });
+    std::stable_sort(bots.samples.begin(), bots.samples.end(),
+                     [](const auto& a, const auto& b) { return a.displayed_s < b.displayed_s; });
     game::write_evidence(server_file, server);
     write_evidence(bots_file, bots);
   }
   write_json(settings.directory / (name + ".peers.json"), peers);
   write_json(settings.directory / (name + ".bots.json"), players);
   judge(record, peers, players);
-  if (settings.wants_truth) add_truth(record, experiment, server_file, bots_file, discovery_file(settings.directory, record.cell));
+  if (settings.wants_truth)
+    add_truth(record, experiment, server_file, bots_file,
+              discovery_file(settings.directory, record.cell));
 }
 
 }  // namespace rink::loadgen

@@ -1,4 +1,5 @@
-// Starts the first peer, then all others, waits for them within limits, and puts together what each says of itself.
+// Starts the first peer, then all others, waits for them within limits, and puts together what each
+// says of itself.
 #include "loadgen/run/peers/peer_processes.h"
 
 #include <algorithm>
@@ -10,8 +11,8 @@
 #include <system_error>
 
 #include "game/net/evidence_lines.h"
-#include "game/net/peer/peer_evidence.h"
 #include "game/net/peer/meeting/seating.h"
+#include "game/net/peer/peer_evidence.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/peers/peer_judgement.h"
 #include "loadgen/run/process.h"
@@ -23,17 +24,25 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int peer_is_gone = 16;              // rink peer's exit status when it ends for another's sake
+constexpr int peer_is_gone = 16;  // rink peer's exit status when it ends for another's sake
 
 class PeerProcesses {
  public:
-  PeerProcesses(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log)
-      : settings_(settings), experiment_(experiment), cell_(cell), key_log_(key_log), scene_(scene_of(experiment, cell)), keys_(keys_in(key_log, scene_)) {}
+  PeerProcesses(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,
+                const std::filesystem::path& key_log)
+      : settings_(settings),
+        experiment_(experiment),
+        cell_(cell),
+        key_log_(key_log),
+        scene_(scene_of(experiment, cell)),
+        keys_(keys_in(key_log, scene_)) {}
 
   void run(RunRecord& record);
 
  private:
-  std::filesystem::path file_of(std::size_t process, const char* ending) const { return settings_.directory / (name_of(cell_) + ".peer" + std::to_string(process) + ending); }
+  std::filesystem::path file_of(std::size_t process, const char* ending) const {
+    return settings_.directory / (name_of(cell_) + ".peer" + std::to_string(process) + ending);
+  }
   void heed_interrupt() const {
     if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
   }
@@ -53,15 +62,19 @@ class PeerProcesses {
   game::Scene scene_;
   std::vector<game::InputEvent> keys_;
   std::deque<Process> processes_;
-  std::vector<nlohmann::json> reports_;        ///< by process
+  std::vector<nlohmann::json> reports_;  ///< by process
   std::vector<game::PeerEvidence> evidence_;
 };
 
 void PeerProcesses::start(const std::string& first) {
   const std::size_t number = processes_.size();
   std::error_code ignored;
-  for (const char* ending : {".json", ".jsonl"}) std::filesystem::remove(file_of(number, ending), ignored);
-  processes_.emplace_back(settings_.peer, peer_arguments(experiment_, cell_, key_log_, first, file_of(number, ".json"), file_of(number, ".jsonl")), std::vector<int>{});
+  for (const char* ending : {".json", ".jsonl"})
+    std::filesystem::remove(file_of(number, ending), ignored);
+  processes_.emplace_back(settings_.peer,
+                          peer_arguments(experiment_, cell_, key_log_, first,
+                                         file_of(number, ".json"), file_of(number, ".jsonl")),
+                          std::vector<int>{});
 }
 
 std::string PeerProcesses::address_of_first() {
@@ -70,8 +83,12 @@ std::string PeerProcesses::address_of_first() {
     heed_interrupt();
     first.attend(look_interval);
     if (const auto address = first.line_after("listening on ")) return *address;
-    if (first.ending()) throw Failure{"the first peer " + first.ending()->text() + " before it listened" + (first.last_words().empty() ? "" : ", saying: " + first.last_words())};
-    if (Clock::now() > deadline) throw Failure{"the first peer did not listen within " + decimal(settings_.listen_limit_s) + " s"};
+    if (first.ending())
+      throw Failure{"the first peer " + first.ending()->text() + " before it listened" +
+                    (first.last_words().empty() ? "" : ", saying: " + first.last_words())};
+    if (Clock::now() > deadline)
+      throw Failure{"the first peer did not listen within " + decimal(settings_.listen_limit_s) +
+                    " s"};
   }
 }
 
@@ -81,19 +98,24 @@ void PeerProcesses::await() {
   auto deadline = after(limit_s);
   bool has_failed = false;
   const auto runs = [](const Process& process) { return !process.ending(); };
-  for (auto running = processes_.begin(); running != processes_.end(); running = std::find_if(processes_.begin(), processes_.end(), runs)) {
+  for (auto running = processes_.begin(); running != processes_.end();
+       running = std::find_if(processes_.begin(), processes_.end(), runs)) {
     heed_interrupt();
     running->attend(look_interval);
     for (Process& process : processes_)
       if (!process.ending()) process.attend(milliseconds(0));
-    const bool fails = std::any_of(processes_.begin(), processes_.end(), [](const Process& process) { return process.ending() && !process.ending()->is_success(); });
+    const bool fails = std::any_of(
+        processes_.begin(), processes_.end(),
+        [](const Process& process) { return process.ending() && !process.ending()->is_success(); });
     if (fails && !has_failed) deadline = std::min(deadline, after(survivor_limit_s));
     has_failed = has_failed || fails;
     if (Clock::now() > deadline) break;
   }
   if (has_failed) name_failures();
   const auto late = std::count_if(processes_.begin(), processes_.end(), runs);
-  if (late > 0) throw Failure{std::to_string(late) + " of " + std::to_string(processes_.size()) + " peers had not ended after " + decimal(limit_s) + " s"};
+  if (late > 0)
+    throw Failure{std::to_string(late) + " of " + std::to_string(processes_.size()) +
+                  " peers had not ended after " + decimal(limit_s) + " s"};
 }
 
 /// Who failed by itself is named, and not who ended because another one was gone.
@@ -103,13 +125,15 @@ void PeerProcesses::name_failures() {
   const auto name = [&](bool by_themselves) {
     for (std::size_t k = 0; k < processes_.size(); ++k) {
       const std::optional<Ending>& ending = processes_[k].ending();
-      if (!ending || ending->is_success() || (ending->exit_status != peer_is_gone) != by_themselves) continue;
+      if (!ending || ending->is_success() || (ending->exit_status != peer_is_gone) != by_themselves)
+        continue;
       if (!why.empty()) {
         ++others;
         continue;
       }
       const std::string words = processes_[k].last_words();
-      why = "peer process " + std::to_string(k) + " " + ending->text() + (words.empty() ? "" : ", saying: " + words);
+      why = "peer process " + std::to_string(k) + " " + ending->text() +
+            (words.empty() ? "" : ", saying: " + words);
     }
   };
   name(true);
@@ -123,15 +147,18 @@ void PeerProcesses::read() {
     std::ifstream stream(file_of(k, ".json"));
     if (!stream) throw Failure{"peer process " + std::to_string(k) + " wrote no report"};
     reports_.push_back(nlohmann::json::parse(stream, nullptr, false));
-    if (!reports_.back().is_object() || !reports_.back().contains("hash")) throw Failure{"peer process " + std::to_string(k) + " wrote a report that is none"};
-    if (reports_.back()["hash"] != reports_.front()["hash"]) throw Failure{"peer processes 0 and " + std::to_string(k) + " end in different states"};
+    if (!reports_.back().is_object() || !reports_.back().contains("hash"))
+      throw Failure{"peer process " + std::to_string(k) + " wrote a report that is none"};
+    if (reports_.back()["hash"] != reports_.front()["hash"])
+      throw Failure{"peer processes 0 and " + std::to_string(k) + " end in different states"};
     try {
       evidence_.push_back(game::read_peer_evidence(file_of(k, ".jsonl")));
     } catch (const game::EvidenceError& error) {
       throw Failure{error.what()};
     }
     std::error_code ignored;
-    std::filesystem::remove(file_of(k, ".jsonl"), ignored);  // what it says goes into the files of the whole
+    std::filesystem::remove(file_of(k, ".jsonl"),
+                            ignored);  // what it says goes into the files of the whole
   }
 }
 
@@ -143,7 +170,8 @@ void PeerProcesses::replay(Measurements& measured, PeerTotals& totals) const {
     Probe probe(measured);
     for (const game::PeerEvidence::Event& event : peer.events) {
       const bool is_counted = measured.is_counted(event.due_s);
-      if (event.kind == Kind::key) measured.keys_due += is_counted, probe.key_sent(event.due_s, event.instant_s, is_counted);
+      if (event.kind == Kind::key)
+        measured.keys_due += is_counted, probe.key_sent(event.due_s, event.instant_s, is_counted);
       else probe.keys_felt(event.instant_s, event.felt);
       if (event.kind == Kind::known) probe.news_applied(event.due_s, event.instant_s, is_counted);
       if (event.kind != Kind::known || !is_counted) continue;
@@ -165,24 +193,30 @@ PeerTotals PeerProcesses::totals() const {
   for (std::size_t k = 0; k < evidence_.size(); ++k) {
     const game::PeerEvidence& own = evidence_[k];
     totals.measured.add(own.end), begin.add(own.begin);
-    totals.measured_s += (own.end.instant_s - own.begin.instant_s) / static_cast<double>(evidence_.size());
+    totals.measured_s +=
+        (own.end.instant_s - own.begin.instant_s) / static_cast<double>(evidence_.size());
     const nlohmann::json &report = reports_[k], &transport = report.at("transport");
     peer::PeerCounters counters;
     counters.windows = report.at("windows"), counters.repeats = report.at("repeats");
-    counters.own_events = report.at("own_events"), counters.ghost_events = report.at("ghost_events");
+    counters.own_events = report.at("own_events"),
+    counters.ghost_events = report.at("ghost_events");
     counters.hand_overs = report.at("hand_overs"), counters.held_max = report.at("held_max");
-    counters.ghost_windows = static_cast<std::uint64_t>(std::llround(report.at("mean_ghosts").get<double>() * static_cast<double>(counters.windows + 1)));
+    counters.ghost_windows = static_cast<std::uint64_t>(std::llround(
+        report.at("mean_ghosts").get<double>() * static_cast<double>(counters.windows + 1)));
     totals.counters += counters;
     totals.whole.bytes += transport.at("bytes_sent").get<std::uint64_t>();
     totals.whole_received += transport.at("bytes_received").get<std::uint64_t>();
     has_kernel = has_kernel && transport.at("kernel_bytes_sent").is_number();
-    if (has_kernel) kernel_sent += transport.at("kernel_bytes_sent").get<std::uint64_t>(), kernel_received += transport.at("kernel_bytes_received").get<std::uint64_t>();
+    if (has_kernel)
+      kernel_sent += transport.at("kernel_bytes_sent").get<std::uint64_t>(),
+          kernel_received += transport.at("kernel_bytes_received").get<std::uint64_t>();
     busiest_rss = std::max(busiest_rss, report.at("rss_bytes").get<std::uint64_t>());
   }
   totals.measured = totals.measured - begin;
   totals.busiest_rss = busiest_rss;
   if (has_kernel) totals.kernel_sent = kernel_sent, totals.kernel_received = kernel_received;
-  else if (experiment_.transport == TransportKind::tcp) throw Failure{"the kernel counted no bytes of the peers' connections"};
+  else if (experiment_.transport == TransportKind::tcp)
+    throw Failure{"the kernel counted no bytes of the peers' connections"};
   return totals;
 }
 
@@ -192,13 +226,17 @@ void PeerProcesses::add_decisions(game::ServerEvidence& server, const game::Game
   std::map<std::pair<double, std::uint32_t>, std::vector<std::uint32_t>> scopes;
   for (const game::PeerEvidence& peer : evidence_)
     for (const game::PeerEvidence::Decision& decision : peer.decisions) {
-      if (decision.peer >= bats.size()) throw Failure{"peer " + std::to_string(peer.peer) + " decided for peer " + std::to_string(decision.peer) + ", who is not there"};
-      std::vector<std::uint32_t>& scope = scopes[{decision.instant_s, *start.entity({bats[decision.peer]}).player}];
+      if (decision.peer >= bats.size())
+        throw Failure{"peer " + std::to_string(peer.peer) + " decided for peer " +
+                      std::to_string(decision.peer) + ", who is not there"};
+      std::vector<std::uint32_t>& scope =
+          scopes[{decision.instant_s, *start.entity({bats[decision.peer]}).player}];
       scope.insert(scope.end(), decision.bodies.begin(), decision.bodies.end());
     }
   for (auto& [key, scope] : scopes) {
     std::sort(scope.begin(), scope.end());
-    scope.erase(std::unique(scope.begin(), scope.end()), scope.end());  // a hand-over is seen at either end at nearly the same instant
+    scope.erase(std::unique(scope.begin(), scope.end()),
+                scope.end());  // a hand-over is seen at either end at nearly the same instant
     const std::size_t first = server.in_scope.size();
     server.in_scope.insert(server.in_scope.end(), scope.begin(), scope.end());
     server.decisions.push_back({key.first, key.second, first, server.in_scope.size()});
@@ -213,15 +251,20 @@ void PeerProcesses::run(RunRecord& record) {
   read();
   const game::Game start(scene_);
   Measurements measured;
-  measured.from_s = experiment_.warm_up_s, measured.until_s = experiment_.warm_up_s + experiment_.duration_s;
+  measured.from_s = experiment_.warm_up_s,
+  measured.until_s = experiment_.warm_up_s + experiment_.duration_s;
   PeerTotals sums = totals();
   sums.entities = start.entities().size();
   replay(measured, sums);
   double sum_s = 0.0, busiest_s = 0.0;
-  for (const Process& process : processes_) sum_s += process.ending()->cpu_s, busiest_s = std::max(busiest_s, process.ending()->cpu_s);
-  record.nodes.busiest_cpu_s = busiest_s, record.nodes.mean_cpu_s = sum_s / static_cast<double>(processes_.size());
-  const double end_s = static_cast<double>(last_window(experiment_, cell_)) / cell_.parameters.tick_rate_hz;
-  game::ServerEvidence server = evidence_of(experiment_, cell_, start, keys_, end_s, sums.state_hash);
+  for (const Process& process : processes_)
+    sum_s += process.ending()->cpu_s, busiest_s = std::max(busiest_s, process.ending()->cpu_s);
+  record.nodes.busiest_cpu_s = busiest_s,
+  record.nodes.mean_cpu_s = sum_s / static_cast<double>(processes_.size());
+  const double end_s =
+      static_cast<double>(last_window(experiment_, cell_)) / cell_.parameters.tick_rate_hz;
+  game::ServerEvidence server =
+      evidence_of(experiment_, cell_, start, keys_, end_s, sums.state_hash);
   add_decisions(server, start);
   BotsEvidence bots = bots_evidence_of(server);
   for (const game::PeerEvidence& peer : evidence_)
@@ -231,10 +274,15 @@ void PeerProcesses::run(RunRecord& record) {
 
 }  // namespace
 
-std::vector<std::string> peer_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, const std::string& first, const std::filesystem::path& report,
+std::vector<std::string> peer_arguments(const Experiment& experiment, const Cell& cell,
+                                        const std::filesystem::path& key_log,
+                                        const std::string& first,
+                                        const std::filesystem::path& report,
                                         const std::filesystem::path& evidence) {
   std::vector<std::string> arguments{"--scene", experiment.scene};
-  const auto add = [&arguments](const char* flag, const std::string& value) { arguments.insert(arguments.end(), {flag, value}); };
+  const auto add = [&arguments](const char* flag, const std::string& value) {
+    arguments.insert(arguments.end(), {flag, value});
+  };
   if (experiment.population == Population::per_client) add("--bats", std::to_string(cell.clients));
   if (cell.bats > 0) add("--bat-count", std::to_string(cell.bats));
   if (cell.pucks > 0) add("--puck-count", std::to_string(cell.pucks));
@@ -245,7 +293,8 @@ std::vector<std::string> peer_arguments(const Experiment& experiment, const Cell
   add("--listen", "127.0.0.1:0");
   if (first.empty()) {
     add("--peers", std::to_string(cell.clients));
-    add("--until", decimal(static_cast<double>(last_window(experiment, cell)) / cell.parameters.tick_rate_hz));
+    add("--until",
+        decimal(static_cast<double>(last_window(experiment, cell)) / cell.parameters.tick_rate_hz));
     add("--window", decimal(1.0 / cell.parameters.tick_rate_hz));
     add("--balance", "0");
     add("--scheme", cell.scheme);
@@ -267,7 +316,9 @@ std::vector<std::string> peer_arguments(const Experiment& experiment, const Cell
   return arguments;
 }
 
-std::optional<RunRecord> run_peer_processes(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log) {
+std::optional<RunRecord> run_peer_processes(const RunnerSettings& settings,
+                                            const Experiment& experiment, const Cell& cell,
+                                            const std::filesystem::path& key_log) {
   return recorded(experiment, cell, [&](RunRecord& record) {
     try {
       PeerProcesses(settings, experiment, cell, key_log).run(record);

@@ -1,4 +1,5 @@
-// Runs one cell of the mode peer-to-peer over sockets: a process of rink peer for each player, on loopback and in real time, from start to reports.
+// Runs one cell of the mode peer-to-peer over sockets: a process of rink peer for each player, on
+// loopback and in real time, from start to reports.
 #pragma once
 
 #include <filesystem>
@@ -6,17 +7,24 @@
 #include <string>
 #include <vector>
 
-#include "loadgen/run/cell_runner.h"
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/measure/run_record.h"
+#include "loadgen/run/cell_runner.h"
 
 namespace rink::loadgen {
 
-/// The arguments that start a peer of `cell`: the first one, or if `first` is not empty one that joins the peer there (ADDRESS:PORT).
-std::vector<std::string> peer_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, const std::string& first, const std::filesystem::path& report,
+/// The arguments that start a peer of `cell`: the first one, or if `first` is not empty one that
+/// joins the peer there (ADDRESS:PORT).
+std::vector<std::string> peer_arguments(const Experiment& experiment, const Cell& cell,
+                                        const std::filesystem::path& key_log,
+                                        const std::string& first,
+                                        const std::filesystem::path& report,
                                         const std::filesystem::path& evidence);
 
-/// As run_cell, with the same keys, evidence and judgement. A peer that fails makes the run invalid and is named.
-std::optional<RunRecord> run_peer_processes(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log);
+/// As run_cell, with the same keys, evidence and judgement. A peer that fails makes the run invalid
+/// and is named.
+std::optional<RunRecord> run_peer_processes(const RunnerSettings& settings,
+                                            const Experiment& experiment, const Cell& cell,
+                                            const std::filesystem::path& key_log);
 
 }  // namespace rink::loadgen

@@ -14,14 +14,19 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json or_null(const std::optional<std::uint64_t>& count) { return count ? Json(*count) : Json(nullptr); }
+Json or_null(const std::optional<std::uint64_t>& count) {
+  return count ? Json(*count) : Json(nullptr);
+}
 
 }  // namespace
 
 void TrafficTotals::add(const game::PeerNode& node, const rti::TransportCounters& counters) {
-  for (std::size_t k = 0; k < game::traffic_count; ++k) by_subject[k] += node.sent()[k] + peer_message_head * node.messages_sent()[k], messages += node.messages_sent()[k];
+  for (std::size_t k = 0; k < game::traffic_count; ++k)
+    by_subject[k] += node.sent()[k] + peer_message_head * node.messages_sent()[k],
+        messages += node.messages_sent()[k];
   bytes += counters.bytes_sent, writes += counters.writes, segments += counters.segments_sent;
-  acknowledgements += counters.acknowledgements_sent, kernel_segments += counters.kernel_segments_sent.value_or(counters.segments_sent);
+  acknowledgements += counters.acknowledgements_sent,
+      kernel_segments += counters.kernel_segments_sent.value_or(counters.segments_sent);
   sent.push_back(counters.bytes_sent);
   const peer::PeerCounters& played = node.peer().counters();
   events.push_back(played.own_events + played.ghost_events);
@@ -29,7 +34,8 @@ void TrafficTotals::add(const game::PeerNode& node, const rti::TransportCounters
 }
 
 void TrafficTotals::add(const game::PeerLoad& load) {
-  for (std::size_t k = 0; k < game::traffic_count; ++k) by_subject[k] += load.bytes[k], messages += load.messages[k];
+  for (std::size_t k = 0; k < game::traffic_count; ++k)
+    by_subject[k] += load.bytes[k], messages += load.messages[k];
   bytes += load.bytes_sent, writes += load.writes, segments += load.segments;
   acknowledgements += load.acknowledgements, kernel_segments += load.kernel_segments;
   sent.push_back(load.bytes_sent);
@@ -41,17 +47,20 @@ TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b) {
   for (std::size_t k = 0; k < game::traffic_count; ++k) a.by_subject[k] -= b.by_subject[k];
   a.messages -= b.messages, a.bytes -= b.bytes, a.writes -= b.writes, a.segments -= b.segments;
   a.acknowledgements -= b.acknowledgements, a.kernel_segments -= b.kernel_segments;
-  for (std::size_t k = 0; k < b.sent.size(); ++k) a.sent[k] -= b.sent[k], a.received[k] -= b.received[k], a.events[k] -= b.events[k];
+  for (std::size_t k = 0; k < b.sent.size(); ++k)
+    a.sent[k] -= b.sent[k], a.received[k] -= b.received[k], a.events[k] -= b.events[k];
   return a;
 }
 
 std::uint64_t last_window(const Experiment& experiment, const Cell& cell) {
-  return static_cast<std::uint64_t>(std::floor((experiment.warm_up_s + experiment.duration_s) * cell.parameters.tick_rate_hz + 1e-9));
+  return static_cast<std::uint64_t>(std::floor(
+      (experiment.warm_up_s + experiment.duration_s) * cell.parameters.tick_rate_hz + 1e-9));
 }
 
 /// Window 0 is the start, at which nothing ends.
 std::uint64_t measured_windows(const Experiment& experiment, const Cell& cell) {
-  const auto first = static_cast<std::uint64_t>(std::max(1.0, std::ceil(experiment.warm_up_s * cell.parameters.tick_rate_hz - 1e-9)));
+  const auto first = static_cast<std::uint64_t>(
+      std::max(1.0, std::ceil(experiment.warm_up_s * cell.parameters.tick_rate_hz - 1e-9)));
   const std::uint64_t last = last_window(experiment, cell);
   return last > first ? last - first : 0;
 }
@@ -59,78 +68,91 @@ std::uint64_t measured_windows(const Experiment& experiment, const Cell& cell) {
 Json peers_report(const Cell& cell, const PeerTotals& totals) {
   using game::Traffic;
   const TrafficTotals& measured = totals.measured;
-  const auto of = [&](Traffic about) { return measured.by_subject[static_cast<std::size_t>(about)]; };
+  const auto of = [&](Traffic about) {
+    return measured.by_subject[static_cast<std::size_t>(about)];
+  };
   std::uint64_t busiest = 0;
-  for (std::size_t k = 0; k < measured.sent.size(); ++k) busiest = std::max(busiest, measured.sent[k] + measured.received[k]);
-  Json report{{"schema", game::report_schema},
-          {"mode", cell.mode},
-          {"scheme", cell.scheme},
-          {"policy", cell.policy},
-          {"clients", cell.clients},
-          {"seed", cell.seed},
-          {"tick_rate_hz", cell.parameters.tick_rate_hz},
-          {"ticks", totals.measured_windows},
-          {"ticks_on_time_fraction", totals.known == 0 ? Json(nullptr) : Json(static_cast<double>(totals.on_time) / static_cast<double>(totals.known))},
-          {"physics_us_per_tick", nullptr},
-          {"filter_us_per_tick", nullptr},
-          {"send_us_per_tick", nullptr},
-          {"server_rss_bytes", or_null(totals.busiest_rss)},
-          {"measured_s", totals.measured_s},
-          {"valid", totals.measured_windows > 0},
-          {"why_invalid", totals.measured_windows > 0 ? "" : "no window was measured"},
-          {"entities", totals.entities},
-          {"state_hash", totals.state_hash},
-          {"bytes_sent", measured.bytes},
-          {"bytes_received", measured.bytes},
-          {"writes_sent", measured.writes},
-          {"segments_sent", measured.segments},
-          {"acknowledgements_sent", measured.acknowledgements},
-          {"kernel_segments_sent", measured.kernel_segments},
-          {"state_bytes_sent", 2 * (of(Traffic::halo) + of(Traffic::updates))},  // each byte goes both down and up
-          {"key_bytes_received", 2 * of(Traffic::keys)},
-          {"messages_sent", measured.messages},
-          {"busiest_node_bytes", busiest},
-          {"busiest_node_events", measured.events.empty() ? 0 : *std::max_element(measured.events.begin(), measured.events.end())},
-          {"windows", totals.windows},
-          {"repeated_windows", totals.counters.repeats},
-          {"own_events", totals.counters.own_events},
-          {"ghost_events", totals.counters.ghost_events},
-          {"hand_overs", totals.counters.hand_overs},
-          {"mean_ghosts", static_cast<double>(totals.counters.ghost_windows) / static_cast<double>(std::max<std::uint64_t>(1, totals.counters.windows))},
-          {"lost_federates", 0},
-          {"dropped_connections", 0},
-          {"total_bytes_sent", totals.whole.bytes},
-          {"total_bytes_received", totals.whole_received},
-          {"kernel_bytes_sent", or_null(totals.kernel_sent)},
-          {"kernel_bytes_received", or_null(totals.kernel_received)}};
-  for (std::size_t k = 0; k < game::traffic_count; ++k) report[std::string(game::traffic_names[k]) + "_bytes"] = measured.by_subject[k];
+  for (std::size_t k = 0; k < measured.sent.size(); ++k)
+    busiest = std::max(busiest, measured.sent[k] + measured.received[k]);
+  Json report{
+      {"schema", game::report_schema},
+      {"mode", cell.mode},
+      {"scheme", cell.scheme},
+      {"policy", cell.policy},
+      {"clients", cell.clients},
+      {"seed", cell.seed},
+      {"tick_rate_hz", cell.parameters.tick_rate_hz},
+      {"ticks", totals.measured_windows},
+      {"ticks_on_time_fraction", totals.known == 0 ? Json(nullptr)
+                                                   : Json(static_cast<double>(totals.on_time) /
+                                                          static_cast<double>(totals.known))},
+      {"physics_us_per_tick", nullptr},
+      {"filter_us_per_tick", nullptr},
+      {"send_us_per_tick", nullptr},
+      {"server_rss_bytes", or_null(totals.busiest_rss)},
+      {"measured_s", totals.measured_s},
+      {"valid", totals.measured_windows > 0},
+      {"why_invalid", totals.measured_windows > 0 ? "" : "no window was measured"},
+      {"entities", totals.entities},
+      {"state_hash", totals.state_hash},
+      {"bytes_sent", measured.bytes},
+      {"bytes_received", measured.bytes},
+      {"writes_sent", measured.writes},
+      {"segments_sent", measured.segments},
+      {"acknowledgements_sent", measured.acknowledgements},
+      {"kernel_segments_sent", measured.kernel_segments},
+      {"state_bytes_sent",
+       2 * (of(Traffic::halo) + of(Traffic::updates))},  // each byte goes both down and up
+      {"key_bytes_received", 2 * of(Traffic::keys)},
+      {"messages_sent", measured.messages},
+      {"busiest_node_bytes", busiest},
+      {"busiest_node_events",
+       measured.events.empty() ? 0
+                               : *std::max_element(measured.events.begin(), measured.events.end())},
+      {"windows", totals.windows},
+      {"repeated_windows", totals.counters.repeats},
+      {"own_events", totals.counters.own_events},
+      {"ghost_events", totals.counters.ghost_events},
+      {"hand_overs", totals.counters.hand_overs},
+      {"mean_ghosts", static_cast<double>(totals.counters.ghost_windows) /
+                          static_cast<double>(std::max<std::uint64_t>(1, totals.counters.windows))},
+      {"lost_federates", 0},
+      {"dropped_connections", 0},
+      {"total_bytes_sent", totals.whole.bytes},
+      {"total_bytes_received", totals.whole_received},
+      {"kernel_bytes_sent", or_null(totals.kernel_sent)},
+      {"kernel_bytes_received", or_null(totals.kernel_received)}};
+  for (std::size_t k = 0; k < game::traffic_count; ++k)
+    report[std::string(game::traffic_names[k]) + "_bytes"] = measured.by_subject[k];
   return report;
 }
 
 Json players_report(const Cell& cell, const PeerTotals& totals, const Measurements& measured) {
-  return {{"clients", cell.clients},
-          {"measured_s", totals.measured_s},
-          {"bytes_received", totals.measured.bytes},
-          {"bytes_sent", totals.measured.bytes},
-          {"segments_sent", totals.measured.segments},
-          {"acknowledgements_sent", totals.measured.acknowledgements},
-          {"kernel_segments_sent", totals.measured.kernel_segments},
-          {"update_age_ms", measured.update_age.to_json()},
-          {"key_to_effect_ms", measured.key_to_effect.to_json()},
-          {"keys_due", measured.keys_due},
-          {"keys_sent", measured.keys_sent},
-          {"keys_unanswered", totals.keys_unanswered},
-          {"late_sends_fraction", static_cast<double>(measured.late_sends) / std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
-          {"send_lateness_ms", measured.send_lateness.to_json()},
-          {"schedule_trouble", measured.schedule_trouble()},
-          {"federates_lost", 0},
-          {"bytes_received_by_bot", totals.measured.received},
-          {"total_bytes_received", totals.whole_received},
-          {"total_bytes_sent", totals.whole.bytes},
-          {"kernel_bytes_received", or_null(totals.kernel_received)},
-          {"kernel_bytes_sent", or_null(totals.kernel_sent)},
-          {"valid", totals.trouble.empty()},
-          {"why_invalid", totals.trouble}};
+  return {
+      {"clients", cell.clients},
+      {"measured_s", totals.measured_s},
+      {"bytes_received", totals.measured.bytes},
+      {"bytes_sent", totals.measured.bytes},
+      {"segments_sent", totals.measured.segments},
+      {"acknowledgements_sent", totals.measured.acknowledgements},
+      {"kernel_segments_sent", totals.measured.kernel_segments},
+      {"update_age_ms", measured.update_age.to_json()},
+      {"key_to_effect_ms", measured.key_to_effect.to_json()},
+      {"keys_due", measured.keys_due},
+      {"keys_sent", measured.keys_sent},
+      {"keys_unanswered", totals.keys_unanswered},
+      {"late_sends_fraction", static_cast<double>(measured.late_sends) /
+                                  std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
+      {"send_lateness_ms", measured.send_lateness.to_json()},
+      {"schedule_trouble", measured.schedule_trouble()},
+      {"federates_lost", 0},
+      {"bytes_received_by_bot", totals.measured.received},
+      {"total_bytes_received", totals.whole_received},
+      {"total_bytes_sent", totals.whole.bytes},
+      {"kernel_bytes_received", or_null(totals.kernel_received)},
+      {"kernel_bytes_sent", or_null(totals.kernel_sent)},
+      {"valid", totals.trouble.empty()},
+      {"why_invalid", totals.trouble}};
 }
 
 }  // namespace rink::loadgen

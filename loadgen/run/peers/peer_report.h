@@ -18,7 +18,8 @@ namespace rink::loadgen {
 /// What all peers sent, and each carried, since their start or within a span.
 struct TrafficTotals {
   game::TrafficBytes by_subject{};  ///< with frames
-  std::uint64_t messages = 0, bytes = 0, writes = 0, segments = 0, acknowledgements = 0, kernel_segments = 0;
+  std::uint64_t messages = 0, bytes = 0, writes = 0, segments = 0, acknowledgements = 0,
+                kernel_segments = 0;
   std::vector<std::uint64_t> sent, received;  ///< bytes by peer
   std::vector<std::uint64_t> events;          ///< likewise, of physics
 
@@ -28,7 +29,8 @@ struct TrafficTotals {
 };
 TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b);
 
-/// The last window that a run's peers play; it ends when the run does, or at the last instant before that at which a window can.
+/// The last window that a run's peers play; it ends when the run does, or at the last instant
+/// before that at which a window can.
 std::uint64_t last_window(const Experiment& experiment, const Cell& cell);
 /// Windows that end within the measured span, which the end of the last one closes.
 std::uint64_t measured_windows(const Experiment& experiment, const Cell& cell);
@@ -37,16 +39,20 @@ struct PeerTotals {
   TrafficTotals measured, whole;
   double measured_s = 0.0;
   std::uint64_t windows = 0, measured_windows = 0, entities = 0, keys_unanswered = 0;
-  std::uint64_t known = 0, on_time = 0;  ///< measured windows of each peer, and those known before the next one's end
-  peer::PeerCounters counters;  ///< of all peers, from start to end
-  std::uint64_t whole_received = 0;                                        ///< bytes; and what the kernel counted, if there is one:
+  std::uint64_t
+      known = 0,
+      on_time = 0;  ///< measured windows of each peer, and those known before the next one's end
+  peer::PeerCounters counters;       ///< of all peers, from start to end
+  std::uint64_t whole_received = 0;  ///< bytes; and what the kernel counted, if there is one:
   std::optional<std::uint64_t> kernel_sent, kernel_received, busiest_rss;  ///< bytes
-  std::string trouble;                                                     ///< why the players' part of the run does not count
+  std::string trouble;  ///< why the players' part of the run does not count
   std::string state_hash;
 };
 
-/// As a server's and as its bots': what is sent counts as what goes down, and what is received as what goes up, of which there is as much.
+/// As a server's and as its bots': what is sent counts as what goes down, and what is received as
+/// what goes up, of which there is as much.
 nlohmann::ordered_json peers_report(const Cell& cell, const PeerTotals& totals);
-nlohmann::ordered_json players_report(const Cell& cell, const PeerTotals& totals, const Measurements& measured);
+nlohmann::ordered_json players_report(const Cell& cell, const PeerTotals& totals,
+                                      const Measurements& measured);
 
 }  // namespace rink::loadgen

@@ -1,4 +1,5 @@
-// The loop of virtual_run.cpp for stations instead of a server and its bots: whatever is due next, an arrival, a key, a window's end or a sample.
+// The loop of virtual_run.cpp for stations instead of a server and its bots: whatever is due next,
+// an arrival, a key, a window's end or a sample.
 #include "loadgen/run/peers/peer_run.h"
 
 #include <algorithm>
@@ -12,8 +13,8 @@
 
 #include "game/control/key_log.h"
 #include "game/net/peer/meeting/seating.h"
-#include "game/net/view.h"
 #include "game/net/relevant_kinds.h"
+#include "game/net/view.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/peers/peer_judgement.h"
 #include "loadgen/run/peers/peer_station.h"
@@ -23,16 +24,19 @@
 namespace rink::loadgen {
 namespace {
 
-/// A station at its end of the network, with a connection to each other one. Who connects says its number first.
+/// A station at its end of the network, with a connection to each other one. Who connects says its
+/// number first.
 class NetworkedStation : private rti::TransportListener {
  public:
-  NetworkedStation(rti::VirtualNetwork& network, PeerStation& station, peer::PeerNumber number, peer::PeerNumber count)
+  NetworkedStation(rti::VirtualNetwork& network, PeerStation& station, peer::PeerNumber number,
+                   peer::PeerNumber count)
       : end_(network), station_(station), number_(number), connections_(count) {
     end_.listen(name_of(number));
   }
   /// To all whose number is lower.
   void connect() {
-    for (peer::PeerNumber other = 0; other < number_; ++other) note(end_.connect(name_of(other)), other);
+    for (peer::PeerNumber other = 0; other < number_; ++other)
+      note(end_.connect(name_of(other)), other);
   }
   bool is_connected() const { return open_ + 1 == connections_.size(); }
   const std::string& trouble() const { return trouble_; }
@@ -61,7 +65,8 @@ class NetworkedStation : private rti::TransportListener {
     if (other != unknown) connections_[other] = connection;
   }
   void on_open(rti::ConnectionId connection) override {
-    if (connection >= others_.size() || others_[connection] == unknown) return note(connection, unknown);
+    if (connection >= others_.size() || others_[connection] == unknown)
+      return note(connection, unknown);
     std::array<std::byte, sizeof number_> words{};
     std::memcpy(words.data(), &number_, sizeof number_);
     const rti::Bytes bytes = words;
@@ -82,8 +87,11 @@ class NetworkedStation : private rti::TransportListener {
       if (trouble_.empty()) trouble_ = "peer " + std::to_string(number_) + ": " + error.what();
     }
   }
-  void on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string&) override {
-    if (trouble_.empty()) trouble_ = "peer " + std::to_string(number_) + ": connection to peer " + std::to_string(others_[connection]) + " is closed: " + rti::to_string(reason);
+  void on_close(rti::ConnectionId connection, rti::CloseReason reason,
+                const std::string&) override {
+    if (trouble_.empty())
+      trouble_ = "peer " + std::to_string(number_) + ": connection to peer " +
+                 std::to_string(others_[connection]) + " is closed: " + rti::to_string(reason);
   }
 
   rti::VirtualEndpoint end_;
@@ -97,7 +105,8 @@ class NetworkedStation : private rti::TransportListener {
 
 class PeerRun {
  public:
-  PeerRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<game::InputEvent>& keys);
+  PeerRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,
+          const game::Scene& scene, const std::vector<game::InputEvent>& keys);
 
   void run();
   /// After that.
@@ -130,7 +139,7 @@ class PeerRun {
   std::vector<game::InputEvent> keys_;
   std::size_t next_key_ = 0;
   std::vector<peer::PeerNumber> node_of_player_;
-  std::vector<std::uint32_t> players_;                    ///< that are watched
+  std::vector<std::uint32_t> players_;  ///< that are watched
   std::vector<double> sample_instants_, decision_instants_;
   std::size_t next_sample_ = 0, next_decision_ = 0;
   game::ServerEvidence evidence_;
@@ -139,19 +148,24 @@ class PeerRun {
   bool has_started_ = false;
 };
 
-game::InterestSettings interest_settings(const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<std::uint32_t>& bats) {
+game::InterestSettings interest_settings(const Experiment& experiment, const Cell& cell,
+                                         const game::Scene& scene,
+                                         const std::vector<std::uint32_t>& bats) {
   const physics::Field& field = scene.world.field;
   game::InterestSettings settings;
   settings.always_relevant = game::relevant_kinds_of(scene, experiment.always);
-  settings.scheme = cell.scheme, settings.policy = cell.policy, settings.cell_size = cell.parameters.cell_size;
-  settings.half_side = game::view_half_side(experiment.view_area, cell.parameters.view_fraction, field.length, field.width);
+  settings.scheme = cell.scheme, settings.policy = cell.policy,
+  settings.cell_size = cell.parameters.cell_size;
+  settings.half_side = game::view_half_side(experiment.view_area, cell.parameters.view_fraction,
+                                            field.length, field.width);
   settings.margin = cell.parameters.view_margin;
   settings.rate_hz = cell.parameters.tick_rate_hz;
   settings.bats = bats;
   return settings;
 }
 
-PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<game::InputEvent>& keys)
+PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,
+                 const game::Scene& scene, const std::vector<game::InputEvent>& keys)
     : settings_(settings),
       experiment_(experiment),
       cell_(cell),
@@ -163,19 +177,26 @@ PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, c
   const game::InterestSettings interest = interest_settings(experiment, cell, scene, seats_.bats);
   measurements_.from_s = experiment.warm_up_s, measurements_.until_s = played_s();
   for (peer::PeerNumber number = 0; number < cell.clients; ++number) {
-    PeerStation& station = stations_.emplace_back(game_, interest, seats_.division, number, clock_, measurements_);
+    PeerStation& station =
+        stations_.emplace_back(game_, interest, seats_.division, number, clock_, measurements_);
     ends_.emplace_back(network_, station, number, cell.clients);
   }
   node_of_player_.resize(game_.start().player_count(), cell.clients);
   for (peer::PeerNumber number = 0; number < cell.clients; ++number)
     for (const game::Entity& entity : game_.start().entities())
       if (entity.id.index == seats_.bats[number]) node_of_player_[*entity.player] = number;
-  std::erase_if(keys_, [&](const game::InputEvent& key) { return node_of_player_[key.player] == cell.clients || key.time >= played_s(); });
+  std::erase_if(keys_, [&](const game::InputEvent& key) {
+    return node_of_player_[key.player] == cell.clients || key.time >= played_s();
+  });
   evidence_.keys = keys;
   if (!settings.wants_truth) return;
-  const game::SamplingSettings sampling{.seed = cell.seed, .clients = cell.clients, .from_s = experiment.warm_up_s, .until_s = played_s()};
+  const game::SamplingSettings sampling{.seed = cell.seed,
+                                        .clients = cell.clients,
+                                        .from_s = experiment.warm_up_s,
+                                        .until_s = played_s()};
   players_ = game::sampled_players(sampling);
-  decision_instants_ = game::sampled_instants(sampling, 1), sample_instants_ = game::sampled_instants(sampling, 2);
+  decision_instants_ = game::sampled_instants(sampling, 1),
+  sample_instants_ = game::sampled_instants(sampling, 2);
   for (const std::uint32_t player : players_) stations_[node_of_player_[player]].watch();
 }
 
@@ -190,17 +211,24 @@ double PeerRun::next_due_s() const {
   constexpr double never = std::numeric_limits<double>::infinity();
   if (!has_started_) return never;
   const double key_s = next_key_ < keys_.size() ? keys_[next_key_].time : never;
-  const double sample_s = next_sample_ < sample_instants_.size() ? sample_instants_[next_sample_] : never;
-  const double decision_s = next_decision_ < decision_instants_.size() ? decision_instants_[next_decision_] : never;
+  const double sample_s =
+      next_sample_ < sample_instants_.size() ? sample_instants_[next_sample_] : never;
+  const double decision_s =
+      next_decision_ < decision_instants_.size() ? decision_instants_[next_decision_] : never;
   return clock_.start_s + std::min({key_s, sample_s, decision_s});
 }
 
 void PeerRun::act_when_due() {
   if (!has_started_) return;
   const double now_s = clock_.simulated_s();
-  for (; next_key_ < keys_.size() && clock_.start_s + keys_[next_key_].time <= clock_.now_s; ++next_key_) stations_[node_of_player_[keys_[next_key_].player]].press(keys_[next_key_].time);
-  for (; next_decision_ < decision_instants_.size() && decision_instants_[next_decision_] <= now_s; ++next_decision_) note_decisions(decision_instants_[next_decision_]);
-  for (; next_sample_ < sample_instants_.size() && sample_instants_[next_sample_] <= now_s; ++next_sample_)
+  for (; next_key_ < keys_.size() && clock_.start_s + keys_[next_key_].time <= clock_.now_s;
+       ++next_key_)
+    stations_[node_of_player_[keys_[next_key_].player]].press(keys_[next_key_].time);
+  for (; next_decision_ < decision_instants_.size() && decision_instants_[next_decision_] <= now_s;
+       ++next_decision_)
+    note_decisions(decision_instants_[next_decision_]);
+  for (; next_sample_ < sample_instants_.size() && sample_instants_[next_sample_] <= now_s;
+       ++next_sample_)
     for (const std::uint32_t player : players_) stations_[node_of_player_[player]].sample();
 }
 
@@ -209,7 +237,8 @@ void PeerRun::advance_until(std::int64_t until_ns) {
   for (;;) {
     if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
     std::int64_t next_ns = network_.next_arrival_ns().value_or(INT64_MAX);
-    if (const double due_s = next_due_s(); due_s < 1e9) next_ns = std::min(next_ns, std::max(network_.now_ns(), not_before(due_s)));
+    if (const double due_s = next_due_s(); due_s < 1e9)
+      next_ns = std::min(next_ns, std::max(network_.now_ns(), not_before(due_s)));
     if (next_ns > until_ns) break;
     network_.advance_to(next_ns);
     clock_.now_s = network_.now_s();
@@ -223,7 +252,9 @@ void PeerRun::advance_until(std::int64_t until_ns) {
 
 void PeerRun::connect() {
   for (NetworkedStation& end : ends_) end.connect();
-  for (int tries = 0; !std::all_of(ends_.begin(), ends_.end(), [](const NetworkedStation& end) { return end.is_connected(); }); ++tries) {
+  for (int tries = 0; !std::all_of(ends_.begin(), ends_.end(),
+                                   [](const NetworkedStation& end) { return end.is_connected(); });
+       ++tries) {
     if (tries == 64) throw Failure{"waited in vain for all peers to be connected"};
     advance_until(network_.now_ns() + settling_ns(experiment_));
   }
@@ -231,7 +262,8 @@ void PeerRun::connect() {
 
 void PeerRun::run() {
   connect();
-  const std::int64_t start_ns = (network_.now_ns() / second_ns + 1) * second_ns;  // a whole second: sums with it are rounded least
+  const std::int64_t start_ns = (network_.now_ns() / second_ns + 1) *
+                                second_ns;  // a whole second: sums with it are rounded least
   advance_until(start_ns);
   for (rti::Partition cut : experiment_.network.partitions) {
     cut.from_ns += start_ns, cut.until_ns += start_ns;
@@ -244,24 +276,34 @@ void PeerRun::run() {
   for (std::uint64_t window = 0; window <= last_window(); ++window) {
     const double simulated_s = static_cast<double>(window) / cell_.parameters.tick_rate_hz;
     advance_until(start_ns + nanoseconds(simulated_s));
-    if (!is_measuring && simulated_s >= experiment_.warm_up_s) is_measuring = true, begin_ = traffic(), measured_from_ns = network_.now_ns();
-    // The last window's end closes the span and is not in it: n windows, and the n periods that they begin.
-    if (window == last_window()) measured_ = traffic() - begin_, measured_s_ = 1e-9 * static_cast<double>(network_.now_ns() - measured_from_ns);
+    if (!is_measuring && simulated_s >= experiment_.warm_up_s)
+      is_measuring = true, begin_ = traffic(), measured_from_ns = network_.now_ns();
+    // The last window's end closes the span and is not in it: n windows, and the n periods that
+    // they begin.
+    if (window == last_window())
+      measured_ = traffic() - begin_,
+      measured_s_ = 1e-9 * static_cast<double>(network_.now_ns() - measured_from_ns);
     if (window == 0) continue;
     for (PeerStation& station : stations_) station.due();
     flush();
   }
-  const auto is_done = [&](const PeerStation& station) { return station.node().windows_final() == last_window() && station.node().is_idle(); };
+  const auto is_done = [&](const PeerStation& station) {
+    return station.node().windows_final() == last_window() && station.node().is_idle();
+  };
   advance_until(start_ns + nanoseconds(played_s()) + 4 * settling_ns(experiment_) + 1);
   for (int tries = 0; !std::all_of(stations_.begin(), stations_.end(), is_done); ++tries) {
-    if (tries == 1000) throw Failure{"the peers had not agreed on the last window long after its end: with this delay, agreement takes longer than a window"};
+    if (tries == 1000)
+      throw Failure{
+          "the peers had not agreed on the last window long after its end: with this delay, "
+          "agreement takes longer than a window"};
     advance_until(network_.now_ns() + settling_ns(experiment_));
   }
 }
 
 TrafficTotals PeerRun::traffic() const {
   TrafficTotals totals;
-  for (std::size_t k = 0; k < stations_.size(); ++k) totals.add(stations_[k].node(), ends_[k].totals());
+  for (std::size_t k = 0; k < stations_.size(); ++k)
+    totals.add(stations_[k].node(), ends_[k].totals());
   return totals;
 }
 
@@ -275,18 +317,23 @@ void PeerRun::note_decisions(double instant_s) {
       for (const std::uint32_t body : scope)
         if (station.node().interest().owns(body)) evidence_.in_scope.push_back(body);
     }
-    std::sort(evidence_.in_scope.begin() + static_cast<std::ptrdiff_t>(first), evidence_.in_scope.end());
+    std::sort(evidence_.in_scope.begin() + static_cast<std::ptrdiff_t>(first),
+              evidence_.in_scope.end());
     evidence_.decisions.push_back({instant_s, player, first, evidence_.in_scope.size()});
   }
 }
 
 std::string PeerRun::state_hash() const {
   std::vector<peer::Arrivals> parts;
-  for (const PeerStation& station : stations_) parts.push_back(peer::own_bodies(station.node().peer()));
-  const auto world = peer::hash_of_whole(game_.start().world().spec(), game_.start().world().body_count(), parts);
+  for (const PeerStation& station : stations_)
+    parts.push_back(peer::own_bodies(station.node().peer()));
+  const auto world =
+      peer::hash_of_whole(game_.start().world().spec(), game_.start().world().body_count(), parts);
   if (!world) throw Failure{"not every body has one owner in the end"};
   char text[17];
-  std::snprintf(text, sizeof text, "%016" PRIx64, game_.hash(*world, static_cast<double>(last_window()) / cell_.parameters.tick_rate_hz));
+  std::snprintf(
+      text, sizeof text, "%016" PRIx64,
+      game_.hash(*world, static_cast<double>(last_window()) / cell_.parameters.tick_rate_hz));
   return text;
 }
 
@@ -309,14 +356,18 @@ PeerTotals PeerRun::totals() const {
 
 void PeerRun::judge(RunRecord& record) const {
   const PeerTotals sums = totals();
-  game::ServerEvidence server = evidence_of(experiment_, cell_, game_.start(), evidence_.keys, static_cast<double>(last_window()) / cell_.parameters.tick_rate_hz, sums.state_hash);
+  game::ServerEvidence server = evidence_of(
+      experiment_, cell_, game_.start(), evidence_.keys,
+      static_cast<double>(last_window()) / cell_.parameters.tick_rate_hz, sums.state_hash);
   server.decisions = evidence_.decisions, server.in_scope = evidence_.in_scope;
   BotsEvidence bots = bots_evidence_of(server);
-  for (const std::uint32_t player : players_) add_player(bots, stations_[node_of_player_[player]].evidence());
+  for (const std::uint32_t player : players_)
+    add_player(bots, stations_[node_of_player_[player]].evidence());
   judge_peers(settings_, experiment_, record, sums, measurements_, server, bots);
 }
 
-void run_peers(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, RunRecord& record) {
+void run_peers(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,
+               const std::filesystem::path& key_log, RunRecord& record) {
   const game::Scene scene = scene_of(experiment, cell);
   PeerRun run(settings, experiment, cell, scene, keys_in(key_log, scene));
   try {
@@ -329,8 +380,12 @@ void run_peers(const RunnerSettings& settings, const Experiment& experiment, con
 
 }  // namespace
 
-std::optional<RunRecord> run_virtual_peers(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log) {
-  return recorded(experiment, cell, [&](RunRecord& record) { run_peers(settings, experiment, cell, key_log, record); });
+std::optional<RunRecord> run_virtual_peers(const RunnerSettings& settings,
+                                           const Experiment& experiment, const Cell& cell,
+                                           const std::filesystem::path& key_log) {
+  return recorded(experiment, cell, [&](RunRecord& record) {
+    run_peers(settings, experiment, cell, key_log, record);
+  });
 }
 
 }  // namespace rink::loadgen

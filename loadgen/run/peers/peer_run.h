@@ -1,16 +1,20 @@
-// Runs one cell of the mode peer-to-peer in this process under a virtual clock: a peer for each player, and the same network, keys, evidence and judgement as with a server.
+// Runs one cell of the mode peer-to-peer in this process under a virtual clock: a peer for each
+// player, and the same network, keys, evidence and judgement as with a server.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 
-#include "loadgen/run/cell_runner.h"
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/measure/run_record.h"
+#include "loadgen/run/cell_runner.h"
 
 namespace rink::loadgen {
 
-/// As run_virtual_cell, with which it shares what it writes: NAME.peers.json and NAME.bots.json, and evidence in NAME.server.jsonl and NAME.bots.jsonl. Throws ExperimentError.
-std::optional<RunRecord> run_virtual_peers(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log);
+/// As run_virtual_cell, with which it shares what it writes: NAME.peers.json and NAME.bots.json,
+/// and evidence in NAME.server.jsonl and NAME.bots.jsonl. Throws ExperimentError.
+std::optional<RunRecord> run_virtual_peers(const RunnerSettings& settings,
+                                           const Experiment& experiment, const Cell& cell,
+                                           const std::filesystem::path& key_log);
 
 }  // namespace rink::loadgen

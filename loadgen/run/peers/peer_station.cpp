@@ -5,24 +5,27 @@
 
 namespace rink::loadgen {
 
-PeerStation::PeerStation(const game::SharedGame& game, const game::InterestSettings& settings, const peer::Division& division, peer::PeerNumber number, const RunClock& clock,
-                         Measurements& measurements)
+PeerStation::PeerStation(const game::SharedGame& game, const game::InterestSettings& settings,
+                         const peer::Division& division, peer::PeerNumber number,
+                         const RunClock& clock, Measurements& measurements)
     : clock_(clock),
       measurements_(measurements),
       rate_hz_(settings.rate_hz),
       readers_(division.peer_count()),
       outboxes_(division.peer_count()),
       probe_(measurements),
-      node_(game, settings, division, number, [this](peer::PeerNumber to, game::Traffic about, const std::vector<std::uint8_t>& content) {
-        std::vector<std::uint8_t> words(content.size() + 1);
-        words[0] = static_cast<std::uint8_t>(about);
-        if (!content.empty()) std::memcpy(words.data() + 1, content.data(), content.size());
-        const std::vector<std::uint8_t> frame = game::framed(game::FrameKind::mail, words);
-        std::vector<std::uint8_t>& outbox = outboxes_[to];
-        const std::size_t before = outbox.size();
-        outbox.resize(before + frame.size());
-        std::memcpy(outbox.data() + before, frame.data(), frame.size());
-      }) {
+      node_(game, settings, division, number,
+            [this](peer::PeerNumber to, game::Traffic about,
+                   const std::vector<std::uint8_t>& content) {
+              std::vector<std::uint8_t> words(content.size() + 1);
+              words[0] = static_cast<std::uint8_t>(about);
+              if (!content.empty()) std::memcpy(words.data() + 1, content.data(), content.size());
+              const std::vector<std::uint8_t> frame = game::framed(game::FrameKind::mail, words);
+              std::vector<std::uint8_t>& outbox = outboxes_[to];
+              const std::size_t before = outbox.size();
+              outbox.resize(before + frame.size());
+              std::memcpy(outbox.data() + before, frame.data(), frame.size());
+            }) {
   node_.on_final = [this] { probe_.keys_felt(clock_.now_s, node_.interest().felt()); };
   node_.on_commit = [this] { note_commit(); };
 }
@@ -40,21 +43,27 @@ void PeerStation::hear(peer::PeerNumber from, rti::Bytes bytes) {
   game::FrameReader& reader = readers_[from];
   reader.add(bytes);
   while (auto frame = reader.next(game::peer_frame_max)) {
-    const bool is_mail = frame->kind == game::FrameKind::mail && !frame->content.empty() && frame->content[0] < game::traffic_count;
-    if (!is_mail || !node_.hear(from, static_cast<game::Traffic>(frame->content[0]), std::vector<std::uint8_t>(frame->content.begin() + 1, frame->content.end())))
+    const bool is_mail = frame->kind == game::FrameKind::mail && !frame->content.empty() &&
+                         frame->content[0] < game::traffic_count;
+    if (!is_mail ||
+        !node_.hear(from, static_cast<game::Traffic>(frame->content[0]),
+                    std::vector<std::uint8_t>(frame->content.begin() + 1, frame->content.end())))
       throw peer::ProtocolError("peer " + std::to_string(from) + " sent what is no message");
   }
-  if (reader.is_broken()) throw peer::ProtocolError("peer " + std::to_string(from) + " sent what is no frame");
+  if (reader.is_broken())
+    throw peer::ProtocolError("peer " + std::to_string(from) + " sent what is no frame");
 }
 
 /// All of a window is known: as old as it is now, it is what an update is to a client.
 void PeerStation::note_commit() {
   const double simulated_s = node_.windows_final() / rate_hz_;
-  probe_.news_applied(clock_.start_s + simulated_s, clock_.now_s, measurements_.is_counted(simulated_s));
+  probe_.news_applied(clock_.start_s + simulated_s, clock_.now_s,
+                      measurements_.is_counted(simulated_s));
   probe_.keys_felt(clock_.now_s, node_.interest().felt());
   constexpr double rounding_s = 1e-9;
   known_ += measurements_.is_counted(simulated_s);
-  on_time_ += measurements_.is_counted(simulated_s) && clock_.simulated_s() <= simulated_s + 1.0 / rate_hz_ + rounding_s;
+  on_time_ += measurements_.is_counted(simulated_s) &&
+              clock_.simulated_s() <= simulated_s + 1.0 / rate_hz_ + rounding_s;
   if (witness_) witness_->note_commit(clock_.simulated_s(), simulated_s);
 }
 

@@ -1,4 +1,5 @@
-// One peer of a run, with its player: frames to and from the others, and what is measured of it. No clock, no connection of its own.
+// One peer of a run, with its player: frames to and from the others, and what is measured of it. No
+// clock, no connection of its own.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,9 @@ struct RunClock {
 class PeerStation {
  public:
   /// `clock` must outlive the station, as must `measurements`, which may be shared.
-  PeerStation(const game::SharedGame& game, const game::InterestSettings& settings, const peer::Division& division, peer::PeerNumber number, const RunClock& clock, Measurements& measurements);
+  PeerStation(const game::SharedGame& game, const game::InterestSettings& settings,
+              const peer::Division& division, peer::PeerNumber number, const RunClock& clock,
+              Measurements& measurements);
 
   /// Keeps evidence of what the player was told and believes.
   void watch();
@@ -34,7 +37,8 @@ class PeerStation {
   void due() { node_.due(); }
   /// The player's key that was due at simulated `instant` [s].
   void press(double instant);
-  /// Bytes of another peer's stream, cut anywhere. Throws peer::ProtocolError for what no peer says.
+  /// Bytes of another peer's stream, cut anywhere. Throws peer::ProtocolError for what no peer
+  /// says.
   void hear(peer::PeerNumber from, rti::Bytes bytes);
   /// What is to be sent to `to`; the caller takes it.
   std::vector<std::uint8_t>& outbox(peer::PeerNumber to) { return outboxes_[to]; }
@@ -44,7 +48,8 @@ class PeerStation {
   game::PeerNode& node() { return node_; }
   const game::PeerNode& node() const { return node_; }
   const Probe& probe() const { return probe_; }
-  /// Measured windows of which all was known here, and those of them that were before the next one's end.
+  /// Measured windows of which all was known here, and those of them that were before the next
+  /// one's end.
   std::uint64_t windows_known() const { return known_; }
   std::uint64_t windows_on_time() const { return on_time_; }
   /// Of a watched one.
@@ -56,8 +61,8 @@ class PeerStation {
   const RunClock& clock_;
   Measurements& measurements_;
   double rate_hz_;
-  std::vector<game::FrameReader> readers_;            ///< by peer
-  std::vector<std::vector<std::uint8_t>> outboxes_;   ///< likewise
+  std::vector<game::FrameReader> readers_;           ///< by peer
+  std::vector<std::vector<std::uint8_t>> outboxes_;  ///< likewise
   Probe probe_;
   game::PeerNode node_;
   std::optional<game::PlayerWitness> witness_;

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <system_error>
 
-#include "loadgen/run/game_plan.h"
 #include "loadgen/measure/growth.h"
+#include "loadgen/run/game_plan.h"
 
 namespace rink::loadgen {
 namespace {
@@ -21,25 +21,31 @@ std::string title_of(const Cell& cell) {
 std::string figures_text(const RunRecord& record) {
   char text[96];
   const auto age = record.update_age_ms.p99 ? record.update_age_ms.p99 : record.update_age_ms.max;
-  std::snprintf(text, sizeof text, "%.4g %% of ticks on time, age %s %.3g ms", 100.0 * record.ticks_on_time_fraction.value_or(0.0), record.update_age_ms.p99 ? "p99" : "max",
-                age.value_or(0.0));
+  std::snprintf(text, sizeof text, "%.4g %% of ticks on time, age %s %.3g ms",
+                100.0 * record.ticks_on_time_fraction.value_or(0.0),
+                record.update_age_ms.p99 ? "p99" : "max", age.value_or(0.0));
   return text;
 }
 
 /// One search and what its probes left behind.
 class SaturationSearch {
  public:
-  SaturationSearch(const Cell& cell, const ServiceLevel& level, const SearchLimits& limits, std::span<const RunRecord> earlier, const CellRunning& run, std::ostream& out)
+  SaturationSearch(const Cell& cell, const ServiceLevel& level, const SearchLimits& limits,
+                   std::span<const RunRecord> earlier, const CellRunning& run, std::ostream& out)
       : level_(level), limits_(limits), earlier_(earlier), run_(run), out_(out) {
     found_.cell = cell;
   }
 
   Saturation find() {
-    found_.search = find_largest(limits_, [this](std::uint32_t clients, std::uint32_t attempt) { return probe(clients, attempt); });
+    found_.search = find_largest(limits_, [this](std::uint32_t clients, std::uint32_t attempt) {
+      return probe(clients, attempt);
+    });
     for (const RunRecord& record : records_) {
       const Judgement judgement = judgement_of(record, level_);
-      if (record.cell.clients == found_.search.held && judgement.verdict == Verdict::holds) found_.edge = record;
-      if (record.cell.clients == found_.search.failed && judgement.verdict != Verdict::holds) found_.why = judgement.why;
+      if (record.cell.clients == found_.search.held && judgement.verdict == Verdict::holds)
+        found_.edge = record;
+      if (record.cell.clients == found_.search.failed && judgement.verdict != Verdict::holds)
+        found_.why = judgement.why;
     }
     foretell();
     foretell();
@@ -51,21 +57,33 @@ class SaturationSearch {
     Cell cell = found_.cell;
     cell.clients = clients;
     cell.seed += attempt;
-    const auto before = std::find_if(earlier_.begin(), earlier_.end(), [&cell](const RunRecord& record) { return record.cell == cell; });
-    const std::optional<RunRecord> record = before != earlier_.end() ? std::optional(*before) : run_(cell);
+    const auto before =
+        std::find_if(earlier_.begin(), earlier_.end(),
+                     [&cell](const RunRecord& record) { return record.cell == cell; });
+    const std::optional<RunRecord> record =
+        before != earlier_.end() ? std::optional(*before) : run_(cell);
     if (!record) return std::nullopt;
     const Judgement judgement = judgement_of(*record, level_);
-    const char* verdict = judgement.verdict == Verdict::holds ? " clients hold: " : (judgement.verdict == Verdict::fails ? " clients fail: " : " clients, does not count: ");
-    out_ << title_of(cell) << ": " << clients << verdict << (judgement.verdict == Verdict::holds ? figures_text(*record) : judgement.why)
-         << (before != earlier_.end() ? " (measured before)" : "") << "\n" << std::flush;
+    const char* verdict =
+        judgement.verdict == Verdict::holds
+            ? " clients hold: "
+            : (judgement.verdict == Verdict::fails ? " clients fail: "
+                                                   : " clients, does not count: ");
+    out_ << title_of(cell) << ": " << clients << verdict
+         << (judgement.verdict == Verdict::holds ? figures_text(*record) : judgement.why)
+         << (before != earlier_.end() ? " (measured before)" : "") << "\n"
+         << std::flush;
     records_.push_back(*record);
     return judgement.verdict;
   }
 
-  /// The edge itself and what lies beyond it are left out: a fit through them would know the answer.
+  /// The edge itself and what lies beyond it are left out: a fit through them would know the
+  /// answer.
   void foretell() {
     std::vector<RunRecord> below;
-    std::ranges::copy_if(records_, std::back_inserter(below), [this](const RunRecord& record) { return record.cell.clients < found_.search.held.value_or(0); });
+    std::ranges::copy_if(records_, std::back_inserter(below), [this](const RunRecord& record) {
+      return record.cell.clients < found_.search.held.value_or(0);
+    });
     for (const Capacity& capacity : capacities_of(growths_of(below))) {
       found_.foretold = capacity.clients;
       found_.foretold_from = static_cast<std::uint32_t>(capacity.growth.most);
@@ -84,14 +102,18 @@ class SaturationSearch {
 }  // namespace
 
 SearchLimits search_limits(const Experiment& experiment, std::uint32_t most, double resolution) {
-  const auto [least, largest] = std::minmax_element(experiment.clients.begin(), experiment.clients.end());
-  SearchLimits limits{.first = *least, .most = most > 0 ? most : *largest, .resolution = resolution};
+  const auto [least, largest] =
+      std::minmax_element(experiment.clients.begin(), experiment.clients.end());
+  SearchLimits limits{
+      .first = *least, .most = most > 0 ? most : *largest, .resolution = resolution};
   limits.first = std::min(limits.first, limits.most);
   return limits;
 }
 
-std::vector<Saturation> saturate(const Experiment& experiment, const ServiceLevel& level, const SearchLimits& limits, std::span<const RunRecord> earlier,
-                                 const CellRunning& run, const SaturationKeeping& keep, std::ostream& out) {
+std::vector<Saturation> saturate(const Experiment& experiment, const ServiceLevel& level,
+                                 const SearchLimits& limits, std::span<const RunRecord> earlier,
+                                 const CellRunning& run, const SaturationKeeping& keep,
+                                 std::ostream& out) {
   Experiment one = experiment;
   one.clients = {limits.first};
   one.seeds = {experiment.seeds.front()};
@@ -105,15 +127,24 @@ std::vector<Saturation> saturate(const Experiment& experiment, const ServiceLeve
   return found;
 }
 
-Outcome run_saturation(const Experiment& experiment, const SaturateOptions& options, std::uint32_t allowed_clients, const RunnerSettings& settings, ResultsDirectory& results,
-                       const KeyLogWriter& write_key_log, std::ostream& out, std::vector<Saturation>& found, std::span<const RunRecord> earlier) {
-  if (!experiment.parts.empty()) throw ExperimentError("experiment " + experiment.name + ": it has several parts; a search for the largest number of clients needs an experiment without [[parts]]");
+Outcome run_saturation(const Experiment& experiment, const SaturateOptions& options,
+                       std::uint32_t allowed_clients, const RunnerSettings& settings,
+                       ResultsDirectory& results, const KeyLogWriter& write_key_log,
+                       std::ostream& out, std::vector<Saturation>& found,
+                       std::span<const RunRecord> earlier) {
+  if (!experiment.parts.empty())
+    throw ExperimentError("experiment " + experiment.name +
+                          ": it has several parts; a search for the largest number of clients "
+                          "needs an experiment without [[parts]]");
   if (experiment.transport == TransportKind::virtual_time) {
-    throw ExperimentError("experiment " + experiment.name + ": transport = \"virtual\": under a virtual clock no tick is ever late, so nothing saturates; allowed are \"tcp\", \"udp\", \"shm\"");
+    throw ExperimentError("experiment " + experiment.name +
+                          ": transport = \"virtual\": under a virtual clock no tick is ever late, "
+                          "so nothing saturates; allowed are \"tcp\", \"udp\", \"shm\"");
   }
   SearchLimits limits = search_limits(experiment, options.most, options.resolution);
   if (allowed_clients < limits.most) {
-    out << "the limit on open files allows " << allowed_clients << " clients instead of " << limits.most << "\n";
+    out << "the limit on open files allows " << allowed_clients << " clients instead of "
+        << limits.most << "\n";
     limits.most = allowed_clients;
     limits.first = std::min(limits.first, limits.most);
   }
@@ -126,7 +157,8 @@ Outcome run_saturation(const Experiment& experiment, const SaturateOptions& opti
     const auto record = run_cell(settings, experiment, cell, key_log);
     std::error_code ignored;
     std::filesystem::remove(state_file_of(key_log), ignored);
-    std::filesystem::remove(key_log, ignored);  // drawn again from its seed by anybody who wants it; thousands of players' plans fill a disk
+    std::filesystem::remove(key_log, ignored);  // drawn again from its seed by anybody who wants
+                                                // it; thousands of players' plans fill a disk
     if (!record) return std::nullopt;
     outcome.runs.push_back(*record);
     results.append(*record);

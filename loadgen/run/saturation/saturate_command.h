@@ -1,4 +1,5 @@
-// `rink compare --saturate`: the search for saturation, for every scheme and policy of an experiment.
+// `rink compare --saturate`: the search for saturation, for every scheme and policy of an
+// experiment.
 #pragma once
 
 #include <functional>
@@ -17,24 +18,35 @@ namespace rink::loadgen {
 struct Saturation {
   Cell cell;  ///< as in every probe, but for clients and seed
   Search search;
-  std::optional<RunRecord> edge;  ///< the last run of `search.held` clients that held: cost and bytes at saturation
-  std::string why;                ///< why `search.failed` clients did not hold, as its last run said; empty if none failed
-  std::optional<double> foretold;  ///< clients by the cost of the probes below the edge (capacities_of); nothing if they are of fewer than three numbers
-  std::uint32_t foretold_from = 0; ///< the largest number of clients among those probes
+  std::optional<RunRecord>
+      edge;  ///< the last run of `search.held` clients that held: cost and bytes at saturation
+  std::string why;  ///< why `search.failed` clients did not hold, as its last run said; empty if
+                    ///< none failed
+  std::optional<double>
+      foretold;  ///< clients by the cost of the probes below the edge (capacities_of); nothing if
+                 ///< they are of fewer than three numbers
+  std::uint32_t foretold_from = 0;  ///< the largest number of clients among those probes
 };
 
-/// Runs `cell` and keeps its record. Nothing if it was interrupted. Throws OutputError if the record cannot be kept.
+/// Runs `cell` and keeps its record. Nothing if it was interrupted. Throws OutputError if the
+/// record cannot be kept.
 using CellRunning = std::function<std::optional<RunRecord>(const Cell& cell)>;
-/// Called after each search with all that ended so far, an interrupted one last, so that nothing is lost.
+/// Called after each search with all that ended so far, an interrupted one last, so that nothing is
+/// lost.
 using SaturationKeeping = std::function<void(std::span<const Saturation> found)>;
 
-/// Where the search for `experiment` starts, and its ceiling: the least and the largest of its clients, the latter replaced by `most` unless that is 0.
+/// Where the search for `experiment` starts, and its ceiling: the least and the largest of its
+/// clients, the latter replaced by `most` unless that is 0.
 SearchLimits search_limits(const Experiment& experiment, std::uint32_t most, double resolution);
 
-/// Searches once for each of the experiment's cells that differ in more than clients and seed. The first probe of a number of clients has the experiment's
-/// first seed, each repetition the next whole number. Runs in `earlier` (of an interrupted search) are not run again. Says on `out` what each probe showed.
-std::vector<Saturation> saturate(const Experiment& experiment, const ServiceLevel& level, const SearchLimits& limits, std::span<const RunRecord> earlier,
-                                 const CellRunning& run, const SaturationKeeping& keep, std::ostream& out);
+/// Searches once for each of the experiment's cells that differ in more than clients and seed. The
+/// first probe of a number of clients has the experiment's first seed, each repetition the next
+/// whole number. Runs in `earlier` (of an interrupted search) are not run again. Says on `out` what
+/// each probe showed.
+std::vector<Saturation> saturate(const Experiment& experiment, const ServiceLevel& level,
+                                 const SearchLimits& limits, std::span<const RunRecord> earlier,
+                                 const CellRunning& run, const SaturationKeeping& keep,
+                                 std::ostream& out);
 
 /// What `--saturate` is asked for.
 struct SaturateOptions {
@@ -44,11 +56,15 @@ struct SaturateOptions {
   double resolution = 0.1;
 };
 
-/// Searches with real runs, each appended to `results`, and writes saturation.csv and saturation.json after each search. The outcome holds all probes; `found`
-/// what they say. `allowed_clients` is what the limit on open files leaves, `earlier` the runs of an interrupted search that `results` already holds. Throws
-/// ExperimentError if the scene cannot serve the first probe, or under a virtual clock, where no tick is ever late.
-Outcome run_saturation(const Experiment& experiment, const SaturateOptions& options, std::uint32_t allowed_clients, const RunnerSettings& settings, ResultsDirectory& results,
-                       const KeyLogWriter& write_key_log, std::ostream& out, std::vector<Saturation>& found,
+/// Searches with real runs, each appended to `results`, and writes saturation.csv and
+/// saturation.json after each search. The outcome holds all probes; `found` what they say.
+/// `allowed_clients` is what the limit on open files leaves, `earlier` the runs of an interrupted
+/// search that `results` already holds. Throws ExperimentError if the scene cannot serve the first
+/// probe, or under a virtual clock, where no tick is ever late.
+Outcome run_saturation(const Experiment& experiment, const SaturateOptions& options,
+                       std::uint32_t allowed_clients, const RunnerSettings& settings,
+                       ResultsDirectory& results, const KeyLogWriter& write_key_log,
+                       std::ostream& out, std::vector<Saturation>& found,
                        std::span<const RunRecord> earlier = {});
 
 /// What was found in words, e.g. "at least 400", "905", "none".
@@ -60,7 +76,8 @@ std::string foretold_text(const Saturation& saturation);
 /// saturation.csv (RFC 4180): a line per search, with cost per tick by part and bytes at the edge.
 std::string to_csv(std::span<const Saturation> found);
 /// saturation.json: the same, every probe and the service level.
-std::string to_json_text(std::span<const Saturation> found, const ServiceLevel& level, const SearchLimits& limits);
+std::string to_json_text(std::span<const Saturation> found, const ServiceLevel& level,
+                         const SearchLimits& limits);
 /// For a terminal, at most 120 columns.
 std::string table_of(std::span<const Saturation> found, const ServiceLevel& level);
 

@@ -25,7 +25,9 @@ struct Votes {
   std::array<std::uint32_t, 3> of_verdict{};  ///< by Verdict
   std::uint32_t attempts = 0;
 
-  std::uint32_t operator()(Verdict verdict) const { return of_verdict[static_cast<std::size_t>(verdict)]; }
+  std::uint32_t operator()(Verdict verdict) const {
+    return of_verdict[static_cast<std::size_t>(verdict)];
+  }
   bool is_only(Verdict verdict) const { return attempts > 0 && (*this)(verdict) == attempts; }
   /// The first verdict that came twice.
   std::optional<Verdict> decided() const {
@@ -41,7 +43,8 @@ class Bracketing {
 
   Search run() {
     try {
-      for (std::optional<std::uint32_t> next = limits_.first; next; next = next_after(*next)) place(*next, verdict_of(*next, false));
+      for (std::optional<std::uint32_t> next = limits_.first; next; next = next_after(*next))
+        place(*next, verdict_of(*next, false));
     } catch (const Interrupted&) {
       search_.end = SearchEnd::interrupted;
     }
@@ -74,7 +77,8 @@ class Bracketing {
   bool is_narrow() const {
     if (!search_.failed) return search_.held == limits_.most;
     if (!search_.held) return *search_.failed == 1;
-    return *search_.failed == *search_.held + 1 || *search_.failed <= *search_.held * (1.0 + limits_.resolution);
+    return *search_.failed == *search_.held + 1 ||
+           *search_.failed <= *search_.held * (1.0 + limits_.resolution);
   }
 
   /// The next number to probe, or nothing if the search has ended.
@@ -86,18 +90,25 @@ class Bracketing {
       }
       fall_back();
     }
-    if (!search_.failed) return static_cast<std::uint32_t>(std::min<std::uint64_t>(2 * std::uint64_t{clients}, limits_.most));
+    if (!search_.failed)
+      return static_cast<std::uint32_t>(
+          std::min<std::uint64_t>(2 * std::uint64_t{clients}, limits_.most));
     if (!search_.held) return std::max(1u, *search_.failed / 2);
-    const double middle = std::sqrt(static_cast<double>(*search_.held) * static_cast<double>(*search_.failed));
-    return std::clamp(static_cast<std::uint32_t>(std::lround(middle)), *search_.held + 1, *search_.failed - 1);
+    const double middle =
+        std::sqrt(static_cast<double>(*search_.held) * static_cast<double>(*search_.failed));
+    return std::clamp(static_cast<std::uint32_t>(std::lround(middle)), *search_.held + 1,
+                      *search_.failed - 1);
   }
 
-  /// The edge held once but not twice: it is the new upper end, and the largest number below it that held is the new lower one.
+  /// The edge held once but not twice: it is the new upper end, and the largest number below it
+  /// that held is the new lower one.
   void fall_back() {
     search_.failed = *search_.held;
     search_.held.reset();
     for (const auto& [clients, votes] : votes_)
-      if (clients < *search_.failed && (votes.decided() == Verdict::holds || votes.is_only(Verdict::holds))) search_.held = clients;
+      if (clients < *search_.failed &&
+          (votes.decided() == Verdict::holds || votes.is_only(Verdict::holds)))
+        search_.held = clients;
   }
 
   void end() {
@@ -121,22 +132,31 @@ class Bracketing {
 Judgement judgement_of(const RunRecord& record, const ServiceLevel& level) {
   if (!record.valid) {
     const auto on_time = record.ticks_on_time_fraction;
-    return {Verdict::invalid, record.why_invalid + (on_time ? " (while the server had " + four_digits(100.0 * *on_time) + " % of its ticks on time)" : "")};
+    return {Verdict::invalid, record.why_invalid + (on_time ? " (while the server had " +
+                                                                  four_digits(100.0 * *on_time) +
+                                                                  " % of its ticks on time)"
+                                                            : "")};
   }
-  if (!record.keys_trouble.empty()) return {Verdict::invalid, "the bots, who measure the age of updates, fell behind: " + record.keys_trouble};
-  if (!record.ticks_on_time_fraction) return {Verdict::invalid, "the run has no ticks_on_time_fraction"};
+  if (!record.keys_trouble.empty())
+    return {Verdict::invalid,
+            "the bots, who measure the age of updates, fell behind: " + record.keys_trouble};
+  if (!record.ticks_on_time_fraction)
+    return {Verdict::invalid, "the run has no ticks_on_time_fraction"};
   std::string why;
   if (*record.ticks_on_time_fraction < level.on_time_fraction_min) {
-    why = "ticks: " + four_digits(100.0 * *record.ticks_on_time_fraction) + " % on time, below " + four_digits(100.0 * level.on_time_fraction_min) + " %";
+    why = "ticks: " + four_digits(100.0 * *record.ticks_on_time_fraction) + " % on time, below " +
+          four_digits(100.0 * level.on_time_fraction_min) + " %";
   }
   const Percentiles& age = record.update_age_ms;
   const std::optional<double> bound = age.p99 ? age.p99 : age.max;
   const bool is_old = !bound || *bound >= level.age_p99_ms_max;
   if (is_old && age.p99) {
-    why += (why.empty() ? "" : "; ") + ("age: p99 " + four_digits(*age.p99)) + " ms, not below " + four_digits(level.age_p99_ms_max) + " ms";
+    why += (why.empty() ? "" : "; ") + ("age: p99 " + four_digits(*age.p99)) + " ms, not below " +
+           four_digits(level.age_p99_ms_max) + " ms";
   }
   if (!why.empty()) return {Verdict::fails, why};
-  if (is_old) return {Verdict::invalid, "too few updates for the p99 of their age: the run is too short"};
+  if (is_old)
+    return {Verdict::invalid, "too few updates for the p99 of their age: the run is too short"};
   return {Verdict::holds, ""};
 }
 

@@ -1,4 +1,5 @@
-// What a modelled network is like: of each link and direction delay, jitter, loss, reordering, duplication and rate, and when which links are cut.
+// What a modelled network is like: of each link and direction delay, jitter, loss, reordering,
+// duplication and rate, and when which links are cut.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +14,18 @@ namespace rink::rti {
 
 /// One direction of a link. The default is perfect: everything arrives at once.
 struct LinkConditions {
-  std::int64_t latency_ns = 0;          ///< that every packet takes
-  std::int64_t jitter_ns = 0;           ///< mean of what it takes longer, exponentially distributed. Packets keep their order: who would overtake waits
+  std::int64_t latency_ns = 0;  ///< that every packet takes
+  std::int64_t jitter_ns = 0;  ///< mean of what it takes longer, exponentially distributed. Packets
+                               ///< keep their order: who would overtake waits
   PacketLoss loss = PacketLoss::independent(0.0);
-  double reorder = 0.0;                 ///< fraction of packets held for `held_ns` more, which those behind may overtake
+  double reorder =
+      0.0;  ///< fraction of packets held for `held_ns` more, which those behind may overtake
   std::int64_t held_ns = 0;
-  double duplicate = 0.0;               ///< fraction of packets that arrive twice
-  std::uint64_t rate_bits_per_s = 0;    ///< with headers; 0: unlimited
-  std::size_t queue_bytes = 1u << 16;   ///< waiting or being sent at that rate, with headers; a datagram beyond is lost (tail drop), a reliable line's sender waits
+  double duplicate = 0.0;             ///< fraction of packets that arrive twice
+  std::uint64_t rate_bits_per_s = 0;  ///< with headers; 0: unlimited
+  std::size_t queue_bytes =
+      1u << 16;  ///< waiting or being sent at that rate, with headers; a datagram beyond is lost
+                 ///< (tail drop), a reliable line's sender waits
 
   /// The longest that one packet that is not lost may take, the wait for others apart.
   std::int64_t longest_ns() const { return latency_ns + 37 * jitter_ns + held_ns; }
@@ -29,20 +34,23 @@ struct LinkConditions {
   friend bool operator==(const LinkConditions&, const LinkConditions&) = default;
 };
 
-/// Links `first` to `last` of each listener are like this instead, a later one of these counts more than an earlier one.
+/// Links `first` to `last` of each listener are like this instead, a later one of these counts more
+/// than an earlier one.
 struct LinkException {
   std::uint32_t first = 0, last = 0;
   LinkConditions to_listener, from_listener;
 };
 
-/// What sets out on links `first` to `last` from `from_ns` on and before `until_ns` is lost, in one direction or, if none is named, in both.
+/// What sets out on links `first` to `last` from `from_ns` on and before `until_ns` is lost, in one
+/// direction or, if none is named, in both.
 struct Partition {
   std::int64_t from_ns = 0, until_ns = 0;
   std::uint32_t first = 0, last = UINT32_MAX;
   std::optional<LinkDirection> direction{};
 };
 
-/// The whole network. The same conditions and seed give the same fate to the same packets, whatever other links carry.
+/// The whole network. The same conditions and seed give the same fate to the same packets, whatever
+/// other links carry.
 struct NetworkConditions {
   std::uint64_t seed = 1;
   LinkConditions to_listener, from_listener;

@@ -52,7 +52,8 @@ void VirtualNetwork::arrive(std::uint32_t parcel) {
   if (receiver == nullptr) return return_parcel(parcel);
   const ConnectionId connection = parcels_[parcel].connection;
   receiver->inbox_.push_back(parcel);
-  if (parcels_[parcel].kind == Kind::request) receiver->post(receiver->lines_[connection], take_parcel(), Kind::open);
+  if (parcels_[parcel].kind == Kind::request)
+    receiver->post(receiver->lines_[connection], take_parcel(), Kind::open);
 }
 
 /// What is on its way to `endpoint` arrives nowhere, and nobody sends there any more.
@@ -64,7 +65,8 @@ void VirtualNetwork::forget(const VirtualEndpoint* endpoint) {
 VirtualEndpoint::~VirtualEndpoint() {
   for (ConnectionId id = 0; id < lines_.size(); ++id) {
     close(id);
-    if (lines_[id].peer != nullptr) lines_[id].peer->lines_[lines_[id].peer_connection].peer = nullptr;
+    if (lines_[id].peer != nullptr)
+      lines_[id].peer->lines_[lines_[id].peer_connection].peer = nullptr;
   }
   network_.forget(this);
   for (const std::uint32_t parcel : inbox_) network_.return_parcel(parcel);
@@ -98,13 +100,15 @@ std::uint32_t VirtualEndpoint::closing(ConnectionId connection, CloseReason reas
 
 ConnectionId VirtualEndpoint::connect(const std::string& name) {
   const std::uint32_t link = network_.link_counts_[name]++;
-  const LineIdentity there{name, link, LinkDirection::to_listener}, back{name, link, LinkDirection::from_listener};
+  const LineIdentity there{name, link, LinkDirection::to_listener},
+      back{name, link, LinkDirection::from_listener};
   const auto found = network_.listeners_.find(name);
   if (found == network_.listeners_.end()) {
     const ConnectionId refused = add_line(nullptr, there);
     const std::uint32_t parcel = closing(refused, CloseReason::refused);
     network_.parcels_[parcel].detail = "nobody listens at virtual address '" + name + "'";
-    const std::int64_t there_ns = network_.model_.arrival_ns(lines_[refused].number, network_.now_ns(), 0);
+    const std::int64_t there_ns =
+        network_.model_.arrival_ns(lines_[refused].number, network_.now_ns(), 0);
     network_.dispatch(parcel, network_.model_.arrival_ns(lines_[refused].number, there_ns, 0));
     return refused;
   }
@@ -119,7 +123,8 @@ ConnectionId VirtualEndpoint::connect(const std::string& name) {
 void VirtualEndpoint::post(Line& line, std::uint32_t parcel, VirtualNetwork::Kind kind) {
   if (line.peer == nullptr || line.is_given_up) return network_.return_parcel(parcel);
   VirtualNetwork::Parcel& posted = network_.parcels_[parcel];
-  const Delivery delivery = network_.model_.deliver(line.number, network_.now_ns(), posted.bytes.size());
+  const Delivery delivery =
+      network_.model_.deliver(line.number, network_.now_ns(), posted.bytes.size());
   if (delivery.is_given_up) {
     network_.return_parcel(parcel);
     return give_up(line, delivery.instant_ns);
@@ -134,7 +139,8 @@ void VirtualEndpoint::post(Line& line, std::uint32_t parcel, VirtualNetwork::Kin
 /// The peer hears nothing of it, as behind a cut cable.
 void VirtualEndpoint::give_up(Line& line, std::int64_t instant_ns) {
   line.is_given_up = true;
-  const std::uint32_t parcel = closing(static_cast<ConnectionId>(&line - lines_.data()), CloseReason::failed);
+  const std::uint32_t parcel =
+      closing(static_cast<ConnectionId>(&line - lines_.data()), CloseReason::failed);
   network_.parcels_[parcel].detail = "nothing got through: connection timed out";
   network_.dispatch(parcel, instant_ns);
 }
@@ -154,13 +160,16 @@ void VirtualEndpoint::report(std::uint32_t number, TransportListener& listener) 
   const ConnectionId connection = parcel.connection;
   Line& line = lines_[connection];
   const bool is_end = parcel.kind == Kind::close;
-  if (!line.is_open && !is_end) return;  // what the peer said before is of no interest to one who closes
+  if (!line.is_open && !is_end)
+    return;  // what the peer said before is of no interest to one who closes
   if (parcel.kind == Kind::request || parcel.kind == Kind::open) {
     line.is_reported = true;
     return listener.on_open(connection);
   }
   if (is_end) {
-    if (!line.is_open && (parcel.reason == CloseReason::closed_by_peer || parcel.reason == CloseReason::failed)) return;  // we closed first and have been told
+    if (!line.is_open &&
+        (parcel.reason == CloseReason::closed_by_peer || parcel.reason == CloseReason::failed))
+      return;  // we closed first and have been told
     line.is_open = false;
     const std::string detail = parcel.detail;
     return listener.on_close(connection, parcel.reason, detail);
@@ -178,7 +187,8 @@ void VirtualEndpoint::report(std::uint32_t number, TransportListener& listener) 
   delivering_.swap(network_.parcels_[number].bytes);
 }
 
-void VirtualEndpoint::report_datagram(Line& line, ConnectionId connection, TransportListener& listener) {
+void VirtualEndpoint::report_datagram(Line& line, ConnectionId connection,
+                                      TransportListener& listener) {
   if (!line.is_reported) return;
   for (TransportCounters* counters : {&line.counters, &totals_}) {
     ++counters->datagrams_received;
@@ -193,7 +203,8 @@ void VirtualEndpoint::send(ConnectionId connection, std::span<const Bytes> parts
   std::size_t size = 0;
   for (const Bytes part : parts) size += part.size();
   if (size == 0) return;
-  if (network_.model_.queued_bytes(line.number, network_.now_ns()) + size > network_.queue_max_) return overflow(connection);
+  if (network_.model_.queued_bytes(line.number, network_.now_ns()) + size > network_.queue_max_)
+    return overflow(connection);
   const std::uint32_t parcel = packed(parts, size);
   line.acknowledgements.sent(network_.now_ns());
   for (TransportCounters* counters : {&line.counters, &totals_}) {
@@ -213,7 +224,10 @@ std::uint32_t VirtualEndpoint::packed(std::span<const Bytes> parts, std::size_t 
 }
 
 std::size_t VirtualEndpoint::datagram_max(ConnectionId connection) const {
-  return network_.carries_datagrams_ && connection < lines_.size() && lines_[connection].is_open && lines_[connection].is_reported ? virtual_datagram_max : 0;
+  return network_.carries_datagrams_ && connection < lines_.size() && lines_[connection].is_open &&
+                 lines_[connection].is_reported
+             ? virtual_datagram_max
+             : 0;
 }
 
 void VirtualEndpoint::send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) {
@@ -226,7 +240,8 @@ void VirtualEndpoint::send_datagrams(ConnectionId connection, std::span<const Da
       ++counters->datagrams_sent;
       counters->datagram_bytes_sent += size;
     }
-    for (const std::int64_t instant_ns : network_.model_.datagram(line.number, network_.now_ns(), size)) {
+    for (const std::int64_t instant_ns :
+         network_.model_.datagram(line.number, network_.now_ns(), size)) {
       const std::uint32_t number = packed(std::array{head, body}, size);
       VirtualNetwork::Parcel& parcel = network_.parcels_[number];
       parcel.kind = VirtualNetwork::Kind::datagram;
@@ -257,14 +272,16 @@ void VirtualEndpoint::close(ConnectionId connection) {
 TransportCounters VirtualEndpoint::counters(ConnectionId connection) const {
   if (connection >= lines_.size()) return {};
   TransportCounters counters = lines_[connection].counters;
-  counters.queued_bytes = network_.model_.queued_bytes(lines_[connection].number, network_.now_ns());
+  counters.queued_bytes =
+      network_.model_.queued_bytes(lines_[connection].number, network_.now_ns());
   counters.acknowledgements_sent = lines_[connection].acknowledgements.count(network_.now_ns());
   return counters;
 }
 
 TransportCounters VirtualEndpoint::totals() const {
   TransportCounters sum = totals_;
-  for (const Line& line : lines_) sum.acknowledgements_sent += line.acknowledgements.count(network_.now_ns());
+  for (const Line& line : lines_)
+    sum.acknowledgements_sent += line.acknowledgements.count(network_.now_ns());
   return sum;
 }
 

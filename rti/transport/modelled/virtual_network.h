@@ -1,4 +1,5 @@
-// A network under a virtual clock: bytes arrive when a model of the link says so, in the same order in every run.
+// A network under a virtual clock: bytes arrive when a model of the link says so, in the same order
+// in every run.
 #pragma once
 
 #include <array>
@@ -16,14 +17,16 @@ namespace rink::rti {
 
 enum class LinkDirection : std::uint8_t { to_listener, from_listener };
 
-/// Which line this is, whatever else is connected: the `link`-th to connect to `listener`, from 0, and the direction.
+/// Which line this is, whatever else is connected: the `link`-th to connect to `listener`, from 0,
+/// and the direction.
 struct LineIdentity {
   std::string_view listener;
   std::uint32_t link = 0;
   LinkDirection direction = LinkDirection::to_listener;
 };
 
-/// What becomes of a write on a reliable line: it arrives at `instant_ns`, or its sender gives up then.
+/// What becomes of a write on a reliable line: it arrives at `instant_ns`, or its sender gives up
+/// then.
 struct Delivery {
   std::int64_t instant_ns = 0;
   bool is_given_up = false;
@@ -41,18 +44,22 @@ class DatagramArrivals {
   std::size_t count_ = 0;
 };
 
-/// Decides when what is sent arrives. Lines are reliable and ordered, as TCP's are, so whatever a model does to a packet shows as delay; datagrams show it as it is.
+/// Decides when what is sent arrives. Lines are reliable and ordered, as TCP's are, so whatever a
+/// model does to a packet shows as delay; datagrams show it as it is.
 class LinkModel {
  public:
   virtual ~LinkModel() = default;
-  /// The instant [ns] at which `size` bytes sent at `now_ns` over `line` arrive, not before `now_ns`. Lines are numbered in order of connecting, each direction
-  /// apart, so that a model may keep a queue for each. The network delays further what would overtake.
+  /// The instant [ns] at which `size` bytes sent at `now_ns` over `line` arrive, not before
+  /// `now_ns`. Lines are numbered in order of connecting, each direction apart, so that a model may
+  /// keep a queue for each. The network delays further what would overtake.
   virtual std::int64_t arrival_ns(std::uint32_t line, std::int64_t now_ns, std::size_t size) = 0;
 
   /// A new line, before anything is sent on it.
   virtual void open_line(std::uint32_t, const LineIdentity&) {}
   /// `arrival_ns` for models in which senders may give up.
-  virtual Delivery deliver(std::uint32_t line, std::int64_t now_ns, std::size_t size) { return {arrival_ns(line, now_ns, size), false}; }
+  virtual Delivery deliver(std::uint32_t line, std::int64_t now_ns, std::size_t size) {
+    return {arrival_ns(line, now_ns, size), false};
+  }
   /// The same for a datagram, which may be lost, come twice and overtake others.
   virtual DatagramArrivals datagram(std::uint32_t line, std::int64_t now_ns, std::size_t size) {
     DatagramArrivals arrivals;
@@ -68,7 +75,9 @@ class ConstantDelay final : public LinkModel {
  public:
   /// `delay_ns`, 0 or more.
   explicit ConstantDelay(std::int64_t delay_ns) : delay_ns_(delay_ns) {}
-  std::int64_t arrival_ns(std::uint32_t, std::int64_t now_ns, std::size_t) override { return now_ns + delay_ns_; }
+  std::int64_t arrival_ns(std::uint32_t, std::int64_t now_ns, std::size_t) override {
+    return now_ns + delay_ns_;
+  }
 
  private:
   std::int64_t delay_ns_;
@@ -76,15 +85,20 @@ class ConstantDelay final : public LinkModel {
 
 class VirtualEndpoint;
 
-/// Longest payload of a datagram: what an Ethernet packet of 1500 bytes leaves after the headers of IPv4 and UDP.
+/// Longest payload of a datagram: what an Ethernet packet of 1500 bytes leaves after the headers of
+/// IPv4 and UDP.
 inline constexpr std::size_t virtual_datagram_max = 1472;
 
-/// The clock and the air between endpoints; must outlive them. A discrete-event queue ordered by (instant, order of sending). The clock stands still but in
-/// `advance_to`; whole nanoseconds, so that no sum of delays is ever rounded. One thread for all.
+/// The clock and the air between endpoints; must outlive them. A discrete-event queue ordered by
+/// (instant, order of sending). The clock stands still but in `advance_to`; whole nanoseconds, so
+/// that no sum of delays is ever rounded. One thread for all.
 class VirtualNetwork {
  public:
-  /// The clock starts at `now_ns`; `model` must outlive the network. `queue_max` [bytes]: what may wait at a sender whose line is slow before it is closed.
-  explicit VirtualNetwork(LinkModel& model, std::int64_t now_ns = 0, std::size_t queue_max = 64u << 20) : model_(model), now_ns_(now_ns), queue_max_(queue_max) {}
+  /// The clock starts at `now_ns`; `model` must outlive the network. `queue_max` [bytes]: what may
+  /// wait at a sender whose line is slow before it is closed.
+  explicit VirtualNetwork(LinkModel& model, std::int64_t now_ns = 0,
+                          std::size_t queue_max = 64u << 20)
+      : model_(model), now_ns_(now_ns), queue_max_(queue_max) {}
   VirtualNetwork(const VirtualNetwork&) = delete;
   VirtualNetwork& operator=(const VirtualNetwork&) = delete;
 
@@ -92,7 +106,8 @@ class VirtualNetwork {
   double now_s() const { return 1e-9 * static_cast<double>(now_ns_); }
   /// When something next arrives anywhere; nothing if nothing is under way.
   std::optional<std::int64_t> next_arrival_ns() const;
-  /// Moves the clock to `until_ns`, not before now; what has arrived by then waits for its receiver's `poll`.
+  /// Moves the clock to `until_ns`, not before now; what has arrived by then waits for its
+  /// receiver's `poll`.
   void advance_to(std::int64_t until_ns);
   /// From now on there is a way for datagrams beside the reliable lines.
   void carry_datagrams() { carries_datagrams_ = true; }
@@ -115,7 +130,9 @@ class VirtualNetwork {
     std::int64_t instant_ns;
     std::uint64_t number;  ///< of sending
     std::uint32_t parcel;
-    bool operator<(const Arrival& other) const { return instant_ns != other.instant_ns ? instant_ns > other.instant_ns : number > other.number; }
+    bool operator<(const Arrival& other) const {
+      return instant_ns != other.instant_ns ? instant_ns > other.instant_ns : number > other.number;
+    }
   };
 
   /// A parcel to fill; its buffer has been used before, so that steady traffic allocates nothing.
@@ -132,13 +149,15 @@ class VirtualNetwork {
   std::uint64_t sent_ = 0, arrived_ = 0;
   std::uint32_t next_line_ = 0;
   std::map<std::string, VirtualEndpoint*> listeners_;
-  std::map<std::string, std::uint32_t> link_counts_;  ///< by listener, also of one that is not there
+  std::map<std::string, std::uint32_t>
+      link_counts_;  ///< by listener, also of one that is not there
   std::vector<Parcel> parcels_;
   std::vector<std::uint32_t> free_;
   std::vector<Arrival> arrivals_;  ///< a heap, earliest first
 };
 
-/// One end: a server's, or that of any number of clients. `poll` never waits: the clock is not its to move.
+/// One end: a server's, or that of any number of clients. `poll` never waits: the clock is not its
+/// to move.
 class VirtualEndpoint final : public Transport {
  public:
   explicit VirtualEndpoint(VirtualNetwork& network) : network_(network) {}
@@ -148,7 +167,8 @@ class VirtualEndpoint final : public Transport {
 
   /// Others may connect to `name` from now on. Throws TransportError in_use if the name is taken.
   void listen(const std::string& name);
-  /// The listener's `on_open` follows when the request has arrived there, ours when its answer is back; `on_close` with `refused` if nobody listens.
+  /// The listener's `on_open` follows when the request has arrived there, ours when its answer is
+  /// back; `on_close` with `refused` if nobody listens.
   ConnectionId connect(const std::string& name);
   /// True if something has arrived that `poll` would report.
   bool has_arrivals() const { return !inbox_.empty(); }
@@ -157,8 +177,9 @@ class VirtualEndpoint final : public Transport {
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
   TransportCounters counters(ConnectionId connection) const override;
-  /// `virtual_datagram_max` once the connection has been reported open here, if the network carries datagrams; each then arrives once, twice or never, in any
-  /// order, as the model says. They share a limited rate with the reliable bytes and nothing else.
+  /// `virtual_datagram_max` once the connection has been reported open here, if the network carries
+  /// datagrams; each then arrives once, twice or never, in any order, as the model says. They share
+  /// a limited rate with the reliable bytes and nothing else.
   std::size_t datagram_max(ConnectionId connection) const override;
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override;
   /// Of all connections, closed ones included; nothing is queued.
@@ -169,11 +190,12 @@ class VirtualEndpoint final : public Transport {
   struct Line {
     VirtualEndpoint* peer = nullptr;
     ConnectionId peer_connection = 0;
-    std::uint32_t number = 0;       ///< the model's
-    bool is_open = false;           ///< may send, and hears
-    bool is_reported = false;       ///< `on_open` was called: datagrams may be sent, and those that came before are lost
-    bool is_given_up = false;       ///< nothing gets through: closed once the sender has noticed
-    std::int64_t last_ns = 0;       ///< nothing sent from here arrives before this
+    std::uint32_t number = 0;  ///< the model's
+    bool is_open = false;      ///< may send, and hears
+    bool is_reported = false;  ///< `on_open` was called: datagrams may be sent, and those that came
+                               ///< before are lost
+    bool is_given_up = false;  ///< nothing gets through: closed once the sender has noticed
+    std::int64_t last_ns = 0;  ///< nothing sent from here arrives before this
     TransportCounters counters;
     DelayedAcknowledgements acknowledgements;
   };
@@ -189,7 +211,7 @@ class VirtualEndpoint final : public Transport {
 
   VirtualNetwork& network_;
   std::string name_;
-  std::vector<Line> lines_;  ///< by connection
+  std::vector<Line> lines_;                       ///< by connection
   std::vector<std::uint32_t> inbox_, reporting_;  ///< parcels that have arrived
   std::vector<std::byte> delivering_;
   TransportCounters totals_;

@@ -1,4 +1,5 @@
-// Ranks in MPI's words. Everything is begun and tested, never waited for, so that one who is silent can be noticed.
+// Ranks in MPI's words. Everything is begun and tested, never waited for, so that one who is silent
+// can be noticed.
 #include "rti/transport/mpi/ranks.h"
 
 #include <mpi.h>
@@ -29,8 +30,8 @@ struct Ranks::Requests {
     MPI_Request request = MPI_REQUEST_NULL;
     bool is_coming = false;
   };
-  std::deque<Outgoing> outgoing;  ///< a deque, for MPI keeps the addresses
-  std::vector<Incoming> incoming; ///< by rank
+  std::deque<Outgoing> outgoing;   ///< a deque, for MPI keeps the addresses
+  std::vector<Incoming> incoming;  ///< by rank
   std::vector<std::uint8_t> said, heard;
   MPI_Request gathering = MPI_REQUEST_NULL;
   bool is_finished = false;
@@ -41,7 +42,9 @@ bool Ranks::is_built_in() { return true; }
 Ranks::Ranks() : requests_(std::make_unique<Requests>()) {
   int is_initialised = 0;
   MPI_Initialized(&is_initialised);
-  if (is_initialised) throw TransportError(TransportError::Kind::failed, "MPI has been begun in this process already, and it cannot begin again");
+  if (is_initialised)
+    throw TransportError(TransportError::Kind::failed,
+                         "MPI has been begun in this process already, and it cannot begin again");
   MPI_Init(nullptr, nullptr);
   int number = 0, count = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &number);
@@ -60,7 +63,8 @@ void Ranks::send(std::uint32_t to, std::vector<std::uint8_t> bytes) {
   unsent();
   Requests::Outgoing& outgoing = requests_->outgoing.emplace_back();
   outgoing.bytes = std::move(bytes);
-  MPI_Isend(outgoing.bytes.data(), static_cast<int>(outgoing.bytes.size()), MPI_BYTE, static_cast<int>(to), mail_tag, MPI_COMM_WORLD, &outgoing.request);
+  MPI_Isend(outgoing.bytes.data(), static_cast<int>(outgoing.bytes.size()), MPI_BYTE,
+            static_cast<int>(to), mail_tag, MPI_COMM_WORLD, &outgoing.request);
 }
 
 /// From the oldest to the first that is still on its way: those behind it are seen later.
@@ -74,7 +78,8 @@ std::size_t Ranks::unsent() {
   return outgoing.size();
 }
 
-/// A message is matched first, so that its length is known, then taken without waiting for the rest of it.
+/// A message is matched first, so that its length is known, then taken without waiting for the rest
+/// of it.
 std::optional<std::vector<std::uint8_t>> Ranks::receive(std::uint32_t from) {
   assert(from < count_ && from != number_);
   unsent();
@@ -103,7 +108,8 @@ void Ranks::begin_gathering(std::span<const std::uint8_t> own) {
   requests_->said.assign(own.begin(), own.end());
   requests_->heard.resize(own.size() * count_);
   const int size = static_cast<int>(own.size());
-  MPI_Iallgather(requests_->said.data(), size, MPI_BYTE, requests_->heard.data(), size, MPI_BYTE, MPI_COMM_WORLD, &requests_->gathering);
+  MPI_Iallgather(requests_->said.data(), size, MPI_BYTE, requests_->heard.data(), size, MPI_BYTE,
+                 MPI_COMM_WORLD, &requests_->gathering);
 }
 
 std::optional<std::span<const std::uint8_t>> Ranks::gathered() {

@@ -1,4 +1,5 @@
-// Processes that an MPI launcher started together: who they are, messages between any two, and agreement of all by a collective.
+// Processes that an MPI launcher started together: who they are, messages between any two, and
+// agreement of all by a collective.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +11,10 @@
 
 namespace rink::rti {
 
-/// This process among the ranks of MPI_COMM_WORLD. One thread uses it, and there is one of it in a process, once: MPI cannot begin again. An error of MPI itself ends all ranks, with MPI's words.
-/// Nothing here waits but the constructor and `finish`: whoever waits decides how long, and hears interrupts meanwhile.
+/// This process among the ranks of MPI_COMM_WORLD. One thread uses it, and there is one of it in a
+/// process, once: MPI cannot begin again. An error of MPI itself ends all ranks, with MPI's words.
+/// Nothing here waits but the constructor and `finish`: whoever waits decides how long, and hears
+/// interrupts meanwhile.
 class Ranks {
  public:
   /// Whether this build knows MPI; it does if there was one when it was configured.
@@ -32,9 +35,11 @@ class Ranks {
   /// The next message of `from`, if it is all there.
   std::optional<std::vector<std::uint8_t>> receive(std::uint32_t from);
 
-  /// A collective: all ranks say equally many bytes, at most once at a time, in the same order of gatherings (MPI_Iallgather).
+  /// A collective: all ranks say equally many bytes, at most once at a time, in the same order of
+  /// gatherings (MPI_Iallgather).
   void begin_gathering(std::span<const std::uint8_t> own);
-  /// What all said, one after the other in order of their numbers, once all have; valid until the next gathering.
+  /// What all said, one after the other in order of their numbers, once all have; valid until the
+  /// next gathering.
   std::optional<std::span<const std::uint8_t>> gathered();
 
   /// Messages that are not yet on their way.

@@ -10,7 +10,11 @@ struct Ranks::Requests {};
 
 bool Ranks::is_built_in() { return false; }
 
-Ranks::Ranks() { throw TransportError(TransportError::Kind::failed, "this build has no MPI: install libopenmpi-dev and openmpi-bin (./rink setup does), then configure and build again"); }
+Ranks::Ranks() {
+  throw TransportError(TransportError::Kind::failed,
+                       "this build has no MPI: install libopenmpi-dev and openmpi-bin (./rink "
+                       "setup does), then configure and build again");
+}
 Ranks::~Ranks() = default;
 void Ranks::send(std::uint32_t, std::vector<std::uint8_t>) {}
 std::optional<std::vector<std::uint8_t>> Ranks::receive(std::uint32_t) { return std::nullopt; }

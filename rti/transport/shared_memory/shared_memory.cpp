@@ -51,7 +51,8 @@ union FileControl {
 bool is_same_user(int socket) {
   ucred peer{};
   socklen_t size = sizeof peer;
-  return ::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.uid == ::geteuid();
+  return ::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 &&
+         peer.uid == ::geteuid();
 }
 
 /// False for a file that knows no seals.
@@ -72,17 +73,22 @@ Mapping::~Mapping() {
 }
 
 SharedMemoryTransport::Core::Core(const SharedMemorySettings& settings) : settings_(settings) {
-  assert(std::has_single_bit(settings.ring_size) && settings.ring_size >= ring_min && settings.ring_size <= ring_max);
+  assert(std::has_single_bit(settings.ring_size) && settings.ring_size >= ring_min &&
+         settings.ring_size <= ring_max);
   if (std::thread::hardware_concurrency() < 2) settings_.spin = {};  // who would write meanwhile?
 }
 
 void SharedMemoryTransport::Core::listen(const std::string& name) {
   File file(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const auto [address, size] = address_of(name);
-  if (::bind(file.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 || ::listen(file.number(), 4096) != 0) {
+  if (::bind(file.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
+      ::listen(file.number(), 4096) != 0) {
     using Kind = TransportError::Kind;
-    const Kind kind = errno == EADDRINUSE ? Kind::in_use : errno == EMFILE ? Kind::too_many_files : Kind::failed;
-    throw TransportError(kind, "can't listen at shared-memory address '" + name + "': " + std::strerror(errno));
+    const Kind kind = errno == EADDRINUSE ? Kind::in_use
+                      : errno == EMFILE   ? Kind::too_many_files
+                                          : Kind::failed;
+    throw TransportError(
+        kind, "can't listen at shared-memory address '" + name + "': " + std::strerror(errno));
   }
   listening_.push_back(std::move(file));
   readiness_.watch(listening_.back().number(), listener_mark + listening_.size() - 1, false);
@@ -96,9 +102,13 @@ ConnectionId SharedMemoryTransport::Core::connect(const std::string& name) {
   peer.place = name;
   if (::connect(peer.socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0) {
     const int error = errno;
-    end(connection, error == ECONNREFUSED || error == ENOENT ? CloseReason::refused : CloseReason::failed, "can't connect to shared-memory address '" + name + "': " + std::strerror(error));
+    end(connection,
+        error == ECONNREFUSED || error == ENOENT ? CloseReason::refused : CloseReason::failed,
+        "can't connect to shared-memory address '" + name + "': " + std::strerror(error));
   } else if (!is_same_user(peer.socket.number())) {
-    end(connection, CloseReason::refused, "shared-memory address '" + name + "' is another user's");  // anybody may take an abstract name
+    end(connection, CloseReason::refused,
+        "shared-memory address '" + name +
+            "' is another user's");  // anybody may take an abstract name
   } else {
     readiness_.watch(peer.socket.number(), connection, false);
   }
@@ -115,31 +125,37 @@ ConnectionId SharedMemoryTransport::Core::add(File socket) {
 
 void SharedMemoryTransport::Core::accept(std::size_t listening) {
   for (;;) {
-    File file(::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    File file(
+        ::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (!file && (errno == EMFILE || errno == ENFILE) && turn_away(listening)) continue;
     if (!file) return;
     if (!is_same_user(file.number())) continue;
     const ConnectionId connection = add(std::move(file));
-    if (offer_memory(connection)) readiness_.watch(peers_[connection]->socket.number(), connection, false);
+    if (offer_memory(connection))
+      readiness_.watch(peers_[connection]->socket.number(), connection, false);
     else peers_[connection].reset();  // never open, so nobody is told
   }
 }
 
-/// Out of files: the one kept for this lets whoever waits in and out again. Otherwise its waiting would wake us at once and for ever.
+/// Out of files: the one kept for this lets whoever waits in and out again. Otherwise its waiting
+/// would wake us at once and for ever.
 bool SharedMemoryTransport::Core::turn_away(std::size_t listening) {
   if (!spare_) return false;
   spare_.close();
-  const bool is_away = File(::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_CLOEXEC)).number() >= 0;
+  const bool is_away =
+      File(::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_CLOEXEC)).number() >= 0;
   spare_ = File(::open("/dev/null", O_RDONLY | O_CLOEXEC));
   return is_away;
 }
 
-/// The server makes the memory and seals its size, so that neither end can be made to touch what is not there.
+/// The server makes the memory and seals its size, so that neither end can be made to touch what is
+/// not there.
 bool SharedMemoryTransport::Core::offer_memory(ConnectionId connection) {
   File file(::memfd_create("rink", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   const std::size_t size = segment_size(settings_.ring_size);
   if (!file || ::ftruncate(file.number(), static_cast<off_t>(size)) != 0) return false;
-  if (::fcntl(file.number(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) return false;
+  if (::fcntl(file.number(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0)
+    return false;
   Mapping memory(file.number(), size);
   if (memory.data() == nullptr) return false;
   new (memory.data()) SharedRingState[2];
@@ -157,7 +173,9 @@ bool SharedMemoryTransport::Core::offer_memory(ConnectionId connection) {
   files->cmsg_len = CMSG_LEN(sizeof(int));
   const int number = file.number();
   std::memcpy(CMSG_DATA(files), &number, sizeof number);
-  if (::sendmsg(peers_[connection]->socket.number(), &header, MSG_DONTWAIT | MSG_NOSIGNAL) != sizeof greeting) return false;
+  if (::sendmsg(peers_[connection]->socket.number(), &header, MSG_DONTWAIT | MSG_NOSIGNAL) !=
+      sizeof greeting)
+    return false;
   opened(connection, std::move(memory), settings_.ring_size, true);
   return true;
 }
@@ -171,7 +189,8 @@ void SharedMemoryTransport::Core::take_memory(ConnectionId connection) {
   header.msg_iovlen = 1;
   header.msg_control = control.bytes;
   header.msg_controllen = sizeof control.bytes;
-  const ssize_t size = ::recvmsg(peers_[connection]->socket.number(), &header, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
+  const ssize_t size =
+      ::recvmsg(peers_[connection]->socket.number(), &header, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
   if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (size <= 0) return end(connection, CloseReason::closed_by_peer, "closed by peer");
   File file;
@@ -182,19 +201,26 @@ void SharedMemoryTransport::Core::take_memory(ConnectionId connection) {
     file = File(number);
   }
   struct stat is {};
-  if (size == sizeof greeting && greeting.magic == memory_magic && greeting.version != memory_version)
+  if (size == sizeof greeting && greeting.magic == memory_magic &&
+      greeting.version != memory_version)
     return end(connection, CloseReason::failed,
-               "'" + peers_[connection]->place + "' lays out shared memory by version " + std::to_string(greeting.version) +
-                   ", here it is version " + std::to_string(memory_version));
-  const bool fits = size == sizeof greeting && greeting.magic == memory_magic && std::has_single_bit(greeting.ring_size) && greeting.ring_size >= ring_min &&
-                    greeting.ring_size <= ring_max && file && ::fstat(file.number(), &is) == 0 && static_cast<std::size_t>(is.st_size) == segment_size(greeting.ring_size) &&
+               "'" + peers_[connection]->place + "' lays out shared memory by version " +
+                   std::to_string(greeting.version) + ", here it is version " +
+                   std::to_string(memory_version));
+  const bool fits = size == sizeof greeting && greeting.magic == memory_magic &&
+                    std::has_single_bit(greeting.ring_size) && greeting.ring_size >= ring_min &&
+                    greeting.ring_size <= ring_max && file && ::fstat(file.number(), &is) == 0 &&
+                    static_cast<std::size_t>(is.st_size) == segment_size(greeting.ring_size) &&
                     is_sealed(file.number());
   Mapping memory = fits ? Mapping(file.number(), segment_size(greeting.ring_size)) : Mapping();
-  if (memory.data() == nullptr) return end(connection, CloseReason::failed, "no shared memory from '" + peers_[connection]->place + "'");
+  if (memory.data() == nullptr)
+    return end(connection, CloseReason::failed,
+               "no shared memory from '" + peers_[connection]->place + "'");
   opened(connection, std::move(memory), greeting.ring_size, false);
 }
 
-void SharedMemoryTransport::Core::opened(ConnectionId connection, Mapping memory, std::size_t ring_size, bool is_server) {
+void SharedMemoryTransport::Core::opened(ConnectionId connection, Mapping memory,
+                                         std::size_t ring_size, bool is_server) {
   Peer& peer = *peers_[connection];
   auto* states = reinterpret_cast<SharedRingState*>(memory.data());
   std::byte* bytes = memory.data() + head_size;
@@ -209,7 +235,8 @@ void SharedMemoryTransport::Core::opened(ConnectionId connection, Mapping memory
   drain(connection);  // sent before it was open
 }
 
-void SharedMemoryTransport::Core::end(ConnectionId connection, CloseReason reason, const std::string& detail) {
+void SharedMemoryTransport::Core::end(ConnectionId connection, CloseReason reason,
+                                      const std::string& detail) {
   peers_[connection].reset();
   std::erase(open_, connection);
   news_.push_back({connection, reason, detail});
@@ -232,7 +259,8 @@ TransportCounters SharedMemoryTransport::Core::counters(ConnectionId connection)
   if (connection >= counters_.size()) return {};
   TransportCounters counters = counters_[connection];
   counters.acknowledgements_sent = acknowledgements_[connection].count(now_ns());
-  if (const Peer* peer = find(connection)) counters.queued_bytes = peer->queue.size() - peer->queue_from;
+  if (const Peer* peer = find(connection))
+    counters.queued_bytes = peer->queue.size() - peer->queue_from;
   return counters;
 }
 
@@ -250,15 +278,27 @@ TransportCounters SharedMemoryTransport::Core::totals() const {
   return sum;
 }
 
-SharedMemoryTransport::SharedMemoryTransport(const SharedMemorySettings& settings) : core_(std::make_unique<Core>(settings)) {}
+SharedMemoryTransport::SharedMemoryTransport(const SharedMemorySettings& settings)
+    : core_(std::make_unique<Core>(settings)) {}
 SharedMemoryTransport::~SharedMemoryTransport() = default;
 void SharedMemoryTransport::listen(const std::string& name) { core_->listen(name); }
-ConnectionId SharedMemoryTransport::connect(const std::string& name) { return core_->connect(name); }
-void SharedMemoryTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) { core_->poll(longest_wait, listener); }
-void SharedMemoryTransport::send(ConnectionId connection, std::span<const Bytes> parts) { core_->send(connection, parts); }
+ConnectionId SharedMemoryTransport::connect(const std::string& name) {
+  return core_->connect(name);
+}
+void SharedMemoryTransport::poll(std::chrono::nanoseconds longest_wait,
+                                 TransportListener& listener) {
+  core_->poll(longest_wait, listener);
+}
+void SharedMemoryTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
+  core_->send(connection, parts);
+}
 void SharedMemoryTransport::close(ConnectionId connection) { core_->close(connection); }
-std::size_t SharedMemoryTransport::queued_bytes(ConnectionId connection) const { return core_->counters(connection).queued_bytes; }
-TransportCounters SharedMemoryTransport::counters(ConnectionId connection) const { return core_->counters(connection); }
+std::size_t SharedMemoryTransport::queued_bytes(ConnectionId connection) const {
+  return core_->counters(connection).queued_bytes;
+}
+TransportCounters SharedMemoryTransport::counters(ConnectionId connection) const {
+  return core_->counters(connection);
+}
 TransportCounters SharedMemoryTransport::totals() const { return core_->totals(); }
 std::uint64_t SharedMemoryTransport::sleeps() const { return core_->sleeps; }
 std::uint64_t SharedMemoryTransport::wakes() const { return core_->wakes; }

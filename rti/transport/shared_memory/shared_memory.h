@@ -1,4 +1,5 @@
-// Shared memory between processes of one machine: a ring in each direction, no system call while both ends are busy.
+// Shared memory between processes of one machine: a ring in each direction, no system call while
+// both ends are busy.
 #pragma once
 
 #include <chrono>
@@ -11,14 +12,19 @@
 namespace rink::rti {
 
 struct SharedMemorySettings {
-  std::size_t ring_size = 256 * 1024;    ///< of each direction, a power of two from 4 KiB to 1 GiB [bytes]; untouched pages cost nothing
-  std::size_t queue_max = 1u << 20;      ///< queued for a peer whose ring is full, before it is closed [bytes]
-  std::chrono::nanoseconds spin{20'000}; ///< that a poll looks at the rings before it sleeps; none where there is one processor only
+  std::size_t ring_size = 256 * 1024;  ///< of each direction, a power of two from 4 KiB to 1 GiB
+                                       ///< [bytes]; untouched pages cost nothing
+  std::size_t queue_max =
+      1u << 20;  ///< queued for a peer whose ring is full, before it is closed [bytes]
+  std::chrono::nanoseconds spin{20'000};  ///< that a poll looks at the rings before it sleeps; none
+                                          ///< where there is one processor only
 };
 
-/// Connections are made over a Unix-domain socket of an abstract name, by which the server hands each client its memory; the socket then wakes who sleeps, and its
-/// end tells that the peer is gone, however it went. Nothing has a name in a file system, so nothing is left behind. Only processes of the same user are let in.
-/// A poll looks at every connection's ring: made for tens or hundreds of federates, not for ten thousand.
+/// Connections are made over a Unix-domain socket of an abstract name, by which the server hands
+/// each client its memory; the socket then wakes who sleeps, and its end tells that the peer is
+/// gone, however it went. Nothing has a name in a file system, so nothing is left behind. Only
+/// processes of the same user are let in. A poll looks at every connection's ring: made for tens or
+/// hundreds of federates, not for ten thousand.
 class SharedMemoryTransport final : public Transport {
  public:
   explicit SharedMemoryTransport(const SharedMemorySettings& settings = {});

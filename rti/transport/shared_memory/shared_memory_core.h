@@ -65,7 +65,9 @@ class SharedMemoryTransport::Core {
     std::string detail;
   };
   static std::int64_t now_ns();
-  Peer* find(ConnectionId connection) const { return connection < peers_.size() ? peers_[connection].get() : nullptr; }
+  Peer* find(ConnectionId connection) const {
+    return connection < peers_.size() ? peers_[connection].get() : nullptr;
+  }
   ConnectionId add(File socket);
   void accept(std::size_t listening);
   bool turn_away(std::size_t listening);
@@ -87,15 +89,15 @@ class SharedMemoryTransport::Core {
   SharedMemorySettings settings_;
   Readiness readiness_;
   std::vector<File> listening_;
-  File spare_;  ///< a server's, for when there are no more files
-  std::vector<std::unique_ptr<Peer>> peers_;   ///< by connection; null once closed
-  std::vector<ConnectionId> open_;             ///< those with rings
-  std::vector<TransportCounters> counters_;    ///< by connection
+  File spare_;                                ///< a server's, for when there are no more files
+  std::vector<std::unique_ptr<Peer>> peers_;  ///< by connection; null once closed
+  std::vector<ConnectionId> open_;            ///< those with rings
+  std::vector<TransportCounters> counters_;   ///< by connection
   std::vector<DelayedAcknowledgements> acknowledgements_;  ///< likewise
   std::vector<News> news_;
   std::vector<std::byte> buffer_;
-  TransportListener* listener_ = nullptr;      ///< while polling
-  std::uint64_t told_ = 0;                     ///< to listeners so far
+  TransportListener* listener_ = nullptr;  ///< while polling
+  std::uint64_t told_ = 0;                 ///< to listeners so far
   std::uint32_t polls_ = 0;
 };
 

@@ -11,12 +11,14 @@ namespace rink::rti {
 
 namespace {
 
-constexpr std::uint32_t polls_per_look = 4;  ///< between two looks at the sockets while there is something in the rings
+constexpr std::uint32_t polls_per_look =
+    4;  ///< between two looks at the sockets while there is something in the rings
 constexpr const char* impossible = "its positions in shared memory are impossible";
 
 }  // namespace
 
-void SharedMemoryTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+void SharedMemoryTransport::Core::poll(std::chrono::nanoseconds longest_wait,
+                                       TransportListener& listener) {
   listener_ = &listener;
   const std::uint64_t before = told_;
   // A busy connection costs no system call; who comes and goes is noticed all the same.
@@ -30,7 +32,8 @@ void SharedMemoryTransport::Core::poll(std::chrono::nanoseconds longest_wait, Tr
 
 void SharedMemoryTransport::Core::spin_and_sleep(std::chrono::nanoseconds longest_wait) {
   // Told in looks instead of time: a look costs about 10 ns for each connection.
-  const std::int64_t looks = settings_.spin.count() / static_cast<std::int64_t>(10 * (open_.size() + 1));
+  const std::int64_t looks =
+      settings_.spin.count() / static_cast<std::int64_t>(10 * (open_.size() + 1));
   for (std::int64_t i = 0; i < looks && !has_something(); ++i) {
 #if defined(__x86_64__)
     __builtin_ia32_pause();
@@ -61,7 +64,8 @@ bool SharedMemoryTransport::Core::has_something() const {
 void SharedMemoryTransport::Core::take_events() {
   readiness_.ask({}, {});
   while (const auto event = readiness_.next()) {
-    if (event->number >= listener_mark) accept(static_cast<std::size_t>(event->number - listener_mark));
+    if (event->number >= listener_mark)
+      accept(static_cast<std::size_t>(event->number - listener_mark));
     else take_socket(static_cast<ConnectionId>(event->number));
   }
 }
@@ -72,9 +76,10 @@ void SharedMemoryTransport::Core::take_socket(ConnectionId connection) {
   if (peer == nullptr) return;
   if (!peer->is_open) return take_memory(connection);
   std::array<std::byte, 256> wakes_of_peer;
-  const ssize_t size = ::recv(peer->socket.number(), wakes_of_peer.data(), wakes_of_peer.size(), MSG_DONTWAIT);
+  const ssize_t size =
+      ::recv(peer->socket.number(), wakes_of_peer.data(), wakes_of_peer.size(), MSG_DONTWAIT);
   if (size > 0 || (size < 0 && (errno == EAGAIN || errno == EINTR))) return;
-  report();  // that it opened, if it came and went since
+  report();                                 // that it opened, if it came and went since
   if (find(connection) == nullptr) return;  // a callback closed it
   read(connection);
   if (find(connection) != nullptr) end(connection, CloseReason::closed_by_peer, "closed by peer");
@@ -118,7 +123,8 @@ void SharedMemoryTransport::Core::wake(const Peer& peer) {
   const std::byte anything{1};
   ++wakes;
   // If it has no room for one more, the peer is about to be woken anyway.
-  [[maybe_unused]] const ssize_t sent = ::send(peer.socket.number(), &anything, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
+  [[maybe_unused]] const ssize_t sent =
+      ::send(peer.socket.number(), &anything, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
 /// Puts what fits and returns how much that was.
@@ -157,7 +163,9 @@ void SharedMemoryTransport::Core::send(ConnectionId connection, std::span<const 
   if (peer->is_open && peer->out.publish()) wake(*peer);
   if (is_queueing) drain(connection);
   if (find(connection) == nullptr) return;
-  if (peer->queue.size() - peer->queue_from > settings_.queue_max) end(connection, CloseReason::queue_full, "did not read: more than " + std::to_string(settings_.queue_max) + " bytes waited");
+  if (peer->queue.size() - peer->queue_from > settings_.queue_max)
+    end(connection, CloseReason::queue_full,
+        "did not read: more than " + std::to_string(settings_.queue_max) + " bytes waited");
 }
 
 void SharedMemoryTransport::Core::drain(ConnectionId connection) {
@@ -170,7 +178,8 @@ void SharedMemoryTransport::Core::drain(ConnectionId connection) {
   if (peer->queue_from < peer->queue.size()) {
     peer->out.set_waiting();
     if (peer->queue_from < settings_.queue_max / 2) return;
-    peer->queue.erase(peer->queue.begin(), peer->queue.begin() + static_cast<std::ptrdiff_t>(peer->queue_from));
+    peer->queue.erase(peer->queue.begin(),
+                      peer->queue.begin() + static_cast<std::ptrdiff_t>(peer->queue_from));
   } else {
     peer->queue.clear();
   }

@@ -1,4 +1,5 @@
-// What the kernel has counted of a TCP connection; apart from Asio, whose headers clash with <linux/tcp.h>.
+// What the kernel has counted of a TCP connection; apart from Asio, whose headers clash with
+// <linux/tcp.h>.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,12 @@ namespace rink::rti {
 struct KernelCounters {
   std::uint64_t bytes_acknowledged = 0;  ///< payload that the peer's kernel has taken
   std::uint64_t bytes_received = 0;      ///< payload that our kernel has taken
-  std::uint64_t segments_sent = 0, segments_received = 0;            ///< of any kind, as a capture on the interface would count
-  std::uint64_t data_segments_sent = 0, data_segments_received = 0;  ///< those with payload; all others are acknowledgements, but for the handshakes
+  std::uint64_t segments_sent = 0,
+                segments_received = 0;  ///< of any kind, as a capture on the interface would count
+  std::uint64_t
+      data_segments_sent = 0,
+      data_segments_received =
+          0;  ///< those with payload; all others are acknowledgements, but for the handshakes
 };
 
 /// `TCP_INFO` of an open TCP socket; nothing if the kernel doesn't say.

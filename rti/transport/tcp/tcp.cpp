@@ -16,9 +16,11 @@ namespace rink::rti {
 
 namespace {
 
-constexpr std::size_t events_per_poll = 4096;   ///< connections opened, closed or read in one poll, more where many are accepted
+constexpr std::size_t events_per_poll =
+    4096;  ///< connections opened, closed or read in one poll, more where many are accepted
 constexpr std::size_t accepted_per_event = 64;
-/// What the kernel keeps of a peer's bytes beyond those on their way [bytes]. Its own limit grows to megabytes for one who doesn't read, where nobody can put newer state in their place.
+/// What the kernel keeps of a peer's bytes beyond those on their way [bytes]. Its own limit grows
+/// to megabytes for one who doesn't read, where nobody can put newer state in their place.
 constexpr int unsent_max = 256 * 1024;
 constexpr std::uint64_t pause_mark = ~0ull;
 constexpr std::size_t counters_kept = 1024;  ///< of closed connections
@@ -45,20 +47,24 @@ using asio::ip::tcp;
   if (error == asio::error::address_in_use) kind = Kind::in_use;
   else if (error == asio::error::access_denied) kind = Kind::no_permission;
   else if (error == asio::error::no_descriptors) kind = Kind::too_many_files;
-  else if (error == asio::error::host_not_found || error == asio::error::no_data || error == asio::error::service_not_found ||
-           error.value() == EADDRNOTAVAIL) kind = Kind::no_such_address;
+  else if (error == asio::error::host_not_found || error == asio::error::no_data ||
+           error == asio::error::service_not_found || error.value() == EADDRNOTAVAIL)
+    kind = Kind::no_such_address;
   throw TransportError(kind, what + ": " + error.message());
 }
 
 /// "address:port", with brackets around IPv6.
 std::string place(const std::string& address, std::uint16_t port) {
-  return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + std::to_string(port);
+  return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" +
+         std::to_string(port);
 }
 
 }  // namespace
 
 TcpTransport::Core::Core(const TcpSettings& settings)
-    : settings_(settings), pause_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)), read_buffer_(settings.read_buffer) {
+    : settings_(settings),
+      pause_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)),
+      read_buffer_(settings.read_buffer) {
   readiness_.watch(pause_.number(), pause_mark, false);
 }
 
@@ -77,7 +83,9 @@ std::uint16_t TcpTransport::Core::listen(const std::string& address, std::uint16
   tcp::acceptor acceptor(context);
   asio::error_code error;
   acceptor.open(endpoint.protocol(), error);
-  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);  // past connections in TIME_WAIT don't hold the port
+  if (!error)
+    acceptor.set_option(tcp::acceptor::reuse_address(true),
+                        error);  // past connections in TIME_WAIT don't hold the port
   if (!error) acceptor.bind(endpoint, error);
   if (!error) acceptor.listen(4096, error);
   if (!error) acceptor.native_non_blocking(true, error);
@@ -90,20 +98,23 @@ std::uint16_t TcpTransport::Core::listen(const std::string& address, std::uint16
 
 ConnectionId TcpTransport::Core::connect(const std::string& address, std::uint16_t port) {
   const tcp::endpoint endpoint = resolve(address, port);
-  File file(::socket(endpoint.protocol().family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, IPPROTO_TCP));
+  File file(::socket(endpoint.protocol().family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC,
+                     IPPROTO_TCP));
   const asio::error_code no_socket = last_error();
   if (!file) fail(no_socket, "can't connect to " + place(address, port));
   Peer& peer = add(std::move(file));
   peer.place = place(address, port);
   int result = 0;
-  do result = ::connect(peer.file.number(), endpoint.data(), static_cast<socklen_t>(endpoint.size()));
+  do
+    result =
+        ::connect(peer.file.number(), endpoint.data(), static_cast<socklen_t>(endpoint.size()));
   while (result < 0 && errno == EINTR);
   const asio::error_code error = last_error();
   // Watched only from here on: a socket that nobody has connected yet would be told as ended.
-  if (result < 0 && error.value() != EINPROGRESS && error.value() != EISCONN && error.value() != EALREADY)
+  if (result < 0 && error.value() != EINPROGRESS && error.value() != EISCONN &&
+      error.value() != EALREADY)
     end(peer, close_reason_of(error), "can't connect to " + peer.place + ": " + error.message());
-  else
-    readiness_.watch(peer.file.number(), peer.id, true);
+  else readiness_.watch(peer.file.number(), peer.id, true);
   return peer.id;
 }
 
@@ -115,7 +126,8 @@ TcpTransport::Core::Peer& TcpTransport::Core::add(File file) {
 
 void TcpTransport::Core::accept(std::size_t listening) {
   for (std::size_t accepted = 0; accepted < accepted_per_event; ++accepted) {
-    File file(::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    File file(
+        ::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (!file && (errno == EMFILE || errno == ENFILE)) return accept_later();
     if (!file) return;  // none is left, or one that gave up before we came
     Peer& peer = add(std::move(file));
@@ -125,14 +137,16 @@ void TcpTransport::Core::accept(std::size_t listening) {
 }
 
 void TcpTransport::Core::accept_later() {
-  // The waiting connection would wake us at once and for ever: raise the limit, or let somebody leave first.
+  // The waiting connection would wake us at once and for ever: raise the limit, or let somebody
+  // leave first.
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max) {
     limit.rlim_cur = limit.rlim_max;
     setrlimit(RLIMIT_NOFILE, &limit);
     return;
   }
-  for (std::size_t i = 0; i < listening_.size(); ++i) readiness_.change(listening_[i].number(), listener_mark + i, false, false);
+  for (std::size_t i = 0; i < listening_.size(); ++i)
+    readiness_.change(listening_[i].number(), listener_mark + i, false, false);
   const itimerspec pause{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = 100'000'000}};
   timerfd_settime(pause_.number(), 0, &pause, nullptr);
 }
@@ -140,7 +154,8 @@ void TcpTransport::Core::accept_later() {
 void TcpTransport::Core::accept_again() {
   std::uint64_t expirations = 0;
   if (::read(pause_.number(), &expirations, sizeof expirations) != sizeof expirations) return;
-  for (std::size_t i = 0; i < listening_.size(); ++i) readiness_.change(listening_[i].number(), listener_mark + i, true, false);
+  for (std::size_t i = 0; i < listening_.size(); ++i)
+    readiness_.change(listening_[i].number(), listener_mark + i, true, false);
 }
 
 void TcpTransport::Core::finish_connecting(Peer& peer) {
@@ -148,7 +163,9 @@ void TcpTransport::Core::finish_connecting(Peer& peer) {
   socklen_t size = sizeof failure;
   ::getsockopt(peer.file.number(), SOL_SOCKET, SO_ERROR, &failure, &size);
   const asio::error_code error(failure, asio::system_category());
-  if (error) return end(peer, close_reason_of(error), "can't connect to " + peer.place + ": " + error.message());
+  if (error)
+    return end(peer, close_reason_of(error),
+               "can't connect to " + peer.place + ": " + error.message());
   readiness_.change(peer.file.number(), peer.id, true, false);
   opened(peer);
 }
@@ -171,7 +188,9 @@ void TcpTransport::Core::end(Peer& peer, CloseReason reason, const std::string& 
   if (peer.is_open) --open_count_;
   peer.is_leaving = true;
   const linger at_once{.l_onoff = 1, .l_linger = 0};
-  if (reason == CloseReason::queue_full) ::setsockopt(peer.file.number(), SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);  // its unread bytes leave the kernel too
+  if (reason == CloseReason::queue_full)
+    ::setsockopt(peer.file.number(), SOL_SOCKET, SO_LINGER, &at_once,
+                 sizeof at_once);  // its unread bytes leave the kernel too
   peer.file.close();
   peer.queue = {};
   peer.queue_from = 0;
@@ -199,18 +218,22 @@ void TcpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportLi
     listener_ = nullptr;
     return;
   }
-  // One question per poll: each system call here is one more in every round trip. What comes while we handle what had come is the next poll's.
+  // One question per poll: each system call here is one more in every round trip. What comes while
+  // we handle what had come is the next poll's.
   readiness_.ask(ended_.empty() ? longest_wait : std::chrono::nanoseconds(0), settings_.spin);
   take_what_came();
   listener_ = nullptr;
 }
 
-/// Who spins with one connection asks that, not the kernel's list of what is ready: one system call less in every round trip. True if there is no more to ask.
+/// Who spins with one connection asks that, not the kernel's list of what is ready: one system call
+/// less in every round trip. True if there is no more to ask.
 bool TcpTransport::Core::read_only_peer(std::chrono::nanoseconds longest_wait) {
   using Clock = std::chrono::steady_clock;
   constexpr std::uint32_t reads_per_look = 32;  // so that who comes besides is let in
   const auto spin = std::min(settings_.spin, longest_wait);
-  if (open_count_ != 1 || !ended_.empty() || readiness_.has_left() || (longest_wait.count() > 0 && spin.count() <= 0)) return false;
+  if (open_count_ != 1 || !ended_.empty() || readiness_.has_left() ||
+      (longest_wait.count() > 0 && spin.count() <= 0))
+    return false;
   Peer* peer = find(newest_open_);
   if (peer == nullptr || !peer->is_open || peer->is_leaving || peer->is_writing) return false;
   const std::uint64_t before = bytes_taken_;
@@ -224,10 +247,12 @@ bool TcpTransport::Core::read_only_peer(std::chrono::nanoseconds longest_wait) {
 }
 
 void TcpTransport::Core::take_what_came() {
-  // A peer that sends without pause must not keep us from returning: a joined one at 250 MB/s cost a server three ticks in four. What is left waits in
-  // the kernel, and the next poll begins with the peers that this one did not reach.
+  // A peer that sends without pause must not keep us from returning: a joined one at 250 MB/s cost
+  // a server three ticks in four. What is left waits in the kernel, and the next poll begins with
+  // the peers that this one did not reach.
   const std::uint64_t before = bytes_taken_;
-  for (std::size_t taken = 0; taken < events_per_poll && bytes_taken_ - before < settings_.bytes_per_poll; ++taken) {
+  for (std::size_t taken = 0;
+       taken < events_per_poll && bytes_taken_ - before < settings_.bytes_per_poll; ++taken) {
     const auto event = readiness_.next();
     if (!event) break;
     take(*event);
@@ -237,7 +262,8 @@ void TcpTransport::Core::take_what_came() {
 
 void TcpTransport::Core::take(const Readiness::Event& event) {
   if (event.number == pause_mark) return accept_again();
-  if (event.number >= listener_mark) return accept(static_cast<std::size_t>(event.number - listener_mark));
+  if (event.number >= listener_mark)
+    return accept(static_cast<std::size_t>(event.number - listener_mark));
   const auto id = static_cast<ConnectionId>(event.number);
   Peer* peer = find(id);
   if (peer == nullptr || peer->is_leaving) return;
@@ -249,7 +275,8 @@ void TcpTransport::Core::take(const Readiness::Event& event) {
 TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {
   const Peer* peer = find(connection);
   if (peer == nullptr) {
-    const auto last = std::ranges::find(last_counters_, connection, &std::pair<ConnectionId, TransportCounters>::first);
+    const auto last = std::ranges::find(last_counters_, connection,
+                                        &std::pair<ConnectionId, TransportCounters>::first);
     return last != last_counters_.end() ? last->second : TransportCounters{};
   }
   TransportCounters counters = peer->counters;
@@ -260,17 +287,26 @@ TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {
     counters.kernel_bytes_sent = kernel->bytes_acknowledged;
     counters.kernel_bytes_received = kernel->bytes_received;
     counters.kernel_segments_sent = kernel->data_segments_sent;
-    counters.acknowledgements_sent = kernel->segments_sent - std::min(kernel->segments_sent, kernel->data_segments_sent);
+    counters.acknowledgements_sent =
+        kernel->segments_sent - std::min(kernel->segments_sent, kernel->data_segments_sent);
   }
   return counters;
 }
 
 TcpTransport::TcpTransport(const TcpSettings& settings) : core_(std::make_unique<Core>(settings)) {}
 TcpTransport::~TcpTransport() = default;
-std::uint16_t TcpTransport::listen(const std::string& address, std::uint16_t port) { return core_->listen(address, port); }
-ConnectionId TcpTransport::connect(const std::string& address, std::uint16_t port) { return core_->connect(address, port); }
-void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) { core_->poll(longest_wait, listener); }
-void TcpTransport::send(ConnectionId connection, std::span<const Bytes> parts) { core_->send(connection, parts); }
+std::uint16_t TcpTransport::listen(const std::string& address, std::uint16_t port) {
+  return core_->listen(address, port);
+}
+ConnectionId TcpTransport::connect(const std::string& address, std::uint16_t port) {
+  return core_->connect(address, port);
+}
+void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+  core_->poll(longest_wait, listener);
+}
+void TcpTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
+  core_->send(connection, parts);
+}
 void TcpTransport::close(ConnectionId connection) { core_->close(connection); }
 TransportCounters TcpTransport::Core::totals() const {
   TransportCounters sum = closed_;
@@ -279,8 +315,12 @@ TransportCounters TcpTransport::Core::totals() const {
   return sum;
 }
 
-std::size_t TcpTransport::queued_bytes(ConnectionId connection) const { return core_->queued_bytes(connection); }
-TransportCounters TcpTransport::counters(ConnectionId connection) const { return core_->counters(connection); }
+std::size_t TcpTransport::queued_bytes(ConnectionId connection) const {
+  return core_->queued_bytes(connection);
+}
+TransportCounters TcpTransport::counters(ConnectionId connection) const {
+  return core_->counters(connection);
+}
 TransportCounters TcpTransport::totals() const { return core_->totals(); }
 
 int TcpTransport::wait_file() const { return core_->wait_file(); }

@@ -1,4 +1,5 @@
-// The inside of the TCP transport: its peers, their queues and what is ready; for its own sources only.
+// The inside of the TCP transport: its peers, their queues and what is ready; for its own sources
+// only.
 #pragma once
 
 #include <asio.hpp>
@@ -38,11 +39,11 @@ class TcpTransport::Core {
     explicit Peer(ConnectionId id) : id(id) {}
     File file;
     ConnectionId id;
-    std::string place;                  ///< whom we connect to
-    bool is_open = false;               ///< connected; may be sent to
-    bool is_leaving = false;            ///< its end is in `ended_`, waiting to be reported
-    bool is_writing = false;            ///< waits for room in the kernel's buffer
-    std::vector<std::byte> queue;       ///< from `queue_from` on: accepted, not yet taken
+    std::string place;             ///< whom we connect to
+    bool is_open = false;          ///< connected; may be sent to
+    bool is_leaving = false;       ///< its end is in `ended_`, waiting to be reported
+    bool is_writing = false;       ///< waits for room in the kernel's buffer
+    std::vector<std::byte> queue;  ///< from `queue_from` on: accepted, not yet taken
     std::size_t queue_from = 0;
     TransportCounters counters;
   };
@@ -52,7 +53,9 @@ class TcpTransport::Core {
     std::string detail;
   };
   asio::ip::tcp::endpoint resolve(const std::string& address, std::uint16_t port);
-  Peer* find(ConnectionId connection) const { return connection < peers_.size() ? peers_[connection].get() : nullptr; }
+  Peer* find(ConnectionId connection) const {
+    return connection < peers_.size() ? peers_[connection].get() : nullptr;
+  }
   Peer& add(File file);
   void take(const Readiness::Event& event);
   void accept(std::size_t listening);
@@ -72,17 +75,20 @@ class TcpTransport::Core {
   TcpSettings settings_;
   Readiness readiness_;
   std::vector<File> listening_;
-  File pause_;                                    ///< a timer that ends the time in which nobody is accepted
-  std::vector<std::unique_ptr<Peer>> peers_;      ///< by connection; null once closed
-  std::deque<std::pair<ConnectionId, TransportCounters>> last_counters_;  ///< of those that closed last
-  TransportCounters closed_{.kernel_bytes_sent = 0, .kernel_bytes_received = 0, .kernel_segments_sent = 0};  ///< sum over all closed ones
+  File pause_;  ///< a timer that ends the time in which nobody is accepted
+  std::vector<std::unique_ptr<Peer>> peers_;  ///< by connection; null once closed
+  std::deque<std::pair<ConnectionId, TransportCounters>>
+      last_counters_;  ///< of those that closed last
+  TransportCounters closed_{.kernel_bytes_sent = 0,
+                            .kernel_bytes_received = 0,
+                            .kernel_segments_sent = 0};  ///< sum over all closed ones
   std::vector<Closed> ended_, reporting_;
   std::vector<std::byte> read_buffer_;
-  TransportListener* listener_ = nullptr;         ///< while polling
+  TransportListener* listener_ = nullptr;  ///< while polling
   std::size_t open_count_ = 0;
   ConnectionId newest_open_ = 0;
-  std::uint32_t reads_ = 0;                       ///< of an only peer, without being told that there is something
-  std::uint64_t bytes_taken_ = 0;                 ///< received by all connections
+  std::uint32_t reads_ = 0;        ///< of an only peer, without being told that there is something
+  std::uint64_t bytes_taken_ = 0;  ///< received by all connections
 };
 
 }  // namespace rink::rti

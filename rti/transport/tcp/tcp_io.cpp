@@ -1,4 +1,5 @@
-// Bytes in and out of a TCP peer: one gathered write per send, a bounded queue for what the kernel doesn't take.
+// Bytes in and out of a TCP peer: one gathered write per send, a bounded queue for what the kernel
+// doesn't take.
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
@@ -13,19 +14,23 @@ namespace rink::rti {
 
 namespace {
 
-constexpr std::size_t tcp_segment_size = 1448;  ///< payload of an Ethernet frame with TCP time stamps
-constexpr std::size_t part_max = 256;       ///< of one write; more are taken in turns
+constexpr std::size_t tcp_segment_size =
+    1448;                              ///< payload of an Ethernet frame with TCP time stamps
+constexpr std::size_t part_max = 256;  ///< of one write; more are taken in turns
 
 }  // namespace
 
 CloseReason close_reason_of(const asio::error_code& error) {
-  if (error == asio::error::eof || error == asio::error::connection_reset || error == asio::error::broken_pipe) return CloseReason::closed_by_peer;
+  if (error == asio::error::eof || error == asio::error::connection_reset ||
+      error == asio::error::broken_pipe)
+    return CloseReason::closed_by_peer;
   if (error == asio::error::connection_refused) return CloseReason::refused;
   return CloseReason::failed;
 }
 
 void TcpTransport::Core::read(Peer& peer) {
-  const ssize_t size = ::recv(peer.file.number(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT);
+  const ssize_t size =
+      ::recv(peer.file.number(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT);
   if (size == 0) return end(peer, CloseReason::closed_by_peer, "closed by peer");
   if (size < 0) {
     if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return;
@@ -43,7 +48,8 @@ std::size_t TcpTransport::Core::write(Peer& peer, std::span<const Bytes> parts, 
   while (!parts.empty()) {
     std::size_t count = 0, size = 0;
     for (; count < std::min(parts.size(), part_max); ++count) {
-      vectors[count] = {const_cast<std::byte*>(parts[count].data()), parts[count].size()};  // sendmsg only reads
+      vectors[count] = {const_cast<std::byte*>(parts[count].data()),
+                        parts[count].size()};  // sendmsg only reads
       size += parts[count].size();
     }
     parts = parts.subspan(count);
@@ -51,7 +57,10 @@ std::size_t TcpTransport::Core::write(Peer& peer, std::span<const Bytes> parts, 
     message.msg_iov = vectors.data();
     message.msg_iovlen = count;
     ssize_t sent = 0;
-    do sent = count == 1 ? ::send(peer.file.number(), vectors[0].iov_base, size, MSG_NOSIGNAL | MSG_DONTWAIT) : ::sendmsg(peer.file.number(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
+    do
+      sent = count == 1 ? ::send(peer.file.number(), vectors[0].iov_base, size,
+                                 MSG_NOSIGNAL | MSG_DONTWAIT)
+                        : ::sendmsg(peer.file.number(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
     while (sent < 0 && errno == EINTR);
     if (sent < 0) {
       is_broken = errno != EAGAIN && errno != EWOULDBLOCK;
@@ -74,16 +83,19 @@ void TcpTransport::Core::send(ConnectionId connection, std::span<const Bytes> pa
   peer->counters.segments_sent += (size + tcp_segment_size - 1) / tcp_segment_size;
   bool is_broken = false;
   std::size_t taken = 0;
-  if (peer->is_open && peer->queue.size() == peer->queue_from) taken = write(*peer, parts, is_broken);
+  if (peer->is_open && peer->queue.size() == peer->queue_from)
+    taken = write(*peer, parts, is_broken);
   if (is_broken) return end(*peer, CloseReason::closed_by_peer, "closed by peer");
   if (taken == size) return;
   const std::size_t waiting = peer->queue.size() - peer->queue_from;
   if (waiting + size - taken > settings_.queue_max)
-    return end(*peer, CloseReason::queue_full, "did not read: more than " + std::to_string(settings_.queue_max) + " bytes waited");
+    return end(*peer, CloseReason::queue_full,
+               "did not read: more than " + std::to_string(settings_.queue_max) + " bytes waited");
   for (const Bytes part : parts) {
     const std::size_t skipped = std::min(taken, part.size());
     taken -= skipped;
-    peer->queue.insert(peer->queue.end(), part.begin() + static_cast<std::ptrdiff_t>(skipped), part.end());
+    peer->queue.insert(peer->queue.end(), part.begin() + static_cast<std::ptrdiff_t>(skipped),
+                       part.end());
   }
   if (peer->is_open) await_room(*peer);
 }
@@ -100,9 +112,11 @@ void TcpTransport::Core::drain(Peer& peer) {
   peer.queue_from += write(peer, std::span(&waiting, 1), is_broken);
   if (is_broken) return end(peer, CloseReason::closed_by_peer, "closed by peer");
   if (peer.queue_from < peer.queue.size()) {
-    // What has gone is cut off now and then, so that a slow but steady reader doesn't make the queue's memory grow.
+    // What has gone is cut off now and then, so that a slow but steady reader doesn't make the
+    // queue's memory grow.
     if (peer.queue_from > settings_.queue_max / 2) {
-      peer.queue.erase(peer.queue.begin(), peer.queue.begin() + static_cast<std::ptrdiff_t>(peer.queue_from));
+      peer.queue.erase(peer.queue.begin(),
+                       peer.queue.begin() + static_cast<std::ptrdiff_t>(peer.queue_from));
       peer.queue_from = 0;
     }
     return;  // and waits on
@@ -127,13 +141,15 @@ void TcpTransport::Core::close(ConnectionId connection) {
     write(*peer, std::span(&waiting, 1), is_broken);
   }
   if (peer->is_open) {
-    // Unread input would turn our close into a reset, which may overtake the last bytes that we sent.
+    // Unread input would turn our close into a reset, which may overtake the last bytes that we
+    // sent.
     ::shutdown(peer->file.number(), SHUT_WR);
     // No more than had room in the kernel: who sends without pause must not keep us here.
     int waiting = 0;
     ::ioctl(peer->file.number(), FIONREAD, &waiting);
     for (ssize_t size = 1; size > 0 && waiting > 0; waiting -= static_cast<int>(size))
-      size = ::recv(peer->file.number(), read_buffer_.data(), std::min(read_buffer_.size(), static_cast<std::size_t>(waiting)), MSG_DONTWAIT);
+      size = ::recv(peer->file.number(), read_buffer_.data(),
+                    std::min(read_buffer_.size(), static_cast<std::size_t>(waiting)), MSG_DONTWAIT);
   }
   end(*peer, CloseReason::closed_by_us, "closed by us");
 }

@@ -23,35 +23,49 @@ namespace rink::rti {
 
 namespace {
 
-const sockaddr_in& v4(const SocketAddress& address) { return reinterpret_cast<const sockaddr_in&>(address.storage); }
-const sockaddr_in6& v6(const SocketAddress& address) { return reinterpret_cast<const sockaddr_in6&>(address.storage); }
+const sockaddr_in& v4(const SocketAddress& address) {
+  return reinterpret_cast<const sockaddr_in&>(address.storage);
+}
+const sockaddr_in6& v6(const SocketAddress& address) {
+  return reinterpret_cast<const sockaddr_in6&>(address.storage);
+}
 
 }  // namespace
 
-std::uint16_t SocketAddress::port() const { return ntohs(storage.ss_family == AF_INET6 ? v6(*this).sin6_port : v4(*this).sin_port); }
+std::uint16_t SocketAddress::port() const {
+  return ntohs(storage.ss_family == AF_INET6 ? v6(*this).sin6_port : v4(*this).sin_port);
+}
 
 void SocketAddress::set_port(std::uint16_t port) {
-  if (storage.ss_family == AF_INET6) reinterpret_cast<sockaddr_in6&>(storage).sin6_port = htons(port);
+  if (storage.ss_family == AF_INET6)
+    reinterpret_cast<sockaddr_in6&>(storage).sin6_port = htons(port);
   else reinterpret_cast<sockaddr_in&>(storage).sin_port = htons(port);
 }
 
 bool SocketAddress::is_same_host(const SocketAddress& other) const {
   if (storage.ss_family != other.storage.ss_family) return false;
   if (storage.ss_family == AF_INET) return v4(*this).sin_addr.s_addr == v4(other).sin_addr.s_addr;
-  return storage.ss_family == AF_INET6 && std::memcmp(&v6(*this).sin6_addr, &v6(other).sin6_addr, sizeof(in6_addr)) == 0;
+  return storage.ss_family == AF_INET6 &&
+         std::memcmp(&v6(*this).sin6_addr, &v6(other).sin6_addr, sizeof(in6_addr)) == 0;
 }
 
-bool SocketAddress::is_same(const SocketAddress& other) const { return is_same_host(other) && port() == other.port(); }
+bool SocketAddress::is_same(const SocketAddress& other) const {
+  return is_same_host(other) && port() == other.port();
+}
 
 void prepare_datagram_socket(int socket, bool use_offload) {
-  // A tick to a thousand clients is 3 MB at once. Only a privileged process may go beyond the system's limit; others get what it allows.
+  // A tick to a thousand clients is 3 MB at once. Only a privileged process may go beyond the
+  // system's limit; others get what it allows.
   const int size = 8 << 20, yes = 1;
-  for (const auto& [forced, asked] : {std::pair{SO_RCVBUFFORCE, SO_RCVBUF}, std::pair{SO_SNDBUFFORCE, SO_SNDBUF}})
-    if (::setsockopt(socket, SOL_SOCKET, forced, &size, sizeof size) != 0) ::setsockopt(socket, SOL_SOCKET, asked, &size, sizeof size);
+  for (const auto& [forced, asked] :
+       {std::pair{SO_RCVBUFFORCE, SO_RCVBUF}, std::pair{SO_SNDBUFFORCE, SO_SNDBUF}})
+    if (::setsockopt(socket, SOL_SOCKET, forced, &size, sizeof size) != 0)
+      ::setsockopt(socket, SOL_SOCKET, asked, &size, sizeof size);
   if (use_offload) ::setsockopt(socket, IPPROTO_UDP, UDP_GRO, &yes, sizeof yes);
 }
 
-void DatagramSender::add(int socket, const SocketAddress* to, Bytes prefix, std::span<const Datagram> datagrams) {
+void DatagramSender::add(int socket, const SocketAddress* to, Bytes prefix,
+                         std::span<const Datagram> datagrams) {
   if (socket != socket_) push();
   socket_ = socket;
   if (bytes_.capacity() == 0) bytes_.reserve(bytes_max);
@@ -64,10 +78,18 @@ void DatagramSender::add(int socket, const SocketAddress* to, Bytes prefix, std:
       is_first = true;
     }
     Message* message = messages_.empty() ? nullptr : &messages_.back();
-    const bool continues = use_offload_ && !is_first && !message->is_complete && size <= message->segment && message->count < segment_max && message->size + size <= message_bytes_max;
+    const bool continues = use_offload_ && !is_first && !message->is_complete &&
+                           size <= message->segment && message->count < segment_max &&
+                           message->size + size <= message_bytes_max;
     if (!continues) {
       if (messages_.size() == message_max) push();
-      messages_.push_back({.first_part = parts_.size(), .part_count = 0, .size = 0, .segment = size, .to = to, .count = 0, .is_complete = false});
+      messages_.push_back({.first_part = parts_.size(),
+                           .part_count = 0,
+                           .size = 0,
+                           .segment = size,
+                           .to = to,
+                           .count = 0,
+                           .is_complete = false});
       message = &messages_.back();
     }
     is_first = false;
@@ -88,7 +110,8 @@ void DatagramSender::append(Message& message, Bytes part, bool does_stay) {
     at = bytes_.data() + bytes_.size();
     bytes_.insert(bytes_.end(), part.begin(), part.end());
   }
-  if (message.part_count > 0 && static_cast<std::byte*>(parts_.back().iov_base) + parts_.back().iov_len == at) {
+  if (message.part_count > 0 &&
+      static_cast<std::byte*>(parts_.back().iov_base) + parts_.back().iov_len == at) {
     parts_.back().iov_len += part.size();
     return;
   }
@@ -133,11 +156,14 @@ std::size_t DatagramSender::send_some(std::size_t from) {
     std::memcpy(CMSG_DATA(control), &segment, sizeof segment);
   }
   ++calls_;
-  const int sent = ::sendmmsg(socket_, headers.data(), static_cast<unsigned>(count), MSG_DONTWAIT | MSG_NOSIGNAL);
+  const int sent = ::sendmmsg(socket_, headers.data(), static_cast<unsigned>(count),
+                              MSG_DONTWAIT | MSG_NOSIGNAL);
   if (sent > 0) return static_cast<std::size_t>(sent);
   const Message& refused = messages_[from];
-  if (errno == EINTR || errno == ECONNREFUSED) {  // the second is news of an earlier datagram, told once
-    if (::sendmmsg(socket_, headers.data(), 1, MSG_DONTWAIT | MSG_NOSIGNAL) <= 0) lost_ += refused.count;
+  if (errno == EINTR ||
+      errno == ECONNREFUSED) {  // the second is news of an earlier datagram, told once
+    if (::sendmmsg(socket_, headers.data(), 1, MSG_DONTWAIT | MSG_NOSIGNAL) <= 0)
+      lost_ += refused.count;
     return 1;
   }
   if (refused.count > 1 && errno != EAGAIN && errno != ENOBUFS) {
@@ -160,13 +186,16 @@ void DatagramSender::send_apart(const Message& message) {
     const std::size_t size = std::min(message.segment, message.size - at);
     ++calls_;
     const sockaddr* to = message.to == nullptr ? nullptr : message.to->get();
-    if (::sendto(socket_, whole.data() + at, size, MSG_DONTWAIT | MSG_NOSIGNAL, to, to == nullptr ? 0 : message.to->size) < 0) ++lost_;
+    if (::sendto(socket_, whole.data() + at, size, MSG_DONTWAIT | MSG_NOSIGNAL, to,
+                 to == nullptr ? 0 : message.to->size) < 0)
+      ++lost_;
   }
 }
 
 DatagramReader::DatagramReader() : buffer_(message_max * buffer_size) {}
 
-bool DatagramReader::read(int socket, const std::function<void(const SocketAddress&, Bytes)>& take) {
+bool DatagramReader::read(int socket,
+                          const std::function<void(const SocketAddress&, Bytes)>& take) {
   std::array<mmsghdr, message_max> headers{};
   std::array<iovec, message_max> vectors;
   std::array<SocketAddress, message_max> sources;
@@ -177,8 +206,13 @@ bool DatagramReader::read(int socket, const std::function<void(const SocketAddre
   std::array<Control, message_max> controls;
   for (std::size_t i = 0; i < message_max; ++i) {
     vectors[i] = {buffer_.data() + i * buffer_size, buffer_size};
-    headers[i].msg_hdr = {.msg_name = &sources[i].storage, .msg_namelen = sizeof sources[i].storage, .msg_iov = &vectors[i], .msg_iovlen = 1,
-                          .msg_control = controls[i].bytes, .msg_controllen = sizeof controls[i].bytes, .msg_flags = 0};
+    headers[i].msg_hdr = {.msg_name = &sources[i].storage,
+                          .msg_namelen = sizeof sources[i].storage,
+                          .msg_iov = &vectors[i],
+                          .msg_iovlen = 1,
+                          .msg_control = controls[i].bytes,
+                          .msg_controllen = sizeof controls[i].bytes,
+                          .msg_flags = 0};
   }
   ++calls_;
   const int count = ::recvmmsg(socket, headers.data(), message_max, MSG_DONTWAIT, nullptr);
@@ -186,15 +220,19 @@ bool DatagramReader::read(int socket, const std::function<void(const SocketAddre
     const msghdr& header = headers[static_cast<std::size_t>(i)].msg_hdr;
     if ((header.msg_flags & MSG_TRUNC) != 0) continue;
     sources[static_cast<std::size_t>(i)].size = header.msg_namelen;
-    const Bytes bytes = Bytes(buffer_).subspan(static_cast<std::size_t>(i) * buffer_size, headers[static_cast<std::size_t>(i)].msg_len);
+    const Bytes bytes = Bytes(buffer_).subspan(static_cast<std::size_t>(i) * buffer_size,
+                                               headers[static_cast<std::size_t>(i)].msg_len);
     std::size_t segment = bytes.size();
-    for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr; control = CMSG_NXTHDR(const_cast<msghdr*>(&header), control)) {
+    for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr;
+         control = CMSG_NXTHDR(const_cast<msghdr*>(&header), control)) {
       if (control->cmsg_level != IPPROTO_UDP || control->cmsg_type != UDP_GRO) continue;
       int size = 0;
       std::memcpy(&size, CMSG_DATA(control), sizeof size);
       if (size > 0) segment = static_cast<std::size_t>(size);
     }
-    for (std::size_t at = 0; at < bytes.size(); at += segment) take(sources[static_cast<std::size_t>(i)], bytes.subspan(at, std::min(segment, bytes.size() - at)));
+    for (std::size_t at = 0; at < bytes.size(); at += segment)
+      take(sources[static_cast<std::size_t>(i)],
+           bytes.subspan(at, std::min(segment, bytes.size() - at)));
   }
   return count == static_cast<int>(message_max);
 }

@@ -1,4 +1,5 @@
-// Datagrams in as few system calls as the platform allows: many messages in one call, and many datagrams of one size in one message.
+// Datagrams in as few system calls as the platform allows: many messages in one call, and many
+// datagrams of one size in one message.
 #pragma once
 
 #include <sys/socket.h>
@@ -29,13 +30,15 @@ struct SocketAddress {
 /// A large buffer for bursts, and `UDP_GRO` if it is there and wanted.
 void prepare_datagram_socket(int socket, bool use_offload);
 
-/// Gathers datagrams and sends them by `sendmmsg`; consecutive ones of one size (the last may be shorter) to one address as one message that the kernel cuts (`UDP_SEGMENT`),
-/// unless the kernel has refused that once. Bodies that stay are not copied. What the kernel has no room for is lost.
+/// Gathers datagrams and sends them by `sendmmsg`; consecutive ones of one size (the last may be
+/// shorter) to one address as one message that the kernel cuts (`UDP_SEGMENT`), unless the kernel
+/// has refused that once. Bodies that stay are not copied. What the kernel has no room for is lost.
 class DatagramSender {
  public:
   explicit DatagramSender(bool use_offload) : use_offload_(use_offload) {}
 
-  /// Each datagram begins with `prefix`. `to` may be null for a connected socket. All that waits goes out first if it belongs to another socket.
+  /// Each datagram begins with `prefix`. `to` may be null for a connected socket. All that waits
+  /// goes out first if it belongs to another socket.
   void add(int socket, const SocketAddress* to, Bytes prefix, std::span<const Datagram> datagrams);
   void push();
 
@@ -45,13 +48,14 @@ class DatagramSender {
 
  private:
   struct Message {
-    std::size_t first_part = 0, part_count = 0;   ///< of `parts_`
-    std::size_t size = 0, segment = 0;            ///< all datagrams but the last have `segment` bytes
+    std::size_t first_part = 0, part_count = 0;  ///< of `parts_`
+    std::size_t size = 0, segment = 0;  ///< all datagrams but the last have `segment` bytes
     const SocketAddress* to = nullptr;
-    std::uint32_t count = 0;                      ///< of datagrams
-    bool is_complete = false;                     ///< the last is shorter than the others
+    std::uint32_t count = 0;   ///< of datagrams
+    bool is_complete = false;  ///< the last is shorter than the others
   };
-  static constexpr std::size_t message_max = 64, segment_max = 60, part_max = 1024, message_bytes_max = 62'000, bytes_max = 256 * 1024;
+  static constexpr std::size_t message_max = 64, segment_max = 60, part_max = 1024,
+                               message_bytes_max = 62'000, bytes_max = 256 * 1024;
   void append(Message& message, Bytes part, bool does_stay);
   std::size_t send_some(std::size_t from);
   void send_apart(const Message& message);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t datagram_magic = 0x47444b52;  ///< "RKDG": no frame is that long
 constexpr std::uint64_t server_mark = 1ull << 32, timer_mark = server_mark + 1;
-constexpr int tries_max = 30;                ///< ten a second
+constexpr int tries_max = 30;  ///< ten a second
 constexpr std::size_t datagram_events_per_poll = 1024;
 
 std::uint64_t secret() {
@@ -44,14 +44,18 @@ Number get(Bytes bytes, std::size_t at) {
 SocketAddress peer_of(int socket) {
   SocketAddress address;
   address.size = sizeof address.storage;
-  if (::getpeername(socket, reinterpret_cast<sockaddr*>(&address.storage), &address.size) != 0) address.size = 0;
+  if (::getpeername(socket, reinterpret_cast<sockaddr*>(&address.storage), &address.size) != 0)
+    address.size = 0;
   return address;
 }
 
 }  // namespace
 
 UdpTransport::Core::Core(const UdpSettings& settings)
-    : settings_(settings), tcp_(settings.tcp), timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)), sender_(settings.use_offload) {
+    : settings_(settings),
+      tcp_(settings.tcp),
+      timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)),
+      sender_(settings.use_offload) {
   readiness_.watch(timer_.number(), timer_mark, false);
 }
 
@@ -60,8 +64,11 @@ std::uint16_t UdpTransport::Core::listen(const std::string& address, std::uint16
   if (server_) return bound;
   asio::io_context context;
   asio::error_code error;
-  const auto found = asio::ip::udp::resolver(context).resolve(address, std::to_string(bound), error);
-  if (error) throw TransportError(TransportError::Kind::no_such_address, "no such address " + address + ": " + error.message());
+  const auto found =
+      asio::ip::udp::resolver(context).resolve(address, std::to_string(bound), error);
+  if (error)
+    throw TransportError(TransportError::Kind::no_such_address,
+                         "no such address " + address + ": " + error.message());
   asio::ip::udp::endpoint endpoint = found.begin()->endpoint();
   asio::ip::udp::socket socket(context, endpoint.protocol());
   socket.bind(endpoint, error);
@@ -69,7 +76,9 @@ std::uint16_t UdpTransport::Core::listen(const std::string& address, std::uint16
     endpoint.port(0);
     socket.bind(endpoint, error);
   }
-  if (error) throw TransportError(TransportError::Kind::failed, "no UDP at " + address + ": " + error.message());
+  if (error)
+    throw TransportError(TransportError::Kind::failed,
+                         "no UDP at " + address + ": " + error.message());
   server_port_ = socket.local_endpoint().port();
   server_ = File(socket.release());
   prepare_datagram_socket(server_.number(), settings_.use_offload);
@@ -101,20 +110,29 @@ void UdpTransport::Core::on_open(ConnectionId connection) {
   listener_->on_open(connection);
 }
 
-void UdpTransport::Core::on_close(ConnectionId connection, CloseReason reason, const std::string& detail) {
+void UdpTransport::Core::on_close(ConnectionId connection, CloseReason reason,
+                                  const std::string& detail) {
   has_told_ = true;
   push();  // what waits names the address that goes now
   const Way* way = find(connection);
-  const bool was_unanswered = way != nullptr && way->role == Way::Role::client && way->head_size == 0 && reason == CloseReason::closed_by_peer;
+  const bool was_unanswered = way != nullptr && way->role == Way::Role::client &&
+                              way->head_size == 0 && reason == CloseReason::closed_by_peer;
   if (way != nullptr) by_key_.erase(way->up_key);
   if (connection < ways_.size()) ways_[connection].reset();
-  // A server without UDP takes the request for nonsense, and that is all that can be seen of it from here.
-  listener_->on_close(connection, reason, was_unanswered ? detail + " without an answer to the request for datagrams: does the server use another transport than udp?" : detail);
+  // A server without UDP takes the request for nonsense, and that is all that can be seen of it
+  // from here.
+  listener_->on_close(connection, reason,
+                      was_unanswered ? detail +
+                                           " without an answer to the request for datagrams: does "
+                                           "the server use another transport than udp?"
+                                     : detail);
 }
 
 void UdpTransport::Core::on_bytes(ConnectionId connection, Bytes bytes) {
   const Way* way = find(connection);
-  const bool is_at_head = way != nullptr && (way->role == Way::Role::undecided || (way->role == Way::Role::client && way->head_size < greeting_size));
+  const bool is_at_head =
+      way != nullptr && (way->role == Way::Role::undecided ||
+                         (way->role == Way::Role::client && way->head_size < greeting_size));
   if (is_at_head) bytes = take_head(connection, bytes);
   if (!bytes.empty()) forward(connection, bytes);
 }
@@ -124,7 +142,8 @@ void UdpTransport::Core::forward(ConnectionId connection, Bytes bytes) {
   listener_->on_bytes(connection, bytes);
 }
 
-/// Takes what is ours of the stream's beginning and returns the rest. What turns out to be nobody's greeting is forwarded.
+/// Takes what is ours of the stream's beginning and returns the rest. What turns out to be nobody's
+/// greeting is forwarded.
 Bytes UdpTransport::Core::take_head(ConnectionId connection, Bytes bytes) {
   Way& way = *find(connection);
   const std::size_t wanted = way.role == Way::Role::client ? greeting_size : magic_size;
@@ -197,7 +216,8 @@ void UdpTransport::Core::open_socket(ConnectionId connection, Way& way) {
   way.down_key = get<std::uint64_t>(way.head, magic_size + 10);
   way.address = peer_of(tcp_.file(connection));
   way.address.set_port(get<std::uint16_t>(way.head, magic_size));
-  way.file = File(::socket(way.address.storage.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  way.file =
+      File(::socket(way.address.storage.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   // Connected, it hears of nobody but the server.
   if (!way.file || ::connect(way.file.number(), way.address.get(), way.address.size) != 0) {
     ++counters_.ways_failed;
@@ -227,7 +247,8 @@ void UdpTransport::Core::ask_again() {
   if (::read(timer_.number(), &expirations, sizeof expirations) != sizeof expirations) return;
   std::erase_if(asking_, [this](ConnectionId connection) {
     Way* way = find(connection);
-    if (way == nullptr || way->state == Way::State::open || way->state == Way::State::closed) return true;
+    if (way == nullptr || way->state == Way::State::open || way->state == Way::State::closed)
+      return true;
     if (++way->tries < tries_max) return ask(*way), false;
     way->state = Way::State::closed;
     ++counters_.ways_failed;
@@ -236,7 +257,8 @@ void UdpTransport::Core::ask_again() {
   if (!asking_.empty()) set_timer();
 }
 
-void UdpTransport::Core::tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce, std::size_t size) {
+void UdpTransport::Core::tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce,
+                              std::size_t size) {
   std::array<std::byte, payload_max> bytes{};
   std::byte* at = bytes.data();
   put(at, key);
@@ -244,7 +266,8 @@ void UdpTransport::Core::tell(const Way& way, Kind kind, std::uint64_t key, std:
   put(at, nonce);
   const Datagram whole{Bytes(bytes).first(size), {}};
   const bool is_client = way.role == Way::Role::client;
-  sender_.add(is_client ? way.file.number() : server_.number(), is_client ? nullptr : &way.address, {}, std::span(&whole, 1));
+  sender_.add(is_client ? way.file.number() : server_.number(), is_client ? nullptr : &way.address,
+              {}, std::span(&whole, 1));
   sender_.push();
 }
 
@@ -255,8 +278,10 @@ void UdpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportLi
   take_what_came();
   if (!has_told_ && longest_wait.count() > 0) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(longest_wait);
-    const timespec timeout{.tv_sec = static_cast<std::time_t>(seconds.count()), .tv_nsec = static_cast<long>((longest_wait - seconds).count())};
-    std::array<pollfd, 2> both{pollfd{.fd = tcp_.wait_file(), .events = POLLIN, .revents = 0}, pollfd{.fd = readiness_.file(), .events = POLLIN, .revents = 0}};
+    const timespec timeout{.tv_sec = static_cast<std::time_t>(seconds.count()),
+                           .tv_nsec = static_cast<long>((longest_wait - seconds).count())};
+    std::array<pollfd, 2> both{pollfd{.fd = tcp_.wait_file(), .events = POLLIN, .revents = 0},
+                               pollfd{.fd = readiness_.file(), .events = POLLIN, .revents = 0}};
     ::ppoll(both.data(), both.size(), &timeout, nullptr);
     take_what_came();
   }
@@ -273,10 +298,15 @@ void UdpTransport::Core::take_what_came() {
     if (event->number == timer_mark) {
       ask_again();
     } else if (event->number == server_mark) {
-      constexpr int batches_max = 256;  // then the next poll goes on: who sends without pause must not keep us
+      constexpr int batches_max =
+          256;  // then the next poll goes on: who sends without pause must not keep us
       for (int batch = 0; batch < batches_max; ++batch)
-        if (!reader_.read(server_.number(), [this](const SocketAddress& source, Bytes datagram) { take_from_client(source, datagram); })) break;
-    } else if (const auto connection = static_cast<ConnectionId>(event->number); Way* way = find(connection)) {
+        if (!reader_.read(server_.number(), [this](const SocketAddress& source, Bytes datagram) {
+              take_from_client(source, datagram);
+            }))
+          break;
+    } else if (const auto connection = static_cast<ConnectionId>(event->number);
+               Way* way = find(connection)) {
       reader_.read(way->file.number(), [&](const SocketAddress&, Bytes datagram) {
         if (Way* still = find(connection)) take_from_server(connection, *still, datagram);
       });
@@ -285,9 +315,11 @@ void UdpTransport::Core::take_what_came() {
 }
 
 void UdpTransport::Core::take_from_client(const SocketAddress& source, Bytes datagram) {
-  const auto known = datagram.size() < prefix_size ? by_key_.end() : by_key_.find(get<std::uint64_t>(datagram, 0));
+  const auto known =
+      datagram.size() < prefix_size ? by_key_.end() : by_key_.find(get<std::uint64_t>(datagram, 0));
   Way* way = known == by_key_.end() ? nullptr : find(known->second);
-  // Who knows the key but comes from elsewhere than the TCP connection would have us flood a stranger.
+  // Who knows the key but comes from elsewhere than the TCP connection would have us flood a
+  // stranger.
   if (way == nullptr || !way->address.is_same_host(source)) {
     ++counters_.stranger_datagrams;
     return;
@@ -297,15 +329,18 @@ void UdpTransport::Core::take_from_client(const SocketAddress& source, Bytes dat
   if (kind == Kind::hello && datagram.size() == payload_max && way->state != Way::State::open) {
     way->address = source;
     way->state = Way::State::hello;
-    return tell(*way, Kind::welcome, way->down_key, way->nonce, payload_max);  // no longer than the question
+    return tell(*way, Kind::welcome, way->down_key, way->nonce,
+                payload_max);  // no longer than the question
   }
-  const bool is_proven = datagram.size() == prefix_size + 8 && get<std::uint64_t>(datagram, prefix_size) == way->nonce;
+  const bool is_proven =
+      datagram.size() == prefix_size + 8 && get<std::uint64_t>(datagram, prefix_size) == way->nonce;
   if (kind == Kind::confirm && is_from_there && is_proven) {
     counters_.ways_opened += way->state == Way::State::open ? 0u : 1u;
     way->state = Way::State::open;
     return tell(*way, Kind::open, way->down_key, 0, prefix_size);
   }
-  if (kind == Kind::data && is_from_there && way->state == Way::State::open) return take_data(known->second, datagram);
+  if (kind == Kind::data && is_from_there && way->state == Way::State::open)
+    return take_data(known->second, datagram);
   ++counters_.stranger_datagrams;
 }
 
@@ -341,12 +376,15 @@ void UdpTransport::Core::take_data(ConnectionId connection, Bytes datagram) {
 std::size_t UdpTransport::Core::datagram_max(ConnectionId connection) const {
   const Way* way = find(connection);
   if (way == nullptr) return 0;
-  // A client expects datagrams as soon as it has proven its address; those that it sends before it knows that it has are lost.
-  const bool is_open = way->state == Way::State::open || (way->role == Way::Role::client && way->state == Way::State::confirm);
+  // A client expects datagrams as soon as it has proven its address; those that it sends before it
+  // knows that it has are lost.
+  const bool is_open = way->state == Way::State::open ||
+                       (way->role == Way::Role::client && way->state == Way::State::confirm);
   return is_open ? payload_max - prefix_size : 0;
 }
 
-void UdpTransport::Core::send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) {
+void UdpTransport::Core::send_datagrams(ConnectionId connection,
+                                        std::span<const Datagram> datagrams) {
   if (datagram_max(connection) == 0) return;
   const Way& way = *find(connection);
   const bool is_client = way.role == Way::Role::client;
@@ -357,7 +395,8 @@ void UdpTransport::Core::send_datagrams(ConnectionId connection, std::span<const
   Tally& tally = tallies_[connection];
   tally.datagrams_sent += datagrams.size();
   for (const Datagram& each : datagrams) tally.bytes_sent += each.head.size() + each.body.size();
-  sender_.add(is_client ? way.file.number() : server_.number(), is_client ? nullptr : &way.address, prefix, datagrams);
+  sender_.add(is_client ? way.file.number() : server_.number(), is_client ? nullptr : &way.address,
+              prefix, datagrams);
 }
 
 }  // namespace rink::rti

@@ -1,4 +1,5 @@
-// UDP beside TCP: the stream by TCP, datagrams by UDP, bound to each other so that nobody can inject or be flooded (docs/wire.md, "UDP beside TCP").
+// UDP beside TCP: the stream by TCP, datagrams by UDP, bound to each other so that nobody can
+// inject or be flooded (docs/wire.md, "UDP beside TCP").
 #pragma once
 
 #include <cstdint>
@@ -15,16 +16,19 @@ struct UdpSettings {
 };
 
 struct UdpCounters {
-  std::uint64_t ways_opened = 0;     ///< connections whose datagrams get through
-  std::uint64_t ways_failed = 0;     ///< connections whose datagrams never did, which have the stream only
-  std::uint64_t stranger_datagrams = 0;  ///< from nobody known, from a wrong address, or nonsense: ignored, never answered
+  std::uint64_t ways_opened = 0;  ///< connections whose datagrams get through
+  std::uint64_t ways_failed =
+      0;  ///< connections whose datagrams never did, which have the stream only
+  std::uint64_t stranger_datagrams =
+      0;  ///< from nobody known, from a wrong address, or nonsense: ignored, never answered
   std::uint64_t lost_datagrams = 0;  ///< that the operating system did not take
   std::uint64_t send_calls = 0;      ///< of the operating system, for datagrams
   bool uses_offload = false;         ///< the kernel cuts; false once it has refused
 };
 
-/// A TcpTransport whose connections have, after a round trip or two, a way for datagrams. Where UDP does not get through, the stream carries on alone. Clients
-/// of a plain TcpTransport may connect to it; a client of this one needs a server of this one.
+/// A TcpTransport whose connections have, after a round trip or two, a way for datagrams. Where UDP
+/// does not get through, the stream carries on alone. Clients of a plain TcpTransport may connect
+/// to it; a client of this one needs a server of this one.
 class UdpTransport final : public Transport {
  public:
   explicit UdpTransport(const UdpSettings& settings = {});

@@ -1,4 +1,5 @@
-// The inside of the UDP transport: its ways for datagrams and how they open; for its own sources only.
+// The inside of the UDP transport: its ways for datagrams and how they open; for its own sources
+// only.
 #pragma once
 
 #include <array>
@@ -34,7 +35,8 @@ class UdpTransport::Core final : private TransportListener {
   static constexpr std::size_t payload_max = 1200, prefix_size = 9;
   static constexpr std::size_t magic_size = 4, greeting_size = magic_size + 2 + 8 + 8;
 
-  /// One connection's datagrams. Of a server's, `undecided` until the client has asked for datagrams, which is the first thing that it says.
+  /// One connection's datagrams. Of a server's, `undecided` until the client has asked for
+  /// datagrams, which is the first thing that it says.
   struct Way {
     enum class Role : std::uint8_t { undecided, none, server, client };
     enum class State : std::uint8_t { closed, hello, confirm, open };
@@ -44,21 +46,26 @@ class UdpTransport::Core final : private TransportListener {
     std::array<std::byte, greeting_size> head{};  ///< of the stream, as far as it has come
     std::size_t head_size = 0;
     std::uint64_t up_key = 0, down_key = 0, nonce = 0;
-    SocketAddress address;                        ///< the other end's
-    std::vector<std::vector<std::byte>> held;     ///< writes of a server that must not come before its greeting
+    SocketAddress address;  ///< the other end's
+    std::vector<std::vector<std::byte>>
+        held;  ///< writes of a server that must not come before its greeting
     std::size_t held_bytes = 0;
-    File file;                                    ///< a client's own socket, connected
+    File file;  ///< a client's own socket, connected
   };
-  /// What the greeting adds to the stream, which is nobody's payload, and the datagrams of one connection.
+  /// What the greeting adds to the stream, which is nobody's payload, and the datagrams of one
+  /// connection.
   struct Tally {
-    std::uint64_t stream_sent = 0, stream_received = 0, datagrams_sent = 0, datagrams_received = 0, bytes_sent = 0, bytes_received = 0;
+    std::uint64_t stream_sent = 0, stream_received = 0, datagrams_sent = 0, datagrams_received = 0,
+                  bytes_sent = 0, bytes_received = 0;
   };
 
   void on_open(ConnectionId connection) override;
   void on_bytes(ConnectionId connection, Bytes bytes) override;
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
 
-  Way* find(ConnectionId connection) const { return connection < ways_.size() ? ways_[connection].get() : nullptr; }
+  Way* find(ConnectionId connection) const {
+    return connection < ways_.size() ? ways_[connection].get() : nullptr;
+  }
   Way& add(ConnectionId connection);
   Bytes take_head(ConnectionId connection, Bytes bytes);
   void let_go(ConnectionId connection, Way& way);
@@ -78,16 +85,17 @@ class UdpTransport::Core final : private TransportListener {
   TcpTransport tcp_;
   Readiness readiness_;
   File timer_;
-  File server_;                                              ///< the socket of all that connect to us
+  File server_;  ///< the socket of all that connect to us
   std::uint16_t server_port_ = 0;
-  std::vector<std::unique_ptr<Way>> ways_;                   ///< by connection; null once closed
-  std::vector<Tally> tallies_;                               ///< by connection
-  std::unordered_map<std::uint64_t, ConnectionId> by_key_;   ///< by what clients' datagrams begin with
-  std::vector<ConnectionId> asking_;                         ///< clients' ways that are not open yet
+  std::vector<std::unique_ptr<Way>> ways_;  ///< by connection; null once closed
+  std::vector<Tally> tallies_;              ///< by connection
+  std::unordered_map<std::uint64_t, ConnectionId>
+      by_key_;                        ///< by what clients' datagrams begin with
+  std::vector<ConnectionId> asking_;  ///< clients' ways that are not open yet
   DatagramSender sender_;
   DatagramReader reader_;
   UdpCounters counters_;
-  TransportListener* listener_ = nullptr;                    ///< while polling
+  TransportListener* listener_ = nullptr;  ///< while polling
   bool has_told_ = false;
 };
 

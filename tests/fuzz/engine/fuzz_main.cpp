@@ -13,7 +13,8 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   constexpr const char* option = "--harness=";
   for (int i = 1; i < *argc; ++i) {
     if (std::strncmp((*argv)[i], option, std::strlen(option)) != 0) continue;
-    for (const auto& list : {rink::fuzz::rti_harnesses(), rink::fuzz::game_harnesses(), rink::fuzz::im_harnesses()})
+    for (const auto& list :
+         {rink::fuzz::rti_harnesses(), rink::fuzz::game_harnesses(), rink::fuzz::im_harnesses()})
       for (const rink::fuzz::Harness& harness : list)
         if (std::strcmp(harness.name, (*argv)[i] + std::strlen(option)) == 0) chosen = &harness;
   }

@@ -1,4 +1,5 @@
-// Prints the state hashes of a few scenes that use all of the physics: the same text from every compiler and at every level of optimisation.
+// Prints the state hashes of a few scenes that use all of the physics: the same text from every
+// compiler and at every level of optimisation.
 #include <cinttypes>
 #include <cstdio>
 #include <vector>
@@ -13,13 +14,16 @@ using rink::game::RandomStream;
 
 Vector2 free_place(const auto& world, RandomStream& numbers, double reach) {
   for (;;) {
-    const double x = numbers.uniform(reach, 4.0 - reach), y = numbers.uniform(reach, 2.0 - reach);  // apart: the order of arguments is the compiler's
+    const double x = numbers.uniform(reach, 4.0 - reach),
+                 y = numbers.uniform(
+                     reach, 2.0 - reach);  // apart: the order of arguments is the compiler's
     const Vector2 place(x, y);
     if (world.is_free(place, reach)) return place;
   }
 }
 
-/// Pucks, posts and bats under random keys, with walls, goals, rest contacts and jams; half of the scenes with friction of the table, a third with rough surfaces.
+/// Pucks, posts and bats under random keys, with walls, goals, rest contacts and jams; half of the
+/// scenes with friction of the table, a third with rough surfaces.
 template <class AnyWorld>
 std::uint64_t play(std::uint64_t seed, double restitution, double drag) {
   WorldSpec spec;
@@ -28,12 +32,17 @@ std::uint64_t play(std::uint64_t seed, double restitution, double drag) {
   spec.puck_drag = drag;
   spec.bat_drag = 1.0;
   if (seed > 12) spec.puck_friction = 0.4;
-  if (seed % 3 == 1 && seed > 6) spec.surface_friction = SurfaceFriction{PairTable(1, 0.2), RestitutionTable(1, 0.3)};
+  if (seed % 3 == 1 && seed > 6)
+    spec.surface_friction = SurfaceFriction{PairTable(1, 0.2), RestitutionTable(1, 0.3)};
   AnyWorld world(spec);
   RandomStream numbers(seed);
   std::vector<BodyId> bats;
-  for (int i = 0; i < 3; ++i) world.add(PostSpec{.position = free_place(world, numbers, 0.1), .radius = numbers.uniform(0.02, 0.1)});
-  for (int i = 0; i < 5; ++i) bats.push_back(world.add(BatSpec{.position = free_place(world, numbers, 0.15), .half_extent = {0.04, 0.1}, .mass = 3.0}));
+  for (int i = 0; i < 3; ++i)
+    world.add(PostSpec{.position = free_place(world, numbers, 0.1),
+                       .radius = numbers.uniform(0.02, 0.1)});
+  for (int i = 0; i < 5; ++i)
+    bats.push_back(world.add(BatSpec{
+        .position = free_place(world, numbers, 0.15), .half_extent = {0.04, 0.1}, .mass = 3.0}));
   for (int i = 0; i < 50; ++i) {
     const Vector2 place = free_place(world, numbers, 0.04), direction = numbers.direction();
     const Vector2 velocity = direction * numbers.maxwell(1.5);
@@ -53,7 +62,11 @@ std::uint64_t play(std::uint64_t seed, double restitution, double drag) {
 
 int main() {
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
-    const double restitution = seed % 4 == 0 ? 0.0 : seed % 4 == 1 ? 1.0 : 0.3 * static_cast<double>(seed % 4), drag = seed % 3 == 0 ? 0.0 : 0.2;
-    std::printf("%2" PRIu64 " %016" PRIx64 " %016" PRIx64 "\n", seed, play<World>(seed, restitution, drag), play<ExtendedWorld>(seed, restitution, drag));
+    const double restitution = seed % 4 == 0   ? 0.0
+                               : seed % 4 == 1 ? 1.0
+                                               : 0.3 * static_cast<double>(seed % 4),
+                 drag = seed % 3 == 0 ? 0.0 : 0.2;
+    std::printf("%2" PRIu64 " %016" PRIx64 " %016" PRIx64 "\n", seed,
+                play<World>(seed, restitution, drag), play<ExtendedWorld>(seed, restitution, drag));
   }
 }

@@ -1,4 +1,5 @@
-// Uses an installed Rink as any other project would: a filter decides who sees whom, an object model is read and asked.
+// Uses an installed Rink as any other project would: a filter decides who sees whom, an object
+// model is read and asked.
 #include <cmath>
 #include <cstdio>
 
@@ -32,23 +33,27 @@ bool touching_regions_overlap() {
   filter->set_subscription_region(0, {0.0, 0.0, 5.0, 5.0});
   filter->set_update_region(7, {5.0, 5.0, 6.0, 6.0});
   const auto changes = filter->match();
-  return changes.size() == 1 && changes[0].entity == 7 && changes[0].transition == rink::im::Transition::entered;
+  return changes.size() == 1 && changes[0].entity == 7 &&
+         changes[0].transition == rink::im::Transition::entered;
 }
 
 /// A scheme of its own: ships are seen a third as far ahead as to the sides.
 bool is_abeam(const rink::im::Party& lookout, const rink::im::Party& ship) {
   const double x = 0.5 * (lookout.region.low_x + lookout.region.high_x);
-  return std::abs(0.5 * (ship.region.low_x + ship.region.high_x) - x) <= (lookout.region.high_x - lookout.region.low_x) / 6.0;
+  return std::abs(0.5 * (ship.region.low_x + ship.region.high_x) - x) <=
+         (lookout.region.high_x - lookout.region.low_x) / 6.0;
 }
 
 bool a_predicate_is_a_whole_scheme() {
-  rink::im::CheckedFilter filter(rink::im::make_predicate_filter({.world = {0.0, 0.0, 20.0, 20.0}}, &is_abeam), 100);
+  rink::im::CheckedFilter filter(
+      rink::im::make_predicate_filter({.world = {0.0, 0.0, 20.0, 20.0}}, &is_abeam), 100);
   filter.add_subscriber(0, {4.0, 4.0, 16.0, 16.0});
   filter.add_entity(1, {11.0, 15.0, 12.0, 16.0});
   filter.add_entity(2, {15.0, 10.0, 16.0, 11.0});
   const auto rejection = filter.add_entity(3, {1.0, 1.0, 0.0, 2.0});
   const auto changes = filter.match();
-  return changes.size() == 1 && changes[0].entity == 1 && rejection && rink::im::describe(*rejection) == "update region 3 is inverted: its low exceeds its high";
+  return changes.size() == 1 && changes[0].entity == 1 && rejection &&
+         rink::im::describe(*rejection) == "update region 3 is inverted: its low exceeds its high";
 }
 
 bool model_has_a_ship_with_a_position() {
@@ -60,7 +65,10 @@ bool model_has_a_ship_with_a_position() {
 class Lookout : public rink::rti::FederateAmbassador {
  public:
   std::size_t ships = 0;
-  void discover_object_instance(rink::rti::ObjectHandle, rink::rti::ObjectClassHandle, std::string_view) override { ++ships; }
+  void discover_object_instance(rink::rti::ObjectHandle, rink::rti::ObjectClassHandle,
+                                std::string_view) override {
+    ++ships;
+  }
 };
 
 /// Two federates, one federation, no game: what one registers, the other discovers.
@@ -76,7 +84,8 @@ bool a_lookout_discovers_a_ship() {
   rink::rti::FederateAmbassador nothing;
   Lookout lookout;
   Ambassador captain(fom, nothing), crew(fom, lookout);
-  rink::rti::FederateLink captains(captain, sea, sea.connect("rti")), crews(crew, sea, sea.connect("rti"));
+  rink::rti::FederateLink captains(captain, sea, sea.connect("rti")),
+      crews(crew, sea, sea.connect("rti"));
   rink::rti::FederateLinks links;
   links.add(captains);
   links.add(crews);
@@ -96,7 +105,8 @@ bool a_lookout_discovers_a_ship() {
   crew.subscribe_object_class_attributes(ship, fom.attributes(ship));
   exchange();
   const std::byte position[8] = {};
-  captain.update_attribute_values(captain.register_object_instance(ship, "Pequod"), fom.attributes(ship), position, {});
+  captain.update_attribute_values(captain.register_object_instance(ship, "Pequod"),
+                                  fom.attributes(ship), position, {});
   captains.flush(0.0);
   exchange();
   return lookout.ships == 1;

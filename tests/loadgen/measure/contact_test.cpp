@@ -35,14 +35,17 @@ physics::WorldSpec wide(double drag, double friction = 0.0) {
 /// How far a lone puck gets.
 double puck_path(const physics::WorldSpec& spec, double speed, double time_s) {
   physics::World world(spec);
-  const physics::BodyId puck = world.add(physics::PuckSpec{.position = middle, .velocity = speed * diagonal});
+  const physics::BodyId puck =
+      world.add(physics::PuckSpec{.position = middle, .velocity = speed * diagonal});
   world.advance(time_s);
   return (world.position(puck) - middle).norm();
 }
 /// How far a lone bat does.
-double bat_path(const physics::WorldSpec& spec, double speed, const Vector2& thrust, double time_s) {
+double bat_path(const physics::WorldSpec& spec, double speed, const Vector2& thrust,
+                double time_s) {
   physics::World world(spec);
-  const physics::BodyId bat = world.add(physics::BatSpec{.position = middle, .velocity = speed * diagonal});
+  const physics::BodyId bat =
+      world.add(physics::BatSpec{.position = middle, .velocity = speed * diagonal});
   world.set_thrust(bat, thrust);
   world.advance(time_s);
   return (world.position(bat) - middle).norm();
@@ -54,10 +57,12 @@ TEST(Reach, IsWhereAPuckGetsAndABatThatIsDrivenTheWayItMoves) {
     for (const double time_s : {0.1, 0.5, 3.0})
       for (const double speed : {0.0, 0.4, 5.0}) {
         for (const double friction : {0.0, 0.7})
-          EXPECT_NEAR(Reach(time_s, drag, friction).of(speed), puck_path(wide(drag, friction), speed, time_s), rounding)
+          EXPECT_NEAR(Reach(time_s, drag, friction).of(speed),
+                      puck_path(wide(drag, friction), speed, time_s), rounding)
               << drag << " " << time_s << " " << speed << " " << friction;
         const double farthest = Reach(time_s, drag, 0.0).of(speed, thrust);
-        EXPECT_NEAR(farthest, bat_path(wide(drag), speed, thrust * diagonal, time_s), rounding) << drag << " " << time_s << " " << speed;
+        EXPECT_NEAR(farthest, bat_path(wide(drag), speed, thrust * diagonal, time_s), rounding)
+            << drag << " " << time_s << " " << speed;
         for (const double angle : {0.0, 1.6, 3.1, 4.5}) {
           const Vector2 elsewhere(std::cos(angle), std::sin(angle));
           EXPECT_LE(bat_path(wide(drag), speed, thrust * elsewhere, time_s), farthest + rounding);
@@ -65,7 +70,9 @@ TEST(Reach, IsWhereAPuckGetsAndABatThatIsDrivenTheWayItMoves) {
       }
 }
 
-double depth_of(const Reaching& a, const Reaching& b) { return a.around + b.around - (a.centre - b.centre).norm(); }
+double depth_of(const Reaching& a, const Reaching& b) {
+  return a.around + b.around - (a.centre - b.centre).norm();
+}
 
 std::vector<Relevant> by_brute_force(const std::vector<Reaching>& bodies, const Reaching& own) {
   std::vector<Relevant> found;
@@ -81,14 +88,17 @@ std::vector<Relevant> by_brute_force(const std::vector<Reaching>& bodies, const 
   return found;
 }
 
-/// A few bodies are fast enough to cross half the field, but for the first seed, and some have left it.
+/// A few bodies are fast enough to cross half the field, but for the first seed, and some have left
+/// it.
 TEST(Encounters, FindWhatLookingAtEveryPairAndEveryPuckBetweenFinds) {
   for (const std::uint64_t seed : {3u, 4u, 5u}) {
     game::RandomStream random(seed);
     std::vector<Reaching> bodies;
     for (std::uint32_t i = 0; i < 120; ++i) {
-      const double around = seed != 3 && i % 40 == 0 ? random.uniform(1.0, 4.0) : random.uniform(0.2, 1.2);
-      bodies.push_back({i, {random.uniform(-1.0, 21.0), random.uniform(-1.0, 11.0)}, around, i % 4 != 0});
+      const double around =
+          seed != 3 && i % 40 == 0 ? random.uniform(1.0, 4.0) : random.uniform(0.2, 1.2);
+      bodies.push_back(
+          {i, {random.uniform(-1.0, 21.0), random.uniform(-1.0, 11.0)}, around, i % 4 != 0});
     }
     Encounters encounters(20.0, 10.0);
     encounters.build(std::vector<Reaching>(bodies.begin(), bodies.begin() + 60));
@@ -100,13 +110,17 @@ TEST(Encounters, FindWhatLookingAtEveryPairAndEveryPuckBetweenFinds) {
       encounters.find(own.entity, found);
       ASSERT_EQ(found.size(), expected.size()) << "around " << own.entity << ", seed " << seed;
       for (std::size_t i = 0; i < found.size(); ++i) {
-        ASSERT_EQ(found[i].entity, expected[i].entity) << "around " << own.entity << ", seed " << seed;
+        ASSERT_EQ(found[i].entity, expected[i].entity)
+            << "around " << own.entity << ", seed " << seed;
         const Encounters::Way way = encounters.way(own.entity, found[i].entity);
         ASSERT_NEAR(way.depth, expected[i].depth, 1e-12);
         if (!way.via) continue;
         ++through_pucks;
         ASSERT_TRUE(bodies[*way.via].is_puck);
-        ASSERT_NEAR(way.depth, std::min(depth_of(own, bodies[*way.via]), depth_of(bodies[*way.via], bodies[found[i].entity])), 1e-12);
+        ASSERT_NEAR(way.depth,
+                    std::min(depth_of(own, bodies[*way.via]),
+                             depth_of(bodies[*way.via], bodies[found[i].entity])),
+                    1e-12);
       }
     }
     EXPECT_GT(through_pucks, 200u) << "or the test shows nothing";
@@ -150,7 +164,8 @@ class PlayedCrowd {
       game.advance(std::max(game.now(), time - 1e-9));
       for (; last < events_.size() && events_[last].time == time; ++last) {
         before[events_[last].body.index] = game.velocity(events_[last].body).norm();
-        if (events_[last].other) before[events_[last].other->index] = game.velocity(*events_[last].other).norm();
+        if (events_[last].other)
+          before[events_[last].other->index] = game.velocity(*events_[last].other).norm();
       }
       game.advance(time);
       for (const auto& [body, speed] : before)
@@ -168,16 +183,21 @@ class PlayedCrowd {
 class Aftermath {
  public:
   struct Counts {
-    std::uint64_t contacts = 0, relevant = 0;                          ///< of bats, with whom ever
-    std::uint64_t strikes = 0, strikes_relevant = 0;                   ///< others' meetings with a puck that then met the bat
-    std::uint64_t first_contacts = 0, through_pucks = 0, broken = 0;  ///< of which there is a promise, and how often it was broken
+    std::uint64_t contacts = 0, relevant = 0;  ///< of bats, with whom ever
+    std::uint64_t strikes = 0,
+                  strikes_relevant = 0;  ///< others' meetings with a puck that then met the bat
+    std::uint64_t first_contacts = 0, through_pucks = 0,
+                  broken = 0;  ///< of which there is a promise, and how often it was broken
     std::uint64_t pairs = 0, of_pairs = 0;
   };
 
-  Aftermath(const PlayedCrowd& crowd, const game::Game& then, Replay& replay, Counts& counts) : counts_(counts), now_(then.now()) {
+  Aftermath(const PlayedCrowd& crowd, const game::Game& then, Replay& replay, Counts& counts)
+      : counts_(counts), now_(then.now()) {
     const physics::World& world = then.world();
-    touched_.resize(world.body_count()), struck_by_.resize(world.body_count()), strikers_.resize(world.body_count());
-    for (std::uint32_t body = 0; body < world.body_count(); ++body) touched_[body] = world.is_held({body}) || !world.is_in_play({body}) ? 1u : 0u;
+    touched_.resize(world.body_count()), struck_by_.resize(world.body_count()),
+        strikers_.resize(world.body_count());
+    for (std::uint32_t body = 0; body < world.body_count(); ++body)
+      touched_[body] = world.is_held({body}) || !world.is_in_play({body}) ? 1u : 0u;
     for (const game::Entity& entity : then.entities()) {
       if (entity.kind == physics::BodyKind::puck) pucks_.insert(entity.id.index);
       if (entity.kind != physics::BodyKind::bat) continue;
@@ -195,7 +215,8 @@ class Aftermath {
   void judge(const PlayedCrowd& crowd, const physics::Event& event) {
     const std::uint32_t a = event.body.index;
     if (!event.other) {
-      if (event.kind == physics::EventKind::goal || event.kind > physics::EventKind::thrust) ++touched_[a];
+      if (event.kind == physics::EventKind::goal || event.kind > physics::EventKind::thrust)
+        ++touched_[a];
       return;
     }
     const std::uint32_t b = event.other->index;
@@ -208,7 +229,8 @@ class Aftermath {
   /// `puck` met `other`, both for the first time, and is no faster for it.
   void note_strike(const PlayedCrowd& crowd, std::uint32_t puck, std::uint32_t other, double time) {
     strikers_[puck].insert(other);
-    if (touched_[puck] == 0 && touched_[other] == 0 && !crowd.is_sped_up(puck, time)) struck_by_[puck] = other;
+    if (touched_[puck] == 0 && touched_[other] == 0 && !crowd.is_sped_up(puck, time))
+      struck_by_[puck] = other;
   }
 
   void meet(std::uint32_t bat, std::uint32_t other) {
@@ -230,13 +252,15 @@ class Aftermath {
       expect(relevant->second, other), expect(relevant->second, *struck_by_[other]);
     }
   }
-  void expect(const std::set<std::uint32_t>& relevant, std::uint32_t entity) { counts_.broken += relevant.contains(entity) ? 0u : 1u; }
+  void expect(const std::set<std::uint32_t>& relevant, std::uint32_t entity) {
+    counts_.broken += relevant.contains(entity) ? 0u : 1u;
+  }
 
   Counts& counts_;
   double now_;
-  std::vector<std::uint32_t> touched_;  ///< how often since the look, by body
-  std::vector<std::optional<std::uint32_t>> struck_by_;     ///< likewise, see note_strike
-  std::vector<std::set<std::uint32_t>> strikers_;              ///< all it met since
+  std::vector<std::uint32_t> touched_;                   ///< how often since the look, by body
+  std::vector<std::optional<std::uint32_t>> struck_by_;  ///< likewise, see note_strike
+  std::vector<std::set<std::uint32_t>> strikers_;        ///< all it met since
   std::set<std::uint32_t> pucks_;
   std::map<std::uint32_t, std::set<std::uint32_t>> relevant_;  ///< by bat
 };
@@ -252,7 +276,8 @@ TEST(RelevanceByContact, HeldAtEveryLookWhateverThenMetTheBatFirstOrAPuckThatMet
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     const PlayedCrowd crowd(seed);
     game::Game game = crowd.played();
-    Replay replay(crowd.evidence(), {.shape = RelevanceArea::Shape::contact, .contact_s = PlayedCrowd::contact_s});
+    Replay replay(crowd.evidence(),
+                  {.shape = RelevanceArea::Shape::contact, .contact_s = PlayedCrowd::contact_s});
     for (double now = 0.05; now + PlayedCrowd::contact_s < PlayedCrowd::played_s; now += 0.05) {
       game.advance(now);
       replay.advance(now);
@@ -260,18 +285,25 @@ TEST(RelevanceByContact, HeldAtEveryLookWhateverThenMetTheBatFirstOrAPuckThatMet
       Aftermath(crowd, game, replay, counts);
     }
   }
-  EXPECT_EQ(counts.broken, 0u) << "of " << counts.first_contacts << " first contacts and " << counts.through_pucks << " by way of a puck";
+  EXPECT_EQ(counts.broken, 0u) << "of " << counts.first_contacts << " first contacts and "
+                               << counts.through_pucks << " by way of a puck";
   EXPECT_GT(counts.first_contacts, 1'000u);
   EXPECT_GT(counts.through_pucks, 100u);
   EXPECT_GT(counts.strikes, 2'000u);
-  const double contacts_missed = static_cast<double>(counts.contacts - counts.relevant) / static_cast<double>(counts.contacts);
-  const double strikes_missed = static_cast<double>(counts.strikes - counts.strikes_relevant) / static_cast<double>(counts.strikes);
+  const double contacts_missed =
+      static_cast<double>(counts.contacts - counts.relevant) / static_cast<double>(counts.contacts);
+  const double strikes_missed = static_cast<double>(counts.strikes - counts.strikes_relevant) /
+                                static_cast<double>(counts.strikes);
   const std::string document = test::text_of(test::source_folder() + "/docs/metrics.md");
   EXPECT_EQ(counts.relevant, counts.contacts);
   EXPECT_EQ(counts.strikes_relevant, counts.strikes);
-  EXPECT_THAT(document, testing::HasSubstr("all of " + with_commas(counts.contacts) + " contacts of bats within 0.5 s of a look were with somebody relevant at the look, and so were all of " +
-                                           with_commas(counts.strikes) + " who had met the puck before"));
-  EXPECT_LE(contacts_missed, 1e-3) << "those set off by others included, of which there is no promise";
+  EXPECT_THAT(document,
+              testing::HasSubstr("all of " + with_commas(counts.contacts) +
+                                 " contacts of bats within 0.5 s of a look were with somebody "
+                                 "relevant at the look, and so were all of " +
+                                 with_commas(counts.strikes) + " who had met the puck before"));
+  EXPECT_LE(contacts_missed, 1e-3)
+      << "those set off by others included, of which there is no promise";
   EXPECT_LE(strikes_missed, 1e-3) << "likewise";
   const double share = static_cast<double>(counts.pairs) / static_cast<double>(counts.of_pairs);
   EXPECT_LT(share, 0.5) << "or all are relevant to all";
@@ -295,15 +327,22 @@ TEST(RelevanceByContact, OfACrowdHasAsManyRelevantAsTheDocumentSays) {
       replay.advance(0.1 * look);
       replay.look_around();
       std::vector<Relevant> found;
-      for (std::uint32_t player = 0; player < players; ++player) replay.find(*replay.bat_of(player), found), pairs += found.size();
+      for (std::uint32_t player = 0; player < players; ++player)
+        replay.find(*replay.bat_of(player), found), pairs += found.size();
     }
     return std::to_string(std::lround(static_cast<double>(pairs) / 30.0 / players));
   };
-  const auto by_contact = [&](double contact_s) { return relevant({.shape = RelevanceArea::Shape::contact, .contact_s = contact_s}); };
-  const double half_side = 0.5 * std::sqrt(0.05 * scene.world.field.length * scene.world.field.width);
-  EXPECT_THAT(test::text_of(test::source_folder() + "/docs/metrics.md"),
-              testing::HasSubstr(by_contact(0.5) + " entities are relevant to a player within 0.5 s, " + by_contact(0.25) + " within 0.25 s, and " +
-                                 relevant({.shape = RelevanceArea::Shape::square, .reach = half_side}) + " by a rectangle of 5 % of the field"));
+  const auto by_contact = [&](double contact_s) {
+    return relevant({.shape = RelevanceArea::Shape::contact, .contact_s = contact_s});
+  };
+  const double half_side =
+      0.5 * std::sqrt(0.05 * scene.world.field.length * scene.world.field.width);
+  EXPECT_THAT(
+      test::text_of(test::source_folder() + "/docs/metrics.md"),
+      testing::HasSubstr(by_contact(0.5) + " entities are relevant to a player within 0.5 s, " +
+                         by_contact(0.25) + " within 0.25 s, and " +
+                         relevant({.shape = RelevanceArea::Shape::square, .reach = half_side}) +
+                         " by a rectangle of 5 % of the field"));
 }
 
 }  // namespace

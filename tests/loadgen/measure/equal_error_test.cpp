@@ -1,4 +1,5 @@
-// Rivals at equal displayed error and recall: curves with closed forms, of which the bytes at any error and recall are known.
+// Rivals at equal displayed error and recall: curves with closed forms, of which the bytes at any
+// error and recall are known.
 #include "loadgen/measure/equal_error.h"
 
 #include <gmock/gmock.h>
@@ -20,12 +21,19 @@ using testing::Not;
 using testing::Pair;
 using End = AtEqualError::End;
 
-/// A policy that sends `scale` error^-power at the recall that no margin gives, and e^(2 margin) times that with a margin, by which the missed part of .02 falls linearly to .001.
+/// A policy that sends `scale` error^-power at the recall that no margin gives, and e^(2 margin)
+/// times that with a margin, by which the missed part of .02 falls linearly to .001.
 struct Law {
   double scale, power;
   RivalPoint at(double rate_hz, double error_mm, double margin) const {
     const double bytes = scale * std::pow(error_mm, -power) * std::exp(2.0 * margin);
-    return {.setting_rate_hz = rate_hz, .setting_threshold = 0.0, .margin = margin, .recall = 0.98 + 0.019 * margin, .error_mm = error_mm, .payload = bytes, .wire = 3.0 * bytes};
+    return {.setting_rate_hz = rate_hz,
+            .setting_threshold = 0.0,
+            .margin = margin,
+            .recall = 0.98 + 0.019 * margin,
+            .error_mm = error_mm,
+            .payload = bytes,
+            .wire = 3.0 * bytes};
   }
   std::vector<RivalPoint> curve() const {
     std::vector<RivalPoint> points;
@@ -39,7 +47,8 @@ TEST(EqualError, IsExactOnAPowerLawWhereverItIsAskedFor) {
   const Law law{5'000.0, 0.7};
   std::mt19937 random(1);
   for (int i = 0; i < 200; ++i) {
-    const double error_mm = std::uniform_real_distribution(1.4, 12.0)(random), margin = std::uniform_real_distribution(0.0, 1.0)(random);
+    const double error_mm = std::uniform_real_distribution(1.4, 12.0)(random),
+                 margin = std::uniform_real_distribution(0.0, 1.0)(random);
     const AtEqualError there = at_equal_error(law.curve(), 0.98 + 0.019 * margin, error_mm);
     ASSERT_EQ(there.payload_end, End::bracketed);
     const RivalPoint exact = law.at(0.0, error_mm, margin);
@@ -75,7 +84,8 @@ TEST(EqualError, SaysOnWhichSideOfTheErrorNothingWasRun) {
   EXPECT_EQ(at_equal_error({}, 0.9, 5.0).payload_end, End::not_reached);
   const AtEqualError coarser = at_equal_error(law.curve(), 0.98, 20.0);
   EXPECT_EQ(coarser.payload_end, End::not_left);
-  EXPECT_NEAR(coarser.payload, law.at(0.0, 12.0, 0.0).payload, 1e-9) << "its cheapest: no more than an upper bound";
+  EXPECT_NEAR(coarser.payload, law.at(0.0, 12.0, 0.0).payload, 1e-9)
+      << "its cheapest: no more than an upper bound";
 }
 
 TEST(EqualError, HasAnEndForPayloadAndOneForTheWire) {
@@ -110,7 +120,8 @@ class EqualErrorOfRuns : public testing::Test {
   EqualErrorOfRuns() {
     experiment_.name = "e", experiment_.scene = "crowd";
     Experiment part = experiment_;
-    part.part = "curves", part.is_of_curves = true, part.tick_rates_hz = {30.0, 10.0, 20.0, 60.0, 90.0};
+    part.part = "curves", part.is_of_curves = true,
+    part.tick_rates_hz = {30.0, 10.0, 20.0, 60.0, 90.0};
     experiment_.parts = {part, experiment_};
     experiment_.parts[1].part = "rows";
   }
@@ -119,12 +130,19 @@ class EqualErrorOfRuns : public testing::Test {
   void add(const std::string& policy, const Law& law, const std::string& part = "curves") {
     for (const std::uint64_t seed : {1u, 2u, 3u})
       for (const RivalPoint& point : law.curve()) {
-        Cell cell{.mode = "client-server", .scheme = "region", .policy = policy, .clients = 32, .seed = seed};
-        cell.parameters.tick_rate_hz = point.setting_rate_hz, cell.parameters.view_margin = point.margin, cell.part = part;
+        Cell cell{.mode = "client-server",
+                  .scheme = "region",
+                  .policy = policy,
+                  .clients = 32,
+                  .seed = seed};
+        cell.parameters.tick_rate_hz = point.setting_rate_hz,
+        cell.parameters.view_margin = point.margin, cell.part = part;
         RunRecord& run = runs_.emplace_back(record_for(experiment_, cell));
         run.valid = true;
-        run.truth.delivered_recall = point.recall, run.truth.displayed_error_mm.rms = point.error_mm;
-        run.down_bytes_per_client_per_s = static_cast<double>(seed) * point.payload, run.wire_bytes_per_client_per_s = static_cast<double>(seed) * point.wire;
+        run.truth.delivered_recall = point.recall,
+        run.truth.displayed_error_mm.rms = point.error_mm;
+        run.down_bytes_per_client_per_s = static_cast<double>(seed) * point.payload,
+        run.wire_bytes_per_client_per_s = static_cast<double>(seed) * point.wire;
       }
   }
 
@@ -145,11 +163,13 @@ TEST_F(EqualErrorOfRuns, AreRatiosPairedBySeedWithTheBestRivalFirst) {
     EXPECT_NEAR(each.rivals[0].payload.value().value, 2.5, 1e-12);
     EXPECT_NEAR(each.rivals[1].wire.value().value, 4.0, 1e-12);
     EXPECT_EQ(each.rivals[1].payload->pairs, 3u);
-    EXPECT_NEAR(each.rivals[1].payload->interval.value().low, 4.0, 1e-9) << "what is particular to a game cancels";
+    EXPECT_NEAR(each.rivals[1].payload->interval.value().low, 4.0, 1e-9)
+        << "what is particular to a game cancels";
   }
   EXPECT_NEAR(compared[0].recall, 0.98, 1e-12);
   EXPECT_NEAR(compared[1].recall, equal_recall, 1e-12);
-  EXPECT_THAT(equal_error_table(compared), HasSubstr("dead-reckoning       payload 2.50 [2.50, 2.50]"));
+  EXPECT_THAT(equal_error_table(compared),
+              HasSubstr("dead-reckoning       payload 2.50 [2.50, 2.50]"));
   EXPECT_THAT(to_csv(compared), HasSubstr(",snapshot,5,bracketed,"));
 }
 
@@ -178,9 +198,9 @@ TEST_F(EqualErrorOfRuns, MarkAnIntervalThatHoldsOneAsNoSignificantDifference) {
               AllOf(ContainsRegex("snapshot +payload [0-9.]+ \\[0[^]]*\\] ~"),
                     ContainsRegex("dead-reckoning +payload 2.50 \\[2.50, 2.50\\]  "),
                     HasSubstr("~: no significant difference, the interval contains 1\n")));
-  EXPECT_THAT(to_csv(compared), AllOf(HasSubstr(",payload_difference,wire_difference\n"),
-                                      HasSubstr(",no significant difference,"),
-                                      HasSubstr(",higher,higher\n")));
+  EXPECT_THAT(to_csv(compared),
+              AllOf(HasSubstr(",payload_difference,wire_difference\n"),
+                    HasSubstr(",no significant difference,"), HasSubstr(",higher,higher\n")));
   const std::string html = equal_error_exhibit(experiment_, runs_, compared).html;
   EXPECT_THAT(html, ContainsRegex("snapshot</td>.*\\), no significant difference</td>"));
 }
@@ -226,7 +246,8 @@ TEST_F(EqualErrorOfRuns, NameARivalThatNeverGetsSoCloseWithoutARatio) {
   add("on-event", {1'000.0, 0.5});
   add("snapshot", {4'000.0, 0.5});
   for (RunRecord& run : runs_)
-    if (run.cell.policy == "snapshot") run.truth.displayed_error_mm.rms = 100.0 * *run.truth.displayed_error_mm.rms;
+    if (run.cell.policy == "snapshot")
+      run.truth.displayed_error_mm.rms = 100.0 * *run.truth.displayed_error_mm.rms;
   const auto compared = equal_errors_of(experiment_, runs_);
   EXPECT_FALSE(compared.front().rivals.front().payload);
   EXPECT_THAT(equal_error_table(compared), HasSubstr("never so small an error with this recall"));

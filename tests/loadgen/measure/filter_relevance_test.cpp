@@ -1,4 +1,5 @@
-// Relevance by an expression: against the shapes that say the same, against brute force, and as sets of what its parts say.
+// Relevance by an expression: against the shapes that say the same, against brute force, and as
+// sets of what its parts say.
 #include "loadgen/measure/truth/filter_relevance.h"
 
 #include <gtest/gtest.h>
@@ -58,23 +59,28 @@ std::vector<Entities> relevant_by(const game::ServerEvidence& evidence, const Re
   }
   return all;
 }
-std::vector<Entities> relevant_by(const game::ServerEvidence& evidence, const std::string& expression) {
-  return relevant_by(evidence, {.shape = RelevanceArea::Shape::filter, .reach = reach, .expression = expression});
+std::vector<Entities> relevant_by(const game::ServerEvidence& evidence,
+                                  const std::string& expression) {
+  return relevant_by(
+      evidence, {.shape = RelevanceArea::Shape::filter, .reach = reach, .expression = expression});
 }
 
 TEST(FilterRelevance, RegionFindsWhomTheRectangleFinds) {
   for (const std::uint64_t seed : {1u, 2u}) {
     const game::ServerEvidence evidence = crowd(seed);
     const auto found = relevant_by(evidence, "region");
-    EXPECT_EQ(found, relevant_by(evidence, {RelevanceArea::Shape::square, reach})) << "seed " << seed;
-    EXPECT_TRUE(std::ranges::any_of(found, [](const Entities& each) { return each.size() > 3; })) << "or the test shows nothing";
+    EXPECT_EQ(found, relevant_by(evidence, {RelevanceArea::Shape::square, reach}))
+        << "seed " << seed;
+    EXPECT_TRUE(std::ranges::any_of(found, [](const Entities& each) { return each.size() > 3; }))
+        << "or the test shows nothing";
   }
 }
 
 /// With half sides h, the nearest point of the box is (max(|x| - h_x, 0), max(|y| - h_y, 0)) off.
 TEST(FilterRelevance, AuraFindsWhoseBoxComesWithinTheDiscAndHoldsTheDiscOfCentres) {
   const game::ServerEvidence evidence = crowd(3);
-  const auto found = relevant_by(evidence, "aura"), by_centre = relevant_by(evidence, {RelevanceArea::Shape::disc, reach});
+  const auto found = relevant_by(evidence, "aura"),
+             by_centre = relevant_by(evidence, {RelevanceArea::Shape::disc, reach});
   std::vector<Entities> expected;
   Replay replay(evidence, {});
   for (const double now : {0.05, 0.3, 0.31, 0.9}) {
@@ -86,22 +92,28 @@ TEST(FilterRelevance, AuraFindsWhoseBoxComesWithinTheDiscAndHoldsTheDiscOfCentre
       expected.emplace_back();
       for (std::uint32_t entity = 0; entity < 1000; ++entity) {
         if (!replay.is_there(entity) || entity == own) continue;
-        const Vector2 off = ((replay.centre(entity) - replay.centre(own)).cwiseAbs() - replay.half_extent(entity)).cwiseMax(0.0);
+        const Vector2 off =
+            ((replay.centre(entity) - replay.centre(own)).cwiseAbs() - replay.half_extent(entity))
+                .cwiseMax(0.0);
         if (off.norm() <= reach) expected.back().push_back(entity);
       }
     }
   }
   EXPECT_EQ(found, expected);
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(std::ranges::includes(found[i], by_centre[i]));
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_TRUE(std::ranges::includes(found[i], by_centre[i]));
 }
 
 TEST(FilterRelevance, ACompositionFindsTheSetThatItsPartsFindTogether) {
   const game::ServerEvidence evidence = crowd(4);
   const auto everybody = relevant_by(evidence, "none");
-  for (const auto& [a, b] : {std::pair{"region", "aura"}, {"grid(cell_size=0.7)", "team"}, {"hex", "always"}}) {
+  for (const auto& [a, b] :
+       {std::pair{"region", "aura"}, {"grid(cell_size=0.7)", "team"}, {"hex", "always"}}) {
     const auto in_a = relevant_by(evidence, a), in_b = relevant_by(evidence, b);
     const std::string first = a, second = b;
-    const auto both = relevant_by(evidence, first + " and " + second), either = relevant_by(evidence, first + " or " + second), without = relevant_by(evidence, first + " and not " + second),
+    const auto both = relevant_by(evidence, first + " and " + second),
+               either = relevant_by(evidence, first + " or " + second),
+               without = relevant_by(evidence, first + " and not " + second),
                outside = relevant_by(evidence, "not " + first);
     for (std::size_t i = 0; i < in_a.size(); ++i) {
       Entities expected;
@@ -126,11 +138,13 @@ TEST(FilterRelevance, WhoIsAlwaysRelevantIsOfTheKindsThatAreSaid) {
   area.always_by_role.add(physics::BodyKind::bat);
   std::vector<std::size_t> bats, expected;
   for (const Entities& found : relevant_by(evidence, area)) bats.push_back(found.size() + 1);
-  for (const std::size_t there : {players, players - 2, players - 1, players - 1}) expected.insert(expected.end(), there, there);
+  for (const std::size_t there : {players, players - 2, players - 1, players - 1})
+    expected.insert(expected.end(), there, there);
   EXPECT_EQ(bats, expected) << "the own bat is in no set, and who has gone is in none";
 }
 
-/// Pushed to the right during the warm-up, then at rest to the last bit: after 2 s of a drag of 20/s some 1e-18 m are left to go. Two pucks lie as far to its right and to its left.
+/// Pushed to the right during the warm-up, then at rest to the last bit: after 2 s of a drag of
+/// 20/s some 1e-18 m are left to go. Two pucks lie as far to its right and to its left.
 class LookingBat : public testing::Test {
  protected:
   static constexpr std::uint32_t bat = 0, right = 1, left = 2;
@@ -167,7 +181,9 @@ material = "ice"
     server_.rate_hz = 10.0;
     server_.from_s = 3.9, server_.until_s = server_.end_s = until_s;
     for (std::uint32_t body = 0; body < 3; ++body) server_.objects.push_back({100 + body, body});
-    server_.keys = {{.time = 0.5, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}, {.time = 0.6, .player = 0, .kind = game::InputKind::key_up, .key = game::Key::right}};
+    server_.keys = {
+        {.time = 0.5, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right},
+        {.time = 0.6, .player = 0, .kind = game::InputKind::key_up, .key = game::Key::right}};
     bots_.clients = 1;
     bots_.until_s = until_s;
     bots_.bots.push_back({100 + bat, {{-1.0, 100 + bat, true}}});
@@ -177,7 +193,8 @@ material = "ice"
     for (const game::InputEvent& key : server_.keys) game.submit(key);
     game.advance(server_.end_s);
     server_.state_hash = game.hash();
-    return truth_of(server_, bots_, {.shape = RelevanceArea::Shape::filter, .reach = 1.5, .expression = "cone"});
+    return truth_of(server_, bots_,
+                    {.shape = RelevanceArea::Shape::filter, .reach = 1.5, .expression = "cone"});
   }
   void decide(double instant_s) {
     const std::size_t first = server_.in_scope.size();
@@ -198,7 +215,8 @@ TEST_F(LookingBat, SeesWhereItLastWentBeforeTheMeasuredSpanBegan) {
 }
 
 TEST_F(LookingBat, SeesWhereItsKeysPushIt) {
-  server_.keys.push_back({.time = 3.95, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::left});
+  server_.keys.push_back(
+      {.time = 3.95, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::left});
   decide(3.94), decide(3.96);
   const TruthFigures truth = judged();
   EXPECT_DOUBLE_EQ(truth.filter_precision.value_or(-1.0), 0.5);

@@ -1,4 +1,5 @@
-// The generator's own health: the functions that judge runs, fed by the real filters on uniform points in straight motion, give the closed forms of the literature.
+// The generator's own health: the functions that judge runs, fed by the real filters on uniform
+// points in straight motion, give the closed forms of the literature.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,40 +9,53 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/loadgen/measure/areas.h"
 #include "game/model/random_stream.h"
 #include "im/filter.h"
 #include "loadgen/measure/truth/classification.h"
 #include "loadgen/measure/truth/scope_history.h"
 #include "loadgen/measure/truth/surroundings.h"
+#include "tests/loadgen/measure/areas.h"
 
 namespace rink::loadgen {
 namespace {
 
 using std::numbers::pi;
 
-constexpr double R = interest_radius; // the interest radius [m]
-constexpr double side = 24.0;    // of the box in which the points are [m]; observers stay farther from its border than anything they ask about
-constexpr double density = 60.0; // points per m^2
-constexpr double speed = 1.0;    // of points and observers [m/s]
-constexpr double relative_speed = 4.0 / pi * speed;  // mean, for two equal speeds in independent uniform directions
-constexpr std::uint32_t observer_count = 1'200;  // with a third of them their own directions alone move the churn by 1 %
+constexpr double R = interest_radius;  // the interest radius [m]
+constexpr double side = 24.0;     // of the box in which the points are [m]; observers stay farther
+                                  // from its border than anything they ask about
+constexpr double density = 60.0;  // points per m^2
+constexpr double speed = 1.0;     // of points and observers [m/s]
+constexpr double relative_speed =
+    4.0 / pi * speed;  // mean, for two equal speeds in independent uniform directions
+constexpr std::uint32_t observer_count =
+    1'200;  // with a third of them their own directions alone move the churn by 1 %
 
 /// Points and observers that fly straight; points number from 0.
 class Gas {
  public:
   Gas() : random_(20'260) {
     const auto count = static_cast<std::uint32_t>(density * side * side);
-    for (std::uint32_t i = 0; i < count; ++i) points_.push_back({{random_.uniform(0.0, side), random_.uniform(0.0, side)}, speed * random_.direction()});
+    for (std::uint32_t i = 0; i < count; ++i)
+      points_.push_back(
+          {{random_.uniform(0.0, side), random_.uniform(0.0, side)}, speed * random_.direction()});
     constexpr double margin = 5.0;
-    for (std::uint32_t i = 0; i < observer_count; ++i) observers_.push_back({{random_.uniform(margin, side - margin), random_.uniform(margin, side - margin)}, speed * random_.direction()});
+    for (std::uint32_t i = 0; i < observer_count; ++i)
+      observers_.push_back(
+          {{random_.uniform(margin, side - margin), random_.uniform(margin, side - margin)},
+           speed * random_.direction()});
   }
   std::uint32_t point_count() const { return static_cast<std::uint32_t>(points_.size()); }
-  Vector2 point(std::uint32_t i, double time) const { return points_[i].start + time * points_[i].velocity; }
-  Vector2 observer(std::uint32_t i, double time) const { return observers_[i].start + time * observers_[i].velocity; }
+  Vector2 point(std::uint32_t i, double time) const {
+    return points_[i].start + time * points_[i].velocity;
+  }
+  Vector2 observer(std::uint32_t i, double time) const {
+    return observers_[i].start + time * observers_[i].velocity;
+  }
   std::vector<Placed> placed(double time) const {
     std::vector<Placed> all;
-    for (std::uint32_t i = 0; i < point_count(); ++i) all.push_back({i, point(i, time), Vector2(0.0, 0.0)});
+    for (std::uint32_t i = 0; i < point_count(); ++i)
+      all.push_back({i, point(i, time), Vector2(0.0, 0.0)});
     return all;
   }
 
@@ -53,11 +67,15 @@ class Gas {
   std::vector<Body> points_, observers_;
 };
 
-/// One of the real filters, told where everything is at an instant; observers subscribe to the square of half side `reach`.
+/// One of the real filters, told where everything is at an instant; observers subscribe to the
+/// square of half side `reach`.
 class Decisions {
  public:
   Decisions(const Gas& gas, const std::string& scheme, double reach, double cell_size = 0.0)
-      : gas_(gas), reach_(reach), filter_(im::make_filter(scheme, {.world = {0.0, 0.0, side, side}, .cell_size = cell_size})), steps_(observer_count) {}
+      : gas_(gas),
+        reach_(reach),
+        filter_(im::make_filter(scheme, {.world = {0.0, 0.0, side, side}, .cell_size = cell_size})),
+        steps_(observer_count) {}
 
   void match(double time) {
     for (std::uint32_t i = 0; i < gas_.point_count(); ++i) {
@@ -66,9 +84,12 @@ class Decisions {
     }
     for (std::uint32_t i = 0; i < observer_count; ++i) {
       const Vector2 at = gas_.observer(i, time);
-      filter_->set_subscription_region(i, {at.x() - reach_, at.y() - reach_, at.x() + reach_, at.y() + reach_});
+      filter_->set_subscription_region(
+          i, {at.x() - reach_, at.y() - reach_, at.x() + reach_, at.y() + reach_});
     }
-    for (const im::Change& change : filter_->match()) steps_[change.subscriber].push_back({time, change.entity, change.transition == im::Transition::entered});
+    for (const im::Change& change : filter_->match())
+      steps_[change.subscriber].push_back(
+          {time, change.entity, change.transition == im::Transition::entered});
   }
   const std::vector<ScopeStep>& steps(std::uint32_t observer) const { return steps_[observer]; }
   std::vector<std::uint32_t> scope(std::uint32_t observer) const {
@@ -87,7 +108,8 @@ class Decisions {
 };
 
 /// What was decided against what is relevant at `time`.
-Classification judged(const Gas& gas, const Decisions& decisions, const RelevanceArea& area, double time) {
+Classification judged(const Gas& gas, const Decisions& decisions, const RelevanceArea& area,
+                      double time) {
   Surroundings surroundings(area, side, side);
   surroundings.build(gas.placed(time));
   Classification counts;
@@ -107,7 +129,8 @@ TEST(Health, ASetThatAgesLosesRecallAsEntitiesCrossItsBorder) {
   const Classification counts = judged(gas, decisions, square, age);
   const double lost = 2.0 * age * relative_speed / (pi * R);
   EXPECT_NEAR(*counts.recall() / (1.0 - lost), 1.0, 0.01);
-  EXPECT_NEAR((1.0 - *counts.recall()) / lost, 1.0, 0.05) << "the loss itself; its second order is a v / 8 R = 1 %";
+  EXPECT_NEAR((1.0 - *counts.recall()) / lost, 1.0, 0.05)
+      << "the loss itself; its second order is a v / 8 R = 1 %";
   EXPECT_EQ(*judged(gas, decisions, square, 0.0).recall(), 1.0);
 }
 
@@ -153,19 +176,22 @@ TEST(Health, CellsThatADiscTouchesAreAsPreciseAsTheirAreaSays) {
     Classification counts;
     std::vector<Relevant> relevant;
     std::vector<Vector2> lows;  // the corner of each point's cell
-    for (std::uint32_t point = 0; point < gas.point_count(); ++point) lows.push_back(k * R * (gas.point(point, 0.0) / (k * R)).array().floor().matrix());
+    for (std::uint32_t point = 0; point < gas.point_count(); ++point)
+      lows.push_back(k * R * (gas.point(point, 0.0) / (k * R)).array().floor().matrix());
     for (std::uint32_t i = 0; i < observer_count; ++i) {
       const Vector2 at = gas.observer(i, 0.0);
       const double x = at.x(), y = at.y();
       std::vector<std::uint32_t> chosen;
       for (std::uint32_t point = 0; point < gas.point_count(); ++point) {
-        const double *low = lows[point].data(), dx = std::clamp(x, low[0], low[0] + k * R) - x, dy = std::clamp(y, low[1], low[1] + k * R) - y;
+        const double *low = lows[point].data(), dx = std::clamp(x, low[0], low[0] + k * R) - x,
+                     dy = std::clamp(y, low[1], low[1] + k * R) - y;
         if (dx * dx + dy * dy <= R * R) chosen.push_back(point);
       }
       surroundings.find(at, nobody, relevant);
       counts.add(chosen, relevant);
     }
-    EXPECT_NEAR(*counts.precision() / (pi / (pi + 4.0 * k + k * k)), 1.0, 0.03) << "cells of " << k << " R";
+    EXPECT_NEAR(*counts.precision() / (pi / (pi + 4.0 * k + k * k)), 1.0, 0.03)
+        << "cells of " << k << " R";
     EXPECT_EQ(*counts.recall(), 1.0);
   }
 }
@@ -175,11 +201,15 @@ TEST(Health, AMarginCostsPrecisionByTheRatioOfAreas) {
   for (const double margin : {0.1, 0.5}) {
     Decisions decisions(gas, "region", R + margin);
     decisions.match(0.0);
-    EXPECT_NEAR(*judged(gas, decisions, square, 0.0).precision() / std::pow(R / (R + margin), 2.0), 1.0, 0.01) << "margin " << margin;
+    EXPECT_NEAR(*judged(gas, decisions, square, 0.0).precision() / std::pow(R / (R + margin), 2.0),
+                1.0, 0.01)
+        << "margin " << margin;
   }
 }
 
-constexpr double churn_span = 0.5, churn_step = 0.005;  // [s]; who cuts a corner in less than a step is overlooked: a part of order v step / R
+constexpr double churn_span = 0.5,
+                 churn_step = 0.005;  // [s]; who cuts a corner in less than a step is overlooked: a
+                                      // part of order v step / R
 
 TEST(Health, ChurnOfASquareFollowsFromItsBorder) {
   const Gas gas;
@@ -187,10 +217,12 @@ TEST(Health, ChurnOfASquareFollowsFromItsBorder) {
   for (int step = 0; step * churn_step <= churn_span; ++step) decisions.match(step * churn_step);
   double changes = 0.0;
   for (std::uint32_t i = 0; i < observer_count; ++i) {
-    const ScopeChanges counted = count_changes(decisions.steps(i), nobody, 0.5 * churn_step, 2.0 * churn_span);
+    const ScopeChanges counted =
+        count_changes(decisions.steps(i), nobody, 0.5 * churn_step, 2.0 * churn_span);
     changes += static_cast<double>(counted.entries + counted.exits);
   }
-  EXPECT_NEAR(changes / observer_count / churn_span / (16.0 / pi * R * density * relative_speed), 1.0, 0.01);
+  EXPECT_NEAR(changes / observer_count / churn_span / (16.0 / pi * R * density * relative_speed),
+              1.0, 0.01);
 }
 
 TEST(Health, ChurnOfADiscFollowsFromItsBorder) {
@@ -206,8 +238,10 @@ TEST(Health, ChurnOfADiscFollowsFromItsBorder) {
       surroundings.find(gas.observer(i, time), nobody, now);
       const auto is_less = [](const Relevant& a, const Relevant& b) { return a.entity < b.entity; };
       std::vector<Relevant> came, went;
-      std::set_difference(now.begin(), now.end(), before[i].begin(), before[i].end(), std::back_inserter(came), is_less);
-      std::set_difference(before[i].begin(), before[i].end(), now.begin(), now.end(), std::back_inserter(went), is_less);
+      std::set_difference(now.begin(), now.end(), before[i].begin(), before[i].end(),
+                          std::back_inserter(came), is_less);
+      std::set_difference(before[i].begin(), before[i].end(), now.begin(), now.end(),
+                          std::back_inserter(went), is_less);
       for (const Relevant& each : came) steps[i].push_back({time, each.entity, true});
       for (const Relevant& each : went) steps[i].push_back({time, each.entity, false});
       before[i] = now;
@@ -218,7 +252,8 @@ TEST(Health, ChurnOfADiscFollowsFromItsBorder) {
     const ScopeChanges counted = count_changes(own, nobody, 0.5 * churn_step, 2.0 * churn_span);
     changes += static_cast<double>(counted.entries + counted.exits);
   }
-  EXPECT_NEAR(changes / observer_count / churn_span / (4.0 * R * density * relative_speed), 1.0, 0.01);
+  EXPECT_NEAR(changes / observer_count / churn_span / (4.0 * R * density * relative_speed), 1.0,
+              0.01);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ namespace {
 
 double exact_percentile(std::vector<double> sample, double fraction) {
   std::sort(sample.begin(), sample.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(sample.size()) - 1e-6));
+  const auto rank =
+      static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(sample.size()) - 1e-6));
   return sample[std::max<std::size_t>(rank, 1) - 1];
 }
 
@@ -47,25 +48,33 @@ TEST(Histogram, PercentilesAreWithinAThousandthOfTheSortedSample) {
   }
 }
 
-/// Values step by a hundredth at the rank of each percentile and at the next, ten times the width of a bucket: neither neighbour of the right one is near it.
+/// Values step by a hundredth at the rank of each percentile and at the next, ten times the width
+/// of a bucket: neither neighbour of the right one is near it.
 TEST(Histogram, APercentileIsTheValueWhoseRankItIsAndNotItsNeighbours) {
   for (const std::uint64_t count : {20u, 100u, 200u, 1'000u, 10'000u, 12'345u}) {
     SCOPED_TRACE(count);
-    const auto rank_of = [count](std::uint64_t per_thousand) { return (per_thousand * count + 999) / 1'000; };  // rounded up
+    const auto rank_of = [count](std::uint64_t per_thousand) {
+      return (per_thousand * count + 999) / 1'000;
+    };  // rounded up
     const auto value_s = [&](std::uint64_t rank) {
       int steps = 0;
-      for (const std::uint64_t per_thousand : {500u, 900u, 950u, 990u, 999u}) steps += (rank >= rank_of(per_thousand)) + (rank > rank_of(per_thousand));
+      for (const std::uint64_t per_thousand : {500u, 900u, 950u, 990u, 999u})
+        steps += (rank >= rank_of(per_thousand)) + (rank > rank_of(per_thousand));
       return 0.010 * std::pow(1.01, steps);
     };
     Histogram histogram;
     for (std::uint64_t rank = count; rank >= 1; --rank) histogram.record(value_s(rank));
     const Percentiles found = histogram.percentiles_ms();
-    const auto expect = [&](const std::optional<double>& percentile_ms, std::uint64_t per_thousand) {
-      EXPECT_EQ(percentile_ms.has_value(), count * (1'000 - per_thousand) >= 10'000u) << "ten lie beyond it";
+    const auto expect = [&](const std::optional<double>& percentile_ms,
+                            std::uint64_t per_thousand) {
+      EXPECT_EQ(percentile_ms.has_value(), count * (1'000 - per_thousand) >= 10'000u)
+          << "ten lie beyond it";
       if (!percentile_ms) return;
-      EXPECT_NEAR(*percentile_ms / (1e3 * value_s(rank_of(per_thousand))), 1.0, 1e-3) << per_thousand;
+      EXPECT_NEAR(*percentile_ms / (1e3 * value_s(rank_of(per_thousand))), 1.0, 1e-3)
+          << per_thousand;
     };
-    expect(found.p50, 500), expect(found.p90, 900), expect(found.p95, 950), expect(found.p99, 990), expect(found.p999, 999);
+    expect(found.p50, 500), expect(found.p90, 900), expect(found.p95, 950), expect(found.p99, 990),
+        expect(found.p999, 999);
   }
 }
 
@@ -88,7 +97,8 @@ TEST(Histogram, PercentileIsNullUnlessTenSamplesLieBeyondIt) {
 }
 
 TEST(Histogram, MergingEqualsRecordingEverythingInOne) {
-  const std::vector<double> first = log_uniform_latencies(11, 3'000), second = log_uniform_latencies(12, 4'000);
+  const std::vector<double> first = log_uniform_latencies(11, 3'000),
+                            second = log_uniform_latencies(12, 4'000);
   std::vector<double> both = first;
   both.insert(both.end(), second.begin(), second.end());
   Histogram merged = histogram_of(first);

@@ -1,4 +1,5 @@
-// Costs of a constant and a proportional part, told from power laws, and the number of clients that they leave room for.
+// Costs of a constant and a proportional part, told from power laws, and the number of clients that
+// they leave room for.
 #include "loadgen/measure/statistics/linear_fit.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +17,8 @@ using testing::HasSubstr;
 
 std::vector<FitPoint> line(double constant, double slope) {
   std::vector<FitPoint> points;
-  for (const double x : {10.0, 30.0, 100.0, 300.0, 1000.0}) points.push_back({x, constant + slope * x});
+  for (const double x : {10.0, 30.0, 100.0, 300.0, 1000.0})
+    points.push_back({x, constant + slope * x});
   return points;
 }
 
@@ -32,7 +34,8 @@ TEST(LinearFit, IsExactOnALine) {
 
 TEST(LinearFit, LeavesAPowerLawToThePowerLaw) {
   std::vector<FitPoint> points;
-  for (const double x : {10.0, 30.0, 100.0, 300.0, 1000.0}) points.push_back({x, 2.0 * std::pow(x, 1.6)});
+  for (const double x : {10.0, 30.0, 100.0, 300.0, 1000.0})
+    points.push_back({x, 2.0 * std::pow(x, 1.6)});
   EXPECT_GT(fit_line(points)->log_residual, 0.1);
   EXPECT_NEAR(log_residual(*fit_power(points), points), 0.0, 1e-20);
 }
@@ -45,7 +48,8 @@ TEST(LinearFit, HasNoPartBelowZeroAndNoneOfASinglePlace) {
   EXPECT_FALSE(fit_line({}));
 }
 
-/// Costs that scatter by a tenth of their size: the mean of 1,000 fits is the law, however different its ends are in size.
+/// Costs that scatter by a tenth of their size: the mean of 1,000 fits is the law, however
+/// different its ends are in size.
 TEST(LinearFit, IsUnbiasedWhereTheScatterGrowsWithTheCost) {
   std::mt19937 random(3);
   std::normal_distribution<double> scatter(0.0, 0.1);
@@ -53,7 +57,8 @@ TEST(LinearFit, IsUnbiasedWhereTheScatterGrowsWithTheCost) {
   for (int i = 0; i < 1'000; ++i) {
     std::vector<FitPoint> points;
     for (int replication = 0; replication < 3; ++replication)
-      for (const FitPoint& exact : line(200.0, 5.0)) points.push_back({exact.x, exact.y * std::exp(scatter(random))});
+      for (const FitPoint& exact : line(200.0, 5.0))
+        points.push_back({exact.x, exact.y * std::exp(scatter(random))});
     const auto fit = fit_line(points);
     constant += fit->constant / 1e3, slope += fit->slope / 1e3;
   }
@@ -70,10 +75,13 @@ TEST(Capacity, IsWhereTheNinetyNinthPercentileOfATickFillsItsPeriod) {
     run.population = "per_client";
     run.tick_us.p99 = 1'000.0 + 40.0 * clients;
   }
-  EXPECT_THAT(capacity_text(growths_of(runs)), HasSubstr("region, on-event: 99 % of the ticks end within 1000 + 40 n us of n clients: this server holds 808 clients, by extrapolation from 300"));
+  EXPECT_THAT(capacity_text(growths_of(runs)),
+              HasSubstr("region, on-event: 99 % of the ticks end within 1000 + 40 n us of n "
+                        "clients: this server holds 808 clients, by extrapolation from 300"));
   EXPECT_THAT(growth_table(growths_of(runs)), HasSubstr("this server holds 808 clients"));
   for (RunRecord& run : runs) run.tick_us.p99 = 5.0 * std::pow(run.cell.clients, 2.0);
-  EXPECT_THAT(capacity_text(growths_of(runs)), HasSubstr("5 n^2 us of n clients: this server holds 81 clients\n"));
+  EXPECT_THAT(capacity_text(growths_of(runs)),
+              HasSubstr("5 n^2 us of n clients: this server holds 81 clients\n"));
   for (RunRecord& run : runs) run.tick_us.p90 = run.tick_us.p99, run.tick_us.p99.reset();
   EXPECT_THAT(capacity_text(growths_of(runs)), HasSubstr("90 % of the ticks end within 5 n^2 us"));
   runs.resize(2);

@@ -1,4 +1,5 @@
-// The table of docs/metrics.md beside the lines of runs.jsonl: each column is defined once, and nothing else is.
+// The table of docs/metrics.md beside the lines of runs.jsonl: each column is defined once, and
+// nothing else is.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/loadgen/report/canned_reports.h"
-#include "loadgen/measure/statistics/histogram.h"
 #include "loadgen/measure/run_record.h"
+#include "loadgen/measure/statistics/histogram.h"
+#include "tests/loadgen/report/canned_reports.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
@@ -26,7 +27,8 @@ std::string document() { return test::text_of(test::source_folder() + "/docs/met
 std::vector<std::string> names_in(const std::string& text) {
   static const std::regex name("`([^`]+)`");
   std::vector<std::string> names;
-  for (std::sregex_iterator found(text.begin(), text.end(), name), end; found != end; ++found) names.push_back((*found)[1]);
+  for (std::sregex_iterator found(text.begin(), text.end(), name), end; found != end; ++found)
+    names.push_back((*found)[1]);
   return names;
 }
 
@@ -75,15 +77,20 @@ TEST(MetricsDocument, NamesTheMembersOfEachDistribution) {
     return names;
   };
   for (const char* latency : {"update_age_ms", "key_to_effect_ms", "late_entry_ms", "tick_us"})
-    EXPECT_THAT(members(latency), testing::ElementsAre("p50", "p90", "p95", "p99", "p999", "max")) << latency;
+    EXPECT_THAT(members(latency), testing::ElementsAre("p50", "p90", "p95", "p99", "p999", "max"))
+        << latency;
   const auto rows = rows_of_fields();
-  const auto errors = std::ranges::find_if(rows, [](const auto& row) { return row.front().find("`displayed_error_mm`") != std::string::npos; });
+  const auto errors = std::ranges::find_if(rows, [](const auto& row) {
+    return row.front().find("`displayed_error_mm`") != std::string::npos;
+  });
   ASSERT_NE(errors, rows.end());
   for (const char* error : {"position_error_mm", "displayed_error_mm"})
-    for (const std::string& member : members(error)) EXPECT_THAT((*errors)[2], testing::ContainsRegex("[ `]" + member + "[`,;]")) << error;
+    for (const std::string& member : members(error))
+      EXPECT_THAT((*errors)[2], testing::ContainsRegex("[ `]" + member + "[`,;]")) << error;
 }
 
-/// Each percentile with the number of samples from which on it is given, as the section on latency has it.
+/// Each percentile with the number of samples from which on it is given, as the section on latency
+/// has it.
 TEST(MetricsDocument, SaysFromHowManySamplesOnEachPercentileIsGiven) {
   const std::string text = std::regex_replace(document(), std::regex("[\n,]"), " ");
   const struct {
@@ -93,13 +100,15 @@ TEST(MetricsDocument, SaysFromHowManySamplesOnEachPercentileIsGiven) {
   } limits[] = {{20, "p50 from 20 samples on", &Percentiles::p50},
                 {100, "p90 from 100 ", &Percentiles::p90},
                 {200, "p95 from 200 ", &Percentiles::p95},
-                {1'000, "p99 from 1 000 ", &Percentiles::p99}, {10'000, "p99.9 from 10 000", &Percentiles::p999}};
+                {1'000, "p99 from 1 000 ", &Percentiles::p99},
+                {10'000, "p99.9 from 10 000", &Percentiles::p999}};
   for (const auto& limit : limits) {
     EXPECT_THAT(text, testing::HasSubstr(limit.words));
     for (const bool is_enough : {false, true}) {
       Histogram histogram;
       histogram.record(0.01, limit.samples - (is_enough ? 0 : 1));
-      EXPECT_EQ((histogram.percentiles_ms().*limit.percentile).has_value(), is_enough) << limit.words;
+      EXPECT_EQ((histogram.percentiles_ms().*limit.percentile).has_value(), is_enough)
+          << limit.words;
     }
   }
 }

@@ -24,7 +24,8 @@ TEST(RunRecord, RatesArePerClientAndSecondAndHeadersAreAdded) {
   EXPECT_TRUE(record.valid) << record.why_invalid;
   EXPECT_DOUBLE_EQ(record.down_bytes_per_client_per_s.value(), 400'000 / 10.0 / 2.0);
   EXPECT_DOUBLE_EQ(record.up_bytes_per_client_per_s.value(), 4'000 / 10.0 / 2.0);
-  EXPECT_DOUBLE_EQ(record.wire_bytes_per_client_per_s.value(), (400'000 + 66 * (1'000 + 40 + 200) + 4'000 + 66 * (100 + 300)) / 10.0 / 2.0)
+  EXPECT_DOUBLE_EQ(record.wire_bytes_per_client_per_s.value(),
+                   (400'000 + 66 * (1'000 + 40 + 200) + 4'000 + 66 * (100 + 300)) / 10.0 / 2.0)
       << "the kernel's 600 large segments get 200 acknowledgements fewer than 1,000 would";
   EXPECT_DOUBLE_EQ(record.messages_per_s.value(), 2'500.0);
   EXPECT_NEAR(record.update_age_ms.p99.value(), 10.0, 0.01);
@@ -52,7 +53,8 @@ TEST(RunRecord, EachRateIsDividedByTheSpanOfWhoCountedIt) {
   server["physics_events"] = 700;
   bots["bytes_received_by_bot"] = {1, 3};
   const RunRecord record = judged(server, bots);
-  EXPECT_DOUBLE_EQ(*record.wire_bytes_per_client_per_s, ((400'000 + 66 * 1'240) / 2.0 + (4'000 + 66 * 400) / 4.0) / 10.0);
+  EXPECT_DOUBLE_EQ(*record.wire_bytes_per_client_per_s,
+                   ((400'000 + 66 * 1'240) / 2.0 + (4'000 + 66 * 400) / 4.0) / 10.0);
   EXPECT_DOUBLE_EQ(*record.acknowledgements_per_s, 240 / 2.0 + 300 / 4.0);
   EXPECT_DOUBLE_EQ(*record.segments_per_s, 1'000 / 2.0 + 100 / 4.0);
   EXPECT_DOUBLE_EQ(*record.writes_per_s, 600 / 2.0);
@@ -61,7 +63,8 @@ TEST(RunRecord, EachRateIsDividedByTheSpanOfWhoCountedIt) {
   EXPECT_EQ(record.update_age_samples, 2'000u);
 }
 
-/// What each process counted is held against its own kernel, in both directions, whichever of the two is the larger.
+/// What each process counted is held against its own kernel, in both directions, whichever of the
+/// two is the larger.
 TEST(RunRecord, EachOfTheFourCountsIsComparedWithTheKernels) {
   const double clients = 10.0;
   for (const bool is_server : {true, false})
@@ -72,8 +75,10 @@ TEST(RunRecord, EachOfTheFourCountsIsComparedWithTheKernels) {
           nlohmann::json& report = is_server ? server : bots;
           const double kernel = 1'000'000.0, limit = 0.01 * kernel + 128.0 * clients;
           report[is_sent ? "kernel_bytes_sent" : "kernel_bytes_received"] = kernel;
-          report[is_sent ? "total_bytes_sent" : "total_bytes_received"] = kernel + sign * part * limit;
-          const std::string what = std::string(is_sent ? "sent" : "received") + " by the " + (is_server ? "server" : "bots") + ": ";
+          report[is_sent ? "total_bytes_sent" : "total_bytes_received"] =
+              kernel + sign * part * limit;
+          const std::string what = std::string(is_sent ? "sent" : "received") + " by the " +
+                                   (is_server ? "server" : "bots") + ": ";
           const std::string why = judged(server, bots).why_invalid;
           if (part < 1.0) EXPECT_EQ(why, "") << what;
           else EXPECT_THAT(why, testing::StartsWith(what));
@@ -96,29 +101,52 @@ TEST(RunRecord, KeysThatWentOutLateCostALatencyOfKeysAndTheRunOnlyWhereTheyAreTh
   live.keys = KeySource::live;
   RunRecord record = record_for(live, cell);
   judge(record, canned_server_report(cell), bots);
-  EXPECT_EQ(record.why_invalid, "the bots could not keep their schedule: 9 of 70 keys went out more than 10 ms late");
+  EXPECT_EQ(record.why_invalid,
+            "the bots could not keep their schedule: 9 of 70 keys went out more than 10 ms late");
   Cell peers = cell;
   peers.mode = peer_mode;
   record = record_for(small_experiment(), peers);
   judge(record, canned_server_report(peers), bots);
-  EXPECT_THAT(record.why_invalid, HasSubstr("could not keep their schedule")) << "peers wait for each other's keys";
+  EXPECT_THAT(record.why_invalid, HasSubstr("could not keep their schedule"))
+      << "peers wait for each other's keys";
 }
 
 TEST(RunRecord, OnlyUnderAVirtualClockIsThereADelay) {
   Experiment experiment = small_experiment();
   experiment.delay_ms = 25.0;
-  for (const TransportKind transport : {TransportKind::tcp, TransportKind::udp, TransportKind::shared_memory, TransportKind::virtual_time}) {
+  for (const TransportKind transport :
+       {TransportKind::tcp, TransportKind::udp, TransportKind::shared_memory,
+        TransportKind::virtual_time}) {
     experiment.transport = transport;
-    EXPECT_EQ(to_json(record_for(experiment, cell))["delay_ms"], transport == TransportKind::virtual_time ? 25.0 : 0.0);
+    EXPECT_EQ(to_json(record_for(experiment, cell))["delay_ms"],
+              transport == TransportKind::virtual_time ? 25.0 : 0.0);
   }
 }
 
 TEST(RunRecord, ALineHasTheDocumentedKeysInOrder) {
   const auto line = to_json(judged(canned_server_report(cell), canned_bots_report(cell)));
-  const std::vector<std::string> documented{
-      "mode", "scheme", "policy", "clients", "entities", "seed", "tick_rate_hz", "ticks", "ticks_on_time_fraction", "down_bytes_per_client_per_s",
-      "up_bytes_per_client_per_s", "wire_bytes_per_client_per_s", "messages_per_s", "update_age_ms", "key_to_effect_ms", "physics_us_per_tick",
-      "filter_us_per_tick", "send_us_per_tick", "server_rss_bytes", "state_hash", "valid", "why_invalid"};
+  const std::vector<std::string> documented{"mode",
+                                            "scheme",
+                                            "policy",
+                                            "clients",
+                                            "entities",
+                                            "seed",
+                                            "tick_rate_hz",
+                                            "ticks",
+                                            "ticks_on_time_fraction",
+                                            "down_bytes_per_client_per_s",
+                                            "up_bytes_per_client_per_s",
+                                            "wire_bytes_per_client_per_s",
+                                            "messages_per_s",
+                                            "update_age_ms",
+                                            "key_to_effect_ms",
+                                            "physics_us_per_tick",
+                                            "filter_us_per_tick",
+                                            "send_us_per_tick",
+                                            "server_rss_bytes",
+                                            "state_hash",
+                                            "valid",
+                                            "why_invalid"};
   std::vector<std::string> keys;
   for (const auto& [key, value] : line.items()) keys.push_back(key);
   ASSERT_GE(keys.size(), documented.size());
@@ -136,22 +164,40 @@ TEST(RunRecord, EachWayToFailMakesARunInvalidAndSaysWhy) {
     EXPECT_EQ(record.valid, record.why_invalid.empty());
     return record.why_invalid;
   };
-  EXPECT_THAT(reason([](auto&, auto& b) { b["valid"] = false, b["why_invalid"] = "4 % of the keys were sent late"; }), HasSubstr("4 % of the keys"));
-  EXPECT_THAT(reason([](auto& s, auto&) { s["valid"] = false, s["why_invalid"] = "no time"; }), HasSubstr("the server: no time"));
-  EXPECT_THAT(reason([](auto& s, auto&) { s["kernel_bytes_sent"] = 507'000; }), HasSubstr("sent by the server"));
+  EXPECT_THAT(reason([](auto&, auto& b) {
+                b["valid"] = false, b["why_invalid"] = "4 % of the keys were sent late";
+              }),
+              HasSubstr("4 % of the keys"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["valid"] = false, s["why_invalid"] = "no time"; }),
+              HasSubstr("the server: no time"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["kernel_bytes_sent"] = 507'000; }),
+              HasSubstr("sent by the server"));
   EXPECT_EQ(reason([](auto& s, auto&) { s["kernel_bytes_sent"] = 504'000; }), "");
-  EXPECT_THAT(reason([](auto&, auto& b) { b["total_bytes_received"] = 0; }), HasSubstr("received by the bots"));
-  EXPECT_THAT(reason([](auto& s, auto&) { s["lost_federates"] = 1; }), HasSubstr("1 clients lost by the server"));
-  EXPECT_THAT(reason([](auto& s, auto&) { s["dropped_connections"] = 2; }), HasSubstr("2 connections dropped"));
-  EXPECT_THAT(reason([](auto&, auto& b) { b["federates_lost"] = 3; }), HasSubstr("3 clients lost by the bots"));
+  EXPECT_THAT(reason([](auto&, auto& b) { b["total_bytes_received"] = 0; }),
+              HasSubstr("received by the bots"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["lost_federates"] = 1; }),
+              HasSubstr("1 clients lost by the server"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["dropped_connections"] = 2; }),
+              HasSubstr("2 connections dropped"));
+  EXPECT_THAT(reason([](auto&, auto& b) { b["federates_lost"] = 3; }),
+              HasSubstr("3 clients lost by the bots"));
   EXPECT_THAT(reason([](auto&, auto& b) { b["keys_sent"] = 69; }), HasSubstr("69 of 70"));
-  EXPECT_THAT(reason([](auto& s, auto&) { s["clients"] = 9; }), HasSubstr("the server's clients is 9 instead of 10"));
-  EXPECT_THAT(reason([](auto&, auto& b) { b["clients"] = 11; }), HasSubstr("the bots' clients is 11 instead of 10"));
-  EXPECT_THAT(reason([](auto& s, auto&) { s["tick_rate_hz"] = 29.0; }), HasSubstr("the server's tick_rate_hz is 29 instead of 30"));
-  EXPECT_THAT(reason([](auto& s, auto&) { s.erase("physics_us_per_tick"); }), HasSubstr("physics_us_per_tick"));
-  EXPECT_THAT(reason([](auto& s, auto&) { s["measured_s"] = 0.0; }), HasSubstr("nothing was measured"));
-  EXPECT_THAT(reason([](auto&, auto& b) { b["update_age_ms"] = {1, 2}; }), HasSubstr("a histogram"));
-  EXPECT_THAT(reason([](auto& s, auto&) { s = nlohmann::json::array(); }), HasSubstr("the report of the server"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["clients"] = 9; }),
+              HasSubstr("the server's clients is 9 instead of 10"));
+  EXPECT_THAT(reason([](auto&, auto& b) { b["clients"] = 11; }),
+              HasSubstr("the bots' clients is 11 instead of 10"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["tick_rate_hz"] = 29.0; }),
+              HasSubstr("the server's tick_rate_hz is 29 instead of 30"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s.erase("physics_us_per_tick"); }),
+              HasSubstr("physics_us_per_tick"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["measured_s"] = 0.0; }),
+              HasSubstr("nothing was measured"));
+  EXPECT_THAT(reason([](auto&, auto& b) {
+                b["update_age_ms"] = {1, 2};
+              }),
+              HasSubstr("a histogram"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s = nlohmann::json::array(); }),
+              HasSubstr("the report of the server"));
 }
 
 TEST(RunRecord, OfARunThatDoesNotCountEveryReasonIsGiven) {
@@ -161,11 +207,14 @@ TEST(RunRecord, OfARunThatDoesNotCountEveryReasonIsGiven) {
   bots["keys_sent"] = 69, bots["valid"] = false, bots["why_invalid"] = "tired";
   const RunRecord record = judged(server, bots);
   EXPECT_FALSE(record.valid);
-  for (const char* reason : {"the server: no time", "the bots: tired", "1 clients lost by the server", "sent by the server: 0 B counted", "only 69 of 70 due keys were sent"})
+  for (const char* reason :
+       {"the server: no time", "the bots: tired", "1 clients lost by the server",
+        "sent by the server: 0 B counted", "only 69 of 70 due keys were sent"})
     EXPECT_THAT(record.why_invalid, HasSubstr(reason));
 }
 
-/// Among peers the reports add up all their processes, so that there is one count of each kind; 1 % of it and 128 bytes for each peer may be on their way.
+/// Among peers the reports add up all their processes, so that there is one count of each kind; 1 %
+/// of it and 128 bytes for each peer may be on their way.
 TEST(RunRecord, OfPeersTheBytesOfAllTheirConnectionsTogetherAreHeldAgainstTheKernels) {
   Cell peers = cell;
   peers.mode = peer_mode;

@@ -1,4 +1,5 @@
-// Replications until intervals are narrow enough: the looks together keep their 95 %, and what is too wide is named.
+// Replications until intervals are narrow enough: the looks together keep their 95 %, and what is
+// too wide is named.
 #include "loadgen/measure/sequential.h"
 
 #include <gmock/gmock.h>
@@ -30,8 +31,9 @@ TEST(SequentialStopping, SpendsNoMoreThanFivePercentOnAllLooks) {
   EXPECT_GT(spent, 0.0499);
 }
 
-/// 2,000 sequences of normal replications, each stopped at the first interval that is narrow enough: the last interval holds the truth in 95 % of them or more. At the plain 95 % it
-/// would not: stopping early prefers samples that happen to scatter little.
+/// 2,000 sequences of normal replications, each stopped at the first interval that is narrow
+/// enough: the last interval holds the truth in 95 % of them or more. At the plain 95 % it would
+/// not: stopping early prefers samples that happen to scatter little.
 TEST(SequentialStopping, KeepsItsConfidenceThoughItLooksAgainAndAgain) {
   std::mt19937 random(7);
   int held = 0, sequences = 2'000;
@@ -39,7 +41,8 @@ TEST(SequentialStopping, KeepsItsConfidenceThoughItLooksAgainAndAgain) {
     std::normal_distribution<double> payload(1'000.0, 60.0);
     std::vector<double> sample{payload(random), payload(random), payload(random)};
     std::uint32_t look = 1;
-    while (!wider_rows(summarise(runs_with(sample)), 0.05, look).empty() && look < 60) sample.push_back(payload(random)), ++look;
+    while (!wider_rows(summarise(runs_with(sample)), 0.05, look).empty() && look < 60)
+      sample.push_back(payload(random)), ++look;
     double mean = 0.0;
     for (const double value : sample) mean += value / static_cast<double>(sample.size());
     held += std::abs(mean - 1'000.0) <= 0.05 * mean;
@@ -53,13 +56,15 @@ TEST(SequentialStopping, NamesRowsThatAreTooWideAndThoseWithoutAnInterval) {
   ASSERT_EQ(wide.size(), 1u);
   EXPECT_EQ(wide.front().runs, 3u);
   EXPECT_THAT(wide.front().words, HasSubstr("client-server-region-on-event-10 is known to within"));
-  EXPECT_THAT(wider_rows(summarise(runs_with({100.0})), 0.05, 1).front().words, HasSubstr("has no interval"));
+  EXPECT_THAT(wider_rows(summarise(runs_with({100.0})), 0.05, 1).front().words,
+              HasSubstr("has no interval"));
 }
 
 TEST(SequentialStopping, TakesWidthsAsPercentOrFractions) {
   EXPECT_DOUBLE_EQ(width_in("5%"), 0.05);
   EXPECT_DOUBLE_EQ(width_in("0.05"), 0.05);
-  for (const char* bad : {"", "%", "5", "0", "0%", "100%", "-1%", "narrow", "5 %", "nan"}) EXPECT_THROW(width_in(bad), ExperimentError) << bad;
+  for (const char* bad : {"", "%", "5", "0", "0%", "100%", "-1%", "narrow", "5 %", "nan"})
+    EXPECT_THROW(width_in(bad), ExperimentError) << bad;
 }
 
 }  // namespace

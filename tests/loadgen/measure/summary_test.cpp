@@ -1,4 +1,5 @@
-// Means over replications by hand, runs that do not count, the agreement of games, and the table's shape.
+// Means over replications by hand, runs that do not count, the agreement of games, and the table's
+// shape.
 #include "loadgen/measure/summary.h"
 
 #include <gmock/gmock.h>
@@ -8,8 +9,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "tests/loadgen/report/canned_reports.h"
 #include "loadgen/report/table.h"
+#include "tests/loadgen/report/canned_reports.h"
 
 namespace rink::loadgen {
 namespace {
@@ -17,7 +18,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-RunRecord run(const std::string& scheme, std::uint32_t clients, std::uint64_t seed, double down, bool valid = true) {
+RunRecord run(const std::string& scheme, std::uint32_t clients, std::uint64_t seed, double down,
+              bool valid = true) {
   const Cell cell{"client-server", scheme, "periodic", clients, seed};
   RunRecord record = record_for(small_experiment(), cell);
   judge(record, canned_server_report(cell), canned_bots_report(cell));
@@ -28,8 +30,9 @@ RunRecord run(const std::string& scheme, std::uint32_t clients, std::uint64_t se
   return record;
 }
 
-const std::vector<RunRecord> runs{run("none", 10, 1, 100.0), run("grid", 10, 1, 30.0), run("none", 10, 2, 104.0),
-                                  run("grid", 10, 2, 36.0),  run("none", 10, 3, 1e9, false), run("grid", 10, 3, 33.0)};
+const std::vector<RunRecord> runs{run("none", 10, 1, 100.0),      run("grid", 10, 1, 30.0),
+                                  run("none", 10, 2, 104.0),      run("grid", 10, 2, 36.0),
+                                  run("none", 10, 3, 1e9, false), run("grid", 10, 3, 33.0)};
 
 TEST(Summary, MeansAndDeviationsAreThoseOfTheValidRuns) {
   const auto rows = summarise(runs);
@@ -71,12 +74,17 @@ TEST(Summary, RatiosAreToTheBaselinePairedBySeed) {
   EXPECT_EQ(ratio.pairs, 2u) << "the third seed's baseline does not count";
   EXPECT_NEAR(ratio.value, std::sqrt(30.0 / 100.0 * 36.0 / 104.0), 1e-12);
   EXPECT_TRUE(ratio.interval);
-  EXPECT_FALSE(summarise(runs, {"region", "periodic"})[1].ratio("down_bytes_per_client_per_s")) << "no such baseline was run";
-  EXPECT_THAT(comparisons_csv(rows, {}), HasSubstr("client-server,grid,periodic,10,0,0,1,0.05,0.3,0,0,30,0.005,1,,none,periodic,update_age_ms_p50,1,1,1,2,no significant difference,none with periodic\n"));
+  EXPECT_FALSE(summarise(runs, {"region", "periodic"})[1].ratio("down_bytes_per_client_per_s"))
+      << "no such baseline was run";
+  EXPECT_THAT(
+      comparisons_csv(rows, {}),
+      HasSubstr("client-server,grid,periodic,10,0,0,1,0.05,0.3,0,0,30,0.005,1,,none,periodic,"
+                "update_age_ms_p50,1,1,1,2,no significant difference,none with periodic\n"));
 }
 
 TEST(Summary, ParametersPucksAndCoresMakeRowsOfTheirOwn) {
-  std::vector<RunRecord> some{run("grid", 10, 1, 30.0), run("grid", 10, 1, 40.0), run("grid", 10, 1, 50.0), run("grid", 10, 2, 60.0)};
+  std::vector<RunRecord> some{run("grid", 10, 1, 30.0), run("grid", 10, 1, 40.0),
+                              run("grid", 10, 1, 50.0), run("grid", 10, 2, 60.0)};
   some[1].cell.parameters.cell_size = 3.0;
   some[2].cell.pucks = 7;
   ASSERT_EQ(summarise(some).size(), 3u);
@@ -85,7 +93,8 @@ TEST(Summary, ParametersPucksAndCoresMakeRowsOfTheirOwn) {
 }
 
 TEST(Summary, RowsAreGroupedByClientsAscendingWithTheSchemesInOrder) {
-  const auto rows = summarise(std::vector<RunRecord>{run("none", 30, 1, 1), run("grid", 30, 1, 1), run("none", 5, 1, 1), run("grid", 5, 1, 1)});
+  const auto rows = summarise(std::vector<RunRecord>{run("none", 30, 1, 1), run("grid", 30, 1, 1),
+                                                     run("none", 5, 1, 1), run("grid", 5, 1, 1)});
   std::string order;
   for (const SummaryRow& row : rows) order += row.scheme + std::to_string(row.clients) + " ";
   EXPECT_EQ(order, "none5 grid5 none30 grid30 ");
@@ -105,9 +114,11 @@ TEST(Summary, GamesAgreeUnlessTwoValidRunsOfOneSeedDiffer) {
 }
 
 TEST(Summary, GamesOfAPopulationThatFollowsTheClientsAreHeldAgainstEachOtherAtEachNumberOfClients) {
-  std::vector<RunRecord> some{run("none", 10, 1, 1), run("grid", 10, 1, 1), run("none", 20, 1, 1), run("grid", 20, 1, 1)};
+  std::vector<RunRecord> some{run("none", 10, 1, 1), run("grid", 10, 1, 1), run("none", 20, 1, 1),
+                              run("grid", 20, 1, 1)};
   some[2].state_hash = some[3].state_hash = "more bats";
-  EXPECT_EQ(agreement_of(some).differing.size(), 1u) << "a fixed population plays one game whoever looks on";
+  EXPECT_EQ(agreement_of(some).differing.size(), 1u)
+      << "a fixed population plays one game whoever looks on";
   for (RunRecord& record : some) record.population = "per_client";
   EXPECT_EQ(agreement_of(some).games, 2u);
   EXPECT_TRUE(agreement_of(some).differing.empty());
@@ -122,10 +133,13 @@ TEST(Summary, CsvHasOneLinePerRowAndEmptyFieldsForWhatIsAbsent) {
   std::getline(csv, none);
   std::getline(csv, grid);
   EXPECT_FALSE(std::getline(csv, rest));
-  const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+  const auto commas = [](const std::string& line) {
+    return std::count(line.begin(), line.end(), ',');
+  };
   EXPECT_EQ(commas(header), static_cast<std::ptrdiff_t>(17 + 6 * figures().size()));
   EXPECT_EQ(commas(none), commas(header));
-  EXPECT_THAT(none, testing::StartsWith("client-server,none,periodic,10,0,0,1,0.05,0.3,0,0,30,0.005,1,,2,1,"));
+  EXPECT_THAT(none, testing::StartsWith(
+                        "client-server,none,periodic,10,0,0,1,0.05,0.3,0,0,30,0.005,1,,2,1,"));
   EXPECT_THAT(none, HasSubstr(",102,"));
   EXPECT_THAT(none, HasSubstr(",,,,"));  // update_age_ms_p999
   EXPECT_THAT(none, Not(HasSubstr("1e+09")));
@@ -141,7 +155,8 @@ TEST(Table, FitsHundredAndTwentyColumnsAndSaysWhatDidNotCount) {
     }
   }
   EXPECT_THAT(table_of(some, false), HasSubstr("same state hash: yes"));
-  EXPECT_THAT(table_of(some, false), HasSubstr("client-server-none-periodic-10-seed3: bots were late"));
+  EXPECT_THAT(table_of(some, false),
+              HasSubstr("client-server-none-periodic-10-seed3: bots were late"));
   EXPECT_THAT(table_of(some, false), Not(HasSubstr("\033")));
   some[0].state_hash = "odd";
   EXPECT_THAT(table_of(some, false), HasSubstr("same state hash: NO"));
@@ -149,10 +164,15 @@ TEST(Table, FitsHundredAndTwentyColumnsAndSaysWhatDidNotCount) {
 
 TEST(Table, SaysAloudWhatReplicationsCannotTellApart) {
   const auto text = [](std::vector<RunRecord> some) { return table_of(some, false); };
-  EXPECT_THAT(text({run("none", 10, 1, 100), run("grid", 10, 1, 50)}), HasSubstr("cannot be told from one replication"));
-  EXPECT_THAT(text({run("none", 10, 1, 100), run("grid", 10, 1, 50), run("none", 10, 2, 100), run("grid", 10, 2, 150)}), HasSubstr("no significant difference"));
-  const std::string clear = text({run("none", 10, 1, 100), run("grid", 10, 1, 50), run("none", 10, 2, 100), run("grid", 10, 2, 51)});
-  EXPECT_THAT(clear, HasSubstr("1.98 [1.75, 2.25]"));  // sqrt(2 * 100/51); log ratios .6931 and .6733, half width 12.706 * .0099
+  EXPECT_THAT(text({run("none", 10, 1, 100), run("grid", 10, 1, 50)}),
+              HasSubstr("cannot be told from one replication"));
+  EXPECT_THAT(text({run("none", 10, 1, 100), run("grid", 10, 1, 50), run("none", 10, 2, 100),
+                    run("grid", 10, 2, 150)}),
+              HasSubstr("no significant difference"));
+  const std::string clear = text({run("none", 10, 1, 100), run("grid", 10, 1, 50),
+                                  run("none", 10, 2, 100), run("grid", 10, 2, 51)});
+  EXPECT_THAT(clear, HasSubstr("1.98 [1.75, 2.25]"));  // sqrt(2 * 100/51); log ratios .6931 and
+                                                       // .6733, half width 12.706 * .0099
   EXPECT_THAT(clear, Not(HasSubstr("no significant difference")));
 }
 
@@ -164,11 +184,14 @@ TEST(Table, GainsOfFilterAndPolicyStandApartAndTogetherBesideTheError) {
       some.back().cell.policy = policy;
       some.back().truth.displayed_error_mm.rms = error;
     };
-    add("none", "periodic", 1200, 30), add("region", "periodic", 100, 31), add("none", "on-event", 400, 2), add("region", "on-event", 40, 3);
+    add("none", "periodic", 1200, 30), add("region", "periodic", 100, 31),
+        add("none", "on-event", 400, 2), add("region", "on-event", 40, 3);
   }
   const std::string text = table_of(some, false);
-  EXPECT_THAT(text, HasSubstr("10 clients, region with on-event: 30.0 [30.0, 30.0] times less payload"));
-  EXPECT_THAT(text, HasSubstr("filter alone 12.0 [12.0, 12.0], policy alone 3.00 [3.00, 3.00]; displayed error 3.00 mm beside 30.0 mm"));
+  EXPECT_THAT(text,
+              HasSubstr("10 clients, region with on-event: 30.0 [30.0, 30.0] times less payload"));
+  EXPECT_THAT(text, HasSubstr("filter alone 12.0 [12.0, 12.0], policy alone 3.00 [3.00, 3.00]; "
+                              "displayed error 3.00 mm beside 30.0 mm"));
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "tests/loadgen/measure/areas.h"
 #include "game/model/random_stream.h"
 #include "game/net/evidence.h"
 #include "game/net/evidence_lines.h"
@@ -22,6 +21,7 @@
 #include "loadgen/measure/truth/replay.h"
 #include "loadgen/measure/truth/scope_history.h"
 #include "loadgen/measure/truth/stays.h"
+#include "tests/loadgen/measure/areas.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
@@ -36,7 +36,8 @@ TEST(Relevance, ABoxThatTouchesTheSquareIsRelevantAndOneAHairBeyondIsNot) {
   EXPECT_LT(depth(square, bat, {3.25 + 1e-9, 3.0}, half_extent), 0.0);
   EXPECT_EQ(depth(square, bat, {2.0, 4.25}, half_extent), 0.25);
   EXPECT_EQ(depth(disc, bat, {2.0, 4.25}, half_extent), -0.25) << "a disc asks for the centre";
-  EXPECT_EQ(text_of({RelevanceArea::Shape::square, 1.58}), "square of 3.16 m around the bat, touched by the entity's box");
+  EXPECT_EQ(text_of({RelevanceArea::Shape::square, 1.58}),
+            "square of 3.16 m around the bat, touched by the entity's box");
 }
 
 TEST(Relevance, MayTakeInTheOwnSideAndWhatIsAlwaysRelevant) {
@@ -47,20 +48,25 @@ TEST(Relevance, MayTakeInTheOwnSideAndWhatIsAlwaysRelevant) {
   area.has_team = true;
   EXPECT_TRUE(is_relevant_anywhere(area, Team::left, bat, Team::left));
   EXPECT_FALSE(is_relevant_anywhere(area, Team::left, bat, Team::right));
-  EXPECT_FALSE(is_relevant_anywhere(area, Team::none, bat, Team::none)) << "of no team, not of one that is called none";
+  EXPECT_FALSE(is_relevant_anywhere(area, Team::none, bat, Team::none))
+      << "of no team, not of one that is called none";
   EXPECT_FALSE(is_relevant_anywhere(area, Team::left, puck, Team::none));
   area.always.emplace().add(puck);
   area.always->add(post);
   EXPECT_TRUE(is_relevant_anywhere(area, Team::left, puck, Team::none));
   EXPECT_FALSE(is_relevant_anywhere(area, Team::left, bat, Team::right));
-  EXPECT_EQ(text_of(area), "square of 2 m around the bat, touched by the entity's box, or a bat of the player's team, or any puck or post");
+  EXPECT_EQ(text_of(area),
+            "square of 2 m around the bat, touched by the entity's box, or a bat of the player's "
+            "team, or any puck or post");
 }
 
 TEST(Surroundings, FindWhatLookingAtEachEntityFinds) {
   game::RandomStream random(7);
   std::vector<Placed> placed;
   for (std::uint32_t i = 0; i < 500; ++i)
-    placed.push_back({i, {random.uniform(-1.0, 11.0), random.uniform(-1.0, 6.0)}, {random.uniform(0.0, 0.6), random.uniform(0.0, 0.2)}});
+    placed.push_back({i,
+                      {random.uniform(-1.0, 11.0), random.uniform(-1.0, 6.0)},
+                      {random.uniform(0.0, 0.6), random.uniform(0.0, 0.2)}});
   for (const RelevanceArea& area : {square, disc}) {
     Surroundings surroundings(area, 10.0, 5.0);
     surroundings.build(placed);
@@ -68,7 +74,9 @@ TEST(Surroundings, FindWhatLookingAtEachEntityFinds) {
     for (std::uint32_t own = 0; own < 500; own += 7) {
       std::vector<Relevant> expected;
       for (const Placed& each : placed)
-        if (const double within = depth(area, placed[own].centre, each.centre, each.half_extent); each.entity != own && within >= 0.0) expected.push_back({each.entity, within});
+        if (const double within = depth(area, placed[own].centre, each.centre, each.half_extent);
+            each.entity != own && within >= 0.0)
+          expected.push_back({each.entity, within});
       surroundings.find(placed[own].centre, own, found);
       ASSERT_EQ(found, expected) << "around " << own << ", seed 7";
     }
@@ -78,7 +86,8 @@ TEST(Surroundings, FindWhatLookingAtEachEntityFinds) {
 TEST(Classification, PoolsPairsOverSamples) {
   Classification counts;
   EXPECT_FALSE(counts.precision());
-  counts.add(std::vector<std::uint32_t>{1, 3, 5, 9}, std::vector<Relevant>{{3, 0.1}, {4, 0.1}, {5, 0.1}});
+  counts.add(std::vector<std::uint32_t>{1, 3, 5, 9},
+             std::vector<Relevant>{{3, 0.1}, {4, 0.1}, {5, 0.1}});
   counts.add({}, std::vector<Relevant>{{2, 0.1}});
   counts.add(std::vector<std::uint32_t>{2}, {});
   EXPECT_DOUBLE_EQ(*counts.precision(), 2.0 / 5.0);
@@ -96,7 +105,8 @@ TEST(PositionErrors, RootMeanSquarePercentileAndMaximumAreThoseOfTheSample) {
   PositionErrors errors;
   for (int mm = 1; mm <= 1000; ++mm) errors.add(1e-3 * mm);
   const ErrorFigures figures = errors.figures();
-  EXPECT_NEAR(*figures.rms, std::sqrt(1001.0 * 2001.0 / 6.0), 1e-9);  // sum of squares n (n + 1)(2n + 1)/6
+  EXPECT_NEAR(*figures.rms, std::sqrt(1001.0 * 2001.0 / 6.0),
+              1e-9);  // sum of squares n (n + 1)(2n + 1)/6
   EXPECT_NEAR(*figures.p50, 500.0, 1e-9);
   EXPECT_NEAR(*figures.p90, 900.0, 1e-9);
   EXPECT_NEAR(*figures.p99, 990.0, 1e-9);
@@ -140,8 +150,9 @@ TEST(ScopeHistory, KnowsWhatWasInScopeAtAnInstant) {
 }
 
 TEST(ScopeChanges, CountEntriesExitsAndFlapsWithinTheSpan) {
-  const std::vector<ScopeStep> steps{{-1.0, 1, true}, {-1.0, 9, true}, {0.5, 1, false}, {1.2, 1, true}, {1.3, 1, true}, {1.5, 2, true},
-                                      {1.6, 9, false}, {2.5, 1, false}, {4.0, 1, true}, {5.0, 2, false}};
+  const std::vector<ScopeStep> steps{
+      {-1.0, 1, true}, {-1.0, 9, true}, {0.5, 1, false}, {1.2, 1, true}, {1.3, 1, true},
+      {1.5, 2, true},  {1.6, 9, false}, {2.5, 1, false}, {4.0, 1, true}, {5.0, 2, false}};
   const ScopeChanges changes = count_changes(steps, 9, 1.0, 5.0);
   EXPECT_EQ(changes.entries, 3u);
   EXPECT_EQ(changes.exits, 1u);
@@ -149,12 +160,18 @@ TEST(ScopeChanges, CountEntriesExitsAndFlapsWithinTheSpan) {
 }
 
 TEST(ScopeChanges, AnEntryIsAFlapIfTheEntityHadLeftLessThanASecondBefore) {
-  const auto flaps = [](double away_s) { return count_changes(std::vector<ScopeStep>{{-1.0, 1, true}, {1.0, 1, false}, {1.0 + away_s, 1, true}}, 9, 0.0, 5.0).flaps; };
+  const auto flaps = [](double away_s) {
+    return count_changes(
+               std::vector<ScopeStep>{{-1.0, 1, true}, {1.0, 1, false}, {1.0 + away_s, 1, true}}, 9,
+               0.0, 5.0)
+        .flaps;
+  };
   EXPECT_EQ(flaps(1.0 - 1e-6), 1u);
   EXPECT_EQ(flaps(1.0), 0u);
 }
 
-/// An entity on a line at 1 m/s towards an observer at rest: its depth grows by the second, from -1 at 0 s.
+/// An entity on a line at 1 m/s towards an observer at rest: its depth grows by the second, from -1
+/// at 0 s.
 struct Approach {
   static constexpr double look_s = 0.3;
   Stays stays;
@@ -177,7 +194,8 @@ TEST(Stays, AnEntryIsLateFromWhenItCrossedTheBorderToWhenItsStateCame) {
   Approach approach;
   approach.watch(ScopeHistory({{1.75, 5, true}}), 6.0);
   ASSERT_EQ(approach.stays.lateness_s().size(), 1u);
-  EXPECT_NEAR(approach.stays.lateness_s()[0], 0.75, 1e-12) << "looks are 0.3 s apart, the crossing at 1 s is found between them";
+  EXPECT_NEAR(approach.stays.lateness_s()[0], 0.75, 1e-12)
+      << "looks are 0.3 s apart, the crossing at 1 s is found between them";
   EXPECT_EQ(approach.stays.never_delivered(), 0u);
 }
 
@@ -198,7 +216,8 @@ TEST(Stays, AnEntityThatNeverCameIsLateForItsWholeStay) {
 
 TEST(Stays, WhatWasThereAtTheFirstLookHasNoKnownBeginning) {
   Stays stays;
-  stays.look(0.0, std::vector<Relevant>{{1, 0.5}}, ScopeHistory({}), [](const Relevant&) { return 1.0; });
+  stays.look(0.0, std::vector<Relevant>{{1, 0.5}}, ScopeHistory({}),
+             [](const Relevant&) { return 1.0; });
   stays.end();
   EXPECT_TRUE(stays.lateness_s().empty());
 }
@@ -209,16 +228,22 @@ TEST(Sampling, TheSameSeedLooksAtTheSamePlayersAndInstants) {
   EXPECT_EQ(game::sampled_players(settings).size(), 32u);
   const std::vector<double> instants = game::sampled_instants(settings, 1);
   ASSERT_EQ(instants.size(), 30u);
-  for (std::size_t i = 0; i < instants.size(); ++i) EXPECT_EQ(std::floor((instants[i] - 0.5) / 0.1), static_cast<double>(i)) << "one from each tenth of a second";
+  for (std::size_t i = 0; i < instants.size(); ++i)
+    EXPECT_EQ(std::floor((instants[i] - 0.5) / 0.1), static_cast<double>(i))
+        << "one from each tenth of a second";
   EXPECT_NE(instants, game::sampled_instants(settings, 2));
 }
 
 TEST(Sampling, LooksTenTimesASecondButAtLeastTwentyAndAtMostAHundredTimesOnceInEachEqualPart) {
-  for (const auto& [span_s, count] : {std::pair{0.5, 20u}, {2.0, 20u}, {2.5, 25u}, {7.0, 70u}, {10.0, 100u}, {60.0, 100u}}) {
+  for (const auto& [span_s, count] :
+       {std::pair{0.5, 20u}, {2.0, 20u}, {2.5, 25u}, {7.0, 70u}, {10.0, 100u}, {60.0, 100u}}) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
-      const std::vector<double> instants = game::sampled_instants({.seed = seed, .clients = 5, .from_s = 1.0, .until_s = 1.0 + span_s}, 1);
+      const std::vector<double> instants = game::sampled_instants(
+          {.seed = seed, .clients = 5, .from_s = 1.0, .until_s = 1.0 + span_s}, 1);
       ASSERT_EQ(instants.size(), count) << span_s << " s, seed " << seed;
-      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(std::floor((instants[i] - 1.0) * count / span_s), static_cast<double>(i)) << span_s << " s, seed " << seed;
+      for (std::size_t i = 0; i < count; ++i)
+        EXPECT_EQ(std::floor((instants[i] - 1.0) * count / span_s), static_cast<double>(i))
+            << span_s << " s, seed " << seed;
     }
   }
 }

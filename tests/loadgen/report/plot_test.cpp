@@ -1,4 +1,5 @@
-// Axes, boxes, curves and tables: values stand where they belong, and what cannot be drawn is left out.
+// Axes, boxes, curves and tables: values stand where they belong, and what cannot be drawn is left
+// out.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "loadgen/report/plot_table.h"
 #include "loadgen/report/plots/axis.h"
 #include "loadgen/report/plots/bar_plot.h"
 #include "loadgen/report/plots/box_plot.h"
 #include "loadgen/report/plots/line_plot.h"
-#include "loadgen/report/plot_table.h"
 #include "loadgen/report/plots/style.h"
 #include "loadgen/report/plots/svg.h"
 #include "loadgen/report/plots/text.h"
@@ -30,9 +31,11 @@ using testing::Not;
 /// Where the marks of `svg` stand.
 std::vector<std::pair<double, double>> marks_of(const std::string& svg) {
   std::vector<std::pair<double, double>> places;
-  for (std::size_t at = svg.find("<path d=\"M"); at != std::string::npos; at = svg.find("<path d=\"M", at + 1)) {
+  for (std::size_t at = svg.find("<path d=\"M"); at != std::string::npos;
+       at = svg.find("<path d=\"M", at + 1)) {
     const std::string path = svg.substr(at + 10, svg.find('>', at) - at - 10);
-    if (path.find("class=\"mark ") != std::string::npos) places.emplace_back(std::stod(path), std::stod(path.substr(path.find(' '))));
+    if (path.find("class=\"mark ") != std::string::npos)
+      places.emplace_back(std::stod(path), std::stod(path.substr(path.find(' '))));
   }
   return places;
 }
@@ -42,11 +45,15 @@ const std::string long_name = "region or strips with priority(budget=60), dead-r
 /// The texts of `svg` that reach beyond its `width`, by the width that a letter takes at most.
 std::vector<std::string> texts_beyond(const std::string& svg, double width) {
   std::vector<std::string> result;
-  for (std::size_t at = svg.find("<text x=\""); at != std::string::npos; at = svg.find("<text x=\"", at + 1)) {
+  for (std::size_t at = svg.find("<text x=\""); at != std::string::npos;
+       at = svg.find("<text x=\"", at + 1)) {
     const std::size_t begin = svg.find('>', at) + 1;
-    const std::string classes = svg.substr(at, begin - at), text = svg.substr(begin, svg.find("</text>", at) - begin);
+    const std::string classes = svg.substr(at, begin - at),
+                      text = svg.substr(begin, svg.find("</text>", at) - begin);
     const double anchor = std::stod(svg.substr(at + 9)), taken = text_width(text);
-    const double left = anchor - taken * (classes.find(" end\"") != std::string::npos ? 1.0 : classes.find(" middle\"") != std::string::npos ? 0.5 : 0.0);
+    const double left = anchor - taken * (classes.find(" end\"") != std::string::npos      ? 1.0
+                                          : classes.find(" middle\"") != std::string::npos ? 0.5
+                                                                                           : 0.0);
     if (left < 0.0 || left + taken > width) result.push_back(text);
   }
   return result;
@@ -75,15 +82,19 @@ TEST(Plot, TicksStandAtOneTwoAndFive) {
   const Axis axis{1.0, 100.0, 0.0, 400.0, true};
   EXPECT_THAT(places_of(ticks_of(axis, 30.0)), ElementsAre(1, 2, 5, 10, 20, 50, 100));
   EXPECT_THAT(ticks_of(axis, 30.0).minor, ElementsAre(3, 4, 6, 7, 8, 9, 30, 40, 60, 70, 80, 90));
-  EXPECT_THAT(places_of(ticks_of({1.0, 1e6, 0.0, 200.0, true}, 30.0)), ElementsAre(1, 10, 100, 1e3, 1e4, 1e5, 1e6));
+  EXPECT_THAT(places_of(ticks_of({1.0, 1e6, 0.0, 200.0, true}, 30.0)),
+              ElementsAre(1, 10, 100, 1e3, 1e4, 1e5, 1e6));
   EXPECT_THAT(places_of(ticks_of({0.0, 10.0, 0.0, 100.0, false}, 25.0)), ElementsAre(0, 5, 10));
-  EXPECT_THAT(places_of(ticks_of({0.0, 10.0, 0.0, 300.0, false}, 25.0)), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
+  EXPECT_THAT(places_of(ticks_of({0.0, 10.0, 0.0, 300.0, false}, 25.0)),
+              ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
 }
 
 TEST(Plot, WordsThatDoNotFitLoseTheirMiddle) {
   EXPECT_EQ(fitted("region", text_width("region")), "region");
   EXPECT_EQ(fitted("region, on-event", text_width("12345678")), "reg\xE2\x80\xA6vent");
-  EXPECT_EQ(fitted("m\xC2\xB2m\xC2\xB2m\xC2\xB2", text_width("12345")), "m\xC2\xB2\xE2\x80\xA6m\xC2\xB2") << "letters stay whole";
+  EXPECT_EQ(fitted("m\xC2\xB2m\xC2\xB2m\xC2\xB2", text_width("12345")),
+            "m\xC2\xB2\xE2\x80\xA6m\xC2\xB2")
+      << "letters stay whole";
 }
 
 LinePlot three_decades() {
@@ -98,13 +109,15 @@ LinePlot three_decades() {
 
 TEST(Plot, TicksOfANarrowRangeHaveTheDigitsThatTellThemApart) {
   std::vector<std::string> texts;
-  for (const auto& [value, text] : ticks_of({0.9989, 1.0, 0.0, 300.0, false}, 40.0).major) texts.push_back(text);
+  for (const auto& [value, text] : ticks_of({0.9989, 1.0, 0.0, 300.0, false}, 40.0).major)
+    texts.push_back(text);
   EXPECT_THAT(texts, ElementsAre("0.999", "0.9992", "0.9994", "0.9996", "0.9998", "1"));
 }
 
 TEST(Plot, ReferenceCurveOfWhichNoMoreThanAPointIsSeenIsNotNamed) {
   LinePlot plot = three_decades();
-  plot.references = {{"seen", {{20.0, 20.0}, {200.0, 30.0}}}, {"unseen", {{0.1, 20.0}, {20.0, 20.0}}}};
+  plot.references = {{"seen", {{20.0, 20.0}, {200.0, 30.0}}},
+                     {"unseen", {{0.1, 20.0}, {20.0, 20.0}}}};
   EXPECT_THAT(to_svg(plot), AllOf(HasSubstr(">seen<"), Not(HasSubstr("unseen"))));
 }
 
@@ -135,7 +148,8 @@ TEST(Plot, AnIntervalThatGoesOnBeyondTheAxisHasNoCapThere) {
     const std::string svg = to_svg(plot);
     const std::size_t end = svg.find("class=\"whisker");
     const std::size_t begin = svg.rfind("<path d=\"", end);
-    return std::count(svg.begin() + static_cast<std::ptrdiff_t>(begin), svg.begin() + static_cast<std::ptrdiff_t>(end), 'M');
+    return std::count(svg.begin() + static_cast<std::ptrdiff_t>(begin),
+                      svg.begin() + static_cast<std::ptrdiff_t>(end), 'M');
   };
   EXPECT_EQ(strokes_of({20.0, 80.0}), 3) << "the bar and a cap at each end";
   EXPECT_EQ(strokes_of({0.001, 80.0}), 2) << "an axis that begins near 5 shows no end at 0.001";
@@ -160,7 +174,8 @@ double gaps_seen(const std::string& dash) {
   for (double length = 0.0; lengths >> length;) pattern.push_back(length);
   double seen = 0.0, at = 0.0;
   for (std::size_t i = 0; !pattern.empty() && at < sample; at += pattern[i++ % pattern.size()])
-    for (double x = at; i % 2 == 1 && x < std::min(sample, at + pattern[i % pattern.size()]); x += step)
+    for (double x = at; i % 2 == 1 && x < std::min(sample, at + pattern[i % pattern.size()]);
+         x += step)
       if (std::abs(x - sample / 2.0) > 5.0) seen += step;
   return seen;
 }
@@ -173,7 +188,8 @@ TEST(Plot, ALegendShowsWhichLinesAreDashed) {
 TEST(Plot, NamesOfCurvesThatBeginAtOnePlaceStandApart) {
   LinePlot plot = three_decades();
   std::vector<std::pair<double, double>> diagonal;
-  for (int i = 0; i <= 40; ++i) diagonal.emplace_back(10.0 * std::pow(100.0, i / 40.0), 5.0 * std::pow(100.0, i / 40.0));
+  for (int i = 0; i <= 40; ++i)
+    diagonal.emplace_back(10.0 * std::pow(100.0, i / 40.0), 5.0 * std::pow(100.0, i / 40.0));
   plot.references = {{"8 + 2 n", diagonal}, {"9 + 2 n", diagonal}, {"8 n^2", diagonal}};
   const std::string svg = to_svg(plot);
   std::vector<std::pair<double, double>> places;
@@ -185,7 +201,9 @@ TEST(Plot, NamesOfCurvesThatBeginAtOnePlaceStandApart) {
   }
   for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
-      EXPECT_TRUE(std::abs(places[i].first - places[k].first) > 40.0 || std::abs(places[i].second - places[k].second) > 10.5) << plot.references[i].name << ", " << plot.references[k].name;
+      EXPECT_TRUE(std::abs(places[i].first - places[k].first) > 40.0 ||
+                  std::abs(places[i].second - places[k].second) > 10.5)
+          << plot.references[i].name << ", " << plot.references[k].name;
 }
 
 TEST(Plot, ATitleAndALegendThatAreTooLongStayWithinThePlot) {
@@ -218,13 +236,15 @@ TEST(BoxPlot, HingesAreMediansOfTheHalvesAndFarValuesLieOutside) {
 
 TEST(BoxPlot, FewReplicationsAreDotsWithoutABox) {
   BoxPlot plot{"t", "x", "", true, {{"10 clients", {{"a", {}, {1, 2, 3, 4}}}}}};
-  EXPECT_THAT(to_svg(plot), AllOf(HasSubstr("class=\"dot s0\""), Not(HasSubstr("class=\"box s0\""))));
+  EXPECT_THAT(to_svg(plot),
+              AllOf(HasSubstr("class=\"dot s0\""), Not(HasSubstr("class=\"box s0\""))));
   plot.groups[0].rows[0].values.push_back(5);
   EXPECT_THAT(to_svg(plot), HasSubstr("class=\"box s0\""));
 }
 
 TEST(BoxPlot, LongNamesStandInFullAboveTheirRows) {
-  BoxPlot plot{"t", "x", "", true, {{"10 clients", {{"none", {}, {1, 2}}, {long_name, {}, {3, 4}}}}}};
+  BoxPlot plot{
+      "t", "x", "", true, {{"10 clients", {{"none", {}, {1, 2}}, {long_name, {}, {3, 4}}}}}};
   EXPECT_THAT(to_svg(plot), AllOf(HasSubstr(">none<"), HasSubstr(">" + long_name + "<")));
   EXPECT_THAT(texts_beyond(to_svg(plot), plot.width), ElementsAre());
   plot.groups[0].rows[1].name += ", " + long_name;
@@ -232,24 +252,30 @@ TEST(BoxPlot, LongNamesStandInFullAboveTheirRows) {
 }
 
 TEST(BarPlot, NamesThatAreWiderThanTheirPlacesAreNumberedAndListedBelow) {
-  BarPlot plot{"t", "x", "y", "", {"states"}, {{"none", {1.0}, ""}, {"region", {2.0}, ""}}, {}, {}, ""};
-  EXPECT_THAT(to_svg(plot), AllOf(HasSubstr("class=\"tick middle\">none<"), HasSubstr("class=\"tick middle\">region<")));
+  BarPlot plot{"t", "x", "y", "", {"states"}, {{"none", {1.0}, ""}, {"region", {2.0}, ""}},
+               {},  {},  ""};
+  EXPECT_THAT(to_svg(plot), AllOf(HasSubstr("class=\"tick middle\">none<"),
+                                  HasSubstr("class=\"tick middle\">region<")));
   plot.bars.push_back({long_name, {3.0}, ""});
   const std::string svg = to_svg(plot);
-  EXPECT_THAT(svg, AllOf(HasSubstr("class=\"tick middle\">3<"), HasSubstr(">1: none<"), HasSubstr(">2: region<"), Not(HasSubstr("class=\"tick middle\">none<"))));
+  EXPECT_THAT(svg, AllOf(HasSubstr("class=\"tick middle\">3<"), HasSubstr(">1: none<"),
+                         HasSubstr(">2: region<"), Not(HasSubstr("class=\"tick middle\">none<"))));
   EXPECT_THAT(texts_beyond(svg, plot.width), ElementsAre());
 }
 
 TEST(BarPlot, PartsStackToTheirSumAndTheBudgetIsDrawnOnlyWithinReach) {
-  BarPlot plot{"t", "x", "y", "", {"physics", "filter", "send"}, {{"10", {1.0, 2.0, 3.0}, ""}}, {}, 6.0, "budget"};
+  BarPlot plot{"t", "x", "y",     "", {"physics", "filter", "send"}, {{"10", {1.0, 2.0, 3.0}, ""}},
+               {},  6.0, "budget"};
   EXPECT_THAT(to_svg(plot), HasSubstr("mark-line"));
   plot.mark = 60.0;
   EXPECT_THAT(to_svg(plot), Not(HasSubstr("mark-line")));
 }
 
 TEST(PlotTable, CommentsComeFirstAndCellsThatNeedItAreQuoted) {
-  const PlotTable table{"t", "About\nit", {"line", "x"}, {{"none, periodic", "1"}, {"say \"a\"", "2"}}};
-  EXPECT_EQ(to_csv(table, {{{"kernel", "Linux"}}}), "# About it\n# kernel: Linux\nline,x\n\"none, periodic\",1\n\"say \"\"a\"\"\",2\n");
+  const PlotTable table{
+      "t", "About\nit", {"line", "x"}, {{"none, periodic", "1"}, {"say \"a\"", "2"}}};
+  EXPECT_EQ(to_csv(table, {{{"kernel", "Linux"}}}),
+            "# About it\n# kernel: Linux\nline,x\n\"none, periodic\",1\n\"say \"\"a\"\"\",2\n");
 }
 
 }  // namespace

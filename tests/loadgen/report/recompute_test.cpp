@@ -1,4 +1,5 @@
-// The figures of a report, computed again from its evidence by a program that shares nothing with the one that wrote them.
+// The figures of a report, computed again from its evidence by a program that shares nothing with
+// the one that wrote them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,7 +52,8 @@ class RecomputeTest : public test::CommandTest {
   /// The exit status of recompute.py; what it prints is in `printed_`.
   int recompute() {
     const std::string script = test::source_folder() + "/docs/analysis/recompute.py";
-    const int status = std::system(("python3 " + script + " " + file("out") + " >" + file("printed") + " 2>&1").c_str());
+    const int status = std::system(
+        ("python3 " + script + " " + file("out") + " >" + file("printed") + " 2>&1").c_str());
     printed_ = content("printed");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -62,8 +64,9 @@ class RecomputeLongTest : public RecomputeTest {
   void SetUp() override {
     RecomputeTest::SetUp();
     if (!IsSkipped())
-      compare("schemes = ['none', 'aura with dwell(matches=3)', 'region']\nview_margin = [0, 0.3]\n"
-              "extrapolate = [true, false]\n");
+      compare(
+          "schemes = ['none', 'aura with dwell(matches=3)', 'region']\nview_margin = [0, 0.3]\n"
+          "extrapolate = [true, false]\n");
   }
 
   void compare(const std::string& what) {
@@ -77,8 +80,9 @@ class RecomputeLongTest : public RecomputeTest {
 // It said that a column agreed, and that another one was skipped, for whatever reason the first run
 // gave.
 TEST_F(RecomputeTest, EachColumnSaysHowManyRunsWereCheckedAndWhyTheOthersWereNot) {
-  compare_few("transport = 'virtual'\nschemes = ['none', 'region']\n[[parts]]\nname = 'plain'\n"
-              "[[parts]]\nname = 'points'\ncurves = true\nseeds = [1, 2]\n");
+  compare_few(
+      "transport = 'virtual'\nschemes = ['none', 'region']\n[[parts]]\nname = 'plain'\n"
+      "[[parts]]\nname = 'points'\ncurves = true\nseeds = [1, 2]\n");
   EXPECT_EQ(recompute(), 0) << printed_;
   EXPECT_THAT(
       printed_,
@@ -92,7 +96,8 @@ TEST_F(RecomputeTest, EachColumnSaysHowManyRunsWereCheckedAndWhyTheOthersWereNot
   EXPECT_THAT(
       printed_,
       HasSubstr("agrees   filter_recall (2 of 6 runs): points of curves without evidence (4)\n"));
-  ASSERT_EQ(run("compare " + file("small.toml") + " --keep-evidence --force --out " + file("out")), 0);
+  ASSERT_EQ(run("compare " + file("small.toml") + " --keep-evidence --force --out " + file("out")),
+            0);
   ASSERT_EQ(run("compare --trace " + file("out")), 0) << said_;
   EXPECT_EQ(recompute(), 0) << "points of curves have no late entries: " << printed_;
   EXPECT_THAT(printed_, HasSubstr("agrees   filter_recall (6 of 6 runs)\n"));
@@ -162,10 +167,14 @@ TEST_F(RecomputeTest, WhatPeersSentAndWhatTheirPlayersSawIsComputedFromTheirRepo
 TEST_F(RecomputeLongTest, EveryFigureComesOutTheSameFromTheEvidenceAndWhereEverythingWas) {
   ASSERT_EQ(run("compare --trace " + file("out")), 0) << said_;
   EXPECT_EQ(recompute(), 0) << printed_;
-  for (const char* figure : {"filter_precision", "filter_recall", "delivered_precision", "delivered_recall", "missed_interactions", "late_entry_ms_p50", "position_error_mm_rms",
-                             "position_error_mm_p99", "displayed_error_mm_rms", "displayed_error_mm_p50", "displayed_error_mm_max", "wasted_bytes_fraction"})
+  for (const char* figure :
+       {"filter_precision", "filter_recall", "delivered_precision", "delivered_recall",
+        "missed_interactions", "late_entry_ms_p50", "position_error_mm_rms",
+        "position_error_mm_p99", "displayed_error_mm_rms", "displayed_error_mm_p50",
+        "displayed_error_mm_max", "wasted_bytes_fraction"})
     EXPECT_THAT(printed_, HasSubstr(std::string("agrees   ") + figure + " ("));
-  EXPECT_THAT(printed_, AllOf(Not(HasSubstr("DIFFERS")), Not(HasSubstr("skipped")))) << "nothing is left unchecked";
+  EXPECT_THAT(printed_, AllOf(Not(HasSubstr("DIFFERS")), Not(HasSubstr("skipped"))))
+      << "nothing is left unchecked";
   for (const char* figure :
        {"interactions", "update_age_samples", "displayed_error_mm_replaced_samples", "entities"})
     EXPECT_THAT(printed_, HasSubstr(std::string("agrees   ") + figure + " (15 of 15 runs)\n"));
@@ -184,8 +193,10 @@ TEST_F(RecomputeLongTest, FiguresOfARunThatStartsWarmComeOutTheSameFromTheSavedG
 
 TEST_F(RecomputeLongTest, EveryFigureThatNeedsNoPhysicsComesOutTheSameFromTheEvidence) {
   EXPECT_EQ(recompute(), 0) << printed_;
-  for (const char* figure : {"down_bytes_per_client_per_s", "wire_bytes_per_client_per_s", "messages_per_s", "churn_per_client_per_s", "flapping_fraction",
-                             "fairness_jain", "control_bytes_fraction", "update_age_ms_p50", "ticks"})
+  for (const char* figure :
+       {"down_bytes_per_client_per_s", "wire_bytes_per_client_per_s", "messages_per_s",
+        "churn_per_client_per_s", "flapping_fraction", "fairness_jain", "control_bytes_fraction",
+        "update_age_ms_p50", "ticks"})
     EXPECT_THAT(printed_, HasSubstr(std::string("agrees   ") + figure + " ("));
   EXPECT_THAT(printed_, HasSubstr("agrees   ticks (15 of 15 runs)\n"))
       << "1 + 2 x 2 schemes with margins, 2 + 1 policies with what they extrapolate";
@@ -199,14 +210,17 @@ TEST_F(RecomputeLongTest, EveryFigureThatNeedsNoPhysicsComesOutTheSameFromTheEvi
 TEST_F(RecomputeLongTest, AFolderWithoutATidyTableIsNamedAndNotCalledDifferent) {
   std::filesystem::remove(file("out/tidy.csv"));
   EXPECT_EQ(recompute(), 2) << "nothing could be checked";
-  EXPECT_THAT(printed_, AllOf(HasSubstr("recompute.py: " + file("out/tidy.csv") + ": No such file"), Not(HasSubstr("Traceback"))));
+  EXPECT_THAT(printed_, AllOf(HasSubstr("recompute.py: " + file("out/tidy.csv") + ": No such file"),
+                              Not(HasSubstr("Traceback"))));
 }
 
 TEST_F(RecomputeLongTest, ANumberThatSomebodyChangedIsNamed) {
   change("churn_per_client_per_s");
   const int status = recompute();
   EXPECT_EQ(status, 1) << printed_;
-  EXPECT_THAT(printed_, AllOf(HasSubstr("DIFFERS  client-server-"), HasSubstr("differs  churn_per_client_per_s"), HasSubstr("agrees   fairness_jain")));
+  EXPECT_THAT(printed_, AllOf(HasSubstr("DIFFERS  client-server-"),
+                              HasSubstr("differs  churn_per_client_per_s"),
+                              HasSubstr("agrees   fairness_jain")));
 }
 
 }  // namespace

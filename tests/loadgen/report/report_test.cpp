@@ -43,7 +43,9 @@ TEST(Report, IsWellFormedAndHoldsEveryCell) {
 
 TEST(Report, NeedsNeitherNetworkNorScript) {
   const std::string html = report_of(small_experiment(), some_runs(), provenance).html;
-  EXPECT_THAT(html, AllOf(Not(HasSubstr("<script")), Not(HasSubstr("src=")), Not(HasSubstr("href=\"h")), Not(HasSubstr("url(")), Not(HasSubstr("@import"))));
+  EXPECT_THAT(html,
+              AllOf(Not(HasSubstr("<script")), Not(HasSubstr("src=")), Not(HasSubstr("href=\"h")),
+                    Not(HasSubstr("url(")), Not(HasSubstr("@import"))));
 }
 
 TEST(Report, TextFromOutsideIsEscaped) {
@@ -56,8 +58,10 @@ TEST(Report, TextFromOutsideIsEscaped) {
   experiment.text = "name = \"</pre>\"";
   const std::string html = report_of(experiment, runs, provenance).html;
   EXPECT_EQ(unbalanced(html), "");
-  EXPECT_THAT(html, AllOf(Not(HasSubstr("<script")), Not(HasSubstr("<b>\"")), Not(HasSubstr("\x1b"))));
-  EXPECT_THAT(html, AllOf(HasSubstr("&lt;script&gt;alert(&#39;x&#39;)"), HasSubstr("Linux &lt;6&gt;"), HasSubstr("a &amp; b")));
+  EXPECT_THAT(html,
+              AllOf(Not(HasSubstr("<script")), Not(HasSubstr("<b>\"")), Not(HasSubstr("\x1b"))));
+  EXPECT_THAT(html, AllOf(HasSubstr("&lt;script&gt;alert(&#39;x&#39;)"),
+                          HasSubstr("Linux &lt;6&gt;"), HasSubstr("a &amp; b")));
 }
 
 TEST(Report, InvalidRunsAreListedWithTheirReasonAndDisagreementIsShown) {
@@ -65,9 +69,11 @@ TEST(Report, InvalidRunsAreListedWithTheirReasonAndDisagreementIsShown) {
   runs[3].valid = false;
   runs[3].why_invalid = "the bots fell asleep";
   const std::string html = report_of(small_experiment(), runs, provenance).html;
-  EXPECT_THAT(html, AllOf(HasSubstr("Runs that do not count"), HasSubstr("the bots fell asleep"), HasSubstr("same state hash: NO")));
+  EXPECT_THAT(html, AllOf(HasSubstr("Runs that do not count"), HasSubstr("the bots fell asleep"),
+                          HasSubstr("same state hash: NO")));
   for (RunRecord& run : runs) run.state_hash = "one-and-the-same";
-  EXPECT_THAT(report_of(small_experiment(), runs, provenance).html, HasSubstr("same state hash: <b>yes</b>"));
+  EXPECT_THAT(report_of(small_experiment(), runs, provenance).html,
+              HasSubstr("same state hash: <b>yes</b>"));
 }
 
 TEST(Report, HeadsItsFiguresWithTheTermsOfTheField) {
@@ -92,11 +98,13 @@ TEST(Report, HeadsItsFiguresWithTheTermsOfTheField) {
 
 TEST(Report, WithoutAnyFigureThereIsStillAPage) {
   EXPECT_EQ(unbalanced(report_of(small_experiment(), {}, provenance).html), "");
-  std::vector<RunRecord> runs{record_for(small_experiment(), {"client-server", "none", "periodic", 1, 1})};
+  std::vector<RunRecord> runs{
+      record_for(small_experiment(), {"client-server", "none", "periodic", 1, 1})};
   runs[0].why_invalid = "crashed";
   const std::string html = report_of(small_experiment(), runs, provenance).html;
   EXPECT_EQ(unbalanced(html), "");
-  EXPECT_THAT(html, AllOf(HasSubstr("crashed"), Not(HasSubstr("=\"nan")), Not(HasSubstr("=\"-nan")), Not(HasSubstr("=\"inf"))));
+  EXPECT_THAT(html, AllOf(HasSubstr("crashed"), Not(HasSubstr("=\"nan")), Not(HasSubstr("=\"-nan")),
+                          Not(HasSubstr("=\"inf"))));
 }
 
 }  // namespace

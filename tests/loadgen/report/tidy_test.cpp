@@ -10,15 +10,15 @@
 #include <sstream>
 #include <utility>
 
-#include "tests/loadgen/report/canned_reports.h"
-#include "loadgen/report/dictionary.h"
+#include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/equal_error.h"
 #include "loadgen/measure/growth.h"
-#include "loadgen/experiment/parameter.h"
-#include "loadgen/run/saturation/saturate_command.h"
 #include "loadgen/measure/server_cores.h"
 #include "loadgen/measure/summary.h"
+#include "loadgen/report/dictionary.h"
+#include "loadgen/run/saturation/saturate_command.h"
+#include "tests/loadgen/report/canned_reports.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
@@ -59,7 +59,8 @@ RunRecord some_run(const std::string& scheme, std::uint64_t seed) {
 }
 
 TEST(Tidy, EveryFigureOfEveryRunIsALineWithTheValueThatTheRunHas) {
-  std::vector<RunRecord> runs{some_run("none", 1), some_run("aura with priority(budget=400, age=1)", 2)};
+  std::vector<RunRecord> runs{some_run("none", 1),
+                              some_run("aura with priority(budget=400, age=1)", 2)};
   runs[1].valid = false;
   runs[1].truth.filter_recall = 1.0 / 3.0;
   const auto rows = rows_of(tidy_csv(runs));
@@ -67,8 +68,10 @@ TEST(Tidy, EveryFigureOfEveryRunIsALineWithTheValueThatTheRunHas) {
   for (const RunRecord& run : runs)
     for (const Figure& figure : figures()) present += figure.of(run).has_value();
   ASSERT_EQ(rows.size(), 1 + present);
-  EXPECT_THAT(rows[0], ElementsAre("part", "mode", "scheme", "policy", "clients", "pucks", "bats", "server_cores", "view_fraction", "view_margin",
-                                   "sweep_ticks", "cell_size", "tick_rate_hz", "threshold", "extrapolate", "seed", "valid", "figure", "unit", "value"));
+  EXPECT_THAT(rows[0], ElementsAre("part", "mode", "scheme", "policy", "clients", "pucks", "bats",
+                                   "server_cores", "view_fraction", "view_margin", "sweep_ticks",
+                                   "cell_size", "tick_rate_hz", "threshold", "extrapolate", "seed",
+                                   "valid", "figure", "unit", "value"));
   std::size_t at = 1;
   for (const RunRecord& run : runs)
     for (const Figure& figure : figures()) {
@@ -76,7 +79,8 @@ TEST(Tidy, EveryFigureOfEveryRunIsALineWithTheValueThatTheRunHas) {
       if (!value) continue;
       const auto& row = rows[at++];
       ASSERT_THAT(row, SizeIs(rows[0].size()));
-      EXPECT_THAT((std::vector(row.begin(), row.begin() + 4)), ElementsAre("late", "client-server", run.cell.scheme, "periodic"));
+      EXPECT_THAT((std::vector(row.begin(), row.begin() + 4)),
+                  ElementsAre("late", "client-server", run.cell.scheme, "periodic"));
       EXPECT_EQ(row[9], "0.25");
       EXPECT_EQ(row[15], std::to_string(run.cell.seed));
       EXPECT_EQ(row[16], run.valid ? "true" : "false");
@@ -124,8 +128,13 @@ TEST(Dictionary, DefinesEveryFigureInASentenceWithAUnit) {
   EXPECT_EQ(unit_of("displayed_error_mm_replaced_rms"), "mm");
   EXPECT_EQ(unit_of("displayed_error_mm_replaced_samples"), "1")
       << "a number of samples is no distance";
-  const std::map<std::string, std::string> units{{"_ms", "ms"}, {"_mm", "mm"}, {"_us", "us"}, {"_us_per_tick", "us"},
-                                                 {"_cpu_s", "s"}, {"_fraction", "1"}, {"bytes_per_client_per_s", "B/s"}};
+  const std::map<std::string, std::string> units{{"_ms", "ms"},
+                                                 {"_mm", "mm"},
+                                                 {"_us", "us"},
+                                                 {"_us_per_tick", "us"},
+                                                 {"_cpu_s", "s"},
+                                                 {"_fraction", "1"},
+                                                 {"bytes_per_client_per_s", "B/s"}};
   for (const Definition& definition : figure_definitions())
     for (const auto& [ending, unit] : units) {
       if (std::string(definition.field).ends_with(ending)) {
@@ -137,7 +146,8 @@ TEST(Dictionary, DefinesEveryFigureInASentenceWithAUnit) {
 TEST(Dictionary, DefinesNothingThatNoTableHas) {
   std::set<std::string> used;
   for (const Figure& figure : figures()) used.insert(definition_of(figure.name)->field);
-  for (const Definition& definition : figure_definitions()) EXPECT_THAT(used, Contains(definition.field));
+  for (const Definition& definition : figure_definitions())
+    EXPECT_THAT(used, Contains(definition.field));
 }
 
 TEST(Dictionary, HasALineForEveryColumnAndEveryFigureOfTheLongTable) {
@@ -148,11 +158,14 @@ TEST(Dictionary, HasALineForEveryColumnAndEveryFigureOfTheLongTable) {
   for (std::size_t i = 1; i < dictionary.size(); ++i) {
     ASSERT_THAT(dictionary[i], SizeIs(6));
     if (dictionary[i][1] != "cell" && dictionary[i][1] != "figure") continue;
-    EXPECT_TRUE(lines.emplace(dictionary[i][0], dictionary[i]).second) << dictionary[i][0] << " is defined twice";
+    EXPECT_TRUE(lines.emplace(dictionary[i][0], dictionary[i]).second)
+        << dictionary[i][0] << " is defined twice";
   }
   const auto rows = rows_of(tidy_csv(std::span(&run, 1)));
-  ASSERT_THAT((std::vector(rows[0].end() - 3, rows[0].end())), ElementsAre("figure", "unit", "value"));
-  for (auto column = rows[0].begin(); column != rows[0].end() - 3; ++column) EXPECT_EQ(lines[*column].at(1), "cell") << *column;
+  ASSERT_THAT((std::vector(rows[0].end() - 3, rows[0].end())),
+              ElementsAre("figure", "unit", "value"));
+  for (auto column = rows[0].begin(); column != rows[0].end() - 3; ++column)
+    EXPECT_EQ(lines[*column].at(1), "cell") << *column;
   for (const Figure& figure : figures()) EXPECT_EQ(lines[figure.name].at(1), "figure");
   for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_EQ(rows[i][18], lines[rows[i][17]].at(2));
 }
@@ -213,14 +226,15 @@ TEST(Dictionary, CallsWhatRivalsSendMoreAReductionFactor) {
 }
 
 TEST(Dictionary, GivesTheNamesOfTheLiterature) {
-  const std::map<std::string, std::string> aliases{{"update_age_ms_p99", "update latency"},
-                                                   {"key_to_effect_ms_p50", "input latency"},
-                                                   {"late_entry_ms_p95", "discovery latency"},
-                                                   {"displayed_error_mm_rms", "dead-reckoning error now"},
-                                                   {"position_error_mm_rms", "at the time stamp"},
-                                                   {"position_error_mm_max", "replica error"},
-                                                   {"server_cpu_s", "CPU time"},
-                                                   {"view_fraction", "area fraction"}};
+  const std::map<std::string, std::string> aliases{
+      {"update_age_ms_p99", "update latency"},
+      {"key_to_effect_ms_p50", "input latency"},
+      {"late_entry_ms_p95", "discovery latency"},
+      {"displayed_error_mm_rms", "dead-reckoning error now"},
+      {"position_error_mm_rms", "at the time stamp"},
+      {"position_error_mm_max", "replica error"},
+      {"server_cpu_s", "CPU time"},
+      {"view_fraction", "area fraction"}};
   std::map<std::string, std::string> found;
   for (const auto& row : rows_of(data_dictionary_csv())) found[row[0]] = row[3];
   for (const auto& [name, alias] : aliases) EXPECT_THAT(found[name], HasSubstr(alias)) << name;

@@ -1,4 +1,5 @@
-// What a crowd measures while its own clock stands still for a moment: a stall of the bots shows in every latency that it lengthened.
+// What a crowd measures while its own clock stands still for a moment: a stall of the bots shows in
+// every latency that it lengthened.
 #include "loadgen/run/bots/bot_crowd.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,8 @@
 namespace rink::loadgen {
 namespace {
 
-/// Hands on what one poll brings as a kernel does: all bytes of a connection that came since the last poll at once.
+/// Hands on what one poll brings as a kernel does: all bytes of a connection that came since the
+/// last poll at once.
 class OneRead final : public rti::Transport, private rti::TransportListener {
  public:
   explicit OneRead(rti::Transport& inner) : inner_(inner) {}
@@ -36,25 +38,37 @@ class OneRead final : public rti::Transport, private rti::TransportListener {
     for (auto& [connection, bytes] : std::exchange(waiting_, {})) {
       const std::size_t now = bytes.size() - std::min(held_back, bytes.size());
       if (now > 0) listener.on_bytes(connection, std::span(bytes).first(now));
-      if (now < bytes.size()) waiting_[connection].assign(bytes.begin() + static_cast<std::ptrdiff_t>(now), bytes.end());
+      if (now < bytes.size())
+        waiting_[connection].assign(bytes.begin() + static_cast<std::ptrdiff_t>(now), bytes.end());
     }
   }
-  std::size_t held_back = 0;  ///< bytes at the end of each connection's that only the next poll brings
-  void send(rti::ConnectionId connection, std::span<const rti::Bytes> parts) override { inner_.send(connection, parts); }
+  std::size_t held_back =
+      0;  ///< bytes at the end of each connection's that only the next poll brings
+  void send(rti::ConnectionId connection, std::span<const rti::Bytes> parts) override {
+    inner_.send(connection, parts);
+  }
   void close(rti::ConnectionId connection) override { inner_.close(connection); }
-  rti::TransportCounters counters(rti::ConnectionId connection) const override { return inner_.counters(connection); }
+  rti::TransportCounters counters(rti::ConnectionId connection) const override {
+    return inner_.counters(connection);
+  }
 
  private:
   void on_open(rti::ConnectionId connection) override { listener_->on_open(connection); }
-  void on_bytes(rti::ConnectionId connection, rti::Bytes bytes) override { waiting_[connection].insert(waiting_[connection].end(), bytes.begin(), bytes.end()); }
-  void on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) override { listener_->on_close(connection, reason, detail); }
+  void on_bytes(rti::ConnectionId connection, rti::Bytes bytes) override {
+    waiting_[connection].insert(waiting_[connection].end(), bytes.begin(), bytes.end());
+  }
+  void on_close(rti::ConnectionId connection, rti::CloseReason reason,
+                const std::string& detail) override {
+    listener_->on_close(connection, reason, detail);
+  }
 
   rti::Transport& inner_;
   rti::TransportListener* listener_ = nullptr;
   std::map<rti::ConnectionId, std::vector<std::byte>> waiting_;
 };
 
-/// A server that ticks 50 times a second, and both players of a match, who hear it without delay whenever their process runs.
+/// A server that ticks 50 times a second, and both players of a match, who hear it without delay
+/// whenever their process runs.
 class StalledCrowd : public testing::Test {
  protected:
   static constexpr double rate_hz = 50.0;
@@ -62,7 +76,10 @@ class StalledCrowd : public testing::Test {
 
   /// `plan`: keys to press; those due before `warm_up_s` of simulated time are not counted.
   void start(const std::vector<game::InputEvent>& plan, double warm_up_s, double duration_s) {
-    crowd_.emplace(fom_, reads_, BotCrowdSettings{.view_fraction = 1.0, .warm_up_s = warm_up_s, .duration_s = duration_s}, bots, plan, [this] { return network_.now_s(); });
+    crowd_.emplace(
+        fom_, reads_,
+        BotCrowdSettings{.view_fraction = 1.0, .warm_up_s = warm_up_s, .duration_s = duration_s},
+        bots, plan, [this] { return network_.now_s(); });
     crowd_->connect([this](std::uint32_t) { return bots_end_.connect("server"); });
     game::TickCosts uncounted;
     const auto step = [&] {
@@ -77,7 +94,8 @@ class StalledCrowd : public testing::Test {
     start_ns_ = (network_.now_ns() / second_ns + 1) * second_ns;
     network_.advance_to(start_ns_);
   }
-  /// Plays ticks up to that of simulated `until_s`, which comes last; the bots run after each if they are not `stalled`.
+  /// Plays ticks up to that of simulated `until_s`, which comes last; the bots run after each if
+  /// they are not `stalled`.
   void play(double until_s, bool is_stalled = false) {
     for (; next_tick_ <= std::llround(until_s * rate_hz); ++next_tick_) {
       run_until(static_cast<double>(next_tick_) / rate_hz, is_stalled);
@@ -86,7 +104,8 @@ class StalledCrowd : public testing::Test {
       if (!is_stalled) crowd_->run_once();
     }
   }
-  /// Nothing is played until `until_s`; then come the ticks that were due since, late, and what they sent is read.
+  /// Nothing is played until `until_s`; then come the ticks that were due since, late, and what
+  /// they sent is read.
   void play_late(double until_s) {
     network_.advance_to(start_ns_ + nanoseconds(until_s));
     for (; next_tick_ <= std::llround(until_s * rate_hz); ++next_tick_) {
@@ -106,12 +125,17 @@ class StalledCrowd : public testing::Test {
   /// What the server noted of a game of 2 s, of each kind at most `record_max`.
   game::ServerEvidence noted(std::size_t record_max) {
     start({}, 0.0, 2.0);
-    serving_.collect_evidence({.seed = 1, .clients = bots, .from_s = 0.0, .until_s = 2.0, .record_max = record_max}, rate_hz);
+    serving_.collect_evidence(
+        {.seed = 1, .clients = bots, .from_s = 0.0, .until_s = 2.0, .record_max = record_max},
+        rate_hz);
     play(2.0);
     return serving_.evidence().value();
   }
   const Measurements& measured() const { return crowd_->measurements(); }
-  static game::InputEvent key(double instant_s) { return {.time = instant_s, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}; }
+  static game::InputEvent key(double instant_s) {
+    return {
+        .time = instant_s, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right};
+  }
 
   rti::ConstantDelay model_{0};
   rti::VirtualNetwork network_{model_};
@@ -121,12 +145,17 @@ class StalledCrowd : public testing::Test {
   const game::Scene scene_ = game::load_scene("match");
   std::int64_t start_ns_ = 0;
   long next_tick_ = 0;
-  game::Serving serving_{fom_, scene_, [] {
-                           game::ServerSettings settings;
-                           settings.tick_s = 1.0 / rate_hz;
-                           return settings;
-                         }(), game::federation_settings(scene_, "none", 0.0),
-                         [this] { return network_.now_s(); }, [this] { return 1e-9 * static_cast<double>(network_.now_ns() - start_ns_); }};
+  game::Serving serving_{
+      fom_,
+      scene_,
+      [] {
+        game::ServerSettings settings;
+        settings.tick_s = 1.0 / rate_hz;
+        return settings;
+      }(),
+      game::federation_settings(scene_, "none", 0.0),
+      [this] { return network_.now_s(); },
+      [this] { return 1e-9 * static_cast<double>(network_.now_ns() - start_ns_); }};
   std::optional<BotCrowd> crowd_;
 
   void SetUp() override {
@@ -135,7 +164,8 @@ class StalledCrowd : public testing::Test {
   }
 };
 
-/// Three ticks wait in the sockets while nobody reads, and are read at once 60 ms after the first of them was due.
+/// Three ticks wait in the sockets while nobody reads, and are read at once 60 ms after the first
+/// of them was due.
 TEST_F(StalledCrowd, EachTickOfOneReadIsASampleAsOldAsItsOwnTick) {
   start({}, 0.0, 2.0);
   play(0.38);
@@ -144,12 +174,14 @@ TEST_F(StalledCrowd, EachTickOfOneReadIsASampleAsOldAsItsOwnTick) {
   run_until(0.46);
   EXPECT_EQ(measured().update_age.count(), 23u * bots);
   EXPECT_NEAR(measured().update_age.max_s(), 0.06, 1e-9);
-  EXPECT_NEAR(*measured().update_age.mean_s() * 23 * bots, (0.06 + 0.04 + 0.02) * bots, 1e-9) << "and none of the others waited";
+  EXPECT_NEAR(*measured().update_age.mean_s() * 23 * bots, (0.06 + 0.04 + 0.02) * bots, 1e-9)
+      << "and none of the others waited";
   play(1.98);
   EXPECT_EQ(measured().update_age.count(), 100u * bots) << "clients x ticks";
 }
 
-/// What StallLong expects of sockets, to the last tick: of n that are due while one of both is not run for n - 1 periods, each is as old as it waited, whoever was stopped.
+/// What StallLong expects of sockets, to the last tick: of n that are due while one of both is not
+/// run for n - 1 periods, each is as old as it waited, whoever was stopped.
 TEST_F(StalledCrowd, IsInTheAgesAsMuchAsAStalledServerFor60And500Milliseconds) {
   start({}, 0.0, 4.0);
   double at_s = 0.38, expected_s = 0.0, longest_s = 0.0;
@@ -167,15 +199,19 @@ TEST_F(StalledCrowd, IsInTheAgesAsMuchAsAStalledServerFor60And500Milliseconds) {
       const double waits = std::round(stall_s * rate_hz);  // of 0, 1, ... periods
       expected_s += waits * (waits + 1.0) / 2.0 / rate_hz * bots;
       longest_s = std::max(longest_s, stall_s);
-      EXPECT_EQ(measured().update_age.count(), static_cast<std::uint64_t>(next_tick_) * bots) << "clients x ticks";
-      EXPECT_NEAR(*measured().update_age.mean_s() * static_cast<double>(measured().update_age.count()), expected_s, 1e-9);
+      EXPECT_EQ(measured().update_age.count(), static_cast<std::uint64_t>(next_tick_) * bots)
+          << "clients x ticks";
+      EXPECT_NEAR(
+          *measured().update_age.mean_s() * static_cast<double>(measured().update_age.count()),
+          expected_s, 1e-9);
       EXPECT_NEAR(measured().update_age.max_s(), longest_s, 1e-9);
       at_s = end_s + 0.1;
       play(at_s);
     }
 }
 
-/// The last byte of tick 20 comes 12 ms after the others, and until then nothing of it can be applied.
+/// The last byte of tick 20 comes 12 ms after the others, and until then nothing of it can be
+/// applied.
 TEST_F(StalledCrowd, ATickThatIsReadInPiecesCountsOnceWhenItIsWhole) {
   start({}, 0.0, 2.0);
   play(0.38);
@@ -188,7 +224,8 @@ TEST_F(StalledCrowd, ATickThatIsReadInPiecesCountsOnceWhenItIsWhole) {
   EXPECT_NEAR(measured().update_age.max_s(), 0.012, 1e-9);
 }
 
-/// The process is not run for 200 ms; the key that was due at the beginning of that goes out late, and whoever counts from then hides the stall.
+/// The process is not run for 200 ms; the key that was due at the beginning of that goes out late,
+/// and whoever counts from then hides the stall.
 TEST_F(StalledCrowd, AKeysLatencyCountsFromWhenItWasDueAndNotFromWhenItWasSent) {
   start({key(1.0)}, 0.5, 2.0);
   play(0.98);
@@ -199,7 +236,8 @@ TEST_F(StalledCrowd, AKeysLatencyCountsFromWhenItWasDueAndNotFromWhenItWasSent) 
   EXPECT_EQ(measured().late_sends, 1u);
   play(1.3);
   ASSERT_EQ(measured().key_to_effect.count(), 1u);
-  EXPECT_NEAR(measured().key_to_effect.max_s(), 0.2, 1e-9) << "due at 1 s, felt by the tick at 1.2 s";
+  EXPECT_NEAR(measured().key_to_effect.max_s(), 0.2, 1e-9)
+      << "due at 1 s, felt by the tick at 1.2 s";
   EXPECT_NEAR(measured().key_to_effect.min_s(), 0.2, 1e-9);
   EXPECT_EQ(crowd_->unanswered_keys(), 0u);
 }
@@ -217,7 +255,8 @@ TEST_F(StalledCrowd, AKeyIsLateFromTenMillisecondsOn) {
   EXPECT_EQ(bots_report(*crowd_, "")["late_sends_fraction"], 0.5);
 }
 
-/// Late in fifty: one by chance in 39 of 100 runs whose keys are late with a probability of 1 %, four in 1.6 of 1,000.
+/// Late in fifty: one by chance in 39 of 100 runs whose keys are late with a probability of 1 %,
+/// four in 1.6 of 1,000.
 TEST(Schedule, IsNotKeptOnceSoManyLateKeysCannotBeChance) {
   const auto trouble = [](std::uint64_t late, std::uint64_t sent) {
     Measurements measured;
@@ -234,7 +273,8 @@ TEST(Schedule, IsNotKeptOnceSoManyLateKeysCannotBeChance) {
   EXPECT_NE(trouble(1'100, 100'000), "") << "3.2";
 }
 
-/// Warm-up is from 0 to 0.5 s, the end at 1 s: ticks 25 to 49 and what happens between 0.5 s, itself included, and 1 s.
+/// Warm-up is from 0 to 0.5 s, the end at 1 s: ticks 25 to 49 and what happens between 0.5 s,
+/// itself included, and 1 s.
 TEST_F(StalledCrowd, WhatHappensBeforeTheSpanOrAtItsEndIsNotCounted) {
   start({key(0.1), key(0.5), key(0.7)}, 0.5, 1.0);
   play(0.48);
@@ -248,13 +288,15 @@ TEST_F(StalledCrowd, WhatHappensBeforeTheSpanOrAtItsEndIsNotCounted) {
   EXPECT_EQ(measured().key_to_effect.count(), 2u);
   EXPECT_NEAR(crowd_->measured_s(), 0.5, 1e-9);
   const CrowdTraffic whole = crowd_->total_traffic(), within = crowd_->traffic();
-  EXPECT_EQ(within.updates_received * 36, (whole.updates_received - before.updates_received) * 25) << "of ticks 25 to 60 those before the 50th; each has as many";
+  EXPECT_EQ(within.updates_received * 36, (whole.updates_received - before.updates_received) * 25)
+      << "of ticks 25 to 60 those before the 50th; each has as many";
   std::uint64_t by_bot = 0;
   for (const std::uint64_t bytes : crowd_->bytes_received_by_bot()) by_bot += bytes;
   EXPECT_EQ(by_bot, within.bytes_received);
 }
 
-/// Of a span of 2 s at 50 Hz there are 100 ticks and, of both players, the decisions at 20 instants.
+/// Of a span of 2 s at 50 Hz there are 100 ticks and, of both players, the decisions at 20
+/// instants.
 TEST_F(StalledCrowd, TheServerNotesAllOfItsRunWhereThereIsRoom) {
   const game::ServerEvidence evidence = noted(1'000'000);
   EXPECT_EQ(evidence.ticks.size(), 100u);
@@ -268,7 +310,8 @@ TEST_F(StalledCrowd, TheServerNotesNoMoreTicksAndDecisionsThanThereIsRoomFor) {
   EXPECT_EQ(evidence.ticks.size(), record_max);
   EXPECT_LE(evidence.in_scope.size(), 2 * record_max) << "objects of all decisions together";
   std::map<std::uint32_t, int> by_player;
-  for (const game::ServerEvidence::Decision& decision : evidence.decisions) ++by_player[decision.player];
+  for (const game::ServerEvidence::Decision& decision : evidence.decisions)
+    ++by_player[decision.player];
   EXPECT_EQ(by_player.size(), bots) << "one player at a time, in turn";
 }
 

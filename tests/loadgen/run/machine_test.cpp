@@ -48,8 +48,10 @@ TEST_F(MachineTest, SaysItsLoad) {
 TEST_F(MachineTest, ListsVersionsOfInstalledPackagesAlone) {
   write("var/lib/dpkg/status",
         "Package: libasio-dev\nStatus: install ok installed\nVersion: 1:1.22.1-1\n\n"
-        "Package: libeigen3-dev\nStatus: deinstall ok config-files\nVersion: 3.4.0-4\n\nPackage: zlib1g\nStatus: install ok installed\nVersion: 1:1.2.13\n");
-  EXPECT_EQ(packages(folder_ / "", std::array{"libasio-dev", "libeigen3-dev", "libspdlog-dev"}), "libasio-dev 1:1.22.1-1");
+        "Package: libeigen3-dev\nStatus: deinstall ok config-files\nVersion: 3.4.0-4\n\nPackage: "
+        "zlib1g\nStatus: install ok installed\nVersion: 1:1.2.13\n");
+  EXPECT_EQ(packages(folder_ / "", std::array{"libasio-dev", "libeigen3-dev", "libspdlog-dev"}),
+            "libasio-dev 1:1.22.1-1");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Peers as processes over sockets: the game that peers under a virtual clock play, measured likewise, and named if they fail.
+// Peers as processes over sockets: the game that peers under a virtual clock play, measured
+// likewise, and named if they fail.
 #include "loadgen/run/peers/peer_processes.h"
 
 #include <gmock/gmock.h>
@@ -53,7 +54,8 @@ TEST_F(PeerProcessesTest, PlayTheGameOfThoseUnderAVirtualClockAndSayWhatItCost) 
   experiment_.transport = TransportKind::virtual_time;
   const auto virtual_record = run_virtual_peers(settings_, experiment_, cell(), log());
   ASSERT_TRUE(record && virtual_record);
-  // On a machine that is busy with something else keys may be late, and then the run does not count; all else holds.
+  // On a machine that is busy with something else keys may be late, and then the run does not
+  // count; all else holds.
   EXPECT_THAT(record->why_invalid, AnyOf("", HasSubstr("could not keep their schedule")));
   EXPECT_EQ(record->state_hash, virtual_record->state_hash);
   EXPECT_EQ(record->truth.trouble, "");
@@ -64,25 +66,34 @@ TEST_F(PeerProcessesTest, PlayTheGameOfThoseUnderAVirtualClockAndSayWhatItCost) 
   EXPECT_GE(*record->nodes.busiest_cpu_s, *record->nodes.mean_cpu_s);
   std::uint64_t largest = 0;
   for (int process = 0; process < 3; ++process) {
-    const auto report = nlohmann::json::parse(test::text_of(folder_ / (name_of(cell()) + ".peer" + std::to_string(process) + ".json")));
+    const auto report = nlohmann::json::parse(
+        test::text_of(folder_ / (name_of(cell()) + ".peer" + std::to_string(process) + ".json")));
     largest = std::max(largest, report["rss_bytes"].get<std::uint64_t>());
   }
   EXPECT_EQ(record->server_rss_bytes, largest);
-  EXPECT_NEAR(*record->traffic.halo + *record->traffic.claims + *record->traffic.agreement + *record->traffic.interest + *record->traffic.updates + *record->traffic.keys,
+  EXPECT_NEAR(*record->traffic.halo + *record->traffic.claims + *record->traffic.agreement +
+                  *record->traffic.interest + *record->traffic.updates + *record->traffic.keys,
               *record->up_bytes_per_client_per_s, 1e-3 * *record->up_bytes_per_client_per_s);
-  // The same messages, but for a byte less in each frame, and for windows that one of them noted a moment later.
-  EXPECT_NEAR(*record->traffic.agreement, *virtual_record->traffic.agreement, 0.1 * *virtual_record->traffic.agreement);
+  // The same messages, but for a byte less in each frame, and for windows that one of them noted a
+  // moment later.
+  EXPECT_NEAR(*record->traffic.agreement, *virtual_record->traffic.agreement,
+              0.1 * *virtual_record->traffic.agreement);
 }
 
 TEST_F(PeerProcessesTest, NameWhoIsKilled) {
   const std::filesystem::path script = folder_ / "peer.sh";
-  std::ofstream(script) << "#!/bin/sh\ncase \"$*\" in *--join*) mkdir " << (folder_ / "once").string() << " 2>/dev/null && (sleep 1; kill -9 $$) & ;; esac\nexec " << settings_.peer.string() << " \"$@\"\n";
+  std::ofstream(script) << "#!/bin/sh\ncase \"$*\" in *--join*) mkdir "
+                        << (folder_ / "once").string()
+                        << " 2>/dev/null && (sleep 1; kill -9 $$) & ;; esac\nexec "
+                        << settings_.peer.string() << " \"$@\"\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
   settings_.peer = script;
   const auto record = run_peer_processes(settings_, experiment_, cell(), log());
   ASSERT_TRUE(record);
   EXPECT_FALSE(record->valid);
-  EXPECT_THAT(record->why_invalid, testing::MatchesRegex("peer process [12] was ended by signal 9 .*; 2 others ended after it"));
+  EXPECT_THAT(
+      record->why_invalid,
+      testing::MatchesRegex("peer process [12] was ended by signal 9 .*; 2 others ended after it"));
 }
 
 TEST_F(PeerProcessesTest, NameAFirstOneThatDoesNotListenAndEndWhenTheUserWantsTo) {

@@ -1,4 +1,5 @@
-// Peers under a virtual clock: the game that a server plays, latencies by closed forms, every byte accounted for, and the same bytes every time.
+// Peers under a virtual clock: the game that a server plays, latencies by closed forms, every byte
+// accounted for, and the same bytes every time.
 #include "loadgen/run/peers/peer_run.h"
 
 #include <gmock/gmock.h>
@@ -8,11 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tests/loadgen/complaint.h"
 #include "game/net/peer/traffic.h"
-#include "loadgen/run/game_plan.h"
 #include "loadgen/measure/modes_table.h"
+#include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_run.h"
+#include "tests/loadgen/complaint.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
@@ -43,13 +44,16 @@ class PeerRunTest : public testing::Test {
   RunRecord run(const Cell& cell) const {
     const std::filesystem::path log = folder_ / "log.keys";
     write_game_plan(experiment_, cell, log);
-    const auto record = (cell.mode == peer_mode ? run_virtual_peers : run_virtual_cell)(settings_, experiment_, cell, log);
+    const auto record = (cell.mode == peer_mode ? run_virtual_peers : run_virtual_cell)(
+        settings_, experiment_, cell, log);
     EXPECT_TRUE(record);
     EXPECT_EQ(record.value_or(RunRecord{}).why_invalid, "") << name_of(cell);
     EXPECT_EQ(record.value_or(RunRecord{}).truth.trouble, "") << name_of(cell);
     return record.value_or(RunRecord{});
   }
-  nlohmann::json peers_report(const Cell& cell) const { return nlohmann::json::parse(test::text_of(folder_ / (name_of(cell) + ".peers.json"))); }
+  nlohmann::json peers_report(const Cell& cell) const {
+    return nlohmann::json::parse(test::text_of(folder_ / (name_of(cell) + ".peers.json")));
+  }
 
   test::TemporaryFolder folder_{"peer-run"};
   RunnerSettings settings_;
@@ -73,7 +77,8 @@ TEST_F(PeerRunTest, AWindowIsThreeDelaysOldWhenItIsKnown) {
     EXPECT_NEAR(*record.update_age_ms.p50, 3.0 * delay_ms, 1e-3 * 3.0 * delay_ms);
     EXPECT_NEAR(*record.update_age_ms.max, 3.0 * delay_ms, 1e-3 * 3.0 * delay_ms);
     EXPECT_EQ(record.ticks_on_time_fraction, 1.0);
-    // Half a window on average until it ends, and two delays until all have agreed, for a bat that is the peer's own.
+    // Half a window on average until it ends, and two delays until all have agreed, for a bat that
+    // is the peer's own.
     EXPECT_GE(*record.key_to_effect_ms.p50, 2.0 * delay_ms);
     EXPECT_LE(*record.key_to_effect_ms.p50, 50.0 + 4.0 * delay_ms);
   }
@@ -85,7 +90,8 @@ TEST_F(PeerRunTest, WhenAgreementTakesLongerThanAWindowItFallsBehindAndPlaysTheS
   experiment_.delay_ms = 25.0;
   const RunRecord record = run(cell);
   EXPECT_EQ(record.state_hash, hash);
-  // Window k ends at 50 k ms, and is known 75 ms after the one before it is; the last that counts is the 49th.
+  // Window k ends at 50 k ms, and is known 75 ms after the one before it is; the last that counts
+  // is the 49th.
   EXPECT_NEAR(*record.update_age_ms.max, 50.0 + 25.0 * 49, 1.0);
   EXPECT_EQ(record.ticks_on_time_fraction, 0.0);
 }
@@ -95,7 +101,9 @@ TEST_F(PeerRunTest, OverALossyNetworkItIsLateAndTheSameGame) {
   const Cell cell = cells_of(experiment_).back();
   const std::string hash = run(cell).state_hash;
   experiment_.network_is_modelled = true;
-  for (rti::LinkConditions* link : {&experiment_.network.to_listener, &experiment_.network.from_listener}) link->latency_ns = 5'000'000, link->loss = rti::PacketLoss::independent(0.002);
+  for (rti::LinkConditions* link :
+       {&experiment_.network.to_listener, &experiment_.network.from_listener})
+    link->latency_ns = 5'000'000, link->loss = rti::PacketLoss::independent(0.002);
   const RunRecord record = run(cell);
   EXPECT_EQ(record.state_hash, hash);
   EXPECT_LT(*record.ticks_on_time_fraction, 0.9);
@@ -108,9 +116,11 @@ TEST_F(PeerRunTest, EveryByteIsAboutSomethingAndOnlyWhoFiltersSaysWhereItLooks) 
     const RunRecord record = run(cell);
     const nlohmann::json report = peers_report(cell);
     std::uint64_t sum = 0;
-    for (const char* subject : game::traffic_names) sum += report[std::string(subject) + "_bytes"].get<std::uint64_t>();
+    for (const char* subject : game::traffic_names)
+      sum += report[std::string(subject) + "_bytes"].get<std::uint64_t>();
     EXPECT_EQ(sum, report["bytes_sent"]);
-    EXPECT_NEAR(*record.traffic.halo + *record.traffic.claims + *record.traffic.agreement + *record.traffic.interest + *record.traffic.updates + *record.traffic.keys,
+    EXPECT_NEAR(*record.traffic.halo + *record.traffic.claims + *record.traffic.agreement +
+                    *record.traffic.interest + *record.traffic.updates + *record.traffic.keys,
                 *record.up_bytes_per_client_per_s, 1e-6 * *record.up_bytes_per_client_per_s);
     by_scheme[cell.scheme] = report;
   }
@@ -120,7 +130,8 @@ TEST_F(PeerRunTest, EveryByteIsAboutSomethingAndOnlyWhoFiltersSaysWhereItLooks) 
   EXPECT_LT(by_scheme["grid"]["interest_bytes"], by_scheme["region"]["interest_bytes"]);
   EXPECT_LT(by_scheme["region"]["updates_bytes"], by_scheme["none"]["updates_bytes"]);
   // What proves the windows does not depend on who looks where.
-  for (const char* bytes : {"halo_bytes", "claims_bytes", "agreement_bytes", "keys_bytes"}) EXPECT_EQ(by_scheme["none"][bytes], by_scheme["region"][bytes]);
+  for (const char* bytes : {"halo_bytes", "claims_bytes", "agreement_bytes", "keys_bytes"})
+    EXPECT_EQ(by_scheme["none"][bytes], by_scheme["region"][bytes]);
 }
 
 /// Judged by the same truth as a server and its bots.
@@ -142,14 +153,16 @@ TEST_F(PeerRunTest, GivesTheSameBytesAgain) {
   for (int time = 0; time < 2; ++time) {
     run(cell);
     std::string text;
-    for (const char* ending : {".peers.json", ".bots.json", ".server.jsonl", ".bots.jsonl"}) text += test::text_of(folder_ / (name_of(cell) + ending));
+    for (const char* ending : {".peers.json", ".bots.json", ".server.jsonl", ".bots.jsonl"})
+      text += test::text_of(folder_ / (name_of(cell) + ending));
     EXPECT_GT(text.size(), 10'000u);
     texts.push_back(text);
   }
   EXPECT_EQ(texts[0], texts[1]);
 }
 
-/// Of two nodes each sends what the other receives, so both carry all that goes between them; of more the busiest carries at least its share, which is twice that of one direction.
+/// Of two nodes each sends what the other receives, so both carry all that goes between them; of
+/// more the busiest carries at least its share, which is twice that of one direction.
 TEST_F(PeerRunTest, TheBusiestNodeCarriesWhatItSendsAndReceives) {
   for (const std::uint32_t peers : {2u, 9u}) {
     experiment_.clients = {peers};
@@ -175,7 +188,8 @@ TEST_F(PeerRunTest, ModesStandSideBySideOnlyWhereThereAreSeveral) {
   experiment_.schemes = {"region"};
   for (const Cell& cell : cells_of(experiment_)) runs.push_back(run(cell));
   const std::string table = modes_table(runs);
-  EXPECT_THAT(table, testing::AllOf(HasSubstr("client-server"), HasSubstr("peer-to-peer"), HasSubstr("claims")));
+  EXPECT_THAT(table, testing::AllOf(HasSubstr("client-server"), HasSubstr("peer-to-peer"),
+                                    HasSubstr("claims")));
   EXPECT_THAT(table, testing::Not(HasSubstr("+- n="))) << "one replication has no interval";
   std::vector<RunRecord> replicated = runs;
   replicated.insert(replicated.end(), runs.begin(), runs.end());
@@ -184,23 +198,35 @@ TEST_F(PeerRunTest, ModesStandSideBySideOnlyWhereThereAreSeveral) {
   const double half_kB = 12.7062 * 1.0;  // t(0.975, 1) s / sqrt(2), s = 2 kB / sqrt(2)
   char shown[16];
   std::snprintf(shown, sizeof shown, "%.1f", half_kB);
-  EXPECT_THAT(modes_table(replicated), testing::AllOf(HasSubstr("+- n=2"), HasSubstr(std::string("   ") + shown)));
+  EXPECT_THAT(modes_table(replicated),
+              testing::AllOf(HasSubstr("+- n=2"), HasSubstr(std::string("   ") + shown)));
   runs.pop_back();
   EXPECT_EQ(modes_table(runs), "");
 }
 
 std::string peer_complaint(const std::string& more) {
-  return complaint_of([&] { parse_experiment("name = \"x\"\nscene = \"arena\"\nmodes = [\"client-server\", \"peer-to-peer\"]\n" + more, "x.toml", {}); });
+  return complaint_of([&] {
+    parse_experiment(
+        "name = \"x\"\nscene = \"arena\"\nmodes = [\"client-server\", \"peer-to-peer\"]\n" + more,
+        "x.toml", {});
+  });
 }
 
 TEST(PeerExperiment, RefusesWhatPeersDoNotDo) {
   EXPECT_EQ(peer_complaint("transport = \"virtual\"\n"), "no complaint");
   EXPECT_EQ(peer_complaint("clients = [2, 64]\n"), "no complaint");
-  EXPECT_THAT(peer_complaint("clients = 65\n"), HasSubstr("x.toml: modes = peer-to-peer over sockets is of 2 to 64 processes, not clients = 65"));
-  EXPECT_THAT(peer_complaint("transport = \"udp\"\n"), HasSubstr("needs transport = \"tcp\", \"shm\" or \"virtual\", not \"udp\""));
-  EXPECT_THAT(peer_complaint("transport = \"virtual\"\nkeys = \"live\"\n"), HasSubstr("needs keys = \"replay\""));
-  EXPECT_THAT(peer_complaint("transport = \"virtual\"\npolicies = [\"snapshot\"]\n"), HasSubstr("not snapshot"));
-  EXPECT_THAT(peer_complaint("transport = \"virtual\"\nsweep_ticks = [0, 1]\n"), HasSubstr("expected sweep_ticks = 0"));
+  EXPECT_THAT(
+      peer_complaint("clients = 65\n"),
+      HasSubstr(
+          "x.toml: modes = peer-to-peer over sockets is of 2 to 64 processes, not clients = 65"));
+  EXPECT_THAT(peer_complaint("transport = \"udp\"\n"),
+              HasSubstr("needs transport = \"tcp\", \"shm\" or \"virtual\", not \"udp\""));
+  EXPECT_THAT(peer_complaint("transport = \"virtual\"\nkeys = \"live\"\n"),
+              HasSubstr("needs keys = \"replay\""));
+  EXPECT_THAT(peer_complaint("transport = \"virtual\"\npolicies = [\"snapshot\"]\n"),
+              HasSubstr("not snapshot"));
+  EXPECT_THAT(peer_complaint("transport = \"virtual\"\nsweep_ticks = [0, 1]\n"),
+              HasSubstr("expected sweep_ticks = 0"));
 }
 
 TEST_F(PeerRunTest, RefusesAFieldWithGoalsBeforeAnythingRuns) {

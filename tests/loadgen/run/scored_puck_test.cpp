@@ -13,10 +13,12 @@
 namespace rink::loadgen {
 namespace {
 
-/// A puck slides into the left goal, lies there for the delay, and is put back between two ticks, far from where it was. Two bats watch at rest.
+/// A puck slides into the left goal, lies there for the delay, and is put back between two ticks,
+/// far from where it was. Two bats watch at rest.
 class ScoredPuck : public testing::Test {
  protected:
-  static constexpr std::uint32_t first_bat = 0, second_bat = 1, puck = 2;  // bodies in the order of their making
+  static constexpr std::uint32_t first_bat = 0, second_bat = 1,
+                                 puck = 2;  // bodies in the order of their making
 
   void SetUp() override {
     server_.choice.scene = (folder_ / "goal.toml").string();
@@ -70,18 +72,38 @@ material = "ice"
     ASSERT_GT(first_tick_s_ - back_s_, 0.01) << "it comes back between two ticks";
     bots_.clients = 1;
     bots_.until_s = server_.until_s;
-    bots_.bots.push_back({100 + first_bat, {{-1.0, 100 + first_bat, true}, {-1.0, 100 + second_bat, true}, {-1.0, 100 + puck, true}}});
+    bots_.bots.push_back({100 + first_bat,
+                          {{-1.0, 100 + first_bat, true},
+                           {-1.0, 100 + second_bat, true},
+                           {-1.0, 100 + puck, true}}});
   }
 
-  /// The first player sees the other bat `aside` of where it is, and takes the puck to be at `puck_at`.
-  void see(double displayed_s, double matched_s, double aside, Vector2 puck_at, std::uint32_t puck_bytes) {
+  /// The first player sees the other bat `aside` of where it is, and takes the puck to be at
+  /// `puck_at`.
+  void see(double displayed_s, double matched_s, double aside, Vector2 puck_at,
+           std::uint32_t puck_bytes) {
     const std::size_t first = bots_.beliefs.size();
     const Vector2 other(3.5 + aside, 0.3);
-    bots_.beliefs.push_back({.object = 100 + second_bat, .bytes = 9, .is_in_scope = true, .matched = other, .displayed = other});
-    bots_.beliefs.push_back({.object = 100 + puck, .bytes = puck_bytes, .is_in_scope = true, .matched = puck_at, .displayed = puck_at});
-    bots_.samples.push_back({.bot = 0, .displayed_s = displayed_s, .matched_s = matched_s, .window_s = 0.05, .first = first, .last = first + 2});
+    bots_.beliefs.push_back({.object = 100 + second_bat,
+                             .bytes = 9,
+                             .is_in_scope = true,
+                             .matched = other,
+                             .displayed = other});
+    bots_.beliefs.push_back({.object = 100 + puck,
+                             .bytes = puck_bytes,
+                             .is_in_scope = true,
+                             .matched = puck_at,
+                             .displayed = puck_at});
+    bots_.samples.push_back({.bot = 0,
+                             .displayed_s = displayed_s,
+                             .matched_s = matched_s,
+                             .window_s = 0.05,
+                             .first = first,
+                             .last = first + 2});
   }
-  TruthFigures judged() const { return truth_of(server_, bots_, {RelevanceArea::Shape::square, 10.0}); }
+  TruthFigures judged() const {
+    return truth_of(server_, bots_, {RelevanceArea::Shape::square, 10.0});
+  }
   Vector2 puck_at(double instant_s) const {
     game::Game game(game::chosen_scene(server_.choice));
     game.advance(instant_s);
@@ -103,22 +125,27 @@ TEST_F(ScoredPuck, CountsWhereItLeftPlayUntilTheFirstTickAfterItsFaceOff) {
     return replay.centre(puck);
   };
   EXPECT_NEAR((centre_at(scored_s_ + 0.01) - left_play_).norm(), 0.0, 1e-9);
-  EXPECT_NEAR((centre_at(back_s_ + 1e-3) - left_play_).norm(), 0.0, 1e-9) << "put back, and not announced";
+  EXPECT_NEAR((centre_at(back_s_ + 1e-3) - left_play_).norm(), 0.0, 1e-9)
+      << "put back, and not announced";
   EXPECT_NEAR((centre_at(first_tick_s_ - 1e-3) - left_play_).norm(), 0.0, 1e-9);
   EXPECT_FALSE(replay.replaced_s(puck));
-  EXPECT_NEAR((centre_at(first_tick_s_) - face_off_).norm(), 0.0, 0.1) << "the first tick that can tell of it";
+  EXPECT_NEAR((centre_at(first_tick_s_) - face_off_).norm(), 0.0, 0.1)
+      << "the first tick that can tell of it";
   EXPECT_NEAR(replay.replaced_s(puck).value(), first_tick_s_, 1e-9);
 }
 
 TEST_F(ScoredPuck, IsNoErrorOfDisplayUntilTheNewsOfItsFaceOffCanHaveCome) {
   const double shown_s = first_tick_s_ + 0.03;
-  see(shown_s, first_tick_s_ - 0.1, 0.002, left_play_, 9);  // the mirror has yet to hear of the tick
+  see(shown_s, first_tick_s_ - 0.1, 0.002, left_play_,
+      9);  // the mirror has yet to hear of the tick
   TruthFigures truth = judged();
   EXPECT_NEAR(truth.displayed_error_mm.max.value(), 2.0, 1e-6) << "the other bat";
   EXPECT_NEAR(truth.displayed_error_mm.rms.value(), 2.0, 1e-6);
   EXPECT_EQ(truth.displayed_error_mm.replaced_samples, 1u);
-  EXPECT_NEAR(truth.displayed_error_mm.replaced_rms.value(), 1e3 * (puck_at(shown_s) - left_play_).norm(), 1e-3);
-  EXPECT_EQ(truth.position_error_mm.replaced_samples, 0u) << "at the matched instant it lay where it left play";
+  EXPECT_NEAR(truth.displayed_error_mm.replaced_rms.value(),
+              1e3 * (puck_at(shown_s) - left_play_).norm(), 1e-3);
+  EXPECT_EQ(truth.position_error_mm.replaced_samples, 0u)
+      << "at the matched instant it lay where it left play";
   EXPECT_NEAR(truth.position_error_mm.max.value(), 2.0, 1e-6);
 }
 
@@ -135,12 +162,15 @@ TEST_F(ScoredPuck, IsHeardOfByComingIntoScopeToo) {
   see(first_tick_s_ + 0.03, first_tick_s_, 0.002, puck_at(first_tick_s_ + 0.03), 0);
   const TruthFigures truth = judged();
   EXPECT_EQ(truth.displayed_error_mm.replaced_samples, 0u);
-  EXPECT_NEAR(truth.displayed_error_mm.rms.value(), 2.0 / std::sqrt(2.0), 1e-3) << "of the other bat and of the puck, which is shown right";
+  EXPECT_NEAR(truth.displayed_error_mm.rms.value(), 2.0 / std::sqrt(2.0), 1e-3)
+      << "of the other bat and of the puck, which is shown right";
 }
 
 TEST_F(ScoredPuck, IsAnErrorLikeAnyOtherOnceTheMirrorHasHeardOrLongSinceShouldHave) {
-  see(first_tick_s_ + 0.03, first_tick_s_, 0.0, left_play_, 9);       // told of in that tick, and still shown in the goal
-  see(first_tick_s_ + 0.3, first_tick_s_ + 0.2, 0.0, left_play_, 0);  // never told: the filter or the budget kept it from the player
+  see(first_tick_s_ + 0.03, first_tick_s_, 0.0, left_play_,
+      9);  // told of in that tick, and still shown in the goal
+  see(first_tick_s_ + 0.3, first_tick_s_ + 0.2, 0.0, left_play_,
+      0);  // never told: the filter or the budget kept it from the player
   const TruthFigures truth = judged();
   EXPECT_EQ(truth.displayed_error_mm.replaced_samples, 0u);
   EXPECT_FALSE(truth.displayed_error_mm.replaced_rms);

@@ -1,4 +1,5 @@
-// The two commands by hand with the flags that experiments do not set, and what a cell of an experiment hands to them.
+// The two commands by hand with the flags that experiments do not set, and what a cell of an
+// experiment hands to them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,29 +29,39 @@ class ServerAndBots : public testing::Test {
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   std::string key(const std::string& name, char filling) const {
     std::ofstream(folder_ / name, std::ios::binary) << std::string(32, filling);
-    std::filesystem::permissions(folder_ / name, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    std::filesystem::permissions(
+        folder_ / name, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     return file(name);
   }
 
   /// Twelve bats and 120 pucks for 0.7 s at 20 Hz.
-  Played play(const std::vector<std::string>& for_server, const std::vector<std::string>& for_bots) const {
+  Played play(const std::vector<std::string>& for_server,
+              const std::vector<std::string>& for_bots) const {
     Played played;
-    std::vector<std::string> flags{"--scene", "crowd", "--bat-count", "12", "--puck-count", "120", "--clients", "12", "--rate", "20", "--duration", "0.7", "--warm-up", "0.1", "--patience", "2",
-                                   "--port", "0", "--report", file("server.json")};
+    std::vector<std::string> flags{"--scene",      "crowd", "--bat-count", "12",
+                                   "--puck-count", "120",   "--clients",   "12",
+                                   "--rate",       "20",    "--duration",  "0.7",
+                                   "--warm-up",    "0.1",   "--patience",  "2",
+                                   "--port",       "0",     "--report",    file("server.json")};
     flags.insert(flags.end(), for_server.begin(), for_server.end());
     Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
     std::optional<std::string> place;
-    for (int i = 0; i < 1000 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
+    for (int i = 0; i < 1000 && !place; ++i)
+      server.attend(10ms), place = server.line_after("listening on ");
     EXPECT_TRUE(place) << server.last_words();
     if (!place) return played;
-    flags = {"--connect", *place, "--count", "12", "--seed", "7", "--duration", "0.7", "--warm-up", "0.1", "--patience", "2", "--view", "1", "--report", file("bots.json")};
+    flags = {
+        "--connect", *place, "--count",    "12", "--seed", "7", "--duration", "0.7",
+        "--warm-up", "0.1",  "--patience", "2",  "--view", "1", "--report",   file("bots.json")};
     flags.insert(flags.end(), for_bots.begin(), for_bots.end());
     Process bots(test::binary_folder() + "/bin/rink-bots", flags, {});
     const auto limit = std::chrono::steady_clock::now() + 20s;
-    while ((!server.ending() || !bots.ending()) && std::chrono::steady_clock::now() < limit) server.attend(5ms), bots.attend(5ms);
+    while ((!server.ending() || !bots.ending()) && std::chrono::steady_clock::now() < limit)
+      server.attend(5ms), bots.attend(5ms);
     if (!server.ending() || !bots.ending()) return played;
     played.server = server.ending()->exit_status, played.bots = bots.ending()->exit_status;
-    played.server_report = nlohmann::json::parse(std::ifstream(file("server.json")), nullptr, false);
+    played.server_report =
+        nlohmann::json::parse(std::ifstream(file("server.json")), nullptr, false);
     played.bots_report = nlohmann::json::parse(std::ifstream(file("bots.json")), nullptr, false);
     return played;
   }
@@ -69,21 +80,30 @@ TEST_F(ServerAndBots, PlayWithTheSameKeyFileAndNotWithAnother) {
   EXPECT_NE(another.bots, 0);
 }
 
-/// Spread over half a tick of 50 ms, the writes of one instant are those of one of 16 phases, and on average they leave a quarter of a tick later.
+/// Spread over half a tick of 50 ms, the writes of one instant are those of one of 16 phases, and
+/// on average they leave a quarter of a tick later.
 TEST_F(ServerAndBots, ASpreadTickLeavesInSmallBurstsAndArrivesLater) {
-  const Played at_once = play({"--scheme", "none"}, {}), spread = play({"--scheme", "none", "--spread", "0.5"}, {});
+  const Played at_once = play({"--scheme", "none"}, {}),
+               spread = play({"--scheme", "none", "--spread", "0.5"}, {});
   ASSERT_EQ(at_once.server, 0);
   ASSERT_EQ(spread.server, 0);
   EXPECT_EQ(at_once.server_report["spread"], 0.0);
   EXPECT_EQ(spread.server_report["spread"], 0.5);
-  const auto mean_s = [](const Played& played) { return played.bots_report["update_age_ms"]["sum_s"].get<double>() / played.bots_report["update_age_ms"]["count"].get<double>(); };
-  const double phases = 11.0, mean_phase_s = 0.5 * phases / 16.0 * 0.025;  // twelve connections have the phases 0 to 11 of 16
+  const auto mean_s = [](const Played& played) {
+    return played.bots_report["update_age_ms"]["sum_s"].get<double>() /
+           played.bots_report["update_age_ms"]["count"].get<double>();
+  };
+  const double phases = 11.0,
+               mean_phase_s =
+                   0.5 * phases / 16.0 * 0.025;  // twelve connections have the phases 0 to 11 of 16
   EXPECT_GT(mean_s(spread) - mean_s(at_once), 0.5 * mean_phase_s);
-  EXPECT_LT(2 * spread.server_report["burst_bytes_max"].get<std::uint64_t>(), at_once.server_report["burst_bytes_max"].get<std::uint64_t>());
+  EXPECT_LT(2 * spread.server_report["burst_bytes_max"].get<std::uint64_t>(),
+            at_once.server_report["burst_bytes_max"].get<std::uint64_t>());
   EXPECT_EQ(spread.bots_report["update_age_ms"]["count"], 12 * 12);
 }
 
-/// What an experiment calls `view_margin` and `sweep_ticks` reaches the processes, for the wider regions let more through, and the game stays what it was.
+/// What an experiment calls `view_margin` and `sweep_ticks` reaches the processes, for the wider
+/// regions let more through, and the game stays what it was.
 TEST_F(ServerAndBots, MarginAndSweepOfACellReachItsProcesses) {
   Experiment experiment;
   experiment.name = "margins", experiment.scene = "crowd";

@@ -1,4 +1,5 @@
-// What figures per second are divided by: n ticks over the n periods that they begin, in whichever way a game is played.
+// What figures per second are divided by: n ticks over the n periods that they begin, in whichever
+// way a game is played.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -21,7 +22,8 @@
 namespace rink::loadgen {
 namespace {
 
-/// Players who press nothing, and a policy that says every body at every tick: so many updates, and no more.
+/// Players who press nothing, and a policy that says every body at every tick: so many updates, and
+/// no more.
 class SpanTest : public testing::Test {
  protected:
   SpanTest() {
@@ -51,7 +53,9 @@ class SpanTest : public testing::Test {
     log.events.clear();
     game::write_key_log(file, log);
   }
-  nlohmann::json report(const char* who) const { return nlohmann::json::parse(test::text_of(folder_ / (name_of(cell()) + "." + who + ".json"))); }
+  nlohmann::json report(const char* who) const {
+    return nlohmann::json::parse(test::text_of(folder_ / (name_of(cell()) + "." + who + ".json")));
+  }
   RunRecord sound(const std::optional<RunRecord>& record) const {
     EXPECT_TRUE(record);
     EXPECT_EQ(record.value_or(RunRecord{}).why_invalid, "");
@@ -73,31 +77,43 @@ TEST_F(SpanTest, RatesOfASteadyStreamDoNotDependOnHowLongItIsWatched) {
     const auto bodies = static_cast<double>(scene.bodies.bats.size() + scene.bodies.pucks.size());
     EXPECT_EQ(static_cast<double>(*record.ticks), duration_s * rate_hz);
     EXPECT_NEAR(*record.measured_s, duration_s, 1e-9);
-    EXPECT_NEAR(*record.messages_per_s, clients * bodies * rate_hz, 1e-6) << "each client is sent each body that moves at each tick";
-    EXPECT_EQ(static_cast<double>(*record.update_age_samples), clients * static_cast<double>(*record.ticks));
+    EXPECT_NEAR(*record.messages_per_s, clients * bodies * rate_hz, 1e-6)
+        << "each client is sent each body that moves at each tick";
+    EXPECT_EQ(static_cast<double>(*record.update_age_samples),
+              clients * static_cast<double>(*record.ticks));
     const auto states = report("server");
-    EXPECT_EQ(states["state_bytes_sent"].get<std::uint64_t>() / states["messages_sent"].get<std::uint64_t>(), 9u) << "two f32 and the step from the handle before, in blocks of a few bytes more";
+    EXPECT_EQ(states["state_bytes_sent"].get<std::uint64_t>() /
+                  states["messages_sent"].get<std::uint64_t>(),
+              9u)
+        << "two f32 and the step from the handle before, in blocks of a few bytes more";
     if (!down) down = record.traffic.updates;
-    EXPECT_NEAR(*record.traffic.updates / *down, 1.0, 1e-3) << "frames of blocks differ by a few bytes";
+    EXPECT_NEAR(*record.traffic.updates / *down, 1.0, 1e-3)
+        << "frames of blocks differ by a few bytes";
   }
 }
 
-/// A tick is one write to each client, however many bodies there are; a segment carries 1,448 bytes of it.
+/// A tick is one write to each client, however many bodies there are; a segment carries 1,448 bytes
+/// of it.
 TEST_F(SpanTest, ATickIsAWriteToEachClientAndAsManySegmentsAsItsBytesFill) {
   experiment_.duration_s = 1.0;
-  for (const auto& [population, least] : {std::pair{Population::per_client, 1.0}, {Population::fixed, 7.0}}) {
+  for (const auto& [population, least] :
+       {std::pair{Population::per_client, 1.0}, {Population::fixed, 7.0}}) {
     experiment_.population = population;
     const RunRecord record = sound(run_virtual_cell(settings_, experiment_, cell(), no_keys()));
     const nlohmann::json server = report("server"), bots = report("bots");
-    const double writes_per_s = 4 * 20.0, segments_per_write = std::ceil(server["bytes_sent"].get<double>() / server["writes_sent"].get<double>() / 1448.0);
+    const double writes_per_s = 4 * 20.0,
+                 segments_per_write = std::ceil(server["bytes_sent"].get<double>() /
+                                                server["writes_sent"].get<double>() / 1448.0);
     EXPECT_EQ(record.writes_per_s, writes_per_s);
     EXPECT_GE(segments_per_write, least);
-    EXPECT_NEAR(*record.segments_per_s, writes_per_s * segments_per_write + bots["segments_sent"].get<double>(), 1e-9);
+    EXPECT_NEAR(*record.segments_per_s,
+                writes_per_s * segments_per_write + bots["segments_sent"].get<double>(), 1e-9);
     EXPECT_LE(bots["segments_sent"], 4) << "a heartbeat a second";
   }
 }
 
-/// At 20 Hz 0.26 s falls between ticks 5 and 6 and 0.26 + 1.01 s after tick 25, which is the last, ends the game and is not counted: 6 to 24, and 19 periods.
+/// At 20 Hz 0.26 s falls between ticks 5 and 6 and 0.26 + 1.01 s after tick 25, which is the last,
+/// ends the game and is not counted: 6 to 24, and 19 periods.
 TEST_F(SpanTest, WhereWarmUpAndDurationAreNoMultiplesOfATickTheSpanBeginsAndEndsOnTicks) {
   experiment_.warm_up_s = 0.26, experiment_.duration_s = 1.01;
   const RunRecord record = sound(run_virtual_cell(settings_, experiment_, cell(), no_keys()));
@@ -106,9 +122,12 @@ TEST_F(SpanTest, WhereWarmUpAndDurationAreNoMultiplesOfATickTheSpanBeginsAndEnds
   EXPECT_EQ(record.ticks, 19u);
   EXPECT_NEAR(*record.measured_s, 19 / 20.0, 1e-9);
   EXPECT_NEAR(*record.messages_per_s, 4 * bodies * 20.0, 1e-6);
-  EXPECT_EQ(record.update_age_samples, 4u * 20u) << "clients count by stamps: that of tick 25 is before 1.27 s";
-  EXPECT_NEAR(report("bots")["measured_s"].get<double>(), 1.01, 1e-9) << "their own counters they read by their clock";
-  EXPECT_EQ(record.entities, scene.bodies.bats.size() + scene.bodies.pucks.size() + scene.bodies.posts.size());
+  EXPECT_EQ(record.update_age_samples, 4u * 20u)
+      << "clients count by stamps: that of tick 25 is before 1.27 s";
+  EXPECT_NEAR(report("bots")["measured_s"].get<double>(), 1.01, 1e-9)
+      << "their own counters they read by their clock";
+  EXPECT_EQ(record.entities,
+            scene.bodies.bats.size() + scene.bodies.pucks.size() + scene.bodies.posts.size());
 }
 
 TEST_F(SpanTest, OverSocketsAsManyTicksAreCountedAndSentAsInVirtualTime) {
@@ -117,13 +136,16 @@ TEST_F(SpanTest, OverSocketsAsManyTicksAreCountedAndSentAsInVirtualTime) {
   const RunRecord record = sound(run_cell(settings_, experiment_, cell(), no_keys()));
   const game::Scene scene = scene_of(experiment_, cell());
   EXPECT_EQ(record.ticks, 8u);
-  EXPECT_EQ(report("server")["messages_sent"].get<std::uint64_t>(), 8 * 4 * (scene.bodies.bats.size() + scene.bodies.pucks.size()));
+  EXPECT_EQ(report("server")["messages_sent"].get<std::uint64_t>(),
+            8 * 4 * (scene.bodies.bats.size() + scene.bodies.pucks.size()));
   EXPECT_NEAR(*record.measured_s, 0.4, 0.02);
   EXPECT_EQ(record.update_age_samples, 8u * 4u);
-  for (const char* who : {"server", "bots"}) EXPECT_EQ(report(who)["evidence_bytes"], 0) << "none was asked for";
+  for (const char* who : {"server", "bots"})
+    EXPECT_EQ(report(who)["evidence_bytes"], 0) << "none was asked for";
 }
 
-/// A hundred bats and a thousand pucks are ten kilobytes a tick, in seven datagrams or more to each client: one sample each.
+/// A hundred bats and a thousand pucks are ten kilobytes a tick, in seven datagrams or more to each
+/// client: one sample each.
 TEST_F(SpanTest, ATickThatComesInSeveralDatagramsIsOneSample) {
   experiment_.transport = TransportKind::udp;
   experiment_.population = Population::fixed;
@@ -133,7 +155,8 @@ TEST_F(SpanTest, ATickThatComesInSeveralDatagramsIsOneSample) {
   EXPECT_EQ(record.update_age_samples, 6u * 4u);
 }
 
-/// A second and the one after it, counted apart, are the two together: what happens at the border is in one of them.
+/// A second and the one after it, counted apart, are the two together: what happens at the border
+/// is in one of them.
 TEST_F(SpanTest, SpansThatFollowEachOtherAddUp) {
   const std::filesystem::path log = folder_ / "some.keys";
   experiment_.scene = "arena";
@@ -149,18 +172,28 @@ TEST_F(SpanTest, SpansThatFollowEachOtherAddUp) {
     const auto counted = [&](double warm_up_s, double duration_s) {
       experiment_.warm_up_s = warm_up_s, experiment_.duration_s = duration_s;
       const bool are_peers = cell().mode == peer_mode;
-      sound((are_peers ? run_virtual_peers : run_virtual_cell)(settings_, experiment_, cell(), log));
-      nlohmann::json carried = report(are_peers ? "peers" : "server"), players = report("bots"), sums;
-      for (const char* key : {"ticks", "measured_s", "messages_sent", "bytes_sent", "bytes_received", "writes_sent", "segments_sent", "state_bytes_sent", "key_bytes_received"}) sums[key] = carried[key];
-      for (const char* key : {"bytes_sent", "bytes_received", "segments_sent", "keys_due", "keys_sent", "measured_s"}) sums[std::string("players' ") + key] = players[key];
+      sound(
+          (are_peers ? run_virtual_peers : run_virtual_cell)(settings_, experiment_, cell(), log));
+      nlohmann::json carried = report(are_peers ? "peers" : "server"), players = report("bots"),
+                     sums;
+      for (const char* key :
+           {"ticks", "measured_s", "messages_sent", "bytes_sent", "bytes_received", "writes_sent",
+            "segments_sent", "state_bytes_sent", "key_bytes_received"})
+        sums[key] = carried[key];
+      for (const char* key :
+           {"bytes_sent", "bytes_received", "segments_sent", "keys_due", "keys_sent", "measured_s"})
+        sums[std::string("players' ") + key] = players[key];
       if (!are_peers) sums["physics_events"] = carried["physics_events"];
       sums["ages"] = players["update_age_ms"]["count"];
-      for (const nlohmann::json& bytes : players["bytes_received_by_bot"]) sums["by player " + std::to_string(sums.size())] = bytes;
+      for (const nlohmann::json& bytes : players["bytes_received_by_bot"])
+        sums["by player " + std::to_string(sums.size())] = bytes;
       return sums;
     };
-    const nlohmann::json first = counted(0.25, 1.0), second = counted(1.25, 1.0), both = counted(0.25, 2.0);
+    const nlohmann::json first = counted(0.25, 1.0), second = counted(1.25, 1.0),
+                         both = counted(0.25, 2.0);
     for (const auto& [key, value] : both.items()) {
-      EXPECT_NEAR(first[key].get<double>() + second[key].get<double>(), value.get<double>(), 1e-9) << key;
+      EXPECT_NEAR(first[key].get<double>() + second[key].get<double>(), value.get<double>(), 1e-9)
+          << key;
       EXPECT_GT(first[key], 0) << key;
     }
   }
@@ -181,20 +214,23 @@ TEST_F(SpanTest, EvidenceHasTheCostOfEachMeasuredTickAndOfNoOther) {
   experiment_.duration_s = 1.0;
   settings_.wants_truth = true;
   const RunRecord record = sound(run_virtual_cell(settings_, experiment_, cell(), no_keys()));
-  const game::ServerEvidence evidence = game::read_server_evidence((folder_ / (name_of(cell()) + ".server.jsonl")).string());
+  const game::ServerEvidence evidence =
+      game::read_server_evidence((folder_ / (name_of(cell()) + ".server.jsonl")).string());
   ASSERT_EQ(evidence.ticks.size(), *record.ticks);
   EXPECT_DOUBLE_EQ(evidence.ticks.front().simulated_s, 0.25);
   EXPECT_DOUBLE_EQ(evidence.ticks.back().simulated_s, 1.2);
   EXPECT_DOUBLE_EQ(evidence.end_s, 1.25) << "the game goes on to the end";
 }
 
-/// The server's own means beside what it noted of each tick, and the processes' costs beside what the kernel says of them.
+/// The server's own means beside what it noted of each tick, and the processes' costs beside what
+/// the kernel says of them.
 TEST_F(SpanTest, CostsOfTicksAndProcessesAreThoseThatWereNoted) {
   experiment_.transport = TransportKind::tcp;
   experiment_.duration_s = 0.3;
   settings_.wants_truth = true;
   const RunRecord record = sound(run_cell(settings_, experiment_, cell(), no_keys()));
-  const game::ServerEvidence evidence = game::read_server_evidence((folder_ / (name_of(cell()) + ".server.jsonl")).string());
+  const game::ServerEvidence evidence =
+      game::read_server_evidence((folder_ / (name_of(cell()) + ".server.jsonl")).string());
   ASSERT_EQ(evidence.ticks.size(), 6u);
   double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, longest_s = 0.0;
   for (const game::ServerEvidence::Tick& tick : evidence.ticks) {
@@ -210,19 +246,26 @@ TEST_F(SpanTest, CostsOfTicksAndProcessesAreThoseThatWereNoted) {
   const double processors = static_cast<double>(allowed_processors().size());
   ASSERT_TRUE(record.health.bots_cpu_share);
   EXPECT_GT(*record.health.bots_cpu_share, 0.0);
-  EXPECT_LE(*record.health.bots_cpu_share * 0.3 * processors, *record.bots_cpu_s + 0.02) << "a part of what the process used from start to end, but for the kernel's 10 ms";
-  EXPECT_NEAR(*record.nodes.mean_cpu_s, (*record.server_cpu_s + *record.bots_cpu_s) / (1 + 4), 1e-12) << "the nodes are the server and four bots";
+  EXPECT_LE(*record.health.bots_cpu_share * 0.3 * processors, *record.bots_cpu_s + 0.02)
+      << "a part of what the process used from start to end, but for the kernel's 10 ms";
+  EXPECT_NEAR(*record.nodes.mean_cpu_s, (*record.server_cpu_s + *record.bots_cpu_s) / (1 + 4),
+              1e-12)
+      << "the nodes are the server and four bots";
   EXPECT_EQ(record.nodes.busiest_cpu_s, record.server_cpu_s);
-  for (const char* who : {"server", "bots"}) EXPECT_GT(report(who)["evidence_bytes"], 1'000) << "in memory until the run is over";
+  for (const char* who : {"server", "bots"})
+    EXPECT_GT(report(who)["evidence_bytes"], 1'000) << "in memory until the run is over";
   EXPECT_GT(*record.health.histogram_ns_per_record, 0.1);
   EXPECT_LT(*record.health.histogram_ns_per_record, 1e5);
   rusage children{};
   ASSERT_EQ(getrusage(RUSAGE_CHILDREN, &children), 0);
-  EXPECT_LE(static_cast<double>(*record.server_rss_bytes), 1024.0 * static_cast<double>(children.ru_maxrss)) << "never more than the largest of the two ever had";
+  EXPECT_LE(static_cast<double>(*record.server_rss_bytes),
+            1024.0 * static_cast<double>(children.ru_maxrss))
+      << "never more than the largest of the two ever had";
   EXPECT_GT(*record.server_rss_bytes, 1'000'000u);
 }
 
-/// Under `on-event` most ticks have nothing to say to most players, and whoever flies into the view of one is said with a stamp of long ago.
+/// Under `on-event` most ticks have nothing to say to most players, and whoever flies into the view
+/// of one is said with a stamp of long ago.
 TEST_F(SpanTest, AStateOnEntryIsNoNewsOfTheTickWhoseStampItBears) {
   experiment_.schemes = {"region"};
   experiment_.policies = {"on-event"};

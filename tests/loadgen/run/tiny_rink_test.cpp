@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/loadgen/measure/areas.h"
 #include "game/model/random_stream.h"
 #include "game/net/evidence.h"
 #include "game/net/evidence_lines.h"
@@ -18,6 +17,7 @@
 #include "loadgen/measure/truth/classification.h"
 #include "loadgen/measure/truth/scope_history.h"
 #include "loadgen/measure/truth/stays.h"
+#include "tests/loadgen/measure/areas.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
@@ -26,11 +26,13 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// One bat at rest in the middle of a field without drag; three pucks: one at rest beside it, one that flies by, one far away.
+/// One bat at rest in the middle of a field without drag; three pucks: one at rest beside it, one
+/// that flies by, one far away.
 class TinyRink : public testing::Test {
  protected:
   static constexpr double view_half_side = 1.0;
-  static constexpr std::uint32_t bat = 0, still = 1, flying = 2, far = 3;  // bodies in the order of their making
+  static constexpr std::uint32_t bat = 0, still = 1, flying = 2,
+                                 far = 3;  // bodies in the order of their making
 
   void SetUp() override {
     scene_file_ = (folder_ / "tiny.toml").string();
@@ -81,7 +83,10 @@ material = "ice"
     for (const std::uint32_t body : bodies) server_.in_scope.push_back(100 + body);
     server_.decisions.push_back({instant_s, 0, first, server_.in_scope.size()});
   }
-  TruthFigures judged(const RelevanceArea& area = {RelevanceArea::Shape::square, view_half_side}) const { return truth_of(server_, bots_, area); }
+  TruthFigures judged(const RelevanceArea& area = {RelevanceArea::Shape::square,
+                                                   view_half_side}) const {
+    return truth_of(server_, bots_, area);
+  }
 
   test::TemporaryFolder folder_{"truth"};
   std::string scene_file_;
@@ -91,9 +96,9 @@ material = "ice"
 
 // The flying puck's box touches the square from x = 8.9 on, at 0.9 s, until x = 11.1, at 3.1 s.
 TEST_F(TinyRink, FilterDecisionsAreHeldAgainstWhereThingsWereWhenTheyWereInForce) {
-  decide(0.5, {bat, still});                // exact
-  decide(1.0, {bat, still});                // missed the flying one
-  decide(2.0, {bat, still, flying, far});   // one too many
+  decide(0.5, {bat, still});               // exact
+  decide(1.0, {bat, still});               // missed the flying one
+  decide(2.0, {bat, still, flying, far});  // one too many
   const TruthFigures truth = judged();
   EXPECT_DOUBLE_EQ(*truth.filter_recall, 4.0 / 5.0);
   EXPECT_DOUBLE_EQ(*truth.filter_precision, 4.0 / 5.0);
@@ -117,23 +122,29 @@ TEST_F(TinyRink, ALateDiscoveryTakesFromTheTrueEntryToTheFirstStateAndOneThatNev
     return found.late_discovery;
   };
   bots_.bots[0].changes.push_back({1.25, 100 + flying, true});
-  EXPECT_THAT(late().distribution(200), ElementsAre(SampleDistribution::Point{0.0, 0.0}, SampleDistribution::Point{350.0, 1.0}));
+  EXPECT_THAT(late().distribution(200), ElementsAre(SampleDistribution::Point{0.0, 0.0},
+                                                    SampleDistribution::Point{350.0, 1.0}));
   bots_.bots[0].changes.back().instant_s = 0.5;
-  EXPECT_THAT(late().distribution(200), ElementsAre(SampleDistribution::Point{0.0, 1.0})) << "it was known before";
+  EXPECT_THAT(late().distribution(200), ElementsAre(SampleDistribution::Point{0.0, 1.0}))
+      << "it was known before";
   bots_.bots[0].changes.back().instant_s = 3.2;
-  EXPECT_THAT(late().distribution(200), ElementsAre(SampleDistribution::Point{0.0, 0.0})) << "it had left";
+  EXPECT_THAT(late().distribution(200), ElementsAre(SampleDistribution::Point{0.0, 0.0}))
+      << "it had left";
   EXPECT_EQ(found.late_discovery.never(), 1u);
-  EXPECT_EQ(found.late_discovery.samples(), 1u) << "what is beside the bat from the beginning entered at no known instant";
+  EXPECT_EQ(found.late_discovery.samples(), 1u)
+      << "what is beside the bat from the beginning entered at no known instant";
   EXPECT_EQ(found.missed_contact.samples(), 0u);
   bots_.is_complete = false;
   EXPECT_EQ(late().samples(), 0u);
 }
 
-/// Within T = 0.2 s the bat, by two keys of 10 m/s^2, gets 14.14 T^2/2 = 0.283 m far, the puck 0.2 m: with the radii of their discs, 0.141 and 0.1 m,
-/// 0.724 m in all, which is their distance at 2 s -+ sqrt(0.724^2 - 0.5^2) s. The still one is too far for both.
+/// Within T = 0.2 s the bat, by two keys of 10 m/s^2, gets 14.14 T^2/2 = 0.283 m far, the puck 0.2
+/// m: with the radii of their discs, 0.141 and 0.1 m, 0.724 m in all, which is their distance at 2
+/// s -+ sqrt(0.724^2 - 0.5^2) s. The still one is too far for both.
 TEST_F(TinyRink, ByContactTheFlyingPuckIsRelevantWhileItAndTheBatCanMeet) {
   const RelevanceArea contact{.shape = RelevanceArea::Shape::contact, .contact_s = 0.2};
-  const double apart = 0.1 * std::sqrt(2.0) + 0.1 + 10.0 * std::sqrt(2.0) * 0.02 + 0.2, half_s = std::sqrt(apart * apart - 0.25);
+  const double apart = 0.1 * std::sqrt(2.0) + 0.1 + 10.0 * std::sqrt(2.0) * 0.02 + 0.2,
+               half_s = std::sqrt(apart * apart - 0.25);
   bots_.bots[0].changes.push_back({1.75, 100 + flying, true});
   decide(2.0 - half_s - 1e-3, {bat, still});
   decide(2.0 - half_s + 1e-3, {bat, flying});
@@ -146,57 +157,74 @@ TEST_F(TinyRink, ByContactTheFlyingPuckIsRelevantWhileItAndTheBatCanMeet) {
   EXPECT_EQ(truth.relevance, "whoever can touch the bat within 0.2 s, or a puck that can");
 }
 
-/// An expression says that it is relevant, not how much: the entry at 0.9 s is dated by the look that found it, at most 4 ms later.
+/// An expression says that it is relevant, not how much: the entry at 0.9 s is dated by the look
+/// that found it, at most 4 ms later.
 TEST_F(TinyRink, ByAnExpressionAnEntryIsDatedByTheLookThatFoundIt) {
   bots_.bots[0].changes.push_back({1.25, 100 + flying, true});
   decide(0.89, {bat, still});
   decide(0.91, {bat, still, flying});
-  const TruthFigures truth = judged({.shape = RelevanceArea::Shape::filter, .reach = view_half_side, .expression = "region and not owner"});
+  const TruthFigures truth = judged({.shape = RelevanceArea::Shape::filter,
+                                     .reach = view_half_side,
+                                     .expression = "region and not owner"});
   EXPECT_DOUBLE_EQ(truth.filter_precision.value_or(-1.0), 1.0);
   EXPECT_DOUBLE_EQ(truth.filter_recall.value_or(-1.0), 1.0);
   EXPECT_LE(*truth.late_entry_ms.max, 350.0 + 1e-6);
   EXPECT_GE(*truth.late_entry_ms.max, 346.0 - 1e-6);
-  EXPECT_EQ(truth.relevance, "whoever 'region and not owner' lets through, of a square of 2 m around the bat");
+  EXPECT_EQ(truth.relevance,
+            "whoever 'region and not owner' lets through, of a square of 2 m around the bat");
 }
 
-/// Looks are 4 ms apart, or an eighth of a tick if that is less, from the beginning of the measured span on; the first one from 0.9 s on dates the entry.
+/// Looks are 4 ms apart, or an eighth of a tick if that is less, from the beginning of the measured
+/// span on; the first one from 0.9 s on dates the entry.
 TEST_F(TinyRink, LooksAreFourMillisecondsOrAnEighthOfATickApart) {
   bots_.bots[0].changes.push_back({1.25, 100 + flying, true});
   server_.from_s = 0.0051;
-  for (const auto& [rate_hz, apart_s] : {std::pair{10.0, 0.004}, {30.0, 0.004}, {50.0, 0.0025}, {100.0, 0.00125}}) {
+  for (const auto& [rate_hz, apart_s] :
+       {std::pair{10.0, 0.004}, {30.0, 0.004}, {50.0, 0.0025}, {100.0, 0.00125}}) {
     server_.rate_hz = rate_hz;
     const double found_s = server_.from_s + apart_s * std::ceil((0.9 - server_.from_s) / apart_s);
-    const TruthFigures truth = judged({.shape = RelevanceArea::Shape::filter, .reach = view_half_side, .expression = "region and not owner"});
+    const TruthFigures truth = judged({.shape = RelevanceArea::Shape::filter,
+                                       .reach = view_half_side,
+                                       .expression = "region and not owner"});
     EXPECT_NEAR(*truth.late_entry_ms.max, 1e3 * (1.25 - found_s), 1e-6) << rate_hz << " Hz";
   }
 }
 
 /// It leaves for half a second, then for longer than a second: one flap in three entries.
 TEST_F(TinyRink, FlappingIsThePartOfEntriesThatFollowALeavingWithinASecond) {
-  const std::pair<double, bool> steps[] = {{0.5, true}, {1.0, false}, {1.5, true}, {2.0, false}, {3.5, true}};
-  for (const auto& [instant_s, is_in] : steps) bots_.bots[0].changes.push_back({instant_s, 100 + flying, is_in});
+  const std::pair<double, bool> steps[] = {
+      {0.5, true}, {1.0, false}, {1.5, true}, {2.0, false}, {3.5, true}};
+  for (const auto& [instant_s, is_in] : steps)
+    bots_.bots[0].changes.push_back({instant_s, 100 + flying, is_in});
   EXPECT_DOUBLE_EQ(*judged().flapping_fraction, 1.0 / 3.0);
 }
 
 /// What left just before the span and comes back in it flaps, too; what came before it is no entry.
 TEST_F(TinyRink, FlappingLooksBackBeyondTheSpan) {
   const std::pair<double, bool> steps[] = {{0.5, true}, {1.4, false}, {1.9, true}, {2.5, false}};
-  for (const auto& [instant_s, is_in] : steps) bots_.bots[0].changes.push_back({instant_s, 100 + flying, is_in});
+  for (const auto& [instant_s, is_in] : steps)
+    bots_.bots[0].changes.push_back({instant_s, 100 + flying, is_in});
   server_.from_s = 1.5;
   EXPECT_DOUBLE_EQ(*judged().flapping_fraction, 1.0);
 }
 
 TEST_F(TinyRink, ErrorsAndWasteAreThoseOfWhatWasBelieved) {
-  const auto believe = [&](std::uint32_t body, std::uint32_t bytes, Vector2 matched, Vector2 displayed) {
-    bots_.beliefs.push_back({.object = 100 + body, .bytes = bytes, .is_in_scope = true, .matched = matched, .displayed = displayed});
+  const auto believe = [&](std::uint32_t body, std::uint32_t bytes, Vector2 matched,
+                           Vector2 displayed) {
+    bots_.beliefs.push_back({.object = 100 + body,
+                             .bytes = bytes,
+                             .is_in_scope = true,
+                             .matched = matched,
+                             .displayed = displayed});
   };
   bots_.bots[0].changes.push_back({1.0, 100 + flying, true});
   bots_.bots[0].changes.push_back({1.0, 100 + far, true});
-  believe(bat, 1000, {0.0, 0.0}, {0.0, 0.0});     // the own bat counts nowhere
+  believe(bat, 1000, {0.0, 0.0}, {0.0, 0.0});  // the own bat counts nowhere
   believe(still, 10, {10.5, 10.5}, {10.5, 10.5});
   believe(flying, 20, {10.0, 9.5}, {10.0, 9.5});  // right at 2.0 s, 50 mm behind at 2.05 s
   believe(far, 30, {7.0, 7.0}, {7.0, 7.0});       // wrong, but of no interest
-  bots_.samples.push_back({.bot = 0, .displayed_s = 2.05, .matched_s = 2.0, .window_s = 0.05, .first = 0, .last = 4});
+  bots_.samples.push_back(
+      {.bot = 0, .displayed_s = 2.05, .matched_s = 2.0, .window_s = 0.05, .first = 0, .last = 4});
   const TruthFigures truth = judged();
   EXPECT_NEAR(*truth.position_error_mm.max, 0.0, 1e-9);
   EXPECT_NEAR(*truth.displayed_error_mm.max, 50.0, 1e-9);
@@ -208,7 +236,9 @@ TEST_F(TinyRink, ErrorsAndWasteAreThoseOfWhatWasBelieved) {
 
 TEST_F(TinyRink, AContactWithABodyThatThePlayerDoesNotKnowIsMissed) {
   // Right and up at once take the bat along the diagonal into the puck that stands there.
-  server_.keys = {{.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}, {.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::up}};
+  server_.keys = {
+      {.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right},
+      {.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::up}};
   game::Game game(game::chosen_scene(server_.choice));
   game.record_events(true);
   for (const game::InputEvent& key : server_.keys) game.submit(key);
@@ -216,7 +246,9 @@ TEST_F(TinyRink, AContactWithABodyThatThePlayerDoesNotKnowIsMissed) {
   double first_with_still_s = 0.0;
   game.advance(server_.until_s - 1e-9);
   for (const physics::Event& impact : game.events()) {
-    if (!physics::is_impact(impact.kind) || !impact.other || (impact.body.index != bat && impact.other->index != bat)) continue;
+    if (!physics::is_impact(impact.kind) || !impact.other ||
+        (impact.body.index != bat && impact.other->index != bat))
+      continue;
     ++contacts;
     if (impact.body.index != still && impact.other->index != still) continue;
     if (with_still++ == 0) first_with_still_s = impact.time;
@@ -240,12 +272,16 @@ TEST_F(TinyRink, AContactWithABodyThatThePlayerDoesNotKnowIsMissed) {
   truth_of(server_, bots_, of_square, &found);
   EXPECT_LT(found.missed_contact.never(), contacts);
   EXPECT_EQ(found.missed_contact.samples(), judged().missed_interactions);
-  EXPECT_NEAR(found.missed_contact.distribution(200).back().thousandths, 250.0, 1e-3) << "that of the first";
+  EXPECT_NEAR(found.missed_contact.distribution(200).back().thousandths, 250.0, 1e-3)
+      << "that of the first";
 }
 
-/// The bat is pushed into the puck again and again; only contacts from the beginning of the measured span up to its end count, that itself excluded.
+/// The bat is pushed into the puck again and again; only contacts from the beginning of the
+/// measured span up to its end count, that itself excluded.
 TEST_F(TinyRink, ContactsOfTheWarmUpAndAfterTheEndAreNotCounted) {
-  server_.keys = {{.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}, {.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::up}};
+  server_.keys = {
+      {.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right},
+      {.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::up}};
   game::Game game(game::chosen_scene(server_.choice));
   game.record_events(true);
   for (const game::InputEvent& key : server_.keys) game.submit(key);
@@ -261,7 +297,8 @@ TEST_F(TinyRink, ContactsOfTheWarmUpAndAfterTheEndAreNotCounted) {
   server_.state_hash = game.hash();
   ASSERT_GE(instants.size(), 3u);
   server_.from_s = instants[1], server_.until_s = instants.back();
-  EXPECT_EQ(judged().interactions, instants.size() - 2) << "neither the first nor the one at the end";
+  EXPECT_EQ(judged().interactions, instants.size() - 2)
+      << "neither the first nor the one at the end";
   server_.from_s = std::nextafter(instants[1], 4.0);
   EXPECT_EQ(judged().interactions, instants.size() - 3);
   bots_.bots[0].changes.pop_back();  // never heard of the puck
@@ -269,10 +306,12 @@ TEST_F(TinyRink, ContactsOfTheWarmUpAndAfterTheEndAreNotCounted) {
 }
 
 TEST_F(TinyRink, ChurnIsThatOfTheSpanPerWatchedPlayerAndSecond) {
-  for (const double instant_s : {0.5, 1.5, 2.5, 3.5}) bots_.bots[0].changes.push_back({instant_s, 100 + flying, std::fmod(instant_s, 2.0) < 1.0});
+  for (const double instant_s : {0.5, 1.5, 2.5, 3.5})
+    bots_.bots[0].changes.push_back({instant_s, 100 + flying, std::fmod(instant_s, 2.0) < 1.0});
   EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 4.0 / 4.0);
   server_.from_s = 1.0, server_.until_s = 3.5;
-  EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 2.0 / 2.5) << "at 1.5 and 2.5 s; what happens at the end is after it";
+  EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 2.0 / 2.5)
+      << "at 1.5 and 2.5 s; what happens at the end is after it";
   bots_.bots.push_back({100 + far, {}});  // another player, at rest where nothing comes by
   EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 2.0 / 2.5 / 2.0);
 }
@@ -284,7 +323,8 @@ TEST_F(TinyRink, AnotherGameThanTheServersIsRefused) {
 
 TEST_F(TinyRink, EvidenceReadsBackAsItWasWritten) {
   decide(0.5, {bat, still, far});
-  server_.keys = {{.time = 0.1 + 0.2, .player = 0, .kind = game::InputKind::key_up, .key = game::Key::down}};
+  server_.keys = {
+      {.time = 0.1 + 0.2, .player = 0, .kind = game::InputKind::key_up, .key = game::Key::down}};
   server_.ticks = {{0.1, 1e-6, 2e-6, 3.5e-6}};
   server_.scheme = "grid";
   const std::string file = (folder_ / "server.jsonl").string();
@@ -297,8 +337,13 @@ TEST_F(TinyRink, EvidenceReadsBackAsItWasWritten) {
   EXPECT_EQ(read.state_hash, server_.state_hash);
   EXPECT_NEAR(read.ticks.at(0).send_s, 3.5e-6, 1e-15);
 
-  bots_.beliefs.push_back({.object = 7, .bytes = 8, .is_in_scope = true, .matched = {1.25, -2.5}, .displayed = {1.5, -2.5}});
-  bots_.samples.push_back({.bot = 0, .displayed_s = 0.7, .matched_s = 0.6, .window_s = 0.05, .first = 0, .last = 1});
+  bots_.beliefs.push_back({.object = 7,
+                           .bytes = 8,
+                           .is_in_scope = true,
+                           .matched = {1.25, -2.5},
+                           .displayed = {1.5, -2.5}});
+  bots_.samples.push_back(
+      {.bot = 0, .displayed_s = 0.7, .matched_s = 0.6, .window_s = 0.05, .first = 0, .last = 1});
   const std::string bots_file = (folder_ / "bots.jsonl").string();
   write_evidence(bots_file, bots_);
   const BotsEvidence bots = read_bots_evidence(bots_file);
@@ -321,16 +366,20 @@ TEST_F(TinyRink, EvidenceOfAnotherVersionIsRefusedByBothNumbers) {
     }
     return std::string("(accepted)");
   };
-  EXPECT_THAT(words_of("rink-server-evidence", game::read_server_evidence),
-              HasSubstr("other.jsonl:1: expected a server's evidence of version 2, found version 3"));
-  EXPECT_THAT(words_of("rink-peer-evidence", game::read_peer_evidence), HasSubstr("expected a peer's evidence of version 1, found version 3"));
-  EXPECT_THAT(words_of("rink-bots-evidence", read_bots_evidence), HasSubstr("expected the bots' evidence of version 1, found version 3"));
+  EXPECT_THAT(
+      words_of("rink-server-evidence", game::read_server_evidence),
+      HasSubstr("other.jsonl:1: expected a server's evidence of version 2, found version 3"));
+  EXPECT_THAT(words_of("rink-peer-evidence", game::read_peer_evidence),
+              HasSubstr("expected a peer's evidence of version 1, found version 3"));
+  EXPECT_THAT(words_of("rink-bots-evidence", read_bots_evidence),
+              HasSubstr("expected the bots' evidence of version 1, found version 3"));
   EXPECT_THAT(words_of("rink-bots-evidence", game::read_server_evidence),
               HasSubstr("expected a server's evidence of version 2, found something else"));
 }
 
 TEST_F(TinyRink, SpoiltEvidenceCostsTheFiguresOfTruthAndNothingElse) {
-  const std::string server_file = (folder_ / "server.jsonl").string(), bots_file = (folder_ / "bots.jsonl").string();
+  const std::string server_file = (folder_ / "server.jsonl").string(),
+                    bots_file = (folder_ / "bots.jsonl").string();
   const auto judged_with = [&](auto&& spoil) {
     write_evidence(server_file, server_);
     write_evidence(bots_file, bots_);
@@ -356,15 +405,21 @@ TEST_F(TinyRink, SpoiltEvidenceCostsTheFiguresOfTruthAndNothingElse) {
     EXPECT_FALSE(record.truth.interactions);
     return record.truth.trouble;
   };
-  EXPECT_THAT(trouble([](std::string text) { return text.substr(0, text.size() / 2); }), HasSubstr("server.jsonl: truncated or altered"));
-  EXPECT_THAT(trouble([](std::string text) { return text.replace(text.find("\"rate_hz\":10"), 12, "\"rate_hz\":11"); }), HasSubstr("altered"));
+  EXPECT_THAT(trouble([](std::string text) { return text.substr(0, text.size() / 2); }),
+              HasSubstr("server.jsonl: truncated or altered"));
+  EXPECT_THAT(trouble([](std::string text) {
+                return text.replace(text.find("\"rate_hz\":10"), 12, "\"rate_hz\":11");
+              }),
+              HasSubstr("altered"));
   EXPECT_THAT(trouble([](std::string) { return std::string(); }), HasSubstr("truncated"));
   EXPECT_THAT(trouble([&](std::string text) {
                 std::filesystem::remove(bots_file);
                 return text;
-              }), HasSubstr("bots.jsonl: cannot be read"));
+              }),
+              HasSubstr("bots.jsonl: cannot be read"));
   bots_.is_complete = false;
-  EXPECT_THAT(trouble([](const std::string& text) { return text; }), HasSubstr("bots.jsonl: more scopes changed than there was room for"));
+  EXPECT_THAT(trouble([](const std::string& text) { return text; }),
+              HasSubstr("bots.jsonl: more scopes changed than there was room for"));
   bots_.is_complete = true;
   server_.state_hash ^= 1;
   const RunRecord other = judged_with([](std::string text) { return text; });

@@ -1,4 +1,5 @@
-// Runs that begin from a saved game: they play on the game that was never interrupted, and are judged as any other.
+// Runs that begin from a saved game: they play on the game that was never interrupted, and are
+// judged as any other.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "tests/loadgen/complaint.h"
 #include "game/control/game.h"
 #include "game/control/game_state.h"
 #include "game/control/key_log.h"
@@ -19,6 +19,7 @@
 #include "loadgen/run/cell_runner.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_run.h"
+#include "tests/loadgen/complaint.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
@@ -48,8 +49,12 @@ class WarmStart : public testing::Test {
   void write_plan() const { write_game_plan(experiment_, cell(), log()); }
   std::filesystem::path log() const { return folder_ / "keys" / "seed3.keys"; }
   std::vector<game::InputEvent> keys() const { return game::read_key_log(log()).events; }
-  RunRecord virtual_run() const { return run_virtual_cell(settings_, experiment_, cell(), log()).value_or(RunRecord{}); }
-  std::filesystem::path evidence_file() const { return settings_.directory / (name_of(cell()) + ".server.jsonl"); }
+  RunRecord virtual_run() const {
+    return run_virtual_cell(settings_, experiment_, cell(), log()).value_or(RunRecord{});
+  }
+  std::filesystem::path evidence_file() const {
+    return settings_.directory / (name_of(cell()) + ".server.jsonl");
+  }
 
   /// Of the game of all keys, played from the scene's beginning in one go to the last tick.
   std::string hash_in_one_go() const {
@@ -60,7 +65,9 @@ class WarmStart : public testing::Test {
   }
   std::size_t keys_within(double from_s, double until_s) const {
     const auto all = keys();
-    return static_cast<std::size_t>(std::ranges::count_if(all, [=](const game::InputEvent& key) { return key.time >= from_s && key.time < until_s; }));
+    return static_cast<std::size_t>(std::ranges::count_if(all, [=](const game::InputEvent& key) {
+      return key.time >= from_s && key.time < until_s;
+    }));
   }
 
   test::TemporaryFolder folder_{"warm"};
@@ -77,8 +84,10 @@ TEST_F(WarmStart, RunInVirtualTimePlaysOnTheGameAndIsJudgedByIt) {
   EXPECT_EQ(record.truth.trouble, "");
   EXPECT_GT(record.truth.delivered_recall.value_or(0.0), 0.9);
   EXPECT_EQ(record.start_s, 20.0);
-  EXPECT_EQ(record.keys_due, keys_within(20.25, 21.25)) << "those before the start were pressed, those of the warm-up are not counted";
-  const nlohmann::json ages = nlohmann::json::parse(test::text_of(settings_.directory / (name_of(cell()) + ".bots.json")))["update_age_ms"];
+  EXPECT_EQ(record.keys_due, keys_within(20.25, 21.25))
+      << "those before the start were pressed, those of the warm-up are not counted";
+  const nlohmann::json ages = nlohmann::json::parse(
+      test::text_of(settings_.directory / (name_of(cell()) + ".bots.json")))["update_age_ms"];
   EXPECT_NEAR(ages["min_s"].get<double>(), 0.01, 1e-9);
   EXPECT_NEAR(ages["max_s"].get<double>(), 0.01, 1e-9);
   const game::ServerEvidence evidence = game::read_server_evidence(evidence_file());
@@ -110,7 +119,8 @@ TEST_F(WarmStart, LiveKeysOfRandomPlayersTakeEffectInTheGameThatTheyBegan) {
 TEST_F(WarmStart, SameSeedGivesTheSameFilesInVirtualTime) {
   write_plan();
   virtual_run();
-  const std::string state = test::text_of(state_file_of(log())), evidence = test::text_of(evidence_file());
+  const std::string state = test::text_of(state_file_of(log())),
+                    evidence = test::text_of(evidence_file());
   write_plan();
   virtual_run();
   EXPECT_EQ(test::text_of(state_file_of(log())), state);
@@ -121,8 +131,11 @@ TEST_F(WarmStart, EvidenceMovesWithItsSavedGameAndIsNotReadWithoutOrWithAnother)
   write_plan();
   virtual_run();
   const test::TemporaryFolder elsewhere("elsewhere");
-  std::filesystem::copy(folder_.path(), elsewhere.path(), std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
-  const std::filesystem::path evidence = elsewhere / "cells" / evidence_file().filename(), state = elsewhere / "keys" / "seed3.state";
+  std::filesystem::copy(
+      folder_.path(), elsewhere.path(),
+      std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
+  const std::filesystem::path evidence = elsewhere / "cells" / evidence_file().filename(),
+                              state = elsewhere / "keys" / "seed3.state";
   EXPECT_EQ(game::read_server_evidence(evidence).state_file, state.string());
   const auto refusal = [&] {
     try {
@@ -149,10 +162,15 @@ TEST_F(WarmStart, DamagedSavedGameEndsTheServerByItsName) {
 
 TEST(WarmStarts, AreAskedForOnlyWhereTheGameCanBeSaved) {
   const std::string minimal = "name = 'x'\nscene = 'arena'\n";
-  const auto complaint_about = [](const std::string& text) { return complaint_of([&] { parse_experiment(text, "dir/x.toml", {}); }); };
-  EXPECT_THAT(complaint_about(minimal + "start_s = 601"), AllOf(HasSubstr("start_s"), HasSubstr("0 to 600")));
-  EXPECT_THAT(complaint_about(minimal + "start_s = 20\nmodes = ['peer-to-peer']"), HasSubstr("expected start_s = 0"));
-  EXPECT_THAT(complaint_about(minimal + "start_s = 20\nkeys = 'live'\nplayers = 'chaser'"), HasSubstr("start_s above 0 with keys = live"));
+  const auto complaint_about = [](const std::string& text) {
+    return complaint_of([&] { parse_experiment(text, "dir/x.toml", {}); });
+  };
+  EXPECT_THAT(complaint_about(minimal + "start_s = 601"),
+              AllOf(HasSubstr("start_s"), HasSubstr("0 to 600")));
+  EXPECT_THAT(complaint_about(minimal + "start_s = 20\nmodes = ['peer-to-peer']"),
+              HasSubstr("expected start_s = 0"));
+  EXPECT_THAT(complaint_about(minimal + "start_s = 20\nkeys = 'live'\nplayers = 'chaser'"),
+              HasSubstr("start_s above 0 with keys = live"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Seeded encounters that are hard in one way each, for the tests and the benchmarks of the collision library.
+// Seeded encounters that are hard in one way each, for the tests and the benchmarks of the
+// collision library.
 #pragma once
 
 #include <cmath>
@@ -8,13 +9,17 @@
 
 namespace rink::physics::collision::reference {
 
-/// `random`: aimed somewhere at the obstacle from about its size away; `grazing`: past its rim at a depth or clearance of 1e-17 to 1e-2 of its size; `distant`: from 10 to
-/// 1e4 sizes away; `near`: gaps of 1e-12 to 1e-3 of its size; `tiny` and `huge`: random ones of 1e-9 and 1e9 times the lengths at any speed; `far`: random ones at
-/// coordinates of about 1e6 m.
+/// `random`: aimed somewhere at the obstacle from about its size away; `grazing`: past its rim at a
+/// depth or clearance of 1e-17 to 1e-2 of its size; `distant`: from 10 to 1e4 sizes away; `near`:
+/// gaps of 1e-12 to 1e-3 of its size; `tiny` and `huge`: random ones of 1e-9 and 1e9 times the
+/// lengths at any speed; `far`: random ones at coordinates of about 1e6 m.
 enum class Difficulty { random, grazing, distant, near, tiny, huge, far };
 inline constexpr int difficulty_count = 7;
-inline constexpr Difficulty difficulties[] = {Difficulty::random, Difficulty::grazing, Difficulty::distant, Difficulty::near, Difficulty::tiny, Difficulty::huge, Difficulty::far};
-inline constexpr const char* difficulty_names[] = {"random", "grazing", "distant", "near", "tiny", "huge", "far"};
+inline constexpr Difficulty difficulties[] = {
+    Difficulty::random, Difficulty::grazing, Difficulty::distant, Difficulty::near,
+    Difficulty::tiny,   Difficulty::huge,    Difficulty::far};
+inline constexpr const char* difficulty_names[] = {"random", "grazing", "distant", "near",
+                                                   "tiny",   "huge",    "far"};
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
 struct Seeded {
@@ -25,9 +30,13 @@ struct Seeded {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
     return z ^ (z >> 31);
   }
-  double uniform(double low, double high) { return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53;
+  }
   /// Uniform in the exponent.
-  double magnitude(double low, double high) { return low * std::pow(high / low, uniform(0.0, 1.0)); }
+  double magnitude(double low, double high) {
+    return low * std::pow(high / low, uniform(0.0, 1.0));
+  }
   double sign() { return bits() % 2 == 0 ? -1.0 : 1.0; }
   Vector<double> direction() {
     const double angle = uniform(0.0, 6.283185307179586);
@@ -43,11 +52,14 @@ struct Target {
   double size() const { return half_extent.norm() + radius; }
   /// The point furthest towards `direction`.
   Vector<double> rim(const Vector<double>& direction) const {
-    return Vector<double>(std::copysign(half_extent.x(), direction.x()), std::copysign(half_extent.y(), direction.y())) + radius * direction;
+    return Vector<double>(std::copysign(half_extent.x(), direction.x()),
+                          std::copysign(half_extent.y(), direction.y())) +
+           radius * direction;
   }
 };
 
-/// Two moving places. How they see each other is what was aimed at up to the rounding of their coordinates: the truth is computed from what is here.
+/// Two moving places. How they see each other is what was aimed at up to the rounding of their
+/// coordinates: the truth is computed from what is here.
 struct Encounter {
   Vector<double> position_a, velocity_a, position_b, velocity_b;
 
@@ -56,12 +68,16 @@ struct Encounter {
 };
 
 /// Lengths by which shapes of `difficulty` are scaled.
-inline double scale_of(Difficulty difficulty) { return difficulty == Difficulty::tiny ? 1e-9 : difficulty == Difficulty::huge ? 1e9 : 1.0; }
+inline double scale_of(Difficulty difficulty) {
+  return difficulty == Difficulty::tiny ? 1e-9 : difficulty == Difficulty::huge ? 1e9 : 1.0;
+}
 
-inline Encounter encounter(Seeded& seeded, Difficulty difficulty, const Target& target, bool is_b_still = false) {
+inline Encounter encounter(Seeded& seeded, Difficulty difficulty, const Target& target,
+                           bool is_b_still = false) {
   const double size = target.size();
   const Vector<double> heading = seeded.direction(), left(-heading.y(), heading.x());
-  Vector<double> aim(seeded.uniform(-1.0, 1.0) * (target.half_extent.x() + target.radius), seeded.uniform(-1.0, 1.0) * (target.half_extent.y() + target.radius));
+  Vector<double> aim(seeded.uniform(-1.0, 1.0) * (target.half_extent.x() + target.radius),
+                     seeded.uniform(-1.0, 1.0) * (target.half_extent.y() + target.radius));
   double distance = seeded.uniform(2.5, 5.0) * size;
   if (difficulty == Difficulty::grazing) {
     const Vector<double> out = seeded.sign() * left;
@@ -72,9 +88,14 @@ inline Encounter encounter(Seeded& seeded, Difficulty difficulty, const Target& 
     aim = target.rim(-heading) - seeded.magnitude(1e-12, 1e-3) * size * heading;
     distance = 0.0;
   }
-  const double speed = scale_of(difficulty) * seeded.magnitude(0.1, 10.0) * (scale_of(difficulty) == 1.0 ? 1.0 : seeded.magnitude(1e-3, 1e3));
-  const Vector<double> turned = difficulty == Difficulty::near ? Vector<double>(heading + seeded.uniform(-2.0, 2.0) * left) : heading;
-  const double place = difficulty == Difficulty::far ? 1e6 : difficulty == Difficulty::near || difficulty == Difficulty::grazing ? 0.0 : size;
+  const double speed = scale_of(difficulty) * seeded.magnitude(0.1, 10.0) *
+                       (scale_of(difficulty) == 1.0 ? 1.0 : seeded.magnitude(1e-3, 1e3));
+  const Vector<double> turned = difficulty == Difficulty::near
+                                    ? Vector<double>(heading + seeded.uniform(-2.0, 2.0) * left)
+                                    : heading;
+  const double place = difficulty == Difficulty::far                                         ? 1e6
+                       : difficulty == Difficulty::near || difficulty == Difficulty::grazing ? 0.0
+                                                                                             : size;
   Encounter e;
   e.position_b = Vector<double>(seeded.uniform(1.0, 2.0), seeded.uniform(-2.0, -1.0)) * place;
   e.position_a = e.position_b + aim - distance * heading;

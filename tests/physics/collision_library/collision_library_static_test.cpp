@@ -1,4 +1,5 @@
-// The static tests on the verge of touching, against 113-bit arithmetic, and what slips between edges that share a corner.
+// The static tests on the verge of touching, against 113-bit arithmetic, and what slips between
+// edges that share a corner.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,23 +18,29 @@ namespace {
 using namespace reference;
 using Point = Vector<double>;
 
-/// The widest gap or overlap at which an answer was wrong, in epsilons of the lengths involved, over `count` pairs within 1e-10 to 1e-17 of touching.
+/// The widest gap or overlap at which an answer was wrong, in epsilons of the lengths involved,
+/// over `count` pairs within 1e-10 to 1e-17 of touching.
 template <class Ask>
 double widest_misjudged(Difficulty difficulty, int count, const Ask& ask) {
   Seeded seeded{9};
   double widest = 0.0;
   for (int i = 0; i < count; ++i) {
-    Target target{scale_of(difficulty) * Point(seeded.magnitude(0.01, 1.0), seeded.magnitude(0.01, 1.0)), scale_of(difficulty) * seeded.magnitude(0.01, 1.0)};
+    Target target{
+        scale_of(difficulty) * Point(seeded.magnitude(0.01, 1.0), seeded.magnitude(0.01, 1.0)),
+        scale_of(difficulty) * seeded.magnitude(0.01, 1.0)};
     const auto [overlaps, obstacle, offset] = ask(seeded, target, [&](const Target& shape) {
-      const Point out = seeded.direction(), base = difficulty == Difficulty::far ? Point(1e6, -1e6) : Point(0.0, 0.0);
+      const Point out = seeded.direction(),
+                  base = difficulty == Difficulty::far ? Point(1e6, -1e6) : Point(0.0, 0.0);
       Encounter e;
       e.position_b = base + shape.size() * seeded.direction();
-      e.position_a = e.position_b + shape.rim(out) + seeded.sign() * seeded.magnitude(1e-17, 1e-10) * shape.size() * out;
+      e.position_a = e.position_b + shape.rim(out) +
+                     seeded.sign() * seeded.magnitude(1e-17, 1e-10) * shape.size() * out;
       return e;
     });
     const Quad gap = obstacle.gap(offset);
     if (overlaps == (gap <= 0)) continue;
-    const Quad length = root(dot(offset, offset)) + root(dot(obstacle.half_extent, obstacle.half_extent)) + obstacle.radius;
+    const Quad length = root(dot(offset, offset)) +
+                        root(dot(obstacle.half_extent, obstacle.half_extent)) + obstacle.radius;
     widest = std::max(widest, static_cast<double>(magnitude(gap) / (Quad(0x1p-52) * length)));
   }
   return widest;
@@ -50,7 +57,9 @@ QuadPoint offset_of(const Encounter& e) { return exact(e.position_a) - exact(e.p
 double point_in_circle(Difficulty difficulty, int count) {
   return widest_misjudged(difficulty, count, [](Seeded&, const Target& t, const auto& place) {
     const Encounter e = place({{0.0, 0.0}, t.radius});
-    return Asked{is_point_in_circle(e.position_a, Disc<double>{e.position_b, t.radius}), {{0, 0}, t.radius}, offset_of(e)};
+    return Asked{is_point_in_circle(e.position_a, Disc<double>{e.position_b, t.radius}),
+                 {{0, 0}, t.radius},
+                 offset_of(e)};
   });
 }
 
@@ -58,23 +67,33 @@ double bounding_circles(Difficulty difficulty, int count) {
   return widest_misjudged(difficulty, count, [](Seeded&, const Target& t, const auto& place) {
     const double other = t.half_extent.x();
     const Encounter e = place({{0.0, 0.0}, t.radius + other});
-    return Asked{do_bounding_circles_overlap(Disc<double>{e.position_a, other}, Disc<double>{e.position_b, t.radius}), {{0, 0}, Quad(t.radius) + Quad(other)}, offset_of(e)};
+    return Asked{do_bounding_circles_overlap(Disc<double>{e.position_a, other},
+                                             Disc<double>{e.position_b, t.radius}),
+                 {{0, 0}, Quad(t.radius) + Quad(other)},
+                 offset_of(e)};
   });
 }
 
 double disc_and_box(Difficulty difficulty, int count) {
   return widest_misjudged(difficulty, count, [](Seeded&, const Target& t, const auto& place) {
     const Encounter e = place(t);
-    return Asked{does_disc_overlap_box(Disc<double>{e.position_a, t.radius}, Box<double>{e.position_b, t.half_extent}), {exact(t.half_extent), t.radius}, offset_of(e)};
+    return Asked{does_disc_overlap_box(Disc<double>{e.position_a, t.radius},
+                                       Box<double>{e.position_b, t.half_extent}),
+                 {exact(t.half_extent), t.radius},
+                 offset_of(e)};
   });
 }
 
 double boxes(Difficulty difficulty, int count) {
-  return widest_misjudged(difficulty, count, [](Seeded& seeded, const Target& t, const auto& place) {
-    const Point other = t.radius * Point(seeded.uniform(0.5, 2.0), seeded.uniform(0.5, 2.0));
-    const Encounter e = place({t.half_extent + other, 0.0});
-    return Asked{do_boxes_overlap(Box<double>{e.position_a, other}, Box<double>{e.position_b, t.half_extent}), {exact(t.half_extent) + exact(other), 0}, offset_of(e)};
-  });
+  return widest_misjudged(
+      difficulty, count, [](Seeded& seeded, const Target& t, const auto& place) {
+        const Point other = t.radius * Point(seeded.uniform(0.5, 2.0), seeded.uniform(0.5, 2.0));
+        const Encounter e = place({t.half_extent + other, 0.0});
+        return Asked{do_boxes_overlap(Box<double>{e.position_a, other},
+                                      Box<double>{e.position_b, t.half_extent}),
+                     {exact(t.half_extent) + exact(other), 0},
+                     offset_of(e)};
+      });
 }
 
 /// The greatest error of a distance, in epsilons of the way from the plane's point.
@@ -85,7 +104,8 @@ double plane_distance(Difficulty difficulty, int count) {
     const Encounter e = encounter(seeded, difficulty, {{0.0, 0.0}, scale_of(difficulty)});
     const Plane<double> plane{e.position_b, seeded.direction()};
     const QuadPoint way = offset_of(e);
-    const Quad truth = dot(exact(plane.normal), way), error = magnitude(point_plane_distance(e.position_a, plane) - truth);
+    const Quad truth = dot(exact(plane.normal), way),
+               error = magnitude(point_plane_distance(e.position_a, plane) - truth);
     worst = std::max(worst, static_cast<double>(error / (Quad(0x1p-52) * root(dot(way, way)))));
   }
   return worst;
@@ -102,12 +122,15 @@ constexpr StaticTest static_tests[] = {{"point, plane", plane_distance},
                                        {"box, box", boxes}};
 
 void judge(int count, bool is_table) {
-  if (is_table) std::printf("| static test | random | tiny | huge | far |\n|---|---|---|---|---|\n");
+  if (is_table)
+    std::printf("| static test | random | tiny | huge | far |\n|---|---|---|---|---|\n");
   for (const StaticTest& subject : static_tests) {
     if (is_table) std::printf("| %s |", subject.name);
-    for (const Difficulty difficulty : {Difficulty::random, Difficulty::tiny, Difficulty::huge, Difficulty::far}) {
+    for (const Difficulty difficulty :
+         {Difficulty::random, Difficulty::tiny, Difficulty::huge, Difficulty::far}) {
       const double worst = subject.worst(difficulty, count);
-      EXPECT_LE(worst, 2.0) << subject.name << ", " << difficulty_names[static_cast<int>(difficulty)];
+      EXPECT_LE(worst, 2.0) << subject.name << ", "
+                            << difficulty_names[static_cast<int>(difficulty)];
       if (is_table) std::printf(" %.2g |", worst);
     }
     if (is_table) std::printf("\n");
@@ -122,11 +145,16 @@ TEST(EdgesThatShareACorner, LetNothingSlipBetweenThem) {
   Seeded seeded{21};
   int slips = 0;
   for (int i = 0; i < 100000; ++i) {
-    const Point corner = seeded.direction(), left(-corner.y(), corner.x()), before = corner - seeded.uniform(0.2, 2.0) * left - seeded.uniform(0.0, 1.0) * corner,
-                after = corner + seeded.uniform(0.2, 2.0) * left - seeded.uniform(0.0, 1.0) * corner;
+    const Point corner = seeded.direction(), left(-corner.y(), corner.x()),
+                before =
+                    corner - seeded.uniform(0.2, 2.0) * left - seeded.uniform(0.0, 1.0) * corner,
+                after =
+                    corner + seeded.uniform(0.2, 2.0) * left - seeded.uniform(0.0, 1.0) * corner;
     // Flights that face both edges and pass within rounding of the corner.
-    const Point point = corner + seeded.uniform(1.0, 3.0) * corner, velocity = (corner - point) * seeded.uniform(0.1, 10.0);
-    const bool hits = time_point_meets_edge(point, velocity, Edge<double>{before, corner}) || time_point_meets_edge(point, velocity, Edge<double>{corner, after});
+    const Point point = corner + seeded.uniform(1.0, 3.0) * corner,
+                velocity = (corner - point) * seeded.uniform(0.1, 10.0);
+    const bool hits = time_point_meets_edge(point, velocity, Edge<double>{before, corner}) ||
+                      time_point_meets_edge(point, velocity, Edge<double>{corner, after});
     slips += hits ? 0 : 1;
   }
   EXPECT_EQ(slips, 0);

@@ -52,7 +52,8 @@ TEST(PointAgainstEdge, MeetsItFromOutsideBetweenItsEnds) {
 
 TEST(PointAgainstEdge, MeetsAnEdgeThatComesAtIt) {
   const Edge<double> floor{{2.0, 0.0}, {-2.0, 0.0}};
-  const auto contact = time_point_meets_moving_edge(Point(1.0, 3.0), Point(1.0, 0.0), floor, Point(1.0, 1.5));
+  const auto contact =
+      time_point_meets_moving_edge(Point(1.0, 3.0), Point(1.0, 0.0), floor, Point(1.0, 1.5));
   ASSERT_TRUE(contact);
   EXPECT_EQ(contact->time, 2.0);
 }
@@ -81,11 +82,15 @@ TEST(DiscAgainstBox, MeetsFacesAndRoundedCorners) {
   EXPECT_EQ(face->time, 1.0);
   EXPECT_EQ(face->normal, Point(0.0, 1.0));
   // Over the corner (2, 1) by 0.6 of the radius: the centre stops at height 1 + 0.8.
-  const auto corner = time_disc_meets_rounded_box(Disc<double>{{2.6, 4.0}, 1.0}, Point(0.0, -1.0), bat, Point(0.0, 0.0));
+  const auto corner = time_disc_meets_rounded_box(Disc<double>{{2.6, 4.0}, 1.0}, Point(0.0, -1.0),
+                                                  bat, Point(0.0, 0.0));
   ASSERT_TRUE(corner);
   EXPECT_DOUBLE_EQ(corner->time, 2.2);
   EXPECT_NEAR((corner->normal - Point(0.6, 0.8)).norm(), 0.0, 1e-15);
-  EXPECT_EQ(time_disc_meets_sharp_box(Disc<double>{{2.6, 4.0}, 1.0}, Point(0.0, -1.0), bat, Point(0.0, 0.0))->time, 2.0);
+  EXPECT_EQ(time_disc_meets_sharp_box(Disc<double>{{2.6, 4.0}, 1.0}, Point(0.0, -1.0), bat,
+                                      Point(0.0, 0.0))
+                ->time,
+            2.0);
 }
 
 TEST(BoxAgainstBox, MeetsWithTheFaceThatComesLast) {
@@ -104,21 +109,28 @@ TEST(ShapesInContact, CollideNowIfTheyCloseAndNeverIfTheyPart) {
   EXPECT_FALSE(time_disc_meets_rounded_box(low, Point(1.0, 0.0), bat, Point(0.0, 0.0)));
   EXPECT_EQ(time_disc_meets_disc(puck, Point(-1.0, 0.0), Disc<double>{{2.5, 4.0}, 1.0})->time, 0.0);
   EXPECT_FALSE(time_disc_meets_disc(puck, Point(1.0, 0.0), Disc<double>{{2.5, 4.0}, 1.0}));
-  EXPECT_EQ(time_box_meets_box(bat, Point(0.0, 1.0), Box<double>{{0.0, 1.5}, {1.0, 1.0}}, Point(0.0, 0.0))->time, 0.0);
-  EXPECT_FALSE(time_box_meets_box(bat, Point(0.0, -1.0), Box<double>{{0.0, 1.5}, {1.0, 1.0}}, Point(0.0, 0.0)));
+  EXPECT_EQ(
+      time_box_meets_box(bat, Point(0.0, 1.0), Box<double>{{0.0, 1.5}, {1.0, 1.0}}, Point(0.0, 0.0))
+          ->time,
+      0.0);
+  EXPECT_FALSE(time_box_meets_box(bat, Point(0.0, -1.0), Box<double>{{0.0, 1.5}, {1.0, 1.0}},
+                                  Point(0.0, 0.0)));
 }
 
 TEST(ShapesAtRest, NeverMeet) {
   const Point still(0.0, 0.0);
   EXPECT_FALSE(time_disc_meets_disc(puck, still, Disc<double>{{0.0, 0.0}, 1.0}, still));
   EXPECT_FALSE(time_disc_meets_rounded_box(puck, still, bat, still));
-  EXPECT_FALSE(time_box_meets_box(bat, still, Box<double>{{0.5, 0.5}, {1.0, 1.0}}, still)) << "even in overlap";
-  EXPECT_FALSE(time_point_meets_edge(Point(0.0, 3.0), still, Edge<double>{{2.0, 0.0}, {-2.0, 0.0}}));
+  EXPECT_FALSE(time_box_meets_box(bat, still, Box<double>{{0.5, 0.5}, {1.0, 1.0}}, still))
+      << "even in overlap";
+  EXPECT_FALSE(
+      time_point_meets_edge(Point(0.0, 3.0), still, Edge<double>{{2.0, 0.0}, {-2.0, 0.0}}));
 }
 
 TEST(ShapesOfSinglePrecision, AreAnsweredInSinglePrecision) {
   const Disc<float> a{{-3.0F, 0.0F}, 0.5F}, b{{3.0F, 0.0F}, 1.5F};
-  const MaybeContact<float> contact = time_disc_meets_disc(a, Vector<float>(1.0F, 0.0F), b, Vector<float>(-1.0F, 0.0F));
+  const MaybeContact<float> contact =
+      time_disc_meets_disc(a, Vector<float>(1.0F, 0.0F), b, Vector<float>(-1.0F, 0.0F));
   EXPECT_EQ(contact->time, 2.0F);
 }
 
@@ -129,12 +141,15 @@ TEST(SharpBox, IsTheFourEdgesMovedOutwardsByTheRadius) {
   int hits = 0;
   for (int i = 0; i < 20000; ++i) {
     SCOPED_TRACE(i);
-    const Disc<double> disc{{test::uniform(random, -8.0, 8.0), test::uniform(random, -8.0, 8.0)}, 0.5};
-    const Point velocity(test::uniform(random, -1.0, 1.0), test::uniform(random, -1.0, 1.0)), bat_velocity(test::uniform(random, -1.0, 1.0), test::uniform(random, -1.0, 1.0));
+    const Disc<double> disc{{test::uniform(random, -8.0, 8.0), test::uniform(random, -8.0, 8.0)},
+                            0.5};
+    const Point velocity(test::uniform(random, -1.0, 1.0), test::uniform(random, -1.0, 1.0)),
+        bat_velocity(test::uniform(random, -1.0, 1.0), test::uniform(random, -1.0, 1.0));
     if (does_disc_overlap_box(disc, Box<double>{bat.center, {x, y}})) continue;
     double first = never<double>;
     for (int k = 0; k < 4; ++k) {
-      const auto contact = time_point_meets_moving_edge(disc.center, velocity, Edge<double>{corners[k], corners[(k + 1) % 4]}, bat_velocity);
+      const auto contact = time_point_meets_moving_edge(
+          disc.center, velocity, Edge<double>{corners[k], corners[(k + 1) % 4]}, bat_velocity);
       if (contact) first = std::min(first, contact->time);
     }
     const auto sharp = time_disc_meets_sharp_box(disc, velocity, bat, bat_velocity);

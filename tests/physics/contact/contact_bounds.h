@@ -1,4 +1,5 @@
-// What holds of every world however hard it is pressed: overlap, events, and energy against the work of thrust.
+// What holds of every world however hard it is pressed: overlap, events, and energy against the
+// work of thrust.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,10 +11,12 @@
 
 namespace rink::physics::test {
 
-/// Drives a world through its bats and checks the bounds of docs/physics.md, "Degenerate contact", at every look.
+/// Drives a world through its bats and checks the bounds of docs/physics.md, "Degenerate contact",
+/// at every look.
 class Watch {
  public:
-  Watch(World& world, std::vector<BodyId> bats) : world_(world), bats_(std::move(bats)), energy_max_(world.kinetic_energy()) {
+  Watch(World& world, std::vector<BodyId> bats)
+      : world_(world), bats_(std::move(bats)), energy_max_(world.kinetic_energy()) {
     for (const BodyId bat : bats_) from_.push_back(world.position(bat));
   }
 
@@ -33,10 +36,13 @@ class Watch {
       world_.advance(std::min(end, begin + interval));
       count_work();
       const double energy = world_.kinetic_energy();
-      ASSERT_LE(energy, energy_max_ + world_.counters().hop_energy + 1e-9 * (energy + energy_max_)) << begin;
+      ASSERT_LE(energy, energy_max_ + world_.counters().hop_energy + 1e-9 * (energy + energy_max_))
+          << begin;
       ASSERT_LE(world_.max_overlap(), 1e-9) << begin;
       ASSERT_LE(world_.counters().events_at_once_max, 200u) << begin;
-      ASSERT_LE(static_cast<double>(world_.counters().events() - before), 20.0 + 1e4 * interval * world_.body_count()) << begin;
+      ASSERT_LE(static_cast<double>(world_.counters().events() - before),
+                20.0 + 1e4 * interval * world_.body_count())
+          << begin;
     }
   }
 

@@ -1,4 +1,5 @@
-// Bats that press pucks into walls, corners and posts for ten seconds: everything settles, nothing overlaps, and all is free again when the key is released.
+// Bats that press pucks into walls, corners and posts for ten seconds: everything settles, nothing
+// overlaps, and all is free again when the key is released.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,14 +26,16 @@ class Pressed : public testing::TestWithParam<double> {
   World world_{rink_of(4, 2, GetParam(), 0.2, 1.0)};
 };
 
-/// An impact leaves those that nothing holds a separation of 1e-14 of the speeds, which drag then wears off.
+/// An impact leaves those that nothing holds a separation of 1e-14 of the speeds, which drag then
+/// wears off.
 bool are_all_at_rest(const World& world) {
   for (std::uint32_t body = 0; body < world.body_count(); ++body)
     if (!world.is_resting({body}) && world.velocity({body}).norm() > 1e-12) return false;
   return true;
 }
 
-/// Presses for ten seconds. Answers whether everybody came to rest; if so, nothing happens any more.
+/// Presses for ten seconds. Answers whether everybody came to rest; if so, nothing happens any
+/// more.
 bool comes_to_rest(const World& world, Watch& watch, BodyId bat, const Vector2& thrust) {
   watch.set_thrust(bat, thrust);
   watch.run(8.0);
@@ -65,14 +68,16 @@ TEST_P(Pressed, RowOfPucksIntoAWall) {
   for (int i = 0; i < 5; ++i) row.push_back(world_.add(light_puck_at(0.1 + 0.1 * i, 1)));
   Watch watch(world_, {bat});
   EXPECT_TRUE(comes_to_rest(world_, watch, bat, {-6, 0}) || GetParam() == 1.0);
-  for (std::size_t i = 0; i < 5 && GetParam() < 1.0; ++i) EXPECT_NEAR(world_.position(row[i]).x(), 0.04 + 0.08 * static_cast<double>(i), 1e-5);
+  for (std::size_t i = 0; i < 5 && GetParam() < 1.0; ++i)
+    EXPECT_NEAR(world_.position(row[i]).x(), 0.04 + 0.08 * static_cast<double>(i), 1e-5);
 }
 
 TEST_P(Pressed, RowOfPucksBeforeABatMovesAsOneToTheLastBit) {
   World world(rink_of(40, 2, GetParam(), 0.2, 1.0));
   const BodyId bat = world.add(wide_bat_at(1, 1));
   std::vector<BodyId> row;
-  for (int i = 0; i < 4; ++i) row.push_back(world.add(light_puck_at(1.1 + 0.1 * i, 1, i % 2 == 0 ? 0.5 : 0.02)));
+  for (int i = 0; i < 4; ++i)
+    row.push_back(world.add(light_puck_at(1.1 + 0.1 * i, 1, i % 2 == 0 ? 0.5 : 0.02)));
   Watch watch(world, {bat});
   watch.set_thrust(bat, {6, 0});
   watch.run(4.0);
@@ -88,7 +93,8 @@ TEST_P(Pressed, RowOfPucksBeforeABatMovesAsOneToTheLastBit) {
 
 TEST_P(Pressed, PucksSideBySideIntoAWall) {
   const BodyId bat = world_.add(wide_bat_at(1, 1));
-  for (int i = 0; i < 5; ++i) world_.add(light_puck_at(0.2 + 0.05 * i, 0.8 + 0.1 * i, 0.1 * (i + 1)));
+  for (int i = 0; i < 5; ++i)
+    world_.add(light_puck_at(0.2 + 0.05 * i, 0.8 + 0.1 * i, 0.1 * (i + 1)));
   Watch watch(world_, {bat});
   EXPECT_TRUE(comes_to_rest(world_, watch, bat, {-6, 0}) || GetParam() == 1.0);
 }
@@ -108,7 +114,8 @@ TEST_P(Pressed, PuckIntoACorner) {
 
 TEST_P(Pressed, ThreePucksIntoACorner) {
   const BodyId bat = world_.add(wide_bat_at(1, 0.5));
-  for (int i = 0; i < 3; ++i) world_.add(light_puck_at(0.1 + 0.15 * i, 0.1 + 0.05 * i, i == 1 ? 3.0 : 0.1));
+  for (int i = 0; i < 3; ++i)
+    world_.add(light_puck_at(0.1 + 0.15 * i, 0.1 + 0.05 * i, i == 1 ? 3.0 : 0.1));
   Watch watch(world_, {bat});
   comes_to_rest(world_, watch, bat, {-6, -6});
 }
@@ -145,7 +152,8 @@ TEST_P(Pressed, TwoPucksIntoAPost) {
       World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
       world.add(post_at(0.5, 1, 0.15));
       const BodyId bat = world.add(wide_bat_at(1.2, 1));
-      world.add(light_puck_at(0.8, 1.045 + shift, mass)), world.add(light_puck_at(0.8, 0.955 + shift));
+      world.add(light_puck_at(0.8, 1.045 + shift, mass)),
+          world.add(light_puck_at(0.8, 0.955 + shift));
       Watch watch(world, {bat});
       comes_to_rest(world, watch, bat, {-6, 0});
     }
@@ -163,8 +171,10 @@ TEST_P(Pressed, TrappedPuckStaysAndIsReleasedWhenTheBatWithdraws) {
   watch.set_thrust(bat, {6, 0});
   watch.run(0.3);
   EXPECT_FALSE(world_.is_held(puck));
-  EXPECT_NEAR((world_.position(puck) - place).norm(), 0.0, 1e-3);  // free, but nothing drives it away
-  PuckSpec striker = light_puck_at(place.x() + 0.045, place.y() + 0.25);  // past the upper post, to drive it round the lower one
+  EXPECT_NEAR((world_.position(puck) - place).norm(), 0.0,
+              1e-3);  // free, but nothing drives it away
+  PuckSpec striker = light_puck_at(
+      place.x() + 0.045, place.y() + 0.25);  // past the upper post, to drive it round the lower one
   striker.velocity = {0, -2};
   world_.add(striker);
   watch.run(1.0);
@@ -174,7 +184,9 @@ TEST_P(Pressed, TrappedPuckStaysAndIsReleasedWhenTheBatWithdraws) {
 TEST_P(Pressed, WholeRackIntoACorner) {
   const BodyId bat = world_.add(wide_bat_at(1.5, 0.4)), other = world_.add(wide_bat_at(1.5, 1.4));
   std::mt19937_64 random(9);
-  for (int i = 0; i < 20; ++i) world_.add(light_puck_at(0.1 + 0.1 * (i % 5), 0.1 + 0.1 * (i / 5), std::pow(10.0, uniform(random, -2.0, 1.0))));
+  for (int i = 0; i < 20; ++i)
+    world_.add(light_puck_at(0.1 + 0.1 * (i % 5), 0.1 + 0.1 * (i / 5),
+                             std::pow(10.0, uniform(random, -2.0, 1.0))));
   Watch watch(world_, {bat, other});
   watch.set_thrust(bat, {-6, -6});
   watch.set_thrust(other, {-6, -6});

@@ -1,4 +1,5 @@
-// Bodies pressed together: rest without events, release, jams, and random keys that press everything into everything.
+// Bodies pressed together: rest without events, release, jams, and random keys that press
+// everything into everything.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -174,17 +175,21 @@ TEST(Determinism, CellSizeAndStopsOnTheWayNeverChangeABit) {
     const double e = std::vector{0.0, 0.0, 0.5, 0.0, 0.9, 1.0}[static_cast<std::size_t>(scene % 6)];
     std::uint64_t expected = 0;
     for (int variant = 0; variant < 5; ++variant) {
-      SCOPED_TRACE(testing::Message() << "scene " << scene << " restitution " << e << " variant " << variant);
+      SCOPED_TRACE(testing::Message()
+                   << "scene " << scene << " restitution " << e << " variant " << variant);
       WorldSpec spec = rink_of(4, 2, e, 0.2, 1.0);
       spec.cell_size = variant == 1 ? 0.6 : variant == 2 ? 5.0 : 0.0;
       World world(spec);
-      std::mt19937_64 random(static_cast<std::uint64_t>(11 + scene)), stops(static_cast<std::uint64_t>(variant));
+      std::mt19937_64 random(static_cast<std::uint64_t>(11 + scene)),
+          stops(static_cast<std::uint64_t>(variant));
       scatter_posts(world, random, 2);
       const std::vector<BodyId> bats = scatter_bats(world, random, 6);
       scatter_pucks(world, random, 40, 0.1, 1.0);
       RandomKeys keys{std::mt19937_64(12), 0.05};
       for (double t = 0.0; t < 3.0;) {
-        t = variant == 0 ? 3.0 : std::min(3.0, t + (variant == 3 ? 1.0 / 60.0 : uniform(stops, 0.0, 0.1)));
+        t = variant == 0
+                ? 3.0
+                : std::min(3.0, t + (variant == 3 ? 1.0 / 60.0 : uniform(stops, 0.0, 0.1)));
         keys.play(world, bats, t);
       }
       if (variant == 0) expected = world.hash();
@@ -198,7 +203,8 @@ void soak(std::uint64_t seed, double restitution, double duration) {
   World world(rink_of(4, 2, restitution, 0.2, 1.0));
   std::mt19937_64 random(seed);
   scatter_posts(world, random, 3);
-  const std::vector<BodyId> bats = scatter_bats(world, random, 8, std::pow(10.0, uniform(random, -0.5, 1.0)));
+  const std::vector<BodyId> bats =
+      scatter_bats(world, random, 8, std::pow(10.0, uniform(random, -0.5, 1.0)));
   scatter_pucks(world, random, 40, 0.05, 3.0);
   RandomKeys keys{std::mt19937_64(seed), 0.04};
   std::uint64_t before = 0;
@@ -232,16 +238,22 @@ void soak_with_goals(std::uint64_t seed, double restitution) {
     while (const auto goal = world.advance(t)) {
       ASSERT_TRUE(std::abs(world.position(goal->puck).y() - 1.0) < 0.3 + 1e-9);
       const Vector2 spot(uniform(random, 1.0, 3.0), uniform(random, 0.1, 1.9));
-      if (world.is_free(spot, 0.04)) world.place(goal->puck, spot, {uniform(random, -2, 2), uniform(random, -2, 2)});
+      if (world.is_free(spot, 0.04))
+        world.place(goal->puck, spot, {uniform(random, -2, 2), uniform(random, -2, 2)});
     }
     const BodyId bat = bats[random() % bats.size()];
-    const double x = static_cast<double>(random() % 3) - 1.0, y = static_cast<double>(random() % 3) - 1.0;
+    const double x = static_cast<double>(random() % 3) - 1.0,
+                 y = static_cast<double>(random() % 3) - 1.0;
     world.set_thrust(bat, {6.0 * x, 6.0 * y});
     ASSERT_LT(world.max_overlap(), 1e-9) << t;
-    for (const BodyId puck : pucks) ASSERT_TRUE(world.position(puck).x() > -1e-9 && world.position(puck).x() < 4.0 + 1e-9) << t;
-    for (std::size_t i = 0; i < bats.size(); ++i) ASSERT_TRUE(i % 2 == 0 ? world.position(bats[i]).x() < 1.95 + 1e-9 : world.position(bats[i]).x() > 2.05 - 1e-9);
+    for (const BodyId puck : pucks)
+      ASSERT_TRUE(world.position(puck).x() > -1e-9 && world.position(puck).x() < 4.0 + 1e-9) << t;
+    for (std::size_t i = 0; i < bats.size(); ++i)
+      ASSERT_TRUE(i % 2 == 0 ? world.position(bats[i]).x() < 1.95 + 1e-9
+                             : world.position(bats[i]).x() > 2.05 - 1e-9);
   }
-  EXPECT_TRUE(restitution == 0.0 || world.counters().goals > 0u);  // without restitution the pucks soon lie still
+  EXPECT_TRUE(restitution == 0.0 ||
+              world.counters().goals > 0u);  // without restitution the pucks soon lie still
   EXPECT_LT(world.counters().events(), 6u * 36u * 2000u);
 }
 

@@ -1,4 +1,5 @@
-// Pucks under Coulomb friction that bats push, lean on and let go: rest contacts that cost no events, against closed forms and against integration in extended precision.
+// Pucks under Coulomb friction that bats push, lean on and let go: rest contacts that cost no
+// events, against closed forms and against integration in extended precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +28,8 @@ BodyId add_bat(World& world, double x, double y, double half_width = 1.0) {
   return world.add(bat);
 }
 
-BodyId add_puck(World& world, double x, double y, double vx = 0.0, double vy = 0.0, double mass = 0.5) {
+BodyId add_puck(World& world, double x, double y, double vx = 0.0, double vy = 0.0,
+                double mass = 0.5) {
   PuckSpec puck;
   puck.position = {x, y};
   puck.velocity = {vx, vy};
@@ -38,12 +40,17 @@ BodyId add_puck(World& world, double x, double y, double vx = 0.0, double vy = 0
 
 void expect_balanced(const World& world) {
   const double turned_over = world.work_of_thrust() + world.dissipated() + world.kinetic_energy();
-  EXPECT_NEAR(world.energy_introduced() + world.work_of_thrust() - world.dissipated(), world.kinetic_energy(), 1e-12 * turned_over);
+  EXPECT_NEAR(world.energy_introduced() + world.work_of_thrust() - world.dissipated(),
+              world.kinetic_energy(), 1e-12 * turned_over);
 }
 
 /// From rest, v = b/g (1 - exp(-g t)) with what drives and what brakes the whole group per mass.
-double speed_after(double driving, double drag, double time) { return driving / drag * -std::expm1(-drag * time); }
-double way_after(double driving, double drag, double time) { return driving / drag * (time - -std::expm1(-drag * time) / drag); }
+double speed_after(double driving, double drag, double time) {
+  return driving / drag * -std::expm1(-drag * time);
+}
+double way_after(double driving, double drag, double time) {
+  return driving / drag * (time - -std::expm1(-drag * time) / drag);
+}
 
 TEST(PushedPuck, ObeysTheClosedFormOfTheWholeGroupWithoutEvents) {
   for (const double restitution : {0.0, 0.5, 1.0}) {
@@ -54,12 +61,17 @@ TEST(PushedPuck, ObeysTheClosedFormOfTheWholeGroupWithoutEvents) {
       std::vector<BodyId> pucks;
       for (int k = 0; k < count; ++k) pucks.push_back(add_puck(world, 2.125 + 0.125 * k, 5));
       world.set_thrust(bat, {8, 0});
-      const double total = 1.0 + 0.5 * count, driving = (8.0 - 0.5 * count * friction) / total, drag = slippery_bat_drag / total, time = 1.5;
+      const double total = 1.0 + 0.5 * count, driving = (8.0 - 0.5 * count * friction) / total,
+                   drag = slippery_bat_drag / total, time = 1.5;
       world.advance(time);
-      const double rounding = 1e-12 + 1e-8 * restitution;  // elastic contacts come to rest in a few bounces of less than v_c
-      EXPECT_NEAR(world.velocity(pucks.back()).x(), speed_after(driving, drag, time), 100 * rounding);
+      const double rounding =
+          1e-12 +
+          1e-8 * restitution;  // elastic contacts come to rest in a few bounces of less than v_c
+      EXPECT_NEAR(world.velocity(pucks.back()).x(), speed_after(driving, drag, time),
+                  100 * rounding);
       EXPECT_NEAR(world.position(bat).x() - 2.0, way_after(driving, drag, time), 100 * rounding);
-      for (int k = 0; k < count; ++k) EXPECT_EQ(world.velocity(pucks[static_cast<std::size_t>(k)]), world.velocity(bat));
+      for (int k = 0; k < count; ++k)
+        EXPECT_EQ(world.velocity(pucks[static_cast<std::size_t>(k)]), world.velocity(bat));
       EXPECT_LE(world.counters().events(), 20u);
       EXPECT_LT(world.max_overlap(), 1e-12);
       expect_balanced(world);
@@ -96,7 +108,8 @@ TEST(PushedPuck, LeavesABatThatDragSlowsMoreThanFrictionSlowsItAndStaysWithOneTh
   const BodyId bat = add_bat(world, 2, 5), puck = add_puck(world, 2.125, 5);
   world.set_thrust(bat, {9, 0});
   world.advance(1.0);
-  const double driving = (9.0 - 0.5 * friction) / 1.5, drag = slippery_bat_drag / 1.5, speed = speed_after(driving, drag, 1.0);
+  const double driving = (9.0 - 0.5 * friction) / 1.5, drag = slippery_bat_drag / 1.5,
+               speed = speed_after(driving, drag, 1.0);
   ASSERT_GT(slippery_bat_drag * speed, friction);
   world.set_thrust(bat, {0, 0});  // the bat brakes by g v > k: the puck is off at once
   world.advance(1.2);
@@ -114,7 +127,8 @@ TEST(PushedPuck, LeavesABatThatDragSlowsMoreThanFrictionSlowsItAndStaysWithOneTh
   const double brake = 0.5 * friction / 1.5, stop = std::log1p(drag * left / brake) / drag;
   slow.advance(1.0 + 0.5 * stop);
   EXPECT_EQ(slow.velocity(slow_puck), slow.velocity(slow_bat));
-  EXPECT_NEAR(slow.velocity(slow_bat).x(), (left + brake / drag) * std::exp(-drag * 0.5 * stop) - brake / drag, 1e-12);
+  EXPECT_NEAR(slow.velocity(slow_bat).x(),
+              (left + brake / drag) * std::exp(-drag * 0.5 * stop) - brake / drag, 1e-12);
   slow.advance(1.0 + 1.01 * stop);
   EXPECT_EQ(slow.velocity(slow_bat), Vector2(0, 0));
   EXPECT_EQ(slow.velocity(slow_puck), Vector2(0, 0));
@@ -124,7 +138,8 @@ TEST(PushedPuck, LeavesABatThatDragSlowsMoreThanFrictionSlowsItAndStaysWithOneTh
   expect_balanced(slow);
 }
 
-/// (M + m) dw/dt = M (a - g w) - m k w/|v|, du/dt = -k u/|v|: w along the push, u across it. Classical Runge-Kutta in extended precision.
+/// (M + m) dw/dt = M (a - g w) - m k w/|v|, du/dt = -k u/|v|: w along the push, u across it.
+/// Classical Runge-Kutta in extended precision.
 struct Pushed {
   Real way = 0, speed = 0, aside = 0, across;
   Real thrust, mass;
@@ -140,7 +155,8 @@ struct Pushed {
     for (int step = 0; step < steps; ++step) {
       Real k[4][4], t[4];
       for (int stage = 0; stage < 4; ++stage) {
-        for (int i = 0; i < 4; ++i) t[i] = stage == 0 ? s[i] : s[i] + (stage == 3 ? h : h / 2) * k[stage - 1][i];
+        for (int i = 0; i < 4; ++i)
+          t[i] = stage == 0 ? s[i] : s[i] + (stage == 3 ? h : h / 2) * k[stage - 1][i];
         rates(t, k[stage]);
       }
       for (int i = 0; i < 4; ++i) s[i] += h / 6 * (k[0][i] + 2 * k[1][i] + 2 * k[2][i] + k[3][i]);
@@ -162,7 +178,9 @@ TEST(PushedPuck, SlidesAlongItsBatAsIntegrationInExtendedPrecisionSays) {
       for (int tenth = 1; tenth <= 6; ++tenth) {
         world.advance(0.1 * tenth);
         truth.advance(0.1L, 20000);
-        worst = std::max({worst, std::abs(world.position(puck).x() - 2.125 - static_cast<double>(truth.way)), std::abs(world.position(puck).y() - 4 - static_cast<double>(truth.aside))});
+        worst = std::max(
+            {worst, std::abs(world.position(puck).x() - 2.125 - static_cast<double>(truth.way)),
+             std::abs(world.position(puck).y() - 4 - static_cast<double>(truth.aside))});
       }
       most = std::max(most, world.counters().events());
       EXPECT_LT(world.max_overlap(), 1e-12);
@@ -175,12 +193,14 @@ TEST(PushedPuck, SlidesAlongItsBatAsIntegrationInExtendedPrecisionSays) {
 
 TEST(PushedPuck, HasNoEventsOncePressedIntoAWallACornerOrAPost) {
   for (const double restitution : {0.0, 0.5, 0.9, 1.0}) {
-    for (int place = 0; place < (restitution < 1.0 ? 3 : 2); ++place) {  // an elastic puck between bat and post has no reason to settle
+    for (int place = 0; place < (restitution < 1.0 ? 3 : 2);
+         ++place) {  // an elastic puck between bat and post has no reason to settle
       SCOPED_TRACE(testing::Message() << restitution << " " << place);
       World world(slippery(restitution));
       const BodyId bat = add_bat(world, 18, place == 1 ? 0.3 : 5, 0.2);
       if (place == 2) world.add(PostSpec{.position = {19.0, 5.001}, .radius = 0.1});
-      const BodyId puck = add_puck(world, 18.5, place == 1 ? 0.08 : 5, 0.0, place == 1 ? -0.1 : 0.0);
+      const BodyId puck =
+          add_puck(world, 18.5, place == 1 ? 0.08 : 5, 0.0, place == 1 ? -0.1 : 0.0);
       world.set_thrust(bat, {6, 0});
       world.advance(10.0);
       const std::uint64_t events = world.counters().events();

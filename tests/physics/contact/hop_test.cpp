@@ -1,5 +1,5 @@
-// When impacts that follow each other too fast are ended by a hop, how fast it parts, what energy it
-// brings, and what stops instead.
+// When impacts that follow each other too fast are ended by a hop, how fast it parts, what energy
+// it brings, and what stops instead.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr double hop_radius = 0.03125;
 
-/// A puck between two walls that leave it `room` [m], on its way across at `speed` [m/s]. It meets one
-/// or the other every room/speed seconds, and hardly loses any speed.
+/// A puck between two walls that leave it `room` [m], on its way across at `speed` [m/s]. It meets
+/// one or the other every room/speed seconds, and hardly loses any speed.
 World puck_with_room(double room, const Vector2& velocity) {
   World world(rink_of(4, 2.0 * hop_radius + room, 1.0 - 1e-9));
   world.add(PuckSpec{
@@ -60,8 +60,9 @@ TEST(Hop, StopsWhatCreeps) {
   }
 }
 
-/// A bat whose corner is pressed to a post, not straight: it hops off along the normal by half of what
-/// its thrust builds up in a contact time, at most by half the rest speed, and takes that as energy.
+/// A bat whose corner is pressed to a post, not straight: it hops off along the normal by half of
+/// what its thrust builds up in a contact time, at most by half the rest speed, and takes that as
+/// energy.
 TEST(Hop, PartsByHalfOfWhatThrustBuildsUpInAContactTime) {
   const Vector2 normal(0.6, 0.8);
   const double mass = 3.0, post_radius = 0.25;
@@ -83,7 +84,8 @@ TEST(Hop, PartsByHalfOfWhatThrustBuildsUpInAContactTime) {
       EXPECT_EQ(world.counters().post_impacts, 8u);
       const double parting = std::min(0.5 * thrust * contact_time, 10.0 * contact_time);
       EXPECT_NEAR(normal.dot(world.velocity(bat)), parting - 0.6 * thrust * 1e-6, 2e-6);
-      EXPECT_NEAR(world.counters().hop_energy, 0.5 * mass * parting * parting, 1e-6 * mass * parting);
+      EXPECT_NEAR(world.counters().hop_energy, 0.5 * mass * parting * parting,
+                  1e-6 * mass * parting);
     }
 }
 

@@ -1,5 +1,5 @@
-// The guards of joint impacts: which impacts are one, that none of them gains energy, and that those
-// without an end come to rest.
+// The guards of joint impacts: which impacts are one, that none of them gains energy, and that
+// those without an end come to rest.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,8 +25,8 @@ World ball_between_two(double speed, double mass, double restitution) {
   return world;
 }
 
-/// What a push of 1 does to masses of 1e156 kg and more has squares below the smallest normal number,
-/// so that directions of unit length are not: they missed by up to 2 % of the energy.
+/// What a push of 1 does to masses of 1e156 kg and more has squares below the smallest normal
+/// number, so that directions of unit length are not: they missed by up to 2 % of the energy.
 TEST(JointImpact, NeverGainsEnergyWhereMassesLeaveTooFewDigits) {
   for (double exponent = 150.0; exponent <= 161.0; exponent += 0.25) {
     SCOPED_TRACE(exponent);
@@ -40,8 +40,8 @@ TEST(JointImpact, NeverGainsEnergyWhereMassesLeaveTooFewDigits) {
 
 /// A ball hits the middle of a column that fills the field from wall to wall. Both that it hits are
 /// pushed along the column as well, to and fro between the walls: the rounds of that never end, and
-/// what is left of them comes to rest. Across the column nothing is in the way: each of the two takes
-/// p cos(30) with p = (1 + e) cos(30)/(2 + cos(60)).
+/// what is left of them comes to rest. Across the column nothing is in the way: each of the two
+/// takes p cos(30) with p = (1 + e) cos(30)/(2 + cos(60)).
 TEST(JointImpact, WithoutAnEndComesToRestAndLeavesTheRest) {
   for (const double restitution : {0.5, 0.99, 0.999})
     for (const int count : {4, 8, 16}) {
@@ -65,8 +65,8 @@ TEST(JointImpact, WithoutAnEndComesToRestAndLeavesTheRest) {
     }
 }
 
-/// Contacts that close more slowly than 32 roundings of an offset in 1e-9 s are taken one by one: the
-/// first takes c of the speed, the second c (1 - n . n'), half of that.
+/// Contacts that close more slowly than 32 roundings of an offset in 1e-9 s are taken one by one:
+/// the first takes c of the speed, the second c (1 - n . n'), half of that.
 TEST(JointImpact, TakesContactsOneByOneThatCloseTooSlowlyToShareAnInstant) {
   const double closing = std::sqrt(0.75), slowest = 32.0 * 0x1p-52 * (4.0 + 2.0) / 1e-9;
   for (const double part : {0.9, 1.1}) {
@@ -83,8 +83,8 @@ TEST(JointImpact, TakesContactsOneByOneThatCloseTooSlowlyToShareAnInstant) {
   }
 }
 
-/// Two balls hit the ends of a row at one instant but for roundings of the clock, which the calendar
-/// keeps in two buckets: buckets of a new world are a millisecond wide.
+/// Two balls hit the ends of a row at one instant but for roundings of the clock, which the
+/// calendar keeps in two buckets: buckets of a new world are a millisecond wide.
 TEST(JointImpact, IsOneWhereAnInstantLiesOnTheEdgeOfABucket) {
   const std::vector<double> masses{1.0, 3.0, 0.25, 5.0, 0.25, 3.0, 1.0};
   for (const QueuePolicy queue : {QueuePolicy::calendar, QueuePolicy::heap})

@@ -1,4 +1,5 @@
-// The bodies of the tests of pressed contact: thin bats that push light pucks at each other, at walls and at posts.
+// The bodies of the tests of pressed contact: thin bats that push light pucks at each other, at
+// walls and at posts.
 #pragma once
 
 #include "game/physics/world.h"

@@ -85,8 +85,8 @@ TEST(RestContact, NeverBeginsWhereNothingPresses) {
     }
 }
 
-/// The force on the puck is m M/(M + m) (a + (g - G) v): of a puck that drag slows more than the bat,
-/// it pushes against a bat that brakes a little, until v has fallen to -a/(g - G).
+/// The force on the puck is m M/(M + m) (a + (g - G) v): of a puck that drag slows more than the
+/// bat, it pushes against a bat that brakes a little, until v has fallen to -a/(g - G).
 TEST(RestContact, EndsWhereDragsThatDifferPullItApart) {
   const double M = 3.0, m = 0.5, G = 0.2, g = 2.0, thrust = -0.3, start = 1.0;
   const double terminal = M * thrust / (M * G + m * g), fading = (M * G + m * g) / (M + m);
@@ -142,7 +142,8 @@ TEST(RestContact, EndsAtOnceWhereThrustPullsItApartByMoreThanRounding) {
   }
 }
 
-/// A puck on the face of a bat, `margin` [m] from its end, that slides towards the end at `outwards`.
+/// A puck on the face of a bat, `margin` [m] from its end, that slides towards the end at
+/// `outwards`.
 World pushed_near_the_end_of_a_face(double margin, double outwards, int axis, double side,
                                     double duration) {
   BatAndPuck scene(rink_of(8, 8, 0.5), axis, side * (half_width - margin), {0.0, 0.0},
@@ -160,8 +161,7 @@ TEST(RestContact, NeverBeginsAtTheEndOfAFaceThatIsBeingLeft) {
         // Outwards, or at rest on the very end: the next instant would end it.
         for (const double outwards : {0.0, 0.01}) {
           if (outwards == 0.0 && margin > 0.0) continue;
-          const World world =
-              pushed_near_the_end_of_a_face(margin, outwards, axis, side, 1e-3);
+          const World world = pushed_near_the_end_of_a_face(margin, outwards, axis, side, 1e-3);
           EXPECT_EQ(world.counters().rests, 0u) << margin;
         }
         const World inwards = pushed_near_the_end_of_a_face(margin, -0.01, axis, side, 0.1);
@@ -214,15 +214,14 @@ TEST(RestContact, OfTwoPucksNeedsThatNothingMovesThemSideways) {
   EXPECT_EQ(rests_of_pucks(pushed_in_line(0.25, -0.25)), 0u);
 }
 
-/// A bat pins two pucks in line to a wall; a third one hits the one at the wall squarely from the side.
+/// A bat pins two pucks in line to a wall; a third one hits the one at the wall squarely from the
+/// side.
 TEST(RestContact, OfTwoPucksEndsAtTheHitThatMovesOneOfThemSideways) {
   World world(rink_of(4, 4, 0.5));
   world.record_events(true);
   const auto add_puck = [&](double x, double y, double vy) {
-    return world.add(PuckSpec{.position = {x, y},
-                              .velocity = {0.0, vy},
-                              .radius = puck_radius,
-                              .mass = 0.5});
+    return world.add(
+        PuckSpec{.position = {x, y}, .velocity = {0.0, vy}, .radius = puck_radius, .mass = 0.5});
   };
   const BodyId at_wall = add_puck(puck_radius, 2.0, 0.0);
   const BodyId behind = add_puck(3.0 * puck_radius, 2.0, 0.0);

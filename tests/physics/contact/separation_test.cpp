@@ -14,7 +14,8 @@ constexpr double roundings = 1e-15;
 
 constexpr double parting_radius = 0.03125;
 
-PuckSpec parting_ball(const Vector2& position, const Vector2& velocity = {0.0, 0.0}, double mass = 1.0) {
+PuckSpec parting_ball(const Vector2& position, const Vector2& velocity = {0.0, 0.0},
+                      double mass = 1.0) {
   return {.position = position, .velocity = velocity, .radius = parting_radius, .mass = mass};
 }
 

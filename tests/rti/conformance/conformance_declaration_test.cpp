@@ -1,4 +1,5 @@
-// What the standard says of declaration management and its advisories, sentence by sentence (IEEE 1516.1-2010, clauses 5, 6.19 to 6.22 and 10.27 to 10.34).
+// What the standard says of declaration management and its advisories, sentence by sentence (IEEE
+// 1516.1-2010, clauses 5, 6.19 to 6.22 and 10.27 to 10.34).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,10 +17,18 @@ using ::testing::IsEmpty;
 struct Advised : Recorder {
   std::vector<std::string> told;
   std::map<std::uint32_t, AttributeSet> updates_on;  ///< by object
-  void start_registration_for_object_class(ObjectClassHandle each) override { told.push_back("start " + harbour().at(each).name); }
-  void stop_registration_for_object_class(ObjectClassHandle each) override { told.push_back("stop " + harbour().at(each).name); }
-  void turn_interactions_on(InteractionClassHandle each) override { told.push_back("on " + harbour().at(each).name); }
-  void turn_interactions_off(InteractionClassHandle each) override { told.push_back("off " + harbour().at(each).name); }
+  void start_registration_for_object_class(ObjectClassHandle each) override {
+    told.push_back("start " + harbour().at(each).name);
+  }
+  void stop_registration_for_object_class(ObjectClassHandle each) override {
+    told.push_back("stop " + harbour().at(each).name);
+  }
+  void turn_interactions_on(InteractionClassHandle each) override {
+    told.push_back("on " + harbour().at(each).name);
+  }
+  void turn_interactions_off(InteractionClassHandle each) override {
+    told.push_back("off " + harbour().at(each).name);
+  }
   void turn_updates_on_for_object_instance(ObjectHandle object, AttributeSet set) override {
     EXPECT_TRUE((updates_on[object.value] & set).is_empty()) << "on twice";
     updates_on[object.value] = updates_on[object.value] | set;
@@ -33,7 +42,8 @@ struct Advised : Recorder {
 using AdvisedCompany = Company<Advised>;
 
 // 5.10, 5.11
-TEST(Conformance, RegistrationIsAdvisedWhileAnAttributeThatIsPublishedIsActivelySubscribedByAnother) {
+TEST(Conformance,
+     RegistrationIsAdvisedWhileAnAttributeThatIsPublishedIsActivelySubscribedByAnother) {
   AdvisedCompany here;
   here.pilot.publish_object_class_attributes(vessel, AttributeSet{position});
   here.pilot.subscribe_object_class_attributes(vessel, motion);
@@ -56,7 +66,8 @@ TEST(Conformance, ASubscriptionToASuperclassCountsForItsSubclasses) {
   here.pilot.publish_object_class_attributes(ferry, AttributeSet{speed});
   EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("start Ferry"));
   here.pilot.publish_object_class_attributes(ferry, AttributeSet{destination});
-  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("stop Ferry")) << "which the superclass has not";
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("stop Ferry"))
+      << "which the superclass has not";
 }
 
 // 5.10, 5.12
@@ -112,7 +123,8 @@ TEST(Conformance, APassiveSubscriptionHearsAllAndAdvisesNobody) {
   EXPECT_EQ(here.members[1].heard.interactions.size(), 1u);
   here.coast.subscribe_object_class_attributes(vessel, AttributeSet{speed}, region);
   here.coast.subscribe_interaction_class(hail);
-  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("start Vessel", "on Hail")) << "one active subscription is enough";
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("start Vessel", "on Hail"))
+      << "one active subscription is enough";
   here.coast.subscribe_interaction_class(hail, false);
   here.coast.unsubscribe_object_class(vessel, region);
   EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("off Hail", "stop Vessel"));
@@ -136,14 +148,19 @@ TEST(Conformance, WhileASwitchIsOffItsAdvisoriesAreNotTold) {
 // 10.27 to 10.34
 TEST(Conformance, ASwitchThatIsSoAlreadyIsRefusedByItsName) {
   AdvisedCompany here;
-  EXPECT_EQ(error_thrown_by([&] { here.pilot.enable_object_class_relevance_advisory_switch(); }), HlaError::object_class_relevance_advisory_switch_is_on);
-  EXPECT_EQ(error_thrown_by([&] { here.pilot.disable_attribute_relevance_advisory_switch(); }), HlaError::attribute_relevance_advisory_switch_is_off);
-  EXPECT_EQ(error_thrown_by([&] { here.pilot.enable_attribute_scope_advisory_switch(); }), HlaError::attribute_scope_advisory_switch_is_on);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.enable_object_class_relevance_advisory_switch(); }),
+            HlaError::object_class_relevance_advisory_switch_is_on);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.disable_attribute_relevance_advisory_switch(); }),
+            HlaError::attribute_relevance_advisory_switch_is_off);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.enable_attribute_scope_advisory_switch(); }),
+            HlaError::attribute_scope_advisory_switch_is_on);
   here.pilot.disable_interaction_relevance_advisory_switch();
-  EXPECT_EQ(error_thrown_by([&] { here.pilot.disable_interaction_relevance_advisory_switch(); }), HlaError::interaction_relevance_advisory_switch_is_off);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.disable_interaction_relevance_advisory_switch(); }),
+            HlaError::interaction_relevance_advisory_switch_is_off);
   Recorder nobody;
   Ambassador stranger(harbour(), nobody);
-  EXPECT_EQ(error_thrown_by([&] { stranger.disable_attribute_scope_advisory_switch(); }), HlaError::federate_not_execution_member);
+  EXPECT_EQ(error_thrown_by([&] { stranger.disable_attribute_scope_advisory_switch(); }),
+            HlaError::federate_not_execution_member);
 }
 
 // 10.31, 10.32
@@ -165,11 +182,20 @@ TEST(Conformance, ClassesAndAttributesThatAreNoneAreRefusedByTheirNames) {
   AdvisedCompany here;
   const ObjectClassHandle nothing{99};
   const InteractionClassHandle silence{99};
-  EXPECT_EQ(error_thrown_by([&] { here.pilot.subscribe_object_class_attributes(nothing, motion); }), HlaError::object_class_not_defined);
-  EXPECT_EQ(error_thrown_by([&] { here.pilot.subscribe_object_class_attributes(vessel, AttributeSet{destination}); }), HlaError::attribute_not_defined);
-  EXPECT_EQ(error_thrown_by([&] { here.pilot.publish_object_class_attributes(vessel, AttributeSet{destination}); }), HlaError::attribute_not_defined);
-  EXPECT_EQ(error_thrown_by([&] { here.pilot.publish_interaction_class(silence); }), HlaError::interaction_class_not_defined);
-  EXPECT_EQ(error_thrown_by([&] { here.pilot.subscribe_interaction_class(silence); }), HlaError::interaction_class_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.subscribe_object_class_attributes(nothing, motion); }),
+            HlaError::object_class_not_defined);
+  EXPECT_EQ(error_thrown_by([&] {
+              here.pilot.subscribe_object_class_attributes(vessel, AttributeSet{destination});
+            }),
+            HlaError::attribute_not_defined);
+  EXPECT_EQ(error_thrown_by([&] {
+              here.pilot.publish_object_class_attributes(vessel, AttributeSet{destination});
+            }),
+            HlaError::attribute_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.publish_interaction_class(silence); }),
+            HlaError::interaction_class_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.subscribe_interaction_class(silence); }),
+            HlaError::interaction_class_not_defined);
 }
 
 // 6.21, 6.22, 10.29, 10.30
@@ -177,17 +203,21 @@ TEST(Conformance, UpdatesOfAnObjectAreTurnedOnWhileItsAttributesAreInTheScopeOfA
   for (unsigned seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
-    const auto below = [&random](std::uint32_t count) { return static_cast<std::uint32_t>(random() % count); };
+    const auto below = [&random](std::uint32_t count) {
+      return static_cast<std::uint32_t>(random() % count);
+    };
     AdvisedCompany here;
     here.join("third");
     here.pilot.publish_object_class_attributes(vessel, motion);
     std::array<std::array<RegionHandle, 2>, 3> regions;
     std::array<std::array<double, 2>, 3> places{};  ///< west ends; regions are 3 m wide
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 2; ++k) regions[i][k] = here.members[i].ambassador.create_region();
+      for (std::size_t k = 0; k < 2; ++k)
+        regions[i][k] = here.members[i].ambassador.create_region();
     const auto move = [&](std::size_t i, std::size_t k) {
       places[i][k] = below(10);
-      here.members[i].ambassador.set_region(regions[i][k], {places[i][k], 0.0, places[i][k] + 3.0, 1.0});
+      here.members[i].ambassador.set_region(regions[i][k],
+                                            {places[i][k], 0.0, places[i][k] + 3.0, 1.0});
       here.members[i].ambassador.commit_region_modifications(regions[i][k]);
     };
     for (std::size_t i = 0; i < 3; ++i)
@@ -206,13 +236,17 @@ TEST(Conformance, UpdatesOfAnObjectAreTurnedOnWhileItsAttributesAreInTheScopeOfA
           const AttributeSet set(below(4));
           const bool is_active = below(3) != 0;
           wishes[who][region] = {set, is_active};
-          here.members[who].ambassador.subscribe_object_class_attributes(vessel, set, region == 2 ? RegionHandle{} : regions[who][region], is_active);
+          here.members[who].ambassador.subscribe_object_class_attributes(
+              vessel, set, region == 2 ? RegionHandle{} : regions[who][region], is_active);
           break;
         }
-        case 1: move(below(3), below(2)); break;
+        case 1:
+          move(below(3), below(2));
+          break;
         case 2: {
           objects.emplace_back(here.pilot.register_object_instance(vessel), region);
-          if (region != 2) here.pilot.associate_regions_for_updates(objects.back().first, regions[0][region]);
+          if (region != 2)
+            here.pilot.associate_regions_for_updates(objects.back().first, regions[0][region]);
           break;
         }
         default:
@@ -226,10 +260,12 @@ TEST(Conformance, UpdatesOfAnObjectAreTurnedOnWhileItsAttributesAreInTheScopeOfA
         AttributeSet due;
         for (std::size_t i = 1; i < 3; ++i)
           for (std::size_t k = 0; k < 3; ++k) {
-            const bool overlaps = at == 2 || k == 2 || std::abs(places[0][at] - places[i][k]) <= 3.0;
+            const bool overlaps =
+                at == 2 || k == 2 || std::abs(places[0][at] - places[i][k]) <= 3.0;
             if (wishes[i][k].is_active && overlaps) due = due | wishes[i][k].set;
           }
-        ASSERT_EQ(here.pilot_heard.updates_on[object.value], due) << "object " << object.value << ", step " << step;
+        ASSERT_EQ(here.pilot_heard.updates_on[object.value], due)
+            << "object " << object.value << ", step " << step;
       }
     }
   }

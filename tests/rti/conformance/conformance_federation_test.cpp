@@ -1,4 +1,5 @@
-// What the standard says of federation management, sentence by sentence (IEEE 1516.1-2010, clause 4).
+// What the standard says of federation management, sentence by sentence (IEEE 1516.1-2010, clause
+// 4).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +18,8 @@ using ::testing::Not;
 TEST(Conformance, AFederateThatHasJoinedMayNotJoinAgain) {
   Rig rig(Carrier::in_process);
   Station& station = rig.join("once");
-  EXPECT_EQ(error_thrown_by([&] { station.ambassador.join("rink", "twice", "tester"); }), HlaError::federate_already_execution_member);
+  EXPECT_EQ(error_thrown_by([&] { station.ambassador.join("rink", "twice", "tester"); }),
+            HlaError::federate_already_execution_member);
 }
 
 // 4.9
@@ -31,11 +33,14 @@ TEST(Conformance, AFederateNameIsUniqueWithinTheFederationExecution) {
 TEST(Conformance, AFederateThatIsNotJoinedMayUseNoServiceOfAMember) {
   Rig rig(Carrier::in_process);
   Station& station = rig.connect();
-  EXPECT_EQ(error_thrown_by([&] { station.ambassador.register_synchronization_point("start"); }), HlaError::federate_not_execution_member);
-  EXPECT_EQ(error_thrown_by([&] { station.ambassador.synchronization_point_achieved("start"); }), HlaError::federate_not_execution_member);
+  EXPECT_EQ(error_thrown_by([&] { station.ambassador.register_synchronization_point("start"); }),
+            HlaError::federate_not_execution_member);
+  EXPECT_EQ(error_thrown_by([&] { station.ambassador.synchronization_point_achieved("start"); }),
+            HlaError::federate_not_execution_member);
   Station& gone = rig.join("gone");
   gone.ambassador.resign();
-  EXPECT_EQ(error_thrown_by([&] { gone.ambassador.watch_federates(); }), HlaError::federate_not_execution_member);
+  EXPECT_EQ(error_thrown_by([&] { gone.ambassador.watch_federates(); }),
+            HlaError::federate_not_execution_member);
 }
 
 // 4.11, 4.12
@@ -61,20 +66,24 @@ TEST(Conformance, ALabelThatIsInUseFailsToRegister) {
   rig.settle();
   b.ambassador.register_synchronization_point("start");
   rig.settle();
-  EXPECT_EQ(b.heard.log.back(), "announced start") << "a label is free again when its point was reached";
+  EXPECT_EQ(b.heard.log.back(), "announced start")
+      << "a label is free again when its point was reached";
 }
 
 // 4.12
 TEST(Conformance, ASetWithAMemberThatIsNotJoinedFailsToRegister) {
   Rig rig(Carrier::in_process);
   Station &a = rig.join("a"), &b = rig.join("b");
-  const std::vector<FederateHandle> stranger{a.ambassador.federate(), {77}}, left{b.ambassador.federate()};
+  const std::vector<FederateHandle> stranger{a.ambassador.federate(), {77}},
+      left{b.ambassador.federate()};
   a.ambassador.register_synchronization_point("start", {}, stranger);
   b.ambassador.resign();
   rig.settle();
   a.ambassador.register_synchronization_point("then", {}, left);
   rig.settle();
-  EXPECT_THAT(a.heard.log, ElementsAre("joined", "not registered start: a member of the set is not joined", "not registered then: a member of the set is not joined"));
+  EXPECT_THAT(a.heard.log,
+              ElementsAre("joined", "not registered start: a member of the set is not joined",
+                          "not registered then: a member of the set is not joined"));
 }
 
 // 4.11, 4.13
@@ -117,7 +126,8 @@ TEST(Conformance, APointWithoutASetIsAnnouncedToThoseWhoJoinBeforeItIsReached) {
 TEST(Conformance, ALabelThatIsNotAnnouncedCannotBeAchieved) {
   Rig rig(Carrier::in_process);
   Station& a = rig.join("a");
-  EXPECT_EQ(error_thrown_by([&] { a.ambassador.synchronization_point_achieved("start"); }), HlaError::synchronization_point_label_not_announced);
+  EXPECT_EQ(error_thrown_by([&] { a.ambassador.synchronization_point_achieved("start"); }),
+            HlaError::synchronization_point_label_not_announced);
   EXPECT_TRUE(a.ambassador.is_joined());
 }
 
@@ -130,7 +140,8 @@ TEST(Conformance, ThoseWhoFailedAreNamedWhenTheFederationIsSynchronized) {
   a.ambassador.synchronization_point_achieved("start");
   b.ambassador.synchronization_point_achieved("start", false);
   rig.settle();
-  EXPECT_EQ(a.heard.log.back(), "synchronized start without " + std::to_string(b.ambassador.federate().value));
+  EXPECT_EQ(a.heard.log.back(),
+            "synchronized start without " + std::to_string(b.ambassador.federate().value));
 }
 
 // 4.15

@@ -1,4 +1,5 @@
-// What the standard says of names, local deletion, requests for updates and transportation, sentence by sentence (IEEE 1516.1-2010, clauses 4.9, 6.2 to 6.8, 6.16, 6.19, 6.23 to 6.30).
+// What the standard says of names, local deletion, requests for updates and transportation,
+// sentence by sentence (IEEE 1516.1-2010, clauses 4.9, 6.2 to 6.8, 6.16, 6.19, 6.23 to 6.30).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,24 +23,43 @@ std::string joined_by_commas(const std::vector<std::string>& names) {
 /// Writes down answers.
 struct Registrar : Recorder {
   std::vector<std::string> told;
-  void object_instance_name_reservation_succeeded(std::string_view name) override { told.push_back("got " + std::string(name)); }
-  void object_instance_name_reservation_failed(std::string_view name) override { told.push_back("not " + std::string(name)); }
-  void multiple_object_instance_name_reservation_succeeded(const std::vector<std::string>& names) override { told.push_back("got all " + joined_by_commas(names)); }
-  void multiple_object_instance_name_reservation_failed(const std::vector<std::string>& names) override { told.push_back("not all " + joined_by_commas(names)); }
+  void object_instance_name_reservation_succeeded(std::string_view name) override {
+    told.push_back("got " + std::string(name));
+  }
+  void object_instance_name_reservation_failed(std::string_view name) override {
+    told.push_back("not " + std::string(name));
+  }
+  void multiple_object_instance_name_reservation_succeeded(
+      const std::vector<std::string>& names) override {
+    told.push_back("got all " + joined_by_commas(names));
+  }
+  void multiple_object_instance_name_reservation_failed(
+      const std::vector<std::string>& names) override {
+    told.push_back("not all " + joined_by_commas(names));
+  }
   void provide_attribute_value_update(ObjectHandle object, AttributeSet set, Bytes tag) override {
-    told.push_back("provide " + std::to_string(set.bits) + " of " + std::to_string(object.value) + " " + text_of(tag));
+    told.push_back("provide " + std::to_string(set.bits) + " of " + std::to_string(object.value) +
+                   " " + text_of(tag));
   }
-  void confirm_attribute_transportation_type_change(ObjectHandle, AttributeSet set, Transportation type) override {
-    told.push_back("confirmed " + std::to_string(set.bits) + " " + std::string(Ambassador::get_transportation_type_name(type)));
+  void confirm_attribute_transportation_type_change(ObjectHandle, AttributeSet set,
+                                                    Transportation type) override {
+    told.push_back("confirmed " + std::to_string(set.bits) + " " +
+                   std::string(Ambassador::get_transportation_type_name(type)));
   }
-  void report_attribute_transportation_type(ObjectHandle, AttributeHandle attribute, Transportation type) override {
-    told.push_back("attribute " + std::to_string(attribute.value) + " " + std::string(Ambassador::get_transportation_type_name(type)));
+  void report_attribute_transportation_type(ObjectHandle, AttributeHandle attribute,
+                                            Transportation type) override {
+    told.push_back("attribute " + std::to_string(attribute.value) + " " +
+                   std::string(Ambassador::get_transportation_type_name(type)));
   }
-  void confirm_interaction_transportation_type_change(InteractionClassHandle each, Transportation type) override {
-    told.push_back("confirmed " + harbour().at(each).name + " " + std::string(Ambassador::get_transportation_type_name(type)));
+  void confirm_interaction_transportation_type_change(InteractionClassHandle each,
+                                                      Transportation type) override {
+    told.push_back("confirmed " + harbour().at(each).name + " " +
+                   std::string(Ambassador::get_transportation_type_name(type)));
   }
-  void report_interaction_transportation_type(FederateHandle federate, InteractionClassHandle each, Transportation type) override {
-    told.push_back(std::to_string(federate.value) + " " + harbour().at(each).name + " " + std::string(Ambassador::get_transportation_type_name(type)));
+  void report_interaction_transportation_type(FederateHandle federate, InteractionClassHandle each,
+                                              Transportation type) override {
+    told.push_back(std::to_string(federate.value) + " " + harbour().at(each).name + " " +
+                   std::string(Ambassador::get_transportation_type_name(type)));
   }
 };
 
@@ -57,7 +77,8 @@ TEST(Conformance, ANameIsReservedByOneFederateUntilItIsReleased) {
   EXPECT_THAT(port.told(port.pilot_heard), ElementsAre("got Fram"));
   port.coast.reserve_object_instance_name("Fram");
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("not Fram"));
-  EXPECT_EQ(error_thrown_by([&] { port.coast.release_object_instance_name("Fram"); }), HlaError::object_instance_name_not_reserved);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.release_object_instance_name("Fram"); }),
+            HlaError::object_instance_name_not_reserved);
   port.pilot.release_object_instance_name("Fram");
   port.settle();
   port.coast.reserve_object_instance_name("Fram");
@@ -68,16 +89,21 @@ TEST(Conformance, ANameIsReservedByOneFederateUntilItIsReleased) {
 // 6.2
 TEST(Conformance, ANameThatBeginsWithHlaOrIsEmptyIsIllegal) {
   Port port;
-  EXPECT_EQ(error_thrown_by([&] { port.pilot.reserve_object_instance_name("HLAobject 3"); }), HlaError::illegal_name);
-  EXPECT_EQ(error_thrown_by([&] { port.pilot.reserve_object_instance_name(""); }), HlaError::illegal_name);
-  EXPECT_EQ(error_thrown_by([&] { port.pilot.register_object_instance(vessel, "HLAfram"); }), HlaError::illegal_name);
-  EXPECT_EQ(error_thrown_by([&] { port.pilot.reserve_multiple_object_instance_names({}); }), HlaError::name_set_was_empty);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.reserve_object_instance_name("HLAobject 3"); }),
+            HlaError::illegal_name);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.reserve_object_instance_name(""); }),
+            HlaError::illegal_name);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.register_object_instance(vessel, "HLAfram"); }),
+            HlaError::illegal_name);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.reserve_multiple_object_instance_names({}); }),
+            HlaError::name_set_was_empty);
 }
 
 // 6.5, 6.6, 6.7
 TEST(Conformance, ASetOfNamesIsReservedWholeOrNotAtAll) {
   Port port;
-  const std::array<std::string_view, 2> pair{"Fram", "Maud"}, overlapping{"Gjoa", "Maud"}, twice{"Tern", "Tern"};
+  const std::array<std::string_view, 2> pair{"Fram", "Maud"}, overlapping{"Gjoa", "Maud"},
+      twice{"Tern", "Tern"};
   port.pilot.reserve_multiple_object_instance_names(pair);
   EXPECT_THAT(port.told(port.pilot_heard), ElementsAre("got all Fram,Maud"));
   port.coast.reserve_multiple_object_instance_names(overlapping);
@@ -86,7 +112,9 @@ TEST(Conformance, ASetOfNamesIsReservedWholeOrNotAtAll) {
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("got Gjoa"));
   port.coast.reserve_multiple_object_instance_names(twice);
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("not all Tern,Tern"));
-  EXPECT_EQ(error_thrown_by([&] { port.pilot.release_multiple_object_instance_names(overlapping); }), HlaError::object_instance_name_not_reserved);
+  EXPECT_EQ(
+      error_thrown_by([&] { port.pilot.release_multiple_object_instance_names(overlapping); }),
+      HlaError::object_instance_name_not_reserved);
   port.pilot.release_multiple_object_instance_names(pair);
   port.settle();
   port.coast.reserve_multiple_object_instance_names(pair);
@@ -99,7 +127,9 @@ TEST(Conformance, AnObjectIsFoundByItsNameAndEveryObjectHasAUniqueOne) {
   port.coast.subscribe_object_class_attributes(vessel, motion);
   port.pilot.reserve_object_instance_name("Fram");
   port.settle();
-  const ObjectHandle fram = port.pilot.register_object_instance(vessel, "Fram"), other = port.pilot.register_object_instance(vessel), third = port.pilot.register_object_instance(vessel);
+  const ObjectHandle fram = port.pilot.register_object_instance(vessel, "Fram"),
+                     other = port.pilot.register_object_instance(vessel),
+                     third = port.pilot.register_object_instance(vessel);
   port.settle();
   for (Ambassador* each : {&port.pilot, &port.coast}) {
     EXPECT_EQ(each->get_object_instance_handle("Fram"), fram);
@@ -107,12 +137,18 @@ TEST(Conformance, AnObjectIsFoundByItsNameAndEveryObjectHasAUniqueOne) {
     EXPECT_NE(each->get_object_instance_name(other), each->get_object_instance_name(third));
     EXPECT_EQ(each->get_object_instance_handle(each->get_object_instance_name(other)), other);
     EXPECT_EQ(each->get_known_object_class_handle(fram), vessel);
-    EXPECT_EQ(error_thrown_by([&] { each->get_object_instance_handle("Maud"); }), HlaError::object_instance_not_known);
-    EXPECT_EQ(error_thrown_by([&] { each->get_object_instance_handle("HLAobject 0" + std::to_string(other.value)); }), HlaError::object_instance_not_known);
-    EXPECT_EQ(error_thrown_by([&] { each->get_object_instance_name({12345}); }), HlaError::object_instance_not_known);
+    EXPECT_EQ(error_thrown_by([&] { each->get_object_instance_handle("Maud"); }),
+              HlaError::object_instance_not_known);
+    EXPECT_EQ(error_thrown_by([&] {
+                each->get_object_instance_handle("HLAobject 0" + std::to_string(other.value));
+              }),
+              HlaError::object_instance_not_known);
+    EXPECT_EQ(error_thrown_by([&] { each->get_object_instance_name({12345}); }),
+              HlaError::object_instance_not_known);
   }
   EXPECT_EQ(port.pilot.get_object_instance_name(other), port.coast.get_object_instance_name(other));
-  EXPECT_EQ(port.coast_heard.objects.at(other.value).name, port.coast.get_object_instance_name(other));
+  EXPECT_EQ(port.coast_heard.objects.at(other.value).name,
+            port.coast.get_object_instance_name(other));
 }
 
 // 6.8
@@ -122,17 +158,22 @@ TEST(Conformance, NoTwoObjectsHaveOneName) {
   port.pilot.subscribe_object_class_attributes(vessel, motion);
   port.settle();
   const ObjectHandle first = port.pilot.register_object_instance(vessel, "Fram");
-  EXPECT_EQ(error_thrown_by([&] { port.pilot.register_object_instance(vessel, "Fram"); }), HlaError::object_instance_name_in_use);
-  const ObjectHandle second = port.coast.register_object_instance(vessel, "Fram");  // it can't know yet
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.register_object_instance(vessel, "Fram"); }),
+            HlaError::object_instance_name_in_use);
+  const ObjectHandle second =
+      port.coast.register_object_instance(vessel, "Fram");  // it can't know yet
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("not Fram"));
   EXPECT_EQ(port.coast.get_object_instance_handle("Fram"), first);
   EXPECT_NE(port.pilot.get_object_instance_name(second), "Fram");
-  EXPECT_EQ(port.pilot.get_object_instance_name(second), port.coast.get_object_instance_name(second));
-  EXPECT_EQ(error_thrown_by([&] { port.coast.register_object_instance(vessel, "Fram"); }), HlaError::object_instance_name_in_use);
+  EXPECT_EQ(port.pilot.get_object_instance_name(second),
+            port.coast.get_object_instance_name(second));
+  EXPECT_EQ(error_thrown_by([&] { port.coast.register_object_instance(vessel, "Fram"); }),
+            HlaError::object_instance_name_in_use);
   port.pilot.reserve_object_instance_name("Maud");
   port.settle();
   port.coast.register_object_instance(vessel, "Maud");
-  EXPECT_THAT(port.told(port.coast_heard), ElementsAre("not Maud")) << "another federate reserved it";
+  EXPECT_THAT(port.told(port.coast_heard), ElementsAre("not Maud"))
+      << "another federate reserved it";
   port.coast.reserve_object_instance_name("Fram");
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("not Fram")) << "in use";
   EXPECT_EQ(port.pilot.get_object_instance_name(first), "Fram");
@@ -173,17 +214,21 @@ TEST(Conformance, AnObjectThatWasDeletedLocallyIsUnknownHereAndMayBeDiscoveredAg
   port.pilot.associate_regions_for_updates(fram, place);
   port.pilot.update_attribute_values(fram, AttributeSet{speed}, values_of(1.0f), {});
   port.settle();
-  EXPECT_EQ(error_thrown_by([&] { port.pilot.local_delete_object_instance(fram); }), HlaError::federate_owns_attributes);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.local_delete_object_instance(fram); }),
+            HlaError::federate_owns_attributes);
   port.pilot.unconditional_attribute_ownership_divestiture(fram, AttributeSet{position});
   port.settle();
   port.coast.attribute_ownership_acquisition(fram, AttributeSet{speed});
-  EXPECT_EQ(error_thrown_by([&] { port.coast.local_delete_object_instance(fram); }), HlaError::ownership_acquisition_pending);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.local_delete_object_instance(fram); }),
+            HlaError::ownership_acquisition_pending);
   port.coast.cancel_attribute_ownership_acquisition(fram, AttributeSet{speed});
   port.settle();
   port.coast.local_delete_object_instance(fram);
   port.coast_heard.objects.erase(fram.value);
-  EXPECT_EQ(error_thrown_by([&] { port.coast.get_object_instance_handle("Fram"); }), HlaError::object_instance_not_known);
-  EXPECT_EQ(error_thrown_by([&] { port.coast.local_delete_object_instance(fram); }), HlaError::object_instance_not_known);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.get_object_instance_handle("Fram"); }),
+            HlaError::object_instance_not_known);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.local_delete_object_instance(fram); }),
+            HlaError::object_instance_not_known);
   for (int i = 0; i < 3; ++i) {  // said while the RTI may not know yet
     port.pilot.update_attribute_values(fram, AttributeSet{speed}, values_of(2.0f), {});
     port.settle();
@@ -208,9 +253,11 @@ TEST(Conformance, WhoDeletesAnObjectHearsNoMoreOfItWhateverWasUnderWay) {
   port.settle();
   const ObjectHandle fram = port.pilot.register_object_instance(vessel);
   port.settle();
-  port.pilot.unconditional_attribute_ownership_divestiture(fram, AttributeSet{privilege_to_delete_object});
+  port.pilot.unconditional_attribute_ownership_divestiture(
+      fram, AttributeSet{privilege_to_delete_object});
   port.settle();
-  port.coast.attribute_ownership_acquisition_if_available(fram, AttributeSet{privilege_to_delete_object});
+  port.coast.attribute_ownership_acquisition_if_available(fram,
+                                                          AttributeSet{privilege_to_delete_object});
   port.settle();
   // The update is on its way to the one who deletes the object meanwhile.
   port.pilot.update_attribute_values(fram, AttributeSet{speed}, values_of(1.0f), {});
@@ -233,16 +280,25 @@ TEST(Conformance, WhoDeletesAnObjectHearsNoMoreOfItWhateverWasUnderWay) {
 TEST(Conformance, OwnersAreAskedForValuesByClassOrByObjectWithTheTagOfTheRequest) {
   Port port;
   port.coast.subscribe_object_class_attributes(vessel, motion);
-  const ObjectHandle one = port.pilot.register_object_instance(vessel), two = port.pilot.register_object_instance(vessel);
+  const ObjectHandle one = port.pilot.register_object_instance(vessel),
+                     two = port.pilot.register_object_instance(vessel);
   port.coast.register_object_instance(vessel);
   port.settle();
   port.coast.request_attribute_value_update(vessel, AttributeSet{speed}, bytes_of("now"));
-  EXPECT_THAT(port.told(port.pilot_heard), ElementsAre("provide 2 of " + std::to_string(one.value) + " now", "provide 2 of " + std::to_string(two.value) + " now"));
+  EXPECT_THAT(port.told(port.pilot_heard),
+              ElementsAre("provide 2 of " + std::to_string(one.value) + " now",
+                          "provide 2 of " + std::to_string(two.value) + " now"));
   port.coast.request_attribute_value_update(two, motion);
-  EXPECT_THAT(port.told(port.pilot_heard), ElementsAre("provide 3 of " + std::to_string(two.value) + " "));
+  EXPECT_THAT(port.told(port.pilot_heard),
+              ElementsAre("provide 3 of " + std::to_string(two.value) + " "));
   EXPECT_THAT(port.told(port.coast_heard), IsEmpty());
-  EXPECT_EQ(error_thrown_by([&] { port.coast.request_attribute_value_update(vessel, AttributeSet{destination}); }), HlaError::attribute_not_defined);
-  EXPECT_EQ(error_thrown_by([&] { port.coast.request_attribute_value_update(ObjectHandle{777}, motion); }), HlaError::object_instance_not_known);
+  EXPECT_EQ(error_thrown_by([&] {
+              port.coast.request_attribute_value_update(vessel, AttributeSet{destination});
+            }),
+            HlaError::attribute_not_defined);
+  EXPECT_EQ(error_thrown_by(
+                [&] { port.coast.request_attribute_value_update(ObjectHandle{777}, motion); }),
+            HlaError::object_instance_not_known);
 }
 
 // 6.23 to 6.26
@@ -253,12 +309,18 @@ TEST(Conformance, TheTransportationOfAttributesIsChangedByTheirOwnerConfirmedAnd
   port.settle();
   port.coast.query_attribute_transportation_type(fram, speed);
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("attribute 1 HLAreliable"));
-  port.pilot.request_attribute_transportation_type_change(fram, AttributeSet{speed}, Transportation::best_effort);
+  port.pilot.request_attribute_transportation_type_change(fram, AttributeSet{speed},
+                                                          Transportation::best_effort);
   EXPECT_THAT(port.told(port.pilot_heard), ElementsAre("confirmed 2 HLAbestEffort"));
   port.coast.query_attribute_transportation_type(fram, speed);
   port.coast.query_attribute_transportation_type(fram, position);
-  EXPECT_THAT(port.told(port.coast_heard), ElementsAre("attribute 1 HLAbestEffort", "attribute 0 HLAreliable"));
-  EXPECT_EQ(error_thrown_by([&] { port.coast.request_attribute_transportation_type_change(fram, AttributeSet{speed}, Transportation::reliable); }), HlaError::attribute_not_owned);
+  EXPECT_THAT(port.told(port.coast_heard),
+              ElementsAre("attribute 1 HLAbestEffort", "attribute 0 HLAreliable"));
+  EXPECT_EQ(error_thrown_by([&] {
+              port.coast.request_attribute_transportation_type_change(fram, AttributeSet{speed},
+                                                                      Transportation::reliable);
+            }),
+            HlaError::attribute_not_owned);
   port.pilot.update_attribute_values(fram, AttributeSet{speed}, values_of(3.0f), {});
   port.settle();
   EXPECT_EQ(port.coast_heard.objects.at(fram.value).values.at(speed.value), values_of(3.0f));
@@ -267,19 +329,28 @@ TEST(Conformance, TheTransportationOfAttributesIsChangedByTheirOwnerConfirmedAnd
 // 6.27 to 6.30
 TEST(Conformance, TheTransportationOfInteractionsIsTheSendersOwn) {
   Port port;
-  EXPECT_EQ(error_thrown_by([&] { port.pilot.request_interaction_transportation_type_change(hail, Transportation::best_effort); }), HlaError::interaction_class_not_published);
+  EXPECT_EQ(error_thrown_by([&] {
+              port.pilot.request_interaction_transportation_type_change(
+                  hail, Transportation::best_effort);
+            }),
+            HlaError::interaction_class_not_published);
   port.pilot.publish_interaction_class(hail);
   port.pilot.request_interaction_transportation_type_change(hail, Transportation::best_effort);
   EXPECT_THAT(port.told(port.pilot_heard), ElementsAre("confirmed Hail HLAbestEffort"));
-  for (const Ambassador* each : {&port.pilot, &port.coast}) port.coast.query_interaction_transportation_type(each->federate(), hail);
-  EXPECT_THAT(port.told(port.coast_heard), ElementsAre("0 Hail HLAbestEffort", "1 Hail HLAreliable"));
+  for (const Ambassador* each : {&port.pilot, &port.coast})
+    port.coast.query_interaction_transportation_type(each->federate(), hail);
+  EXPECT_THAT(port.told(port.coast_heard),
+              ElementsAre("0 Hail HLAbestEffort", "1 Hail HLAreliable"));
 }
 
 // 6.12
 TEST(Conformance, AnInteractionOfAClassThatIsNotPublishedIsRefusedBeforeItIsSent) {
   Port port;
-  EXPECT_EQ(error_thrown_by([&] { port.pilot.send_interaction(hail, bytes_of("ahoy"), Stamp{}); }), HlaError::interaction_class_not_published);
-  EXPECT_EQ(error_thrown_by([&] { port.pilot.send_interaction(InteractionClassHandle{99}, {}, Stamp{}); }), HlaError::interaction_class_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.send_interaction(hail, bytes_of("ahoy"), Stamp{}); }),
+            HlaError::interaction_class_not_published);
+  EXPECT_EQ(error_thrown_by(
+                [&] { port.pilot.send_interaction(InteractionClassHandle{99}, {}, Stamp{}); }),
+            HlaError::interaction_class_not_defined);
   port.settle();
   EXPECT_EQ(port.dropped, 0u);
 }
@@ -294,7 +365,9 @@ TEST(Conformance, ARefusalAtTheJoinHasTheStandardsName) {
   stray.ambassador.join("nowhere", "stray", "tester");
   rig.settle();
   EXPECT_EQ(error_of(*stray.heard.refusal), HlaError::federation_execution_does_not_exist);
-  const Fom other = Fom::parse("<objectModel><objects><objectClass><name>Root</name></objectClass></objects></objectModel>", "other.xml");
+  const Fom other = Fom::parse(
+      "<objectModel><objects><objectClass><name>Root</name></objectClass></objects></objectModel>",
+      "other.xml");
   Station& stranger = rig.connect(other);
   stranger.ambassador.join("rink", "stranger", "tester");
   rig.settle();

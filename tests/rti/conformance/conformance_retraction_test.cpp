@@ -15,7 +15,8 @@ TEST(Conformance, AMessageThatIsTakenBackIsNotDelivered) {
   TimedFederation federation{relaxed()};
   TimedFederate& sender = federation.join_timed(1.0, false);
   TimedFederate& receiver = federation.join_timed(-1.0);
-  const RetractionHandle kept = TimedFederation::say(sender, 3.0), taken_back = TimedFederation::say(sender, 2.0);
+  const RetractionHandle kept = TimedFederation::say(sender, 3.0),
+                         taken_back = TimedFederation::say(sender, 2.0);
   EXPECT_TRUE(kept && taken_back);
   federation.carry();
   sender.ambassador.retract(taken_back);
@@ -25,7 +26,10 @@ TEST(Conformance, AMessageThatIsTakenBackIsNotDelivered) {
   EXPECT_EQ(receiver.grants(), std::vector{3.0});
   EXPECT_EQ(receiver.times(What::message), std::vector{3.0});
   EXPECT_EQ(error_of([&] { sender.ambassador.retract(kept); }), "MessageCanNoLongerBeRetracted");
-  EXPECT_EQ(error_of([&] { sender.ambassador.retract({receiver.ambassador.federate(), 0, 90.0}); }), "InvalidMessageRetractionHandle");
+  EXPECT_EQ(error_of([&] {
+              sender.ambassador.retract({receiver.ambassador.federate(), 0, 90.0});
+            }),
+            "InvalidMessageRetractionHandle");
   EXPECT_EQ(error_of([&] { receiver.ambassador.retract(kept); }), "TimeRegulationIsNotEnabled");
 }
 

@@ -23,15 +23,21 @@ TEST(Conformance, AFederateBeginsNeitherRegulatingNorConstrainedAtTimeZero) {
 TEST(Conformance, EnablingRegulationNamesWhyItCannot) {
   TimedFederation federation{relaxed()};
   TimedFederate& federate = federation.join();
-  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_regulation(-1.0); }), "InvalidLookahead");
-  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_regulation(time_unbounded); }), "InvalidLookahead");
+  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_regulation(-1.0); }),
+            "InvalidLookahead");
+  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_regulation(time_unbounded); }),
+            "InvalidLookahead");
   federate.ambassador.enable_time_regulation(1.0);
-  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_regulation(1.0); }), "RequestForTimeRegulationPending");
-  EXPECT_EQ(error_of([&] { federate.ambassador.time_advance_request(LogicalTime(1.0)); }), "RequestForTimeRegulationPending");
+  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_regulation(1.0); }),
+            "RequestForTimeRegulationPending");
+  EXPECT_EQ(error_of([&] { federate.ambassador.time_advance_request(LogicalTime(1.0)); }),
+            "RequestForTimeRegulationPending");
   federation.carry();
-  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_regulation(1.0); }), "TimeRegulationAlreadyEnabled");
+  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_regulation(1.0); }),
+            "TimeRegulationAlreadyEnabled");
   federate.ambassador.time_advance_request(LogicalTime(1.0));
-  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_regulation(1.0); }), "InTimeAdvancingState");
+  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_regulation(1.0); }),
+            "InTimeAdvancingState");
 }
 
 // 8.3
@@ -42,7 +48,8 @@ TEST(Conformance, OneWhoBeginsToRegulateIsMovedToWhereItCannotSpeakInAnybodysPas
   federation.carry();
   TimedFederate& young = federation.join_timed(4.0, false);
   EXPECT_EQ(young.times(What::regulation), std::vector{6.0});
-  EXPECT_EQ(error_of([&] { TimedFederation::say(young, 10.0); }), "InvalidLogicalTime") << "the other has heard all of 10";
+  EXPECT_EQ(error_of([&] { TimedFederation::say(young, 10.0); }), "InvalidLogicalTime")
+      << "the other has heard all of 10";
   EXPECT_EQ(error_of([&] { TimedFederation::say(young, just_after(10.0)); }), "");
 }
 
@@ -84,9 +91,12 @@ TEST(Conformance, OneWhoBeginsToRegulateMaySpeakAtAnInstantOfWhichNobodyHasHeard
 TEST(Conformance, WhatIsNotEnabledCannotBeDisabled) {
   TimedFederation federation{relaxed()};
   TimedFederate& federate = federation.join();
-  EXPECT_EQ(error_of([&] { federate.ambassador.disable_time_regulation(); }), "TimeRegulationIsNotEnabled");
-  EXPECT_EQ(error_of([&] { federate.ambassador.disable_time_constrained(); }), "TimeConstrainedIsNotEnabled");
-  EXPECT_EQ(error_of([&] { federate.ambassador.modify_lookahead(1.0); }), "TimeRegulationIsNotEnabled");
+  EXPECT_EQ(error_of([&] { federate.ambassador.disable_time_regulation(); }),
+            "TimeRegulationIsNotEnabled");
+  EXPECT_EQ(error_of([&] { federate.ambassador.disable_time_constrained(); }),
+            "TimeConstrainedIsNotEnabled");
+  EXPECT_EQ(error_of([&] { federate.ambassador.modify_lookahead(1.0); }),
+            "TimeRegulationIsNotEnabled");
   EXPECT_EQ(error_of([&] { federate.ambassador.query_lookahead(); }), "TimeRegulationIsNotEnabled");
 }
 
@@ -95,10 +105,12 @@ TEST(Conformance, EnablingConstraintNamesWhyItCannotAndIsAnsweredOnce) {
   TimedFederation federation{relaxed()};
   TimedFederate& federate = federation.join();
   federate.ambassador.enable_time_constrained();
-  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_constrained(); }), "RequestForTimeConstrainedPending");
+  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_constrained(); }),
+            "RequestForTimeConstrainedPending");
   federation.carry();
   EXPECT_EQ(federate.times(What::constrained), std::vector{0.0});
-  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_constrained(); }), "TimeConstrainedAlreadyEnabled");
+  EXPECT_EQ(error_of([&] { federate.ambassador.enable_time_constrained(); }),
+            "TimeConstrainedAlreadyEnabled");
 }
 
 // 8.6
@@ -137,11 +149,16 @@ TEST(Conformance, ATimeAdvanceRequestNamesWhyItCannot) {
   TimedFederate& other = federation.join_timed(1.0);
   federate.ambassador.time_advance_request(LogicalTime(0.5));
   federation.carry();
-  EXPECT_EQ(error_of([&] { federate.ambassador.time_advance_request(LogicalTime(0.25)); }), "LogicalTimeAlreadyPassed");
-  EXPECT_EQ(error_of([&] { federate.ambassador.time_advance_request(LogicalTime(-1.0)); }), "InvalidLogicalTime");
-  EXPECT_EQ(error_of([&] { federate.ambassador.time_advance_request(LogicalTime(time_unbounded)); }), "InvalidLogicalTime");
+  EXPECT_EQ(error_of([&] { federate.ambassador.time_advance_request(LogicalTime(0.25)); }),
+            "LogicalTimeAlreadyPassed");
+  EXPECT_EQ(error_of([&] { federate.ambassador.time_advance_request(LogicalTime(-1.0)); }),
+            "InvalidLogicalTime");
+  EXPECT_EQ(
+      error_of([&] { federate.ambassador.time_advance_request(LogicalTime(time_unbounded)); }),
+      "InvalidLogicalTime");
   federate.ambassador.time_advance_request(LogicalTime(2.0));
-  EXPECT_EQ(error_of([&] { federate.ambassador.next_message_request(LogicalTime(3.0)); }), "InTimeAdvancingState");
+  EXPECT_EQ(error_of([&] { federate.ambassador.next_message_request(LogicalTime(3.0)); }),
+            "InTimeAdvancingState");
   EXPECT_EQ(error_of([&] { federate.ambassador.modify_lookahead(2.0); }), "InTimeAdvancingState");
   federation.carry();
   EXPECT_EQ(federate.grants(), std::vector{0.5}) << "the other can still speak at 1";
@@ -205,7 +222,8 @@ TEST(Conformance, ANextMessageRequestIsGrantedToTheNextMessageOrToWhatWasAsked) 
 TEST(Conformance, FederatesThatAllWaitForTheirNextMessageDoNotWaitForEachOther) {
   TimedFederation federation{relaxed()};
   for (const double lookahead : {0.0, 0.0, 0.25, 1.0}) federation.join_timed(lookahead);
-  for (const auto& each : federation.federates()) each->ambassador.next_message_request(LogicalTime(1000.0));
+  for (const auto& each : federation.federates())
+    each->ambassador.next_message_request(LogicalTime(1000.0));
   federation.carry();
   for (const auto& each : federation.federates()) EXPECT_EQ(each->grants(), std::vector{1000.0});
 }
@@ -233,11 +251,13 @@ TEST(Conformance, AnUnconstrainedFederateIsGrantedAtOnce) {
 }
 
 // 8.14, 8.15
-TEST(Conformance, MessagesInReceiveOrderWaitWhileAConstrainedFederateIsGrantedUnlessDeliveryIsAsynchronous) {
+TEST(Conformance,
+     MessagesInReceiveOrderWaitWhileAConstrainedFederateIsGrantedUnlessDeliveryIsAsynchronous) {
   TimedFederation federation{relaxed()};
   TimedFederate& sender = federation.join();
   TimedFederate& receiver = federation.join_timed(-1.0);
-  EXPECT_EQ(error_of([&] { receiver.ambassador.disable_asynchronous_delivery(); }), "AsynchronousDeliveryAlreadyDisabled");
+  EXPECT_EQ(error_of([&] { receiver.ambassador.disable_asynchronous_delivery(); }),
+            "AsynchronousDeliveryAlreadyDisabled");
   sender.ambassador.send_interaction(hail, bytes_of("first"), Stamp{});
   federation.carry();
   EXPECT_TRUE(receiver.times(What::receive_order).empty());
@@ -247,7 +267,8 @@ TEST(Conformance, MessagesInReceiveOrderWaitWhileAConstrainedFederateIsGrantedUn
   EXPECT_EQ(receiver.heard[1].text, "first");
   EXPECT_TRUE(receiver.heard[1].is_advancing);
   receiver.ambassador.enable_asynchronous_delivery();
-  EXPECT_EQ(error_of([&] { receiver.ambassador.enable_asynchronous_delivery(); }), "AsynchronousDeliveryAlreadyEnabled");
+  EXPECT_EQ(error_of([&] { receiver.ambassador.enable_asynchronous_delivery(); }),
+            "AsynchronousDeliveryAlreadyEnabled");
   sender.ambassador.send_interaction(hail, bytes_of("second"), Stamp{});
   federation.carry();
   EXPECT_EQ(receiver.heard.back().text, "second");
@@ -291,7 +312,8 @@ TEST(Conformance, WhatIsSentInReceiveOrderHasNoHandle) {
   TimedFederate& receiver = federation.join_timed(-1.0);
   receiver.ambassador.enable_asynchronous_delivery();
   sender.ambassador.change_interaction_order_type(hail, Order::receive);
-  EXPECT_FALSE(TimedFederation::say(sender, 0.25, "at once")) << "nor does a time stamp in receive order have to be late enough";
+  EXPECT_FALSE(TimedFederation::say(sender, 0.25, "at once"))
+      << "nor does a time stamp in receive order have to be late enough";
   federation.carry();
   EXPECT_EQ(receiver.heard.back().what, What::receive_order);
   TimedFederate& free = federation.join();
@@ -311,7 +333,8 @@ TEST(Conformance, EachAttributeTravelsInItsOwnOrder) {
   std::vector<std::byte> values = values_of(1.5f);
   const std::vector<std::byte> port = varying("Piombino");
   values.insert(values.end(), port.begin(), port.end());
-  EXPECT_TRUE(owner.ambassador.update_attribute_values(object, {speed, destination}, values, LogicalTime(2.0)));
+  EXPECT_TRUE(owner.ambassador.update_attribute_values(object, {speed, destination}, values,
+                                                       LogicalTime(2.0)));
   federation.carry();
   ASSERT_EQ(receiver.times(What::receive_order), std::vector{2.0});
   EXPECT_EQ(receiver.heard.back().text, text_of(values_of(1.5f)));
@@ -329,7 +352,8 @@ TEST(Conformance, ADeletionComesAtItsTimeAndCanBeTakenBack) {
   TimedFederate& receiver = federation.join_timed(-1.0);
   owner.ambassador.publish_object_class_attributes(vessel, harbour().attributes(vessel));
   receiver.ambassador.subscribe_object_class_attributes(vessel, harbour().attributes(vessel));
-  const ObjectHandle first = owner.ambassador.register_object_instance(vessel), second = owner.ambassador.register_object_instance(vessel);
+  const ObjectHandle first = owner.ambassador.register_object_instance(vessel),
+                     second = owner.ambassador.register_object_instance(vessel);
   federation.carry();
   const RetractionHandle handle = owner.ambassador.delete_object_instance(first, LogicalTime(2.0));
   owner.ambassador.delete_object_instance(second, LogicalTime(3.0));

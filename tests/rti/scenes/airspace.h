@@ -9,8 +9,10 @@
 
 namespace rink::rti::testing {
 
-/// An airspace: `Aircraft` over all four dimensions, of which `Channel` has an upper bound; `weight` has none.
-inline constexpr const char* airspace_xml = R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name>
+/// An airspace: `Aircraft` over all four dimensions, of which `Channel` has an upper bound;
+/// `weight` has none.
+inline constexpr const char* airspace_xml =
+    R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name>
 <objectClass><name>Aircraft</name>
   <attribute><name>position</name><dataType>HLAfloat64LE</dataType><dimensions><dimension>X</dimension><dimension>Y</dimension><dimension>Altitude</dimension><dimension>Channel</dimension></dimensions></attribute>
   <attribute><name>radio</name><dataType>HLAfloat64LE</dataType><dimensions><dimension>X</dimension><dimension>Y</dimension><dimension>Altitude</dimension><dimension>Channel</dimension></dimensions></attribute>
@@ -27,9 +29,13 @@ inline const Fom& airspace() {
   return fom;
 }
 inline const ObjectClassHandle aircraft = *airspace().object_class("Aircraft");
-inline const AttributeHandle where = *airspace().attribute(aircraft, "position"), radio = *airspace().attribute(aircraft, "radio"), weight = *airspace().attribute(aircraft, "weight");
+inline const AttributeHandle where = *airspace().attribute(aircraft, "position"),
+                             radio = *airspace().attribute(aircraft, "radio"),
+                             weight = *airspace().attribute(aircraft, "weight");
 inline const InteractionClassHandle call = *airspace().interaction_class("Call");
-inline const DimensionHandle x = *airspace().dimension("X"), y = *airspace().dimension("Y"), altitude = *airspace().dimension("Altitude"), channel = *airspace().dimension("Channel");
+inline const DimensionHandle x = *airspace().dimension("X"), y = *airspace().dimension("Y"),
+                             altitude = *airspace().dimension("Altitude"),
+                             channel = *airspace().dimension("Channel");
 
 struct Pilot {
   Recorder heard;
@@ -41,7 +47,8 @@ struct Pilot {
 template <class Member = Pilot>
 class Flights : private Outlet {
  public:
-  explicit Flights(int pilots, const FederationServices& services = {}) : execution_(airspace(), settings(), services) {
+  explicit Flights(int pilots, const FederationServices& services = {})
+      : execution_(airspace(), settings(), services) {
     for (int i = 0; i < pilots; ++i) {
       Member& pilot = pilots_.emplace_back();
       execution_.connect(static_cast<ConnectionId>(i));

@@ -1,11 +1,13 @@
-// An object model whose positions state range and resolution: what the quantised codec and the baselines are tested on.
+// An object model whose positions state range and resolution: what the quantised codec and the
+// baselines are tested on.
 #pragma once
 
 #include "rti/fom/fom.h"
 
 namespace rink::rti::testing {
 
-/// Boat.track is periodic state that is quantised throughout; Beacon.light mixes quantised fields with some of which every bit travels.
+/// Boat.track is periodic state that is quantised throughout; Beacon.light mixes quantised fields
+/// with some of which every bit travels.
 inline constexpr const char* fjord_xml = R"(<?xml version="1.0"?>
 <objectModel>
   <modelIdentification><name>Fjord</name></modelIdentification>
@@ -63,8 +65,11 @@ inline const Fom& fjord() {
   static const Fom fom = Fom::parse(fjord_xml, "fjord.xml");
   return fom;
 }
-inline const ObjectClassHandle boat = *fjord().object_class("Boat"), beacon = *fjord().object_class("Beacon");
-inline const AttributeHandle track = *fjord().attribute(boat, "track"), cargo = *fjord().attribute(boat, "cargo");
-inline const AttributeHandle light = *fjord().attribute(beacon, "light"), depth = *fjord().attribute(beacon, "depth");
+inline const ObjectClassHandle boat = *fjord().object_class("Boat"),
+                               beacon = *fjord().object_class("Beacon");
+inline const AttributeHandle track = *fjord().attribute(boat, "track"),
+                             cargo = *fjord().attribute(boat, "cargo");
+inline const AttributeHandle light = *fjord().attribute(beacon, "light"),
+                             depth = *fjord().attribute(beacon, "depth");
 
 }  // namespace rink::rti::testing

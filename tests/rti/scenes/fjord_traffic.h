@@ -1,4 +1,5 @@
-// Boats whose tracks are told every tick, over a channel that loses frames and holds acknowledgements back as the test says.
+// Boats whose tracks are told every tick, over a channel that loses frames and holds
+// acknowledgements back as the test says.
 #pragma once
 
 #include <deque>
@@ -6,8 +7,8 @@
 #include <map>
 #include <random>
 
-#include "tests/rti/scenes/fjord.h"
 #include "tests/rti/rig.h"
+#include "tests/rti/scenes/fjord.h"
 #include "tests/rti/seeded.h"
 
 namespace rink::rti::testing {
@@ -18,10 +19,13 @@ inline std::vector<std::byte> reversed(std::vector<std::byte> bytes) {
 }
 inline std::vector<std::byte> track_of(double x, double y, float speed_x, float speed_y) {
   std::vector<std::byte> bytes = values_of(x, y);
-  for (const float each : {speed_x, speed_y}) std::ranges::copy(reversed(values_of(each)), std::back_inserter(bytes));
+  for (const float each : {speed_x, speed_y})
+    std::ranges::copy(reversed(values_of(each)), std::back_inserter(bytes));
   return bytes;
 }
-inline const QuantisedCodec& track_codec() { return *fjord().at(boat).attributes[track.value].baselines; }
+inline const QuantisedCodec& track_codec() {
+  return *fjord().at(boat).attributes[track.value].baselines;
+}
 /// What a track is after it was rounded to its grid.
 inline std::vector<std::byte> rounded(const std::vector<std::byte>& value) {
   std::vector<std::byte> coded, decoded;
@@ -41,7 +45,8 @@ struct Watcher : FederateAmbassador {
   int reflections = 0;
   std::string lost;
 
-  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp& stamp) override {
+  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values,
+                                const Stamp& stamp) override {
     if (!set.contains(track)) return;
     const Bytes value = fjord().value(boat, set, track, values);
     Seen& boat_seen = seen[object.value];
@@ -50,7 +55,9 @@ struct Watcher : FederateAmbassador {
     ++reflections;
   }
   void attributes_in_scope(ObjectHandle object) override { seen[object.value].is_in_scope = true; }
-  void attributes_out_of_scope(ObjectHandle object) override { seen[object.value].is_in_scope = false; }
+  void attributes_out_of_scope(ObjectHandle object) override {
+    seen[object.value].is_in_scope = false;
+  }
   void remove_object_instance(ObjectHandle object) override { seen.erase(object.value); }
   void connection_lost(std::string_view why) override { lost = why; }
 };
@@ -66,7 +73,10 @@ struct Shore {
 
 class FjordTraffic : public Outlet {
  public:
-  explicit FjordTraffic(const FederationSettings& settings = {}) : execution(fjord(), settings), owner(join("owner")) { owner.ambassador.publish_object_class_attributes(boat, {track, cargo}); }
+  explicit FjordTraffic(const FederationSettings& settings = {})
+      : execution(fjord(), settings), owner(join("owner")) {
+    owner.ambassador.publish_object_class_attributes(boat, {track, cargo});
+  }
 
   FederationExecution execution;
   std::deque<Shore> shores;
@@ -85,18 +95,23 @@ class FjordTraffic : public Outlet {
   Shore& watch(const std::string& name, const std::optional<im::Region>& bounds = {}) {
     Shore& shore = join(name);
     const RegionHandle region = bounds ? shore.ambassador.create_region() : RegionHandle{};
-    if (bounds) shore.ambassador.set_region(region, *bounds), shore.ambassador.commit_region_modifications(region);
+    if (bounds)
+      shore.ambassador.set_region(region, *bounds),
+          shore.ambassador.commit_region_modifications(region);
     shore.ambassador.subscribe_object_class_attributes(boat, {track, cargo}, region);
     return shore;
   }
-  /// What was said is heard, unless `hold` keeps it on its way; then the RTI answers, and what `lose` says is lost.
-  void tick(const std::function<bool(Shore&)>& hold = {}, const std::function<bool(Shore&)>& lose = {}) {
+  /// What was said is heard, unless `hold` keeps it on its way; then the RTI answers, and what
+  /// `lose` says is lost.
+  void tick(const std::function<bool(Shore&)>& hold = {},
+            const std::function<bool(Shore&)>& lose = {}) {
     for (Shore& shore : shores) {
       const Bytes bytes = shore.ambassador.outgoing();
       if (!bytes.empty()) shore.said.emplace_back(bytes.begin(), bytes.end());
       shore.ambassador.clear_outgoing();
       if (hold && hold(shore)) continue;
-      for (; !shore.said.empty(); shore.said.pop_front()) execution.receive(shore.connection, shore.said.front());
+      for (; !shore.said.empty(); shore.said.pop_front())
+        execution.receive(shore.connection, shore.said.front());
     }
     execution.match();
     execution.flush(*this);
@@ -110,7 +125,9 @@ class FjordTraffic : public Outlet {
     std::vector<std::byte>& frame = shores[connection - 1].frames.emplace_back();
     for (const Bytes part : parts) frame.insert(frame.end(), part.begin(), part.end());
   }
-  void drop(ConnectionId connection, std::string_view why) override { ADD_FAILURE() << "connection " << connection << " was dropped: " << why; }
+  void drop(ConnectionId connection, std::string_view why) override {
+    ADD_FAILURE() << "connection " << connection << " was dropped: " << why;
+  }
 };
 
 /// A boat that goes straight on, with a drag, and now and then is hit.
@@ -139,7 +156,9 @@ struct Boat {
     if (x < 0.0 || x > 2000.0) speed_x = -speed_x;
     if (y < 0.0 || y > 2000.0) speed_y = -speed_y;
   }
-  std::vector<std::byte> value() const { return track_of(x, y, static_cast<float>(speed_x), static_cast<float>(speed_y)); }
+  std::vector<std::byte> value() const {
+    return track_of(x, y, static_cast<float>(speed_x), static_cast<float>(speed_y));
+  }
   void tell(Ambassador& ambassador, double now) {
     truth = rounded(value());
     ambassador.update_attribute_values(object, {track}, value(), {now, 0});

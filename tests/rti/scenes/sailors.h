@@ -1,4 +1,5 @@
-// Sailors who declare, say, hand over, leave and die at random, in as many seas at once as a test compares.
+// Sailors who declare, say, hand over, leave and die at random, in as many seas at once as a test
+// compares.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,14 +13,15 @@
 
 namespace rink::rti::testing {
 
-
 /// Keeps every value that was heard, attribute by attribute, in its order.
 struct Historian : Recorder {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::vector<std::byte>>> history;
-  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp& stamp) override {
+  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values,
+                                const Stamp& stamp) override {
     Recorder::reflect_attribute_values(object, set, values, stamp);
     for (std::uint32_t i = 0; i < attribute_max; ++i)
-      if (set.contains({i})) history[{object.value, i}].push_back(objects.at(object.value).values.at(i));
+      if (set.contains({i}))
+        history[{object.value, i}].push_back(objects.at(object.value).values.at(i));
   }
 };
 
@@ -41,7 +43,9 @@ class Sea final : public Outlet {
     if (!has_ear) return;
     Sailor& ear = all.emplace_back();
     join(ear);
-    for (const ObjectClassHandle each : {vessel, ferry}) ear.ambassador->subscribe_object_class_attributes(each, harbour().attributes(each), {}, false);
+    for (const ObjectClassHandle each : {vessel, ferry})
+      ear.ambassador->subscribe_object_class_attributes(each, harbour().attributes(each), {},
+                                                        false);
     ear.ambassador->subscribe_interaction_class(hail, false);
     settle();
   }
@@ -115,16 +119,20 @@ class Sea final : public Outlet {
   ConnectionId next_connection_ = 0;
 };
 
-inline std::vector<std::byte> values_of(ObjectClassHandle object_class, AttributeSet set, float number) {
+inline std::vector<std::byte> values_of(ObjectClassHandle object_class, AttributeSet set,
+                                        float number) {
   std::vector<std::byte> bytes;
-  const auto append = [&bytes](const std::vector<std::byte>& more) { bytes.insert(bytes.end(), more.begin(), more.end()); };
+  const auto append = [&bytes](const std::vector<std::byte>& more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  };
   if (set.contains(position)) append(testing::values_of(number, -number));
   if (set.contains(speed)) append(testing::values_of(number + 0.5f));
   if (object_class == ferry && set.contains(destination)) append(varying(std::to_string(number)));
   return bytes;
 }
 
-/// Random things that sailors do. Each is drawn once and done in every sea; what can't be done is left out.
+/// Random things that sailors do. Each is drawn once and done in every sea; what can't be done is
+/// left out.
 class Weather {
  public:
   explicit Weather(unsigned seed) : random_(seed) {}
@@ -137,16 +145,31 @@ class Weather {
     const std::uint32_t choice = below(20), number = below(1000);
     const bool flag = below(2) == 0;
     const float value = static_cast<float>(++said_);
-    const auto by = [who](auto action) { return [who, action](Sea& sea) { action(sea, sea.all[who], *sea.all[who].ambassador); }; };
-    if (choice < 7) return by([=](Sea&, Sailor& sailor, Ambassador& ambassador) { update(sailor, ambassador, number, set, value); });
-    if (choice < 9) return by([=](Sea&, Sailor&, Ambassador& ambassador) { ambassador.publish_object_class_attributes(object_class, number % 8 == 0 ? set : harbour().attributes(object_class)); });
+    const auto by = [who](auto action) {
+      return [who, action](Sea& sea) { action(sea, sea.all[who], *sea.all[who].ambassador); };
+    };
+    if (choice < 7)
+      return by([=](Sea&, Sailor& sailor, Ambassador& ambassador) {
+        update(sailor, ambassador, number, set, value);
+      });
+    if (choice < 9)
+      return by([=](Sea&, Sailor&, Ambassador& ambassador) {
+        ambassador.publish_object_class_attributes(
+            object_class, number % 8 == 0 ? set : harbour().attributes(object_class));
+      });
     if (choice < 12)
       return by([=](Sea&, Sailor& sailor, Ambassador& ambassador) {
         const RegionHandle region = number % 3 == 2 ? RegionHandle{} : sailor.regions[number % 3];
-        ambassador.subscribe_object_class_attributes(object_class, number % 5 < 3 ? AttributeSet() : set, region, flag);
+        ambassador.subscribe_object_class_attributes(
+            object_class, number % 5 < 3 ? AttributeSet() : set, region, flag);
       });
-    if (choice == 12) return by([=](Sea&, Sailor& sailor, Ambassador& ambassador) { move(sailor, ambassador, number); });
-    if (choice == 13) return by([=](Sea&, Sailor& sailor, Ambassador& ambassador) { add(sailor, ambassador, object_class, number); });
+    if (choice == 12)
+      return by(
+          [=](Sea&, Sailor& sailor, Ambassador& ambassador) { move(sailor, ambassador, number); });
+    if (choice == 13)
+      return by([=](Sea&, Sailor& sailor, Ambassador& ambassador) {
+        add(sailor, ambassador, object_class, number);
+      });
     if (choice == 14)
       return by([=](Sea&, Sailor& sailor, Ambassador& ambassador) {
         if (sailor.objects.empty() || number % 3 != 0) return;
@@ -158,8 +181,10 @@ class Weather {
     if (choice == 15)
       return by([=](Sea&, Sailor&, Ambassador& ambassador) {
         if (flag) ambassador.publish_interaction_class(number % 2 == 0 ? hail : mayday);
-        else if (number % 3 == 0) ambassador.unsubscribe_interaction_class(number % 2 == 0 ? hail : mayday);
-        else ambassador.subscribe_interaction_class(number % 2 == 0 ? hail : mayday, number % 5 != 0);
+        else if (number % 3 == 0)
+          ambassador.unsubscribe_interaction_class(number % 2 == 0 ? hail : mayday);
+        else
+          ambassador.subscribe_interaction_class(number % 2 == 0 ? hail : mayday, number % 5 != 0);
       });
     if (choice == 16)
       return by([=](Sea&, Sailor&, Ambassador& ambassador) {
@@ -168,10 +193,16 @@ class Weather {
         else if (!flag) return;
         ambassador.send_interaction(interaction_class, bytes_of(std::to_string(value)), {});
       });
-    if (choice == 17) return by([=](Sea& sea, Sailor&, Ambassador& ambassador) { hand_over(sea, ambassador, number, set); });
+    if (choice == 17)
+      return by([=](Sea& sea, Sailor&, Ambassador& ambassador) {
+        hand_over(sea, ambassador, number, set);
+      });
     if (choice == 18)
       return by([=](Sea&, Sailor& sailor, Ambassador& ambassador) {
-        if (number % 2 == 0) return ambassador.set_automatic_resign_directive(number % 8 == 0 ? ResignAction::unconditionally_divest_attributes : ResignAction::delete_objects_then_divest);
+        if (number % 2 == 0)
+          return ambassador.set_automatic_resign_directive(
+              number % 8 == 0 ? ResignAction::unconditionally_divest_attributes
+                              : ResignAction::delete_objects_then_divest);
         sailor.is_quiet = flag;
         if (flag) ambassador.disable_callbacks();
         else ambassador.enable_callbacks();
@@ -181,19 +212,23 @@ class Weather {
     });
   }
 
-  static void update(Sailor& sailor, Ambassador& ambassador, std::uint32_t number, AttributeSet set, float value) {
+  static void update(Sailor& sailor, Ambassador& ambassador, std::uint32_t number, AttributeSet set,
+                     float value) {
     if (sailor.objects.empty()) return;
     const ObjectHandle object = sailor.objects[number % sailor.objects.size()];
     const ObjectClassHandle object_class = ambassador.get_known_object_class_handle(object);
     set = owned(ambassador, object, set & harbour().attributes(object_class));
-    if (!set.is_empty()) ambassador.update_attribute_values(object, set, values_of(object_class, set, value), {static_cast<double>(value), 1});
+    if (!set.is_empty())
+      ambassador.update_attribute_values(object, set, values_of(object_class, set, value),
+                                         {static_cast<double>(value), 1});
   }
 
  private:
   static AttributeSet owned(Ambassador& ambassador, ObjectHandle object, AttributeSet set) {
     AttributeSet found;
     for (std::uint32_t i = 0; i < attribute_max; ++i)
-      if (set.contains({i}) && ambassador.is_attribute_owned_by_federate(object, {i})) found.insert({i});
+      if (set.contains({i}) && ambassador.is_attribute_owned_by_federate(object, {i}))
+        found.insert({i});
     return found;
   }
   static void move(Sailor& sailor, Ambassador& ambassador, std::uint32_t number) {
@@ -201,14 +236,18 @@ class Weather {
     ambassador.set_region(sailor.regions[number % 2], {x, y, x + 4.0, y + 4.0});
     ambassador.commit_region_modifications(sailor.regions[number % 2]);
   }
-  static void add(Sailor& sailor, Ambassador& ambassador, ObjectClassHandle object_class, std::uint32_t number) {
+  static void add(Sailor& sailor, Ambassador& ambassador, ObjectClassHandle object_class,
+                  std::uint32_t number) {
     ambassador.publish_object_class_attributes(object_class, harbour().attributes(object_class));
     sailor.objects.push_back(ambassador.register_object_instance(object_class));
-    if (number % 2 == 0) ambassador.associate_regions_for_updates(sailor.objects.back(), sailor.regions[number / 2 % 2]);
+    if (number % 2 == 0)
+      ambassador.associate_regions_for_updates(sailor.objects.back(),
+                                               sailor.regions[number / 2 % 2]);
   }
   /// Gives something up, which another one takes if it knows the object and may.
   static void hand_over(Sea& sea, Ambassador& ambassador, std::uint32_t number, AttributeSet set) {
-    Sailor& sailor = *std::ranges::find_if(sea.all, [&](const Sailor& each) { return each.ambassador.get() == &ambassador; });
+    Sailor& sailor = *std::ranges::find_if(
+        sea.all, [&](const Sailor& each) { return each.ambassador.get() == &ambassador; });
     if (sailor.objects.empty()) return;
     const ObjectHandle object = sailor.objects[number % sailor.objects.size()];
     const ObjectClassHandle object_class = ambassador.get_known_object_class_handle(object);
@@ -217,8 +256,11 @@ class Weather {
     ambassador.unconditional_attribute_ownership_divestiture(object, set);
     sea.settle();
     for (Sailor& other : sea.all) {
-      if (&other == &sailor || other.is_quiet || !other.heard->objects.contains(object.value) || &other == &sea.all.back()) continue;
-      other.ambassador->publish_object_class_attributes(object_class, harbour().attributes(object_class));
+      if (&other == &sailor || other.is_quiet || !other.heard->objects.contains(object.value) ||
+          &other == &sea.all.back())
+        continue;
+      other.ambassador->publish_object_class_attributes(object_class,
+                                                        harbour().attributes(object_class));
       other.ambassador->attribute_ownership_acquisition_if_available(object, set);
       return;
     }

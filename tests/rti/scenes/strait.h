@@ -1,4 +1,5 @@
-// A publisher whose datagrams fly over a strait, as the test says, and a listener who must always know the truth in the end.
+// A publisher whose datagrams fly over a strait, as the test says, and a listener who must always
+// know the truth in the end.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,8 +27,11 @@ inline const Fom& strait() {
   return fom;
 }
 inline const ObjectClassHandle buoy = *strait().object_class("Buoy");
-inline AttributeSet only(const char* attribute) { return AttributeSet(1u << strait().attribute(buoy, attribute)->value); }
-inline const AttributeSet number = only("number"), height = only("height"), heading = only("heading");
+inline AttributeSet only(const char* attribute) {
+  return AttributeSet(1u << strait().attribute(buoy, attribute)->value);
+}
+inline const AttributeSet number = only("number"), height = only("height"),
+                          heading = only("heading");
 
 /// Keeps values, which only grow where they are told of, and notes each step back.
 struct Ear : FederateAmbassador {
@@ -38,35 +42,45 @@ struct Ear : FederateAmbassador {
   std::map<std::uint32_t, Known> known;
   int reflections = 0, went_back = 0, confirmed = 0;
   std::string lost;
-  std::function<void()> meanwhile;  ///< what the federate does in a callback before it looks at the values
-  void discover_object_instance(ObjectHandle object, ObjectClassHandle, std::string_view) override { known[object.value] = {}; }
+  std::function<void()>
+      meanwhile;  ///< what the federate does in a callback before it looks at the values
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle, std::string_view) override {
+    known[object.value] = {};
+  }
   void remove_object_instance(ObjectHandle object) override { known.erase(object.value); }
-  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp&) override {
+  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values,
+                                const Stamp&) override {
     ++reflections;
     if (meanwhile) meanwhile();
     if (set.includes(height)) read(object, "height", set, values, known[object.value].height);
     if (set.includes(heading)) read(object, "heading", set, values, known[object.value].heading);
   }
-  void confirm_attribute_transportation_type_change(ObjectHandle, AttributeSet, Transportation) override { ++confirmed; }
+  void confirm_attribute_transportation_type_change(ObjectHandle, AttributeSet,
+                                                    Transportation) override {
+    ++confirmed;
+  }
   void connection_lost(std::string_view why) override { lost = why; }
   template <class Number>
   void read(ObjectHandle, const char* attribute, AttributeSet set, Bytes values, Number& value) {
     Number is = 0;
-    std::memcpy(&is, strait().value(buoy, set, *strait().attribute(buoy, attribute), values).data(), sizeof is);
+    std::memcpy(&is, strait().value(buoy, set, *strait().attribute(buoy, attribute), values).data(),
+                sizeof is);
     went_back += is < value ? 1 : 0;
     value = is;
   }
 };
 
-/// The RTI, a publisher (0) whose datagrams fly over the strait, and a listener (1) with a stream only.
+/// The RTI, a publisher (0) whose datagrams fly over the strait, and a listener (1) with a stream
+/// only.
 class Strait final : public Outlet {
  public:
   FederationExecution execution{strait(), {}};
   Ear heard[2];
   Ambassador ambassadors[2]{{strait(), heard[0]}, {strait(), heard[1]}};
   Ambassador &publisher = ambassadors[0], &listener = ambassadors[1];
-  std::deque<std::vector<std::byte>> up, down, frames;  ///< on their way: datagrams in either direction, the publisher's stream
-  bool delivers = true;   ///< datagrams arrive with the tick in which they were sent
+  std::deque<std::vector<std::byte>> up, down,
+      frames;            ///< on their way: datagrams in either direction, the publisher's stream
+  bool delivers = true;  ///< datagrams arrive with the tick in which they were sent
   bool holds_stream = false;
   std::size_t size_max = 400;
   double now = 0.0;
@@ -112,16 +126,24 @@ class Strait final : public Outlet {
     for (int i = 0; i < count; ++i) tick();
   }
   ObjectHandle place() { return publisher.register_object_instance(buoy); }
-  void set(ObjectHandle object, double value) { publisher.update_attribute_values(object, height, values_of(value), {now, 0}); }
-  double seen(ObjectHandle object) const { return heard[1].known.contains(object.value) ? heard[1].known.at(object.value).height : -2.0; }
+  void set(ObjectHandle object, double value) {
+    publisher.update_attribute_values(object, height, values_of(value), {now, 0});
+  }
+  double seen(ObjectHandle object) const {
+    return heard[1].known.contains(object.value) ? heard[1].known.at(object.value).height : -2.0;
+  }
   const FederationCounters& counters() const { return execution.counters(); }
 
  private:
   void send(ConnectionId connection, std::span<const Bytes> parts) override {
     for (const Bytes part : parts) EXPECT_TRUE(ambassadors[connection].receive(part));
   }
-  void drop(ConnectionId connection, std::string_view why) override { ADD_FAILURE() << connection << " was dropped: " << why; }
-  std::size_t datagram_max(ConnectionId connection) const override { return connection == 0 ? size_max : 0; }
+  void drop(ConnectionId connection, std::string_view why) override {
+    ADD_FAILURE() << connection << " was dropped: " << why;
+  }
+  std::size_t datagram_max(ConnectionId connection) const override {
+    return connection == 0 ? size_max : 0;
+  }
   void send_datagrams(ConnectionId, std::span<const Datagram> datagrams) override {
     for (const Datagram& each : datagrams) {
       std::vector<std::byte>& whole = down.emplace_back(each.head.begin(), each.head.end());

@@ -1,4 +1,5 @@
-// Refused joins, broken rules, garbage: the one who does it is dropped and counted, nobody else is harmed.
+// Refused joins, broken rules, garbage: the one who does it is dropped and counted, nobody else is
+// harmed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +13,9 @@
 namespace rink::rti::testing {
 namespace {
 
-std::uint64_t drops(Rig& rig, Violation violation) { return rig.execution().counters().drops[static_cast<std::size_t>(violation)]; }
+std::uint64_t drops(Rig& rig, Violation violation) {
+  return rig.execution().counters().drops[static_cast<std::size_t>(violation)];
+}
 
 class Refused : public ::testing::TestWithParam<Carrier> {};
 
@@ -29,7 +32,8 @@ TEST_P(Refused, EachReasonHasItsOwnText) {
     EXPECT_TRUE(station.link->is_finished()) << "the connection of one who is refused is closed";
     EXPECT_EQ(station.heard.lost, "") << "a refusal is told once";
     EXPECT_EQ(station.heard.log.size(), 1u);
-    return std::pair(station.heard.refusal, station.heard.log.empty() ? std::string() : station.heard.log.front());
+    return std::pair(station.heard.refusal,
+                     station.heard.log.empty() ? std::string() : station.heard.log.front());
   };
   std::string other_xml = harbour_xml;
   other_xml.replace(other_xml.find("HLAfloat64LE"), 12, "HLAfloat32LE");
@@ -49,7 +53,10 @@ TEST_P(Refused, EachReasonHasItsOwnText) {
   EXPECT_EQ(rig.execution().federate_count(), 2u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Over, Refused, ::testing::Values(Carrier::in_process, Carrier::tcp, Carrier::virtual_network), [](const auto& carrier) { return name_of(carrier.param); });
+INSTANTIATE_TEST_SUITE_P(Over, Refused,
+                         ::testing::Values(Carrier::in_process, Carrier::tcp,
+                                           Carrier::virtual_network),
+                         [](const auto& carrier) { return name_of(carrier.param); });
 
 TEST(BadPeer, IsRefusedForAnotherVersionWhateverFollowsIt) {
   Bare bare;
@@ -66,8 +73,8 @@ TEST(BadPeer, IsRefusedForAnotherVersionWhateverFollowsIt) {
   old.join("rink", "old", "tester");
   EXPECT_TRUE(old.receive(bare.sent[1]));
   EXPECT_EQ(heard.refusal, Refusal::wrong_version);
-  const std::string both = "the federate speaks version " + std::to_string(protocol_version + 1) + ", the RTI version " +
-                           std::to_string(protocol_version);
+  const std::string both = "the federate speaks version " + std::to_string(protocol_version + 1) +
+                           ", the RTI version " + std::to_string(protocol_version);
   EXPECT_NE(heard.log.back().find(both), std::string::npos) << heard.log.back();
   EXPECT_NE(bare.dropped.at(1).find(both), std::string::npos) << bare.dropped.at(1);
 }
@@ -82,7 +89,8 @@ TEST(BadPeer, WithAnotherObjectModelIsToldTheHashesOfBoth) {
   rig.settle();
   ASSERT_EQ(station.heard.refusal, Refusal::wrong_fom);
   char both[96];
-  std::snprintf(both, sizeof both, "the federate's is %016llx, of the RTI's %016llx", static_cast<unsigned long long>(other.hash()),
+  std::snprintf(both, sizeof both, "the federate's is %016llx, of the RTI's %016llx",
+                static_cast<unsigned long long>(other.hash()),
                 static_cast<unsigned long long>(harbour().hash()));
   EXPECT_NE(station.heard.log.back().find(both), std::string::npos) << station.heard.log.back();
 }
@@ -124,38 +132,55 @@ bool exchange(Stream& stream, HalfStamp& message) {
 std::vector<Crime> crimes() {
   const std::uint32_t own = 1 * object_block;  // the second federate's block
   const AttributeSet both{position, speed};
-  const Block foreign = block_of(0, values_of(1.0f, 2.0f, 3.0f)), owned = block_of(own, values_of(1.0f, 2.0f, 3.0f)), short_record = block_of(own, values_of(1.0f, 2.0f));
-  static const auto inverted = values_of(std::uint32_t{0}, 2.0, 2.0, 1.0, 1.0), infinite = values_of(std::uint32_t{0}, 0.0, 0.0, HUGE_VAL, 1.0);
+  const Block foreign = block_of(0, values_of(1.0f, 2.0f, 3.0f)),
+              owned = block_of(own, values_of(1.0f, 2.0f, 3.0f)),
+              short_record = block_of(own, values_of(1.0f, 2.0f));
+  static const auto inverted = values_of(std::uint32_t{0}, 2.0, 2.0, 1.0, 1.0),
+                    infinite = values_of(std::uint32_t{0}, 0.0, 0.0, HUGE_VAL, 1.0);
   const PublishObjectClassMessage publish{vessel_number, both.bits};
   const RegisterObjectMessage here{own, vessel_number, ""};
   std::vector<std::byte> too_long(frame_header_size);
   too_long[2] = std::byte{2};
   return {
       {"SecondJoin", Violation::wrong_phase, frame_of(join_of("again"))},
-      {"UnknownKind", Violation::malformed, {std::byte{1}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{250}}},
+      {"UnknownKind",
+       Violation::malformed,
+       {std::byte{1}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{250}}},
       {"OversizedFrame", Violation::oversized, too_long},
       {"UnknownClass", Violation::unknown_name, frame_of(PublishObjectClassMessage{99, 1})},
-      {"UnknownAttribute", Violation::unknown_name, frame_of(PublishObjectClassMessage{vessel_number, 1u << 20})},
-      {"UnknownInteraction", Violation::unknown_name, frame_of(PublishInteractionClassMessage{99, 1})},
-      {"SubscriptionToUnknownRegion", Violation::unknown_name, frame_of(SubscribeObjectClassMessage{vessel_number, 1, 7})},
+      {"UnknownAttribute", Violation::unknown_name,
+       frame_of(PublishObjectClassMessage{vessel_number, 1u << 20})},
+      {"UnknownInteraction", Violation::unknown_name,
+       frame_of(PublishInteractionClassMessage{99, 1})},
+      {"SubscriptionToUnknownRegion", Violation::unknown_name,
+       frame_of(SubscribeObjectClassMessage{vessel_number, 1, 7})},
       {"UnpublishedClass", Violation::undeclared, frame_of(here)},
-      {"HandleOutOfOrder", Violation::unknown_name, frame_of(publish, RegisterObjectMessage{own + 5, vessel_number, ""})},
-      {"HandleOfSomebodyElse", Violation::unknown_name, frame_of(publish, RegisterObjectMessage{0, vessel_number, ""})},
+      {"HandleOutOfOrder", Violation::unknown_name,
+       frame_of(publish, RegisterObjectMessage{own + 5, vessel_number, ""})},
+      {"HandleOfSomebodyElse", Violation::unknown_name,
+       frame_of(publish, RegisterObjectMessage{0, vessel_number, ""})},
       {"UpdateOfForeignObject", Violation::not_owned, frame_of(publish, StampMessage{}, foreign)},
       {"UpdateOfUnpublishedAttribute", Violation::undeclared,
-       frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position}.bits}, here, StampMessage{}, owned)},
-      {"UpdateOfWrongSize", Violation::malformed, frame_of(publish, here, StampMessage{}, short_record)},
+       frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position}.bits}, here,
+                StampMessage{}, owned)},
+      {"UpdateOfWrongSize", Violation::malformed,
+       frame_of(publish, here, StampMessage{}, short_record)},
       {"UpdateWithoutStamp", Violation::malformed, frame_of(publish, here, owned)},
       {"StampThatIsNoNumber", Violation::malformed, frame_of(publish, here, HalfStamp{})},
       {"DeletionOfForeignObject", Violation::not_owned, frame_of(DeleteObjectMessage{0})},
       {"DeletionOfUnknownObject", Violation::unknown_name, frame_of(DeleteObjectMessage{own + 9})},
-      {"UnpublishedInteraction", Violation::undeclared, frame_of(InteractionMessage{1, FederateHandle::none, {}, {}})},
+      {"UnpublishedInteraction", Violation::undeclared,
+       frame_of(InteractionMessage{1, FederateHandle::none, {}, {}})},
       {"RegionGap", Violation::unknown_name, frame_of(CreateRegionMessage{5})},
-      {"RegionTwice", Violation::unknown_name, frame_of(CreateRegionMessage{0}, CreateRegionMessage{0})},
+      {"RegionTwice", Violation::unknown_name,
+       frame_of(CreateRegionMessage{0}, CreateRegionMessage{0})},
       {"UnknownRegion", Violation::unknown_name, frame_of(DeleteRegionMessage{3})},
-      {"InvertedRegion", Violation::malformed, frame_of(CreateRegionMessage{0}, ModifyRegionsMessage{1, inverted})},
-      {"InfiniteRegion", Violation::malformed, frame_of(CreateRegionMessage{0}, ModifyRegionsMessage{1, infinite})},
-      {"UnknownLabel", Violation::unknown_name, frame_of(SynchronizationPointAchievedMessage{"nothing", 1})},
+      {"InvertedRegion", Violation::malformed,
+       frame_of(CreateRegionMessage{0}, ModifyRegionsMessage{1, inverted})},
+      {"InfiniteRegion", Violation::malformed,
+       frame_of(CreateRegionMessage{0}, ModifyRegionsMessage{1, infinite})},
+      {"UnknownLabel", Violation::unknown_name,
+       frame_of(SynchronizationPointAchievedMessage{"nothing", 1})},
   };
 }
 
@@ -179,7 +204,8 @@ TEST_P(BadPeerCrime, IsNamedCountedAndDropped) {
   EXPECT_EQ(bare.witness_heard.lost, "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, BadPeerCrime, ::testing::ValuesIn(crimes()), [](const auto& crime) { return std::string(crime.param.name); });
+INSTANTIATE_TEST_SUITE_P(Of, BadPeerCrime, ::testing::ValuesIn(crimes()),
+                         [](const auto& crime) { return std::string(crime.param.name); });
 
 TEST(BadPeer, MayOnlyJoinBeforeItHasJoinedAndShortly) {
   Bare bare;
@@ -233,12 +259,18 @@ std::vector<std::byte> recorded_session() {
   static const auto bounds = values_of(std::uint32_t{0}, 1.0, 1.0, 2.0, 2.0);
   static const auto words = bytes_of("ahoy");
   std::vector<std::byte> session = frame_of(join_of("recorded"));
-  const auto rest = frame_of(WatchFederatesMessage{}, PublishObjectClassMessage{vessel_number, both.bits}, CreateRegionMessage{0},
-                             ModifyRegionsMessage{1, bounds}, SubscribeObjectClassMessage{vessel_number, both.bits, 0},
-                             RegisterObjectMessage{object_block, vessel_number, "Aurora"}, AssociateRegionMessage{object_block, 0}, StampMessage{}, updates,
-                             PublishInteractionClassMessage{1, 1}, SubscribeInteractionClassMessage{1, 1}, InteractionMessage{1, FederateHandle::none, {}, words},
-                             RegisterSynchronizationPointMessage{"start", {}, {}}, SynchronizationPointAchievedMessage{"start", 1});
-  const auto end = frame_of(HeartbeatMessage{}, DeleteRegionMessage{0}, DeleteObjectMessage{object_block}, ResignMessage{});
+  const auto rest =
+      frame_of(WatchFederatesMessage{}, PublishObjectClassMessage{vessel_number, both.bits},
+               CreateRegionMessage{0}, ModifyRegionsMessage{1, bounds},
+               SubscribeObjectClassMessage{vessel_number, both.bits, 0},
+               RegisterObjectMessage{object_block, vessel_number, "Aurora"},
+               AssociateRegionMessage{object_block, 0}, StampMessage{}, updates,
+               PublishInteractionClassMessage{1, 1}, SubscribeInteractionClassMessage{1, 1},
+               InteractionMessage{1, FederateHandle::none, {}, words},
+               RegisterSynchronizationPointMessage{"start", {}, {}},
+               SynchronizationPointAchievedMessage{"start", 1});
+  const auto end = frame_of(HeartbeatMessage{}, DeleteRegionMessage{0},
+                            DeleteObjectMessage{object_block}, ResignMessage{});
   session.insert(session.end(), rest.begin(), rest.end());
   session.insert(session.end(), end.begin(), end.end());
   return session;
@@ -249,7 +281,8 @@ TEST(Fuzz, ARecordedSessionMeansTheSameHoweverItIsCut) {
   for (std::size_t step = 1; step < session.size(); ++step) {
     Bare bare;
     bare.execution.connect(1);
-    for (std::size_t at = 0; at < session.size(); at += step) bare.execution.receive(1, Bytes(session).subspan(at, std::min(step, session.size() - at)));
+    for (std::size_t at = 0; at < session.size(); at += step)
+      bare.execution.receive(1, Bytes(session).subspan(at, std::min(step, session.size() - at)));
     bare.tick();
     ASSERT_EQ(bare.dropped[1], "resigned") << "cut every " << step << " bytes";
     ASSERT_EQ(bare.execution.counters().updates_received, 1u);
@@ -280,7 +313,8 @@ TEST(Fuzz, FlippedBitsHarmNobodyButTheirSender) {
   Bare bare;
   for (int i = 0; i < 4000; ++i) {
     auto flipped = session;
-    for (int k = 0; k < 1 + i % 3; ++k) flipped[random() % flipped.size()] ^= static_cast<std::byte>(1u << random() % 8);
+    for (int k = 0; k < 1 + i % 3; ++k)
+      flipped[random() % flipped.size()] ^= static_cast<std::byte>(1u << random() % 8);
     bare.execution.connect(1);
     bare.execution.receive(1, flipped);
     bare.tick();
@@ -301,8 +335,8 @@ TEST(Fuzz, RandomBytesHarmNobodyBeforeAndAfterJoining) {
     std::vector<std::byte> noise(frame_header_size + 1 + random() % 200);
     for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
     const auto length = static_cast<std::uint32_t>(noise.size() - frame_header_size);
-    if (i % 2 == 0) std::memcpy(noise.data(), &length, sizeof length);         // a frame of noise
-    noise[frame_header_size] = static_cast<std::byte>(random() % 20);            // of a kind that exists
+    if (i % 2 == 0) std::memcpy(noise.data(), &length, sizeof length);  // a frame of noise
+    noise[frame_header_size] = static_cast<std::byte>(random() % 20);   // of a kind that exists
     bare.execution.connect(1);
     if (i % 3 != 0) bare.execution.receive(1, frame_of(join_of("noisy")));
     bare.execution.receive(1, noise);
@@ -320,10 +354,13 @@ TEST(Fuzz, AnAmbassadorSurvivesWhateverAnRtiSends) {
   std::mt19937 random(seed);
   Bare bare;
   bare.enter(1, "listener");
-  bare.execution.receive(1, frame_of(WatchFederatesMessage{}, SubscribeObjectClassMessage{vessel_number, 3, RegionHandle::none}));
+  bare.execution.receive(
+      1, frame_of(WatchFederatesMessage{},
+                  SubscribeObjectClassMessage{vessel_number, 3, RegionHandle::none}));
   bare.tick();  // the witness hears that somebody listens
   const ObjectHandle object = bare.witness.register_object_instance(vessel, "Aurora");
-  bare.witness.update_attribute_values(object, AttributeSet{position, speed}, values_of(1.0f, 2.0f, 3.0f), {});
+  bare.witness.update_attribute_values(object, AttributeSet{position, speed},
+                                       values_of(1.0f, 2.0f, 3.0f), {});
   bare.tick();
   const auto session = bare.sent[1];
   for (int i = 0; i < 4000; ++i) {

@@ -14,7 +14,8 @@ using ::testing::IsEmpty;
 
 const std::vector<std::byte> empty_frame(frame_header_size);
 
-/// A federate on connection 1 of a bare execution, which speaks through its ambassador and, at times, past it.
+/// A federate on connection 1 of a bare execution, which speaks through its ambassador and, at
+/// times, past it.
 struct Offender {
   Bare& bare;
   Recorder heard{};
@@ -83,7 +84,8 @@ std::vector<Offence> offences() {
           {"UnknownKind", {std::byte{1}, {}, {}, {}, std::byte{250}}, "no message"},
           {"SecondJoin", frame_of(join_of("again")), "a second time"},
           {"UnknownClass", frame_of(PublishObjectClassMessage{99, 1}), "does not exist"},
-          {"UnpublishedClass", frame_of(RegisterObjectMessage{object_block, vessel_number, ""}), "had not published"},
+          {"UnpublishedClass", frame_of(RegisterObjectMessage{object_block, vessel_number, ""}),
+           "had not published"},
           {"ForeignObject", frame_of(DeleteObjectMessage{0}), "another federate owns"}};
 }
 
@@ -102,7 +104,8 @@ TEST_P(ExpulsionFor, IsExplainedToTheFederateInItsLastMessage) {
   EXPECT_EQ(offender.heard.lost, why) << "the loss is reported once, with its reason";
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, ExpulsionFor, ::testing::ValuesIn(offences()), [](const auto& offence) { return std::string(offence.param.name); });
+INSTANTIATE_TEST_SUITE_P(Of, ExpulsionFor, ::testing::ValuesIn(offences()),
+                         [](const auto& offence) { return std::string(offence.param.name); });
 
 TEST(Expulsion, ForSilenceIsExplainedToo) {
   Bare bare;
@@ -127,7 +130,10 @@ TEST_P(ExpulsionOver, ReachesTheFederateBeforeItsConnectionCloses) {
   EXPECT_THAT(station.heard.lost, HasSubstr("a frame without a message"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, ExpulsionOver, ::testing::Values(Carrier::in_process, Carrier::tcp, Carrier::virtual_network), [](const auto& carrier) { return name_of(carrier.param); });
+INSTANTIATE_TEST_SUITE_P(Each, ExpulsionOver,
+                         ::testing::Values(Carrier::in_process, Carrier::tcp,
+                                           Carrier::virtual_network),
+                         [](const auto& carrier) { return name_of(carrier.param); });
 
 TEST(Expulsion, BelongsToVersion8SoFederatesOfVersion7AreRefused) {
   Bare bare;

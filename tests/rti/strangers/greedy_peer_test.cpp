@@ -1,4 +1,5 @@
-// Whoever takes more than its part of what all share gets no more, or goes; nobody else pays for it.
+// Whoever takes more than its part of what all share gets no more, or goes; nobody else pays for
+// it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,14 +37,17 @@ TEST(GreedyPeer, WhatWasLostOfADividedObjectIsRepairedAllTheSame) {
   Bare bare;
   bare.datagram_size = 1191;
   bare.enter(1, "gauge");
-  bare.execution.receive(1, frame_of(SubscribeObjectClassMessage{static_cast<std::uint16_t>(tide.value), level.bits, RegionHandle::none}));
+  bare.execution.receive(
+      1, frame_of(SubscribeObjectClassMessage{static_cast<std::uint16_t>(tide.value), level.bits,
+                                              RegionHandle::none}));
   bare.witness.publish_object_class_attributes(tide, level);
   bare.tick();
   const ObjectHandle object = bare.witness.register_object_instance(tide);
   bare.tick();
   bare.witness.update_attribute_values(object, level, values_of(1.5), {});
   bare.tick();
-  bare.witness.unconditional_attribute_ownership_divestiture(object, AttributeSet{privilege_to_delete_object});
+  bare.witness.unconditional_attribute_ownership_divestiture(
+      object, AttributeSet{privilege_to_delete_object});
   for (double now = 0.1; now < 1.0; now += 0.1) bare.pass(now);
   EXPECT_GT(bare.execution.counters().datagrams_sent, 0u);
   EXPECT_GT(bare.execution.counters().updates_repaired, 0u);
@@ -64,13 +68,18 @@ TEST(GreedyPeer, HoweverOftenUpdatesAreRequestedTheirOwnerIsToldOncePerFlush) {
     pairs.insert(pairs.end(), pair.begin(), pair.end());
   }
   const std::size_t before = bare.witness_bytes;
-  RegionalClassMessage request{vessel_number, static_cast<std::uint8_t>(RegionAction::request_update), regions_per_message_max, pairs};
+  RegionalClassMessage request{vessel_number,
+                               static_cast<std::uint8_t>(RegionAction::request_update),
+                               regions_per_message_max, pairs};
   for (int i = 0; i < 100; ++i) bare.execution.receive(1, frame_of(request));
   bare.tick();
-  EXPECT_EQ(bare.witness_bytes - before, frame_header_size + fleet * size_of(ProvideUpdateMessage{}));
+  EXPECT_EQ(bare.witness_bytes - before,
+            frame_header_size + fleet * size_of(ProvideUpdateMessage{}));
   bare.execution.receive(1, frame_of(request, CreateRegionMessage{1}, DeleteRegionMessage{0}));
   bare.tick();
-  EXPECT_EQ(bare.witness_bytes - before, 2 * (frame_header_size + fleet * size_of(ProvideUpdateMessage{}))) << "also of a region that is deleted at once";
+  EXPECT_EQ(bare.witness_bytes - before,
+            2 * (frame_header_size + fleet * size_of(ProvideUpdateMessage{})))
+      << "also of a region that is deleted at once";
   EXPECT_TRUE(bare.dropped.empty());
 }
 
@@ -79,7 +88,8 @@ TEST(GreedyPeer, PointsOfOneFederateLeaveTheOthersTheirs) {
   bare.enter(1, "hoarder");
   std::vector<std::string> labels;
   for (int i = 0; i < 300; ++i) labels.push_back("point " + std::to_string(i));
-  for (const std::string& label : labels) bare.execution.receive(1, frame_of(RegisterSynchronizationPointMessage{label, {}, {}}));
+  for (const std::string& label : labels)
+    bare.execution.receive(1, frame_of(RegisterSynchronizationPointMessage{label, {}, {}}));
   bare.tick();
   bare.witness.register_synchronization_point("start", {});
   bare.tick();
@@ -106,15 +116,20 @@ TEST(GreedyPeer, PointsLeftBehindByThoseWhoComeAndGoDoNotGrowForEver) {
   bare.enter(1, "newcomer");
   newcomer.join("rink", "newcomer", "tester");
   EXPECT_TRUE(newcomer.receive(bare.sent[1]));
-  EXPECT_EQ(std::ranges::count_if(heard.log, [](const std::string& each) { return each.starts_with("announced"); }), 256);
+  EXPECT_EQ(std::ranges::count_if(
+                heard.log, [](const std::string& each) { return each.starts_with("announced"); }),
+            256);
 }
 
 TEST(GreedyPeer, AHoardOfObjectsLeavesTheOthersTheirShare) {
   Bare bare(with(&FederationSettings::object_max, 100));
   bare.enter(1, "hoarder");
-  bare.execution.receive(1, frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position, speed}.bits}));
+  bare.execution.receive(
+      1, frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position, speed}.bits}));
   const auto hoard = [&](std::uint32_t from, std::uint32_t to) {
-    for (std::uint32_t i = from; i < to; ++i) bare.execution.receive(1, frame_of(RegisterObjectMessage{villains_first + i, vessel_number, ""}));
+    for (std::uint32_t i = from; i < to; ++i)
+      bare.execution.receive(
+          1, frame_of(RegisterObjectMessage{villains_first + i, vessel_number, ""}));
   };
   hoard(0, 100);
   for (int i = 0; i < 40; ++i) bare.witness.register_object_instance(vessel);
@@ -122,19 +137,25 @@ TEST(GreedyPeer, AHoardOfObjectsLeavesTheOthersTheirShare) {
   EXPECT_EQ(bare.execution.object_count(), 140u);
   bare.sent.clear();
   hoard(100, 110);
-  bare.execution.receive(1, frame_of(DeleteObjectMessage{villains_first + 105}));  // it could not know
+  bare.execution.receive(1,
+                         frame_of(DeleteObjectMessage{villains_first + 105}));  // it could not know
   bare.tick();
   EXPECT_EQ(bare.execution.object_count(), 140u);
-  EXPECT_EQ(bare.sent[1].size(), frame_header_size + 10 * size_of(RemoveObjectMessage{villains_first})) << "it is told so";
+  EXPECT_EQ(bare.sent[1].size(),
+            frame_header_size + 10 * size_of(RemoveObjectMessage{villains_first}))
+      << "it is told so";
   EXPECT_TRUE(bare.dropped.empty());
 }
 
 TEST(GreedyPeer, NamesOfOneFederatesObjectsAreBounded) {
   Bare bare(with(&FederationSettings::name_bytes_per_federate_max, 1000));
   bare.enter(1, "verbose");
-  bare.execution.receive(1, frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position, speed}.bits}));
+  bare.execution.receive(
+      1, frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position, speed}.bits}));
   const std::string name(100, 'x');
-  for (std::uint32_t i = 0; i < 20; ++i) bare.execution.receive(1, frame_of(RegisterObjectMessage{villains_first + i, vessel_number, name}));
+  for (std::uint32_t i = 0; i < 20; ++i)
+    bare.execution.receive(
+        1, frame_of(RegisterObjectMessage{villains_first + i, vessel_number, name}));
   bare.tick();
   EXPECT_EQ(bare.execution.object_count(), 10u);
   EXPECT_TRUE(bare.dropped.empty());
@@ -144,11 +165,15 @@ TEST(GreedyPeer, AShouterGoesBeforeThoseWhoListen) {
   Bare bare;
   bare.witness.subscribe_interaction_class(hail);
   bare.enter(1, "shouter");
-  bare.execution.receive(1, frame_of(PublishInteractionClassMessage{static_cast<std::uint16_t>(hail.value), 1}));
+  bare.execution.receive(
+      1, frame_of(PublishInteractionClassMessage{static_cast<std::uint16_t>(hail.value), 1}));
   bare.tick();
   const std::vector<std::byte> words(32'000);
   const std::size_t before = bare.witness_bytes;
-  for (int i = 0; i < 1000; ++i) bare.execution.receive(1, frame_of(InteractionMessage{static_cast<std::uint16_t>(hail.value), FederateHandle::none, {}, words}));
+  for (int i = 0; i < 1000; ++i)
+    bare.execution.receive(
+        1, frame_of(InteractionMessage{
+               static_cast<std::uint16_t>(hail.value), FederateHandle::none, {}, words}));
   bare.tick();
   EXPECT_EQ(bare.drops(Violation::over_limit), 1u);
   EXPECT_EQ(bare.dropped.count(1), 1u);
@@ -159,19 +184,23 @@ TEST(GreedyPeer, AShouterGoesBeforeThoseWhoListen) {
 TEST(GreedyPeer, AStrangersQuestionsAreAnsweredOnceAFlushAndItGoesIfItAsksTooMuch) {
   Bare bare;
   bare.execution.connect(1);
-  const auto ask = frame_of(ListFederationExecutionsMessage{}, QueryManagementMessage{}, CreateFederationExecutionMessage{"mine", 0});
+  const auto ask = frame_of(ListFederationExecutionsMessage{}, QueryManagementMessage{},
+                            CreateFederationExecutionMessage{"mine", 0});
   bare.execution.receive(1, ask);
   bare.tick();
   const std::size_t answer = bare.sent[1].size();
   EXPECT_GT(answer, 0u);
   bare.sent.clear();
   bare.sends.clear();
-  for (int i = 0; i < 20; ++i) bare.execution.receive(1, frame_of(ListFederationExecutionsMessage{}, QueryManagementMessage{}));
+  for (int i = 0; i < 20; ++i)
+    bare.execution.receive(1,
+                           frame_of(ListFederationExecutionsMessage{}, QueryManagementMessage{}));
   bare.tick();
   EXPECT_LE(bare.sends[1], 2) << "one for the list, one for the report";
   EXPECT_LT(bare.sent[1].size(), answer) << "the same, without the creation's";
   EXPECT_TRUE(bare.dropped.empty());
-  for (int i = 0; i < 1000; ++i) bare.execution.receive(1, frame_of(ListFederationExecutionsMessage{}));
+  for (int i = 0; i < 1000; ++i)
+    bare.execution.receive(1, frame_of(ListFederationExecutionsMessage{}));
   bare.tick();
   EXPECT_EQ(bare.drops(Violation::over_limit), 1u);
   EXPECT_EQ(bare.dropped.count(1), 1u);
@@ -212,7 +241,8 @@ TEST(GreedyPeer, WhoHoldsTheOthersTimeUpGoesBeforeThoseWhoWaitForIt) {
     TimedFederation::say(sender, sender.clock().earliest(), "step " + std::to_string(step));
     sender.ambassador.time_advance_request(LogicalTime(step));
     federation.carry();
-    if (!listener.clock().is_advancing()) listener.ambassador.time_advance_request(LogicalTime(step));
+    if (!listener.clock().is_advancing())
+      listener.ambassador.time_advance_request(LogicalTime(step));
     federation.carry();
   }
   EXPECT_NE(stopped.lost, "");

@@ -95,7 +95,8 @@ TEST(HonestRace, TheSecondOfTwoTimedDeletionsHasNoPartInTheFirst) {
   race.federation.carry();
   race.say(RetractMessage{1});
   race.expect_nobody_was_dropped(1);
-  EXPECT_EQ(race.watcher.times(TimedFederate::Heard::What::removal), std::vector{10.0}) << "taking the second back does not undo the first";
+  EXPECT_EQ(race.watcher.times(TimedFederate::Heard::What::removal), std::vector{10.0})
+      << "taking the second back does not undo the first";
 }
 
 TEST(HonestRace, AnObjectThatNeverWasIsStillACrime) {

@@ -1,4 +1,5 @@
-// Federates in processes of their own: one that is stopped for a while is not lost, one that is killed is noticed within a second.
+// Federates in processes of their own: one that is stopped for a while is not lost, one that is
+// killed is noticed within a second.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -73,7 +74,9 @@ TEST_F(LostFederate, KilledIsNoticedWithinASecond) {
   kill(child, SIGKILL);
   EXPECT_TRUE(run_until([&] { return rig.execution().federate_count() == 1; }, 5.0));
   EXPECT_LT(now_s() - killed_s, 1.0);
-  run_until([&] { return !watcher->heard.log.empty() && watcher->heard.log.back() == "child lost"; }, 1.0);
+  run_until(
+      [&] { return !watcher->heard.log.empty() && watcher->heard.log.back() == "child lost"; },
+      1.0);
   EXPECT_THAT(watcher->heard.log, Contains("child lost"));
 }
 
@@ -81,7 +84,8 @@ TEST_F(LostFederate, StoppedForTwoSecondsItIsStillThere) {
   kill(child, SIGSTOP);
   EXPECT_FALSE(run_until([&] { return rig.execution().federate_count() == 1; }, 2.0));
   kill(child, SIGCONT);
-  EXPECT_FALSE(run_until([&] { return rig.execution().federate_count() == 1; }, 1.5)) << "and it speaks again";
+  EXPECT_FALSE(run_until([&] { return rig.execution().federate_count() == 1; }, 1.5))
+      << "and it speaks again";
   EXPECT_THAT(watcher->heard.log, Not(Contains("child lost")));
   EXPECT_LT(rig.execution().report().federates.back().counts.silence_s, 1.5);
 }

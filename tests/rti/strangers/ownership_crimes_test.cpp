@@ -1,4 +1,5 @@
-// Whoever claims attributes that it does not own, by bytes that no ambassador sends, is dropped and named; what it never owned stays where it is.
+// Whoever claims attributes that it does not own, by bytes that no ambassador sends, is dropped and
+// named; what it never owned stays where it is.
 #include <gtest/gtest.h>
 
 #include "rti/wire/object_block.h"
@@ -54,7 +55,9 @@ struct Scene final : Outlet {
   }
 };
 
-OwnershipRequestMessage asking(OwnershipRequest request, AttributeSet attributes) { return {static_cast<std::uint8_t>(request), attributes.bits, {}}; }
+OwnershipRequestMessage asking(OwnershipRequest request, AttributeSet attributes) {
+  return {static_cast<std::uint8_t>(request), attributes.bits, {}};
+}
 
 struct OwnershipCrime {
   const char* name;
@@ -78,33 +81,50 @@ TEST_P(OwnershipCrimes, IsNamedCountedAndDroppedAndTakesNothing) {
   EXPECT_EQ(scene.execution.counters().drops[static_cast<std::size_t>(crime.violation)], 1u);
   scene.owner.query_attribute_ownership(scene.vessel_1, position);
   scene.tick();
-  EXPECT_EQ(scene.heard[0].owners.at({scene.vessel_1.value, position.value}), scene.owner.federate().value);
+  EXPECT_EQ(scene.heard[0].owners.at({scene.vessel_1.value, position.value}),
+            scene.owner.federate().value);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Of, OwnershipCrimes,
-    ::testing::Values(OwnershipCrime{"DivestitureOfForeignAttributes", Violation::not_owned, OwnershipRequest::divest},
-                      OwnershipCrime{"OfferOfForeignAttributes", Violation::not_owned, OwnershipRequest::offer},
-                      OwnershipCrime{"ConfirmationForSomebodyElse", Violation::not_owned, OwnershipRequest::confirm},
-                      OwnershipCrime{"DenialForSomebodyElse", Violation::not_owned, OwnershipRequest::deny_release},
-                      OwnershipCrime{"GiftOfForeignAttributes", Violation::not_owned, OwnershipRequest::give_if_wanted},
-                      OwnershipCrime{"WithdrawalOfAForeignOffer", Violation::not_owned, OwnershipRequest::withdraw_offer},
-                      OwnershipCrime{"AcquisitionOfWhatItDoesNotPublish", Violation::undeclared, OwnershipRequest::acquire, motion, 0, false},
-                      OwnershipCrime{"AcquisitionOfAnUnknownAttribute", Violation::unknown_name, OwnershipRequest::acquire, AttributeSet(1u << 20)},
-                      OwnershipCrime{"AcquisitionOfAnUnknownObject", Violation::unknown_name, OwnershipRequest::acquire_if_available, motion, 77}),
+    ::testing::Values(OwnershipCrime{"DivestitureOfForeignAttributes", Violation::not_owned,
+                                     OwnershipRequest::divest},
+                      OwnershipCrime{"OfferOfForeignAttributes", Violation::not_owned,
+                                     OwnershipRequest::offer},
+                      OwnershipCrime{"ConfirmationForSomebodyElse", Violation::not_owned,
+                                     OwnershipRequest::confirm},
+                      OwnershipCrime{"DenialForSomebodyElse", Violation::not_owned,
+                                     OwnershipRequest::deny_release},
+                      OwnershipCrime{"GiftOfForeignAttributes", Violation::not_owned,
+                                     OwnershipRequest::give_if_wanted},
+                      OwnershipCrime{"WithdrawalOfAForeignOffer", Violation::not_owned,
+                                     OwnershipRequest::withdraw_offer},
+                      OwnershipCrime{"AcquisitionOfWhatItDoesNotPublish", Violation::undeclared,
+                                     OwnershipRequest::acquire, motion, 0, false},
+                      OwnershipCrime{"AcquisitionOfAnUnknownAttribute", Violation::unknown_name,
+                                     OwnershipRequest::acquire, AttributeSet(1u << 20)},
+                      OwnershipCrime{"AcquisitionOfAnUnknownObject", Violation::unknown_name,
+                                     OwnershipRequest::acquire_if_available, motion, 77}),
     [](const auto& crime) { return std::string(crime.param.name); });
 
 TEST(OwnershipBytes, ThatAreMalformedDropTheirSender) {
   const auto is_dropped_for = [](auto message, std::optional<ObjectHandle> object) {
     Scene scene;
     scene.say(message, object);
-    return scene.is_dropped[1] && scene.execution.counters().drops[static_cast<std::size_t>(Violation::malformed)] == 1;
+    return scene.is_dropped[1] &&
+           scene.execution.counters().drops[static_cast<std::size_t>(Violation::malformed)] == 1;
   };
-  EXPECT_TRUE(is_dropped_for(asking(OwnershipRequest::divest, motion), std::nullopt)) << "a block without an end";
-  for (const std::vector<std::byte>& bytes : {values_of(std::uint8_t{36}, std::uint8_t{9}, std::uint8_t{3}, std::uint16_t{0}, std::uint8_t{0}),      // a request that isn't
-                                              values_of(std::uint8_t{36}, std::uint8_t{0}, std::uint8_t{0}, std::uint16_t{0}, std::uint8_t{0}),      // no attributes
-                                              values_of(std::uint8_t{36}, std::uint8_t{0}, std::uint8_t{3}, std::uint16_t{2000}, std::uint8_t{0}),   // a tag too long
-                                              values_of(std::uint8_t{37}, std::uint8_t{0}, std::uint8_t{32}), values_of(std::uint8_t{38}, std::uint8_t{6})}) {
+  EXPECT_TRUE(is_dropped_for(asking(OwnershipRequest::divest, motion), std::nullopt))
+      << "a block without an end";
+  for (const std::vector<std::byte>& bytes :
+       {values_of(std::uint8_t{36}, std::uint8_t{9}, std::uint8_t{3}, std::uint16_t{0},
+                  std::uint8_t{0}),  // a request that isn't
+        values_of(std::uint8_t{36}, std::uint8_t{0}, std::uint8_t{0}, std::uint16_t{0},
+                  std::uint8_t{0}),  // no attributes
+        values_of(std::uint8_t{36}, std::uint8_t{0}, std::uint8_t{3}, std::uint16_t{2000},
+                  std::uint8_t{0}),  // a tag too long
+        values_of(std::uint8_t{37}, std::uint8_t{0}, std::uint8_t{32}),
+        values_of(std::uint8_t{38}, std::uint8_t{6})}) {
     Scene scene;
     std::vector<std::byte> framed = values_of(static_cast<std::uint32_t>(bytes.size()));
     framed.insert(framed.end(), bytes.begin(), bytes.end());

@@ -1,4 +1,5 @@
-// Federates whose clock is off, at their own end and as bytes that break the rules; and what time management costs.
+// Federates whose clock is off, at their own end and as bytes that break the rules; and what time
+// management costs.
 #include "rti/wire/time_messages.h"
 #include "tests/rti/time/relaxed_time.h"
 #include "tests/rti/time/timed_federation.h"
@@ -24,7 +25,8 @@ TEST(BadClock, AClockAnHourOffIsRefusedAtBothEnds) {
   federate.ambassador.time_advance_request(LogicalTime(7200.0));
   federation.carry();
   EXPECT_EQ(error_of([&] { TimedFederation::say(federate, 3600.0); }), "InvalidLogicalTime");
-  EXPECT_EQ(error_of([&] { federate.ambassador.time_advance_request(LogicalTime(3600.0)); }), "LogicalTimeAlreadyPassed");
+  EXPECT_EQ(error_of([&] { federate.ambassador.time_advance_request(LogicalTime(3600.0)); }),
+            "LogicalTimeAlreadyPassed");
   std::vector<std::byte> content;
   InteractionMessage words{static_cast<std::uint16_t>(hail.value), FederateHandle::none, {}, {}};
   write(content, words);

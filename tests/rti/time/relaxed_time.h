@@ -1,4 +1,5 @@
-// Time management judged by brute force while it works: bounds by relaxation, every grant and delivery against them.
+// Time management judged by brute force while it works: bounds by relaxation, every grant and
+// delivery against them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,12 +14,16 @@
 
 namespace rink::rti::testing {
 
-/// Stands between a federation execution and the time management that it really uses, keeps its own record of what was asked and told, and works every bound out anew from the
-/// definitions: a federate's GALT is the least that any other may still send, and one that waits for its next message may send from what it could be granted next on. From
-/// "nobody sends anything" downwards, until nothing changes.
+/// Stands between a federation execution and the time management that it really uses, keeps its own
+/// record of what was asked and told, and works every bound out anew from the definitions: a
+/// federate's GALT is the least that any other may still send, and one that waits for its next
+/// message may send from what it could be granted next on. From "nobody sends anything" downwards,
+/// until nothing changes.
 class RelaxedTime final : public TimeManagement, private TimeListener {
  public:
-  explicit RelaxedTime(std::unique_ptr<TimeManagement> judged = std::make_unique<ConservativeTime>()) : judged_(std::move(judged)) {}
+  explicit RelaxedTime(
+      std::unique_ptr<TimeManagement> judged = std::make_unique<ConservativeTime>())
+      : judged_(std::move(judged)) {}
 
   bool enable_regulation(std::uint32_t federate, double lookahead) override {
     const bool is_done = judged_->enable_regulation(federate, lookahead);
@@ -40,7 +45,9 @@ class RelaxedTime final : public TimeManagement, private TimeListener {
   }
   bool modify_lookahead(std::uint32_t federate, double lookahead) override {
     const bool is_done = judged_->modify_lookahead(federate, lookahead);
-    if (is_done) record(federate).lookahead = lookahead, promise(record(federate), record(federate).time + lookahead);
+    if (is_done)
+      record(federate).lookahead = lookahead,
+      promise(record(federate), record(federate).time + lookahead);
     return is_done;
   }
   bool request(std::uint32_t federate, AdvanceKind kind, double time) override {
@@ -49,24 +56,33 @@ class RelaxedTime final : public TimeManagement, private TimeListener {
     mine.is_advancing = true;
     mine.kind = kind;
     mine.asked = time;
-    if (!is_next_message(kind) && kind != AdvanceKind::flush_queue) promise(mine, earliest_stamp(time, mine.lookahead, kind));
+    if (!is_next_message(kind) && kind != AdvanceKind::flush_queue)
+      promise(mine, earliest_stamp(time, mine.lookahead, kind));
     return true;
   }
   void remove(std::uint32_t federate, TimeListener& listener) override {
     judged_->remove(federate, listener);
     record(federate) = {};
   }
-  bool may_send(std::uint32_t federate, double time) const override { return judged_->may_send(federate, time); }
+  bool may_send(std::uint32_t federate, double time) const override {
+    return judged_->may_send(federate, time);
+  }
   double earliest(std::uint32_t federate) const override { return judged_->earliest(federate); }
-  bool is_constrained(std::uint32_t federate) const override { return judged_->is_constrained(federate); }
-  bool is_regulating(std::uint32_t federate) const override { return judged_->is_regulating(federate); }
+  bool is_constrained(std::uint32_t federate) const override {
+    return judged_->is_constrained(federate);
+  }
+  bool is_regulating(std::uint32_t federate) const override {
+    return judged_->is_regulating(federate);
+  }
   double galt(std::uint32_t federate) const override { return judged_->galt(federate); }
   double lits(std::uint32_t federate) const override { return judged_->lits(federate); }
   double time(std::uint32_t federate) const override { return judged_->time(federate); }
   void enqueue(std::uint32_t federate, const TimedEntry& entry) override {
-    EXPECT_GE(entry.time, record(federate).time) << "a message in the past of federate " << federate;
+    EXPECT_GE(entry.time, record(federate).time)
+        << "a message in the past of federate " << federate;
     if (record(federate).has_heard_all) {
-      EXPECT_GT(entry.time, record(federate).time) << "a message at an instant of which federate " << federate << " has heard all";
+      EXPECT_GT(entry.time, record(federate).time)
+          << "a message at an instant of which federate " << federate << " has heard all";
     }
     EXPECT_TRUE(record(federate).queue.insert(entry).second);
     judged_->enqueue(federate, entry);
@@ -82,9 +98,12 @@ class RelaxedTime final : public TimeManagement, private TimeListener {
     const std::vector<double> bounds = relax();
     for (std::uint32_t i = 0; i < records_.size(); ++i) {
       EXPECT_EQ(judged_->galt(i), galt_by(bounds, i)) << "federate " << i;
-      EXPECT_EQ(judged_->lits(i), std::min(galt_by(bounds, i), next(records_[i]))) << "federate " << i;
-      EXPECT_FALSE(can_be_granted(records_[i], galt_by(bounds, i))) << "federate " << i << " is kept waiting";
-      EXPECT_FALSE(records_[i].awaits_constraint && records_[i].time <= galt_by(bounds, i)) << "federate " << i << " is kept waiting";
+      EXPECT_EQ(judged_->lits(i), std::min(galt_by(bounds, i), next(records_[i])))
+          << "federate " << i;
+      EXPECT_FALSE(can_be_granted(records_[i], galt_by(bounds, i)))
+          << "federate " << i << " is kept waiting";
+      EXPECT_FALSE(records_[i].awaits_constraint && records_[i].time <= galt_by(bounds, i))
+          << "federate " << i << " is kept waiting";
     }
     ++settled_;
   }
@@ -93,7 +112,8 @@ class RelaxedTime final : public TimeManagement, private TimeListener {
 
  private:
   struct Record {
-    bool is_regulating = false, is_constrained = false, awaits_regulation = false, awaits_constraint = false, is_advancing = false, has_heard_all = false;
+    bool is_regulating = false, is_constrained = false, awaits_regulation = false,
+         awaits_constraint = false, is_advancing = false, has_heard_all = false;
     AdvanceKind kind = AdvanceKind::time_advance;
     double time = 0.0, asked = 0.0, lookahead = 0.0, promised = 0.0, last_delivered = -1.0;
     std::set<TimedEntry> queue;
@@ -102,9 +122,15 @@ class RelaxedTime final : public TimeManagement, private TimeListener {
     if (federate >= records_.size()) records_.resize(federate + 1);
     return records_[federate];
   }
-  static void promise(Record& record, double earliest) { record.promised = std::max(record.promised, earliest); }
-  static double next(const Record& record) { return record.queue.empty() ? time_unbounded : record.queue.begin()->time; }
-  static double goal(const Record& record) { return is_next_message(record.kind) ? std::min(record.asked, next(record)) : record.asked; }
+  static void promise(Record& record, double earliest) {
+    record.promised = std::max(record.promised, earliest);
+  }
+  static double next(const Record& record) {
+    return record.queue.empty() ? time_unbounded : record.queue.begin()->time;
+  }
+  static double goal(const Record& record) {
+    return is_next_message(record.kind) ? std::min(record.asked, next(record)) : record.asked;
+  }
   static bool can_be_granted(const Record& record, double galt) {
     if (!record.is_advancing) return false;
     if (!record.is_constrained || record.kind == AdvanceKind::flush_queue) return true;
@@ -125,8 +151,11 @@ class RelaxedTime final : public TimeManagement, private TimeListener {
         if (!each.is_regulating && !each.awaits_regulation) continue;
         double bound = each.promised;
         if (each.is_advancing && each.is_constrained && is_next_message(each.kind))
-          bound = std::max(bound, earliest_stamp(std::min(goal(each), galt_by(bounds, i)), each.lookahead, each.kind));
-        if (each.awaits_regulation) bound = judged_->earliest(static_cast<std::uint32_t>(i));  // the promise is told with what was enabled
+          bound = std::max(bound, earliest_stamp(std::min(goal(each), galt_by(bounds, i)),
+                                                 each.lookahead, each.kind));
+        if (each.awaits_regulation)
+          bound = judged_->earliest(
+              static_cast<std::uint32_t>(i));  // the promise is told with what was enabled
         is_changed |= bound != bounds[i];
         bounds[i] = bound;
       }
@@ -145,7 +174,9 @@ class RelaxedTime final : public TimeManagement, private TimeListener {
     }
     listener_->deliver(federate, entry);
   }
-  void discard(std::uint32_t federate, const TimedEntry& entry) override { listener_->discard(federate, entry); }
+  void discard(std::uint32_t federate, const TimedEntry& entry) override {
+    listener_->discard(federate, entry);
+  }
   void regulation_enabled(std::uint32_t federate, double time, double earliest) override {
     Record& mine = record(federate);
     mine.awaits_regulation = false;
@@ -156,7 +187,9 @@ class RelaxedTime final : public TimeManagement, private TimeListener {
     mine.promised = earliest;
     for (std::uint32_t i = 0; i < records_.size(); ++i)
       if (i != federate && records_[i].is_constrained) {
-        EXPECT_GE(earliest, records_[i].has_heard_all ? just_after(records_[i].time) : records_[i].time) << "it could speak in the past of " << i;
+        EXPECT_GE(earliest,
+                  records_[i].has_heard_all ? just_after(records_[i].time) : records_[i].time)
+            << "it could speak in the past of " << i;
       }
     listener_->regulation_enabled(federate, time, earliest);
   }
@@ -182,7 +215,8 @@ class RelaxedTime final : public TimeManagement, private TimeListener {
       EXPECT_LT(time, galt);
     }
     if (mine.kind != AdvanceKind::flush_queue) {
-      EXPECT_TRUE(time == mine.asked || (is_next_message(mine.kind) && time == mine.last_delivered));
+      EXPECT_TRUE(time == mine.asked ||
+                  (is_next_message(mine.kind) && time == mine.last_delivered));
     }
     if (mine.kind != AdvanceKind::flush_queue) {
       EXPECT_GT(next(mine), time) << "a grant before what belongs to it";

@@ -1,4 +1,5 @@
-// Federates that do anything their services allow, come late, leave and die: every bound against relaxation, every message exactly once, nobody stuck.
+// Federates that do anything their services allow, come late, leave and die: every bound against
+// relaxation, every message exactly once, nobody stuck.
 #include <map>
 
 #include "tests/rti/time/relaxed_time.h"
@@ -12,7 +13,8 @@ using What = TimedFederate::Heard::What;
 
 class Chaos {
  public:
-  explicit Chaos(std::uint64_t seed) : random_(seed), federation_(relaxed(), with_entry_room(seed % 2 == 0 ? 1 : 512 << 10)) {
+  explicit Chaos(std::uint64_t seed)
+      : random_(seed), federation_(relaxed(), with_entry_room(seed % 2 == 0 ? 1 : 512 << 10)) {
     const std::uint64_t count = 2 + below(3);
     for (std::uint64_t i = 0; i < count; ++i) join();
   }
@@ -72,19 +74,33 @@ class Chaos {
     Ambassador& ambassador = federate.ambassador;
     const double now = federate.clock().time();
     switch (what) {
-      case 0: return federate.clock().is_regulating() && below(4) == 0 ? ambassador.disable_time_regulation() : ambassador.enable_time_regulation(some_lookahead());
-      case 1: return federate.clock().is_constrained() && below(4) == 0 ? ambassador.disable_time_constrained() : ambassador.enable_time_constrained();
-      case 2: return ambassador.modify_lookahead(some_lookahead());
-      case 3: return ambassador.time_advance_request(LogicalTime(now + some(7)));
-      case 4: return ambassador.time_advance_request_available(LogicalTime(now + some(7)));
+      case 0:
+        return federate.clock().is_regulating() && below(4) == 0
+                   ? ambassador.disable_time_regulation()
+                   : ambassador.enable_time_regulation(some_lookahead());
+      case 1:
+        return federate.clock().is_constrained() && below(4) == 0
+                   ? ambassador.disable_time_constrained()
+                   : ambassador.enable_time_constrained();
+      case 2:
+        return ambassador.modify_lookahead(some_lookahead());
+      case 3:
+        return ambassador.time_advance_request(LogicalTime(now + some(7)));
+      case 4:
+        return ambassador.time_advance_request_available(LogicalTime(now + some(7)));
       case 5:
-      case 6: return ambassador.next_message_request(LogicalTime(now + some(9)));
-      case 7: return ambassador.next_message_request_available(LogicalTime(now + some(9)));
-      case 8: return ambassador.flush_queue_request(LogicalTime(now + some(5)));
-      case 9: return take_back();
+      case 6:
+        return ambassador.next_message_request(LogicalTime(now + some(9)));
+      case 7:
+        return ambassador.next_message_request_available(LogicalTime(now + some(9)));
+      case 8:
+        return ambassador.flush_queue_request(LogicalTime(now + some(5)));
+      case 9:
+        return take_back();
       default: {
         if (!federate.clock().is_regulating()) return;
-        const RetractionHandle handle = TimedFederation::say(federate, federate.clock().earliest() + some(5));
+        const RetractionHandle handle =
+            TimedFederation::say(federate, federate.clock().earliest() + some(5));
         said_.push_back({i, handle});
       }
     }
@@ -100,7 +116,8 @@ class Chaos {
   /// Whoever still lives goes to one late instant, regulating and constrained as it is.
   void bring_to_the_end() {
     constexpr double end = 1e6;
-    for (int round = 0; round < 20; ++round) {  // each brings at least one further: those ahead that want to be constrained wait for those behind
+    for (int round = 0; round < 20; ++round) {  // each brings at least one further: those ahead
+                                                // that want to be constrained wait for those behind
       federation_.carry();
       for (std::size_t i = 0; i < count(); ++i) {
         note_arrival(i);
@@ -108,19 +125,23 @@ class Chaos {
         try {
           at(i).ambassador.time_advance_request(LogicalTime(end));
         } catch (const RtiException& exception) {
-          EXPECT_EQ(exception.error(), HlaError::request_for_time_constrained_pending);  // it waits for the others to come to where it is
+          EXPECT_EQ(exception.error(),
+                    HlaError::request_for_time_constrained_pending);  // it waits for the others to
+                                                                      // come to where it is
         }
       }
     }
     federation_.carry();
     for (std::size_t i = 0; i < count(); ++i) {
       if (at(i).is_gone) continue;
-      EXPECT_FALSE(at(i).clock().is_advancing()) << "federate " << i << " is stuck at " << at(i).clock().time();
+      EXPECT_FALSE(at(i).clock().is_advancing())
+          << "federate " << i << " is stuck at " << at(i).clock().time();
       EXPECT_EQ(at(i).clock().time(), end);
     }
   }
   void judge() {
-    for (const std::uint64_t drops : federation_.execution().counters().drops) EXPECT_EQ(drops, 0u) << "the RTI refuses what the ambassador let pass";
+    for (const std::uint64_t drops : federation_.execution().counters().drops)
+      EXPECT_EQ(drops, 0u) << "the RTI refuses what the ambassador let pass";
     for (std::size_t i = 0; i < count(); ++i) {
       EXPECT_EQ(at(i).lost, "");
       if (at(i).is_gone) continue;
@@ -140,7 +161,8 @@ class Chaos {
         const Said& said = said_[k];
         if (said.sender == i || !said.has_arrived) continue;
         const std::pair name{said.handle.sender.value, said.handle.number};
-        EXPECT_EQ(heard[name], said.is_retracted ? asked[name] : 1) << "message " << k << " at " << said.handle.time << " to federate " << i;
+        EXPECT_EQ(heard[name], said.is_retracted ? asked[name] : 1)
+            << "message " << k << " at " << said.handle.time << " to federate " << i;
         heard[name] = 1;
       }
       for (const auto& [name, times] : heard) EXPECT_LE(times, 1);
@@ -159,11 +181,13 @@ void expect_order_in_chaos(std::uint64_t seed, int steps) {
 }
 
 TEST(TimeChaos, EveryMessageComesOnceInOrderAndNobodyIsStuck) {
-  for (std::uint64_t seed = 1; seed <= 300 && !::testing::Test::HasFailure(); ++seed) expect_order_in_chaos(seed, 400);
+  for (std::uint64_t seed = 1; seed <= 300 && !::testing::Test::HasFailure(); ++seed)
+    expect_order_in_chaos(seed, 400);
 }
 
 TEST(TimeChaosLong, EveryMessageComesOnceInOrderAndNobodyIsStuck) {
-  for (std::uint64_t seed = 10'000; seed <= 20'000 && !::testing::Test::HasFailure(); ++seed) expect_order_in_chaos(seed, 600);
+  for (std::uint64_t seed = 10'000; seed <= 20'000 && !::testing::Test::HasFailure(); ++seed)
+    expect_order_in_chaos(seed, 600);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A federation under time management whose bytes take as long as the test wants, and whose federates write down what reaches them when.
+// A federation under time management whose bytes take as long as the test wants, and whose
+// federates write down what reaches them when.
 #pragma once
 
 #include <deque>
@@ -27,11 +28,19 @@ std::string error_of(Service service) {
 /// One federate. Everything that it heard, in order, with the state of its clock at that moment.
 struct TimedFederate : FederateAmbassador {
   struct Heard {
-    enum class What : std::uint8_t { message, receive_order, grant, regulation, constrained, retraction, removal } what;
-    double time = 0.0;              ///< of the message, or the time granted
+    enum class What : std::uint8_t {
+      message,
+      receive_order,
+      grant,
+      regulation,
+      constrained,
+      retraction,
+      removal
+    } what;
+    double time = 0.0;  ///< of the message, or the time granted
     RetractionHandle handle;
     std::string text;
-    double clock = 0.0;             ///< its logical time just before
+    double clock = 0.0;  ///< its logical time just before
     bool is_advancing = false;
     bool is_in_order = false;
   };
@@ -44,19 +53,28 @@ struct TimedFederate : FederateAmbassador {
   double galt = -1.0, lits = -1.0;
   std::function<void(const Heard&)> on_heard;
 
-  void note(Heard::What what, double time, const RetractionHandle& handle = {}, std::string text = {}, bool is_in_order = false) {
-    heard.push_back({what, time, handle, std::move(text), ambassador.clock().time(), ambassador.clock().is_advancing(), is_in_order});
+  void note(Heard::What what, double time, const RetractionHandle& handle = {},
+            std::string text = {}, bool is_in_order = false) {
+    heard.push_back({what, time, handle, std::move(text), ambassador.clock().time(),
+                     ambassador.clock().is_advancing(), is_in_order});
     if (on_heard) on_heard(heard.back());
   }
   void connection_lost(std::string_view why) override { lost = why; }
-  void receive_interaction(InteractionClassHandle, Bytes parameters, FederateHandle, const Stamp& stamp) override {
+  void receive_interaction(InteractionClassHandle, Bytes parameters, FederateHandle,
+                           const Stamp& stamp) override {
     note(Heard::What::receive_order, stamp.time, {}, text_of(parameters));
   }
-  void receive_interaction_with_time(InteractionClassHandle, Bytes parameters, FederateHandle, const TimedStamp& timed) override {
-    note(Heard::What::message, timed.stamp.time, timed.handle, text_of(parameters), timed.is_in_order);
+  void receive_interaction_with_time(InteractionClassHandle, Bytes parameters, FederateHandle,
+                                     const TimedStamp& timed) override {
+    note(Heard::What::message, timed.stamp.time, timed.handle, text_of(parameters),
+         timed.is_in_order);
   }
-  void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes values, const Stamp& stamp) override { note(Heard::What::receive_order, stamp.time, {}, text_of(values)); }
-  void reflect_attribute_values_with_time(ObjectHandle, AttributeSet, Bytes values, const TimedStamp& timed) override {
+  void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes values,
+                                const Stamp& stamp) override {
+    note(Heard::What::receive_order, stamp.time, {}, text_of(values));
+  }
+  void reflect_attribute_values_with_time(ObjectHandle, AttributeSet, Bytes values,
+                                          const TimedStamp& timed) override {
     note(Heard::What::message, timed.stamp.time, timed.handle, text_of(values), timed.is_in_order);
   }
   void remove_object_instance(ObjectHandle) override { note(Heard::What::removal, -1.0); }
@@ -64,9 +82,15 @@ struct TimedFederate : FederateAmbassador {
     note(Heard::What::removal, timed.stamp.time, timed.handle, {}, timed.is_in_order);
   }
   void time_advance_grant(LogicalTime time) override { note(Heard::What::grant, time.value); }
-  void time_regulation_enabled(LogicalTime time) override { note(Heard::What::regulation, time.value); }
-  void time_constrained_enabled(LogicalTime time) override { note(Heard::What::constrained, time.value); }
-  void request_retraction(const RetractionHandle& handle) override { note(Heard::What::retraction, handle.time, handle); }
+  void time_regulation_enabled(LogicalTime time) override {
+    note(Heard::What::regulation, time.value);
+  }
+  void time_constrained_enabled(LogicalTime time) override {
+    note(Heard::What::constrained, time.value);
+  }
+  void request_retraction(const RetractionHandle& handle) override {
+    note(Heard::What::retraction, handle.time, handle);
+  }
   void time_bounds(double new_galt, double new_lits) override { galt = new_galt, lits = new_lits; }
 
   const FederateClock& clock() const { return ambassador.clock(); }
@@ -89,7 +113,9 @@ inline FederationSettings with_entry_room(std::size_t bytes) {
 /// No transport: bytes lie between federate and RTI until the test carries them.
 class TimedFederation : public Outlet {
  public:
-  explicit TimedFederation(const FederationServices& services = {}, const FederationSettings& settings = {}) : execution_(harbour(), settings, services) {}
+  explicit TimedFederation(const FederationServices& services = {},
+                           const FederationSettings& settings = {})
+      : execution_(harbour(), settings, services) {}
 
   /// Joined, and sends and hears hails in time-stamp order.
   TimedFederate& join() {
@@ -156,13 +182,18 @@ class TimedFederation : public Outlet {
   }
   FederationExecution& execution() { return execution_; }
   const std::vector<std::unique_ptr<TimedFederate>>& federates() const { return federates_; }
-  std::uint64_t drops(Violation violation) const { return execution_.counters().drops[static_cast<std::size_t>(violation)]; }
+  std::uint64_t drops(Violation violation) const {
+    return execution_.counters().drops[static_cast<std::size_t>(violation)];
+  }
 
   void send(ConnectionId connection, std::span<const Bytes> parts) override {
-    for (const Bytes part : parts) federates_[connection]->down.insert(federates_[connection]->down.end(), part.begin(), part.end());
+    for (const Bytes part : parts)
+      federates_[connection]->down.insert(federates_[connection]->down.end(), part.begin(),
+                                          part.end());
   }
   void drop(ConnectionId connection, std::string_view) override {
-    if (!federates_[connection]->is_gone) federates_[connection]->ambassador.disconnected("dropped");
+    if (!federates_[connection]->is_gone)
+      federates_[connection]->ambassador.disconnected("dropped");
     federates_[connection]->is_gone = true;
   }
 

@@ -17,7 +17,8 @@ class TimedState : public ::testing::Test {
     federation.carry();
   }
   void sail(const std::string& port, double time) {
-    owner.ambassador.update_attribute_values(object, {destination}, varying(port), LogicalTime(time));
+    owner.ambassador.update_attribute_values(object, {destination}, varying(port),
+                                             LogicalTime(time));
     federation.carry();
   }
   /// What one who joins now is told first; "" for nothing.
@@ -65,7 +66,8 @@ TEST_F(TimedState, AnUpdateIsDroppedForThoseForWhomTheObjectIsGone) {
   federation.carry();
   advance_both(3.0);
   EXPECT_TRUE(receiver.times(What::message).empty());
-  EXPECT_EQ(receiver.times(What::removal), std::vector{-1.0}) << "in receive order, while it advanced";
+  EXPECT_EQ(receiver.times(What::removal), std::vector{-1.0})
+      << "in receive order, while it advanced";
 }
 
 TEST_F(TimedState, EachReceiverIsToldTheAttributesThatItNamed) {
@@ -93,14 +95,16 @@ TEST_F(TimedState, WhatGoesInTimeStampOrderIsCountedAsWhatGoesOtherwiseIs) {
   EXPECT_EQ(report.federates[1].counts.interactions_received, 5u);
 }
 
-/// An owner of four ferries, one who waits for what the owner says, and a newcomer who has been told of the first ferry when something is said of the last.
+/// An owner of four ferries, one who waits for what the owner says, and a newcomer who has been
+/// told of the first ferry when something is said of the last.
 class NewcomerOfALargeWorld : public ::testing::TestWithParam<bool> {
  protected:
   NewcomerOfALargeWorld() {
     owner.ambassador.publish_object_class_attributes(ferry, harbour().attributes(ferry));
     if (GetParam()) waiting.ambassador.subscribe_object_class_attributes(ferry, {destination});
     for (int i = 0; i < 4; ++i) ferries.push_back(owner.ambassador.register_object_instance(ferry));
-    owner.ambassador.update_attribute_values(ferries.back(), {destination}, varying("Piombino"), LogicalTime(1.5));
+    owner.ambassador.update_attribute_values(ferries.back(), {destination}, varying("Piombino"),
+                                             LogicalTime(1.5));
     step(20);
     advance(2.0);
     newcomer.ambassador.subscribe_object_class_attributes(ferry, {destination});
@@ -114,11 +118,15 @@ class NewcomerOfALargeWorld : public ::testing::TestWithParam<bool> {
     }
   }
   void advance(double time) {
-    for (TimedFederate* each : {&owner, &waiting}) each->ambassador.time_advance_request(LogicalTime(time));
+    for (TimedFederate* each : {&owner, &waiting})
+      each->ambassador.time_advance_request(LogicalTime(time));
     step(20);
   }
   std::string last_port() const {
-    const auto last = std::find_if(newcomer.heard.rbegin(), newcomer.heard.rend(), [](const auto& each) { return each.what == What::message || each.what == What::receive_order; });
+    const auto last =
+        std::find_if(newcomer.heard.rbegin(), newcomer.heard.rend(), [](const auto& each) {
+          return each.what == What::message || each.what == What::receive_order;
+        });
     return last == newcomer.heard.rend() ? "" : last->text.substr(4);
   }
   TimedFederation federation{relaxed(), with_entry_room(1)};
@@ -129,7 +137,8 @@ class NewcomerOfALargeWorld : public ::testing::TestWithParam<bool> {
 };
 
 TEST_P(NewcomerOfALargeWorld, IsNotLostByTheDeletionOfWhatItWasNotToldOfYet) {
-  owner.ambassador.update_attribute_values(ferries[2], {destination}, varying("Bastia"), LogicalTime(4.0));
+  owner.ambassador.update_attribute_values(ferries[2], {destination}, varying("Bastia"),
+                                           LogicalTime(4.0));
   owner.ambassador.delete_object_instance(ferries[2], LogicalTime(4.0));
   owner.ambassador.delete_object_instance(ferries[3], LogicalTime(4.0));
   step(10);
@@ -137,11 +146,13 @@ TEST_P(NewcomerOfALargeWorld, IsNotLostByTheDeletionOfWhatItWasNotToldOfYet) {
   EXPECT_EQ(newcomer.lost, "");
   EXPECT_EQ(waiting.lost, "");
   EXPECT_EQ(owner.lost, "");
-  EXPECT_EQ(newcomer.times(What::removal).size(), 1u) << "of the ferry of which it was told since something was said of it";
+  EXPECT_EQ(newcomer.times(What::removal).size(), 1u)
+      << "of the ferry of which it was told since something was said of it";
 }
 
 TEST_P(NewcomerOfALargeWorld, DoesNotGoBackToWhatWasBeforeTheNewestThatItWasTold) {
-  owner.ambassador.update_attribute_values(ferries.back(), {destination}, varying("Bastia"), LogicalTime(4.0));
+  owner.ambassador.update_attribute_values(ferries.back(), {destination}, varying("Bastia"),
+                                           LogicalTime(4.0));
   step(1);
   EXPECT_EQ(last_port(), "Bastia");
   step(10);
@@ -151,7 +162,11 @@ TEST_P(NewcomerOfALargeWorld, DoesNotGoBackToWhatWasBeforeTheNewestThatItWasTold
   EXPECT_EQ(newcomer.lost, "");
 }
 
-INSTANTIATE_TEST_SUITE_P(While, NewcomerOfALargeWorld, ::testing::Bool(), [](const auto& is_waiting) { return is_waiting.param ? "SomebodyWaitsForTheSame" : "NobodyElseHearsOfIt"; });
+INSTANTIATE_TEST_SUITE_P(While, NewcomerOfALargeWorld, ::testing::Bool(),
+                         [](const auto& is_waiting) {
+                           return is_waiting.param ? "SomebodyWaitsForTheSame"
+                                                   : "NobodyElseHearsOfIt";
+                         });
 
 TEST(TimedMessages, OneWhoNeverAdvancesIsLostBeforeWhatWaitsForItCostsTheOthersTheirSender) {
   FederationSettings settings;
@@ -162,7 +177,8 @@ TEST(TimedMessages, OneWhoNeverAdvancesIsLostBeforeWhatWaitsForItCostsTheOthersT
   TimedFederate& stopped = federation.join_timed(-1.0);
   for (int step = 1; step <= 300; ++step) {
     TimedFederation::say(sender, sender.clock().earliest(), "step " + std::to_string(step));
-    for (TimedFederate* each : {&sender, &awake}) each->ambassador.time_advance_request(LogicalTime(step));
+    for (TimedFederate* each : {&sender, &awake})
+      each->ambassador.time_advance_request(LogicalTime(step));
     federation.carry();
   }
   EXPECT_EQ(awake.times(What::message).size(), 300u);

@@ -1,4 +1,5 @@
-// Rates by tier and a budget in a federation: how often and how late each is told of what is far, against what was said; and that the newest state comes in the end.
+// Rates by tier and a budget in a federation: how often and how late each is told of what is far,
+// against what was said; and that the newest state comes in the end.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +19,9 @@ struct Buoy {
 
 /// Buoys on a sea of 100 m x 100 m, each a point, said by a pilot; watchers who see squares of it.
 struct BuoyedSea {
-  explicit BuoyedSea(const std::string& filter, Carrier carrier = Carrier::in_process, unsigned seed = 1) : rig(carrier, settings(filter)), pilot(rig.join("pilot")), random(seed) {
+  explicit BuoyedSea(const std::string& filter, Carrier carrier = Carrier::in_process,
+                     unsigned seed = 1)
+      : rig(carrier, settings(filter)), pilot(rig.join("pilot")), random(seed) {
     pilot.ambassador.publish_object_class_attributes(ferry, {position, speed, destination});
   }
   static FederationSettings settings(const std::string& filter) {
@@ -27,7 +30,9 @@ struct BuoyedSea {
     settings.filter_settings.world = {0.0, 0.0, 100.0, 100.0};
     return settings;
   }
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  }
   void move(Buoy& buoy, double x, double y) {
     buoy.x = x, buoy.y = y;
     pilot.ambassador.set_region(buoy.region, {x, y, x, y});
@@ -43,7 +48,8 @@ struct BuoyedSea {
     return added;
   }
   void say(Buoy& buoy, float value) {
-    pilot.ambassador.update_attribute_values(buoy.object, AttributeSet{speed}, values_of(value), {});
+    pilot.ambassador.update_attribute_values(buoy.object, AttributeSet{speed}, values_of(value),
+                                             {});
     buoy.said.push_back(value);
   }
   Station& add_watcher(const im::Region& view) {
@@ -59,7 +65,9 @@ struct BuoyedSea {
     watchers[watcher]->ambassador.commit_region_modifications(views[watcher]);
   }
   void round() { rig.round(); }
-  const Recorder::Known& known(std::size_t watcher, const Buoy& buoy) { return watchers[watcher]->heard.objects.at(buoy.object.value); }
+  const Recorder::Known& known(std::size_t watcher, const Buoy& buoy) {
+    return watchers[watcher]->heard.objects.at(buoy.object.value);
+  }
   float heard(std::size_t watcher, const Buoy& buoy) {
     float value = 0.0f;
     std::memcpy(&value, known(watcher, buoy).values.at(speed.value).data(), sizeof value);
@@ -103,20 +111,25 @@ TEST(Tiers, AreToldEverySecondFourthAndEighthMatch) {
     for (Buoy& each : sea.buoys) sea.say(each, static_cast<float>(match));
     sea.round();
     for (std::size_t i = 0; i < sea.buoys.size(); ++i)
-      ASSERT_LT(match - static_cast<int>(sea.heard(0, sea.buoys[i])), 1 << tier_of(i)) << "buoy " << i << " at match " << match;
+      ASSERT_LT(match - static_cast<int>(sea.heard(0, sea.buoys[i])), 1 << tier_of(i))
+          << "buoy " << i << " at match " << match;
   }
   for (int match = 0; match < 8; ++match) sea.round();
   for (std::size_t i = 0; i < sea.buoys.size(); ++i) {
     const int told = sea.known(0, sea.buoys[i]).updates - before[i], due = 64 >> tier_of(i);
-    EXPECT_TRUE(told == due || told == due + 1) << told << " instead of " << due << ", and one at the end if it fell between two turns";
+    EXPECT_TRUE(told == due || told == due + 1)
+        << told << " instead of " << due << ", and one at the end if it fell between two turns";
     EXPECT_EQ(sea.heard(0, sea.buoys[i]), 64.0f) << "who came to rest is right in the end";
   }
   EXPECT_EQ(sea.counters().updates_put_off - start.updates_put_off, 16u * (32u + 48u + 56u));
-  EXPECT_LE(sea.counters().updates_caught_up - start.updates_caught_up, 3u * 16u) << "where an update says all that is late, it is sent itself";
+  EXPECT_LE(sea.counters().updates_caught_up - start.updates_caught_up, 3u * 16u)
+      << "where an update says all that is late, it is sent itself";
 }
 
 TEST(Tiers, ThatBecomeOthersTellAtOnceWhatIsLate) {
-  BuoyedSea sea("region with tiers(at=0.01 at=0.02 at=0.03 at=0.04 at=0.05 at=0.5)");  // the last is told every 64th match
+  BuoyedSea sea(
+      "region with tiers(at=0.01 at=0.02 at=0.03 at=0.04 at=0.05 at=0.5)");  // the last is told
+                                                                             // every 64th match
   Buoy& buoy = sea.add_buoy(95.0, 50.0);
   sea.add_watcher({0.0, 0.0, 100.0, 100.0});
   sea.rig.settle();
@@ -144,7 +157,8 @@ TEST(Tiers, TellAllAttributesThatAreLateInOne) {
   Buoy& buoy = sea.add_buoy(95.0, 50.0);
   sea.add_watcher({0.0, 0.0, 100.0, 100.0});
   sea.rig.settle();
-  sea.pilot.ambassador.update_attribute_values(buoy.object, AttributeSet{destination}, varying("Bergen"), {});
+  sea.pilot.ambassador.update_attribute_values(buoy.object, AttributeSet{destination},
+                                               varying("Bergen"), {});
   for (int match = 0; match < 4; ++match) {
     sea.say(buoy, static_cast<float>(match));
     sea.round();
@@ -170,21 +184,27 @@ TEST(Tiers, OfSeveralRegionsGoByTheNearest) {
   }
 }
 
-/// Everything wanders, comes and goes; whoever is in scope is never staler than its tier allows, and right once all is quiet.
+/// Everything wanders, comes and goes; whoever is in scope is never staler than its tier allows,
+/// and right once all is quiet.
 void wander(const std::string& filter, unsigned seed, int stale_max) {
   BuoyedSea sea(filter, Carrier::in_process, seed);
   SCOPED_TRACE(filter + ", seed " + std::to_string(seed));
   const auto box = [&] {
-    const double x = sea.uniform(0.0, 100.0), y = sea.uniform(0.0, 100.0), half = sea.uniform(5.0, 40.0);
+    const double x = sea.uniform(0.0, 100.0), y = sea.uniform(0.0, 100.0),
+                 half = sea.uniform(5.0, 40.0);
     return im::Region{x - half, y - half, x + half, y + half};
   };
   for (int i = 0; i < 4; ++i) sea.add_watcher(box());
   for (int i = 0; i < 60; ++i) sea.add_buoy(sea.uniform(0.0, 100.0), sea.uniform(0.0, 100.0));
   sea.rig.settle();
-  const auto in_scope = [&](std::size_t watcher, const Buoy& buoy) { return sea.rig.execution().is_in_scope(sea.watchers[watcher]->ambassador.federate(), buoy.object); };
+  const auto in_scope = [&](std::size_t watcher, const Buoy& buoy) {
+    return sea.rig.execution().is_in_scope(sea.watchers[watcher]->ambassador.federate(),
+                                           buoy.object);
+  };
   for (int match = 1; match <= 150; ++match) {
     for (Buoy& each : sea.buoys) {
-      if (sea.uniform(0.0, 1.0) < 0.3) sea.move(each, sea.uniform(0.0, 100.0), sea.uniform(0.0, 100.0));
+      if (sea.uniform(0.0, 1.0) < 0.3)
+        sea.move(each, sea.uniform(0.0, 100.0), sea.uniform(0.0, 100.0));
       if (sea.uniform(0.0, 1.0) < 0.7) sea.say(each, static_cast<float>(match));
     }
     for (std::size_t i = 0; i < 4; ++i)
@@ -200,7 +220,8 @@ void wander(const std::string& filter, unsigned seed, int stale_max) {
       for (const Buoy& each : sea.buoys) {
         if (!in_scope(i, each) || stale_max == 0) continue;
         const float heard = sea.heard(i, each);
-        const auto newer = std::count_if(each.said.begin(), each.said.end(), [heard](float said) { return said > heard; });
+        const auto newer = std::count_if(each.said.begin(), each.said.end(),
+                                         [heard](float said) { return said > heard; });
         ASSERT_LT(newer, stale_max) << "match " << match;
       }
   }
@@ -230,12 +251,14 @@ TEST(Budget, IsKeptAndStarvesNobody) {
 }
 
 TEST(Budget, BoundsTheBytesOfAMatchAndTellsTheNearestMoreOften) {
-  constexpr std::uint64_t budget = 60;  // ten of the sixty-four: as many as a tier has would go round in step
+  constexpr std::uint64_t budget =
+      60;  // ten of the sixty-four: as many as a tier has would go round in step
   BuoyedSea sea("region with priority(budget=60)");
   fill(sea);
   sea.add_watcher({0.0, 0.0, 100.0, 100.0});
   for (int match = 0; match < 20; ++match) sea.round();
-  for (const Buoy& each : sea.buoys) ASSERT_EQ(sea.heard(0, each), 0.5f) << "all have come in by and by";
+  for (const Buoy& each : sea.buoys)
+    ASSERT_EQ(sea.heard(0, each), 0.5f) << "all have come in by and by";
   std::vector<int> before;
   for (const Buoy& each : sea.buoys) before.push_back(sea.known(0, each).updates);
   for (int match = 1; match <= 200; ++match) {
@@ -249,7 +272,9 @@ TEST(Budget, BoundsTheBytesOfAMatchAndTellsTheNearestMoreOften) {
     EXPECT_GT(sea.known(0, sea.buoys[i]).updates - before[i], 10) << "buoy " << i;
     told[i / 16] += sea.known(0, sea.buoys[i]).updates - before[i];
   }
-  EXPECT_NEAR(static_cast<double>(told[0]) / told[3], (1.0 + 42.0 / 50.0) / (1.0 + 6.0 / 50.0), 0.25) << "by 1 + d / r";
+  EXPECT_NEAR(static_cast<double>(told[0]) / told[3], (1.0 + 42.0 / 50.0) / (1.0 + 6.0 / 50.0),
+              0.25)
+      << "by 1 + d / r";
   EXPECT_TRUE(told[0] > told[1] && told[1] > told[2] && told[2] > told[3]);
 }
 
@@ -262,7 +287,9 @@ TEST(Budget, IsSharedByStatesOnEntryAndUpdates) {
   for (int i = 0; i < 8; ++i) sea.add_buoy(200.0, 50.0);
   for (int match = 1; match <= 200; ++match) {
     for (std::size_t i = 0; i < 8; ++i) sea.say(sea.buoys[i], static_cast<float>(match));
-    for (std::size_t i = 8; i < 16; ++i) sea.move(sea.buoys[i], (match + static_cast<int>(i)) % 8 < 4 ? 50.5 : 200.0, 50.0);  // half of them come, half of them go
+    for (std::size_t i = 8; i < 16; ++i)
+      sea.move(sea.buoys[i], (match + static_cast<int>(i)) % 8 < 4 ? 50.5 : 200.0,
+               50.0);  // half of them come, half of them go
     sea.round();
   }
   for (std::size_t i = 0; i < 8; ++i) EXPECT_GT(sea.heard(0, sea.buoys[i]), 150.0f) << "buoy " << i;
@@ -282,7 +309,8 @@ TEST(Turns, CostNothingUnderAFilterWithout) {
   EXPECT_EQ(sea.counters().updates_put_off, 0u);
   for (std::uint64_t match = 0; match < 70; ++match)
     for (std::uint32_t tier = 0; tier <= Turns::tier_max; ++tier)
-      for (std::uint32_t slot = 0; slot < 64; ++slot) ASSERT_EQ((turn_of(match, tier) >> slot & 1u) != 0, (match + slot) % (1u << tier) == 0);
+      for (std::uint32_t slot = 0; slot < 64; ++slot)
+        ASSERT_EQ((turn_of(match, tier) >> slot & 1u) != 0, (match + slot) % (1u << tier) == 0);
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <random>
 
-#include "tests/rti/rig.h"
 #include "rti/admission/handshake.h"
 #include "rti/transport/guarded_transport.h"
+#include "tests/rti/rig.h"
 #include "tests/rti/seeded.h"
 #include "tests/temporary_folder.h"
 
@@ -28,8 +28,10 @@ const SharedKey& another() {
 struct Talk {
   Handshake federate, rti;
   std::vector<std::byte> up, down;
-  Talk(const SharedKey& federates, const SharedKey& rtis, std::string_view federation = "rink", std::string_view served = "rink", unsigned seed = 1)
-      : federate(federates, Role::federate, federation, nonce_of(seed)), rti(rtis, Role::rti, served, nonce_of(seed + 1000)) {}
+  Talk(const SharedKey& federates, const SharedKey& rtis, std::string_view federation = "rink",
+       std::string_view served = "rink", unsigned seed = 1)
+      : federate(federates, Role::federate, federation, nonce_of(seed)),
+        rti(rtis, Role::rti, served, nonce_of(seed + 1000)) {}
   static void carry(Handshake& from, Handshake& to, std::vector<std::byte>& said) {
     const Bytes bytes = from.outgoing();
     said.insert(said.end(), bytes.begin(), bytes.end());
@@ -40,7 +42,8 @@ struct Talk {
   void talk() {
     for (int i = 0; i < 3; ++i) {
       carry(federate, rti, up);
-      EXPECT_LE(down.size() + rti.outgoing().size(), up.size()) << "the RTI's end may not say more than it heard";
+      EXPECT_LE(down.size() + rti.outgoing().size(), up.size())
+          << "the RTI's end may not say more than it heard";
       carry(rti, federate, down);
     }
   }
@@ -63,12 +66,14 @@ TEST(Admission, AnotherKeyFederationOrVersionIsRefusedWithAWord) {
   Talk elsewhere(ours(), ours(), "rink", "pond");
   elsewhere.talk();
   EXPECT_EQ(elsewhere.federate.why(), "the RTI refuses us: other federation");
-  Handshake rti(ours(), Role::rti, "rink", nonce_of(1)), federate(ours(), Role::federate, "rink", nonce_of(2));
+  Handshake rti(ours(), Role::rti, "rink", nonce_of(1)),
+      federate(ours(), Role::federate, "rink", nonce_of(2));
   std::vector<std::byte> hello(federate.outgoing().begin(), federate.outgoing().end());
   hello[frame_header_size + 1] ^= std::byte{1};
   Bytes bytes = hello;
   EXPECT_EQ(rti.receive(bytes), State::failed);
-  const std::string both = "other version: " + std::to_string(protocol_version ^ 1) + ", the RTI speaks " + std::to_string(protocol_version);
+  const std::string both = "other version: " + std::to_string(protocol_version ^ 1) +
+                           ", the RTI speaks " + std::to_string(protocol_version);
   EXPECT_EQ(rti.why(), both);
   Bytes answer = rti.outgoing();
   EXPECT_EQ(federate.receive(answer), State::failed);
@@ -77,8 +82,10 @@ TEST(Admission, AnotherKeyFederationOrVersionIsRefusedWithAWord) {
 
 TEST(Admission, TheFederateTurnsAwayFromAnRtiWithoutTheKey) {
   Handshake federate(ours(), Role::federate, "rink", nonce_of(1));
-  // Somebody who says yes to everybody: a challenge of any kind, then the federate's own proof back.
-  std::vector<std::byte> challenge = values_of(std::uint32_t{33}, MessageKind::challenge, nonce_of(2));
+  // Somebody who says yes to everybody: a challenge of any kind, then the federate's own proof
+  // back.
+  std::vector<std::byte> challenge =
+      values_of(std::uint32_t{33}, MessageKind::challenge, nonce_of(2));
   federate.clear_outgoing();
   Bytes bytes = challenge;
   ASSERT_EQ(federate.receive(bytes), State::going_on);
@@ -101,9 +108,11 @@ TEST(Admission, AReplayedConversationProvesNothing) {
 }
 
 TEST(Admission, AReflectedProofIsNobodys) {
-  // A stranger who opens two conversations with an RTI can't answer one with the other, nor with what the RTI itself says.
+  // A stranger who opens two conversations with an RTI can't answer one with the other, nor with
+  // what the RTI itself says.
   const ProofBasis basis{nonce_of(1), nonce_of(2), "rink"};
-  const Proof federates = ours().prove(Role::federate, basis), rtis = ours().prove(Role::rti, basis);
+  const Proof federates = ours().prove(Role::federate, basis),
+              rtis = ours().prove(Role::rti, basis);
   EXPECT_TRUE(ours().is_proven(Role::federate, basis, federates));
   EXPECT_FALSE(ours().is_proven(Role::federate, basis, rtis));
   EXPECT_FALSE(ours().is_proven(Role::rti, basis, federates));
@@ -148,7 +157,8 @@ TEST(Admission, ConversationsMayBeCutAnywhereAndWhatFollowsThemIsLeft) {
 }
 
 TEST(Admission, AStrangersFrameIsAtMostAKibibyteAndNeverEmpty) {
-  for (const std::uint32_t length : {0u, static_cast<std::uint32_t>(frame_max_to_join) + 1u, 0xffffffffu}) {
+  for (const std::uint32_t length :
+       {0u, static_cast<std::uint32_t>(frame_max_to_join) + 1u, 0xffffffffu}) {
     Handshake rti(ours(), Role::rti, "rink", nonce_of(1));
     const std::vector<std::byte> header = values_of(length);
     Bytes bytes = header;
@@ -192,16 +202,24 @@ TEST(Admission, KeyFilesAreReadWithoutTheirLastLineEndAndRefusedIfShort) {
 /// An RTI and a federate on a carrier, each with a key or none.
 class Gate {
  public:
-  Gate(Carrier carrier, const SharedKey* rtis, const SharedKey* federates) : execution_(harbour(), {}), host_(execution_) {
-    Transport& server = carrier == Carrier::tcp ? static_cast<Transport&>(server_tcp_) : server_local_;
-    Transport& client = carrier == Carrier::tcp ? static_cast<Transport&>(client_tcp_) : client_local_;
+  Gate(Carrier carrier, const SharedKey* rtis, const SharedKey* federates)
+      : execution_(harbour(), {}), host_(execution_) {
+    Transport& server =
+        carrier == Carrier::tcp ? static_cast<Transport&>(server_tcp_) : server_local_;
+    Transport& client =
+        carrier == Carrier::tcp ? static_cast<Transport&>(client_tcp_) : client_local_;
     if (rtis != nullptr) guard_.emplace(server, *rtis, GuardSettings{}, [this] { return now; });
-    if (federates != nullptr) client_guard_.emplace(client, *federates, GuardSettings{.role = Role::federate}, [this] { return now; });
+    if (federates != nullptr)
+      client_guard_.emplace(client, *federates, GuardSettings{.role = Role::federate},
+                            [this] { return now; });
     host_.add(guard_ ? *guard_ : server);
     server_ = &server;
     client_ = client_guard_ ? static_cast<Transport*>(&*client_guard_) : &client;
     if (carrier == Carrier::in_process) server_local_.listen("rti");
-    const ConnectionId id = carrier == Carrier::tcp ? client_tcp_.connect("127.0.0.1", server_tcp_.listen("127.0.0.1", 0)) : client_local_.connect("rti");
+    const ConnectionId id =
+        carrier == Carrier::tcp
+            ? client_tcp_.connect("127.0.0.1", server_tcp_.listen("127.0.0.1", 0))
+            : client_local_.connect("rti");
     link_.emplace(ambassador, *client_, id);
     links_.add(*link_);
   }
@@ -236,7 +254,8 @@ class Gate {
 };
 
 class Admissions : public ::testing::TestWithParam<Carrier> {};
-INSTANTIATE_TEST_SUITE_P(Carriers, Admissions, ::testing::Values(Carrier::in_process, Carrier::tcp), [](const auto& each) { return name_of(each.param); });
+INSTANTIATE_TEST_SUITE_P(Carriers, Admissions, ::testing::Values(Carrier::in_process, Carrier::tcp),
+                         [](const auto& each) { return name_of(each.param); });
 
 TEST_P(Admissions, WhoHasTheKeyJoinsAsEver) {
   Gate scene(GetParam(), &ours(), &ours());

@@ -1,4 +1,5 @@
-// What is owed after losses, against a brute-force record of every datagram; and lists that many ledgers share.
+// What is owed after losses, against a brute-force record of every datagram; and lists that many
+// ledgers share.
 #include "rti/buffering/datagram_ledger.h"
 
 #include <gtest/gtest.h>
@@ -31,9 +32,11 @@ TEST(SaidList, NamesWhatWasAddedInAboutAByteForEachNeighbour) {
     }
   }
   list.end_group();
-  for_each_said(list.groups(), [&](std::uint32_t handle, AttributeSet set) { is.emplace_back(handle, set.bits); });
+  for_each_said(list.groups(),
+                [&](std::uint32_t handle, AttributeSet set) { is.emplace_back(handle, set.bits); });
   EXPECT_EQ(is, wanted);
-  EXPECT_LE(list.groups().size(), 2u * (275u + 2u)) << "a fourth of what the handles themselves take";
+  EXPECT_LE(list.groups().size(), 2u * (275u + 2u))
+      << "a fourth of what the handles themselves take";
 }
 
 TEST(DatagramLedger, OwesWhatNoLaterDatagramSaysAndLetsGoOfEveryList) {
@@ -56,7 +59,8 @@ TEST(DatagramLedger, OwesWhatNoLaterDatagramSaysAndLetsGoOfEveryList) {
         sent[number].is_settled = true;
         for (auto [handle, bits] : sent[number].said) {
           for (std::size_t later = number + 1; later < sent.size(); ++later)
-            if (const auto found = sent[later].said.find(handle); found != sent[later].said.end()) bits &= ~found->second;
+            if (const auto found = sent[later].said.find(handle); found != sent[later].said.end())
+              bits &= ~found->second;
           if (bits != 0) wanted[handle] |= bits;
         }
       };
@@ -71,14 +75,16 @@ TEST(DatagramLedger, OwesWhatNoLaterDatagramSaysAndLetsGoOfEveryList) {
             const auto handle = static_cast<std::uint32_t>(random() % 6);
             next.said[handle] |= static_cast<std::uint32_t>(1 + random() % 7);
           }
-          const SaidLists::Number list = count == 0 ? SaidLists::none : lists.add(list_of(next.said).groups());
+          const SaidLists::Number list =
+              count == 0 ? SaidLists::none : lists.add(list_of(next.said).groups());
           EXPECT_EQ(ledger.note(now, list), sent.size());
           sent.push_back(next);
           if (random() % 10 < 7) arrived.insert(static_cast<std::uint32_t>(sent.size() - 1));
         } else if (!arrived.empty()) {
           AcknowledgeDatagramsMessage message{*arrived.rbegin(), 0};
           for (std::uint32_t age = 1; age <= 64 && age < message.newest; ++age)
-            if (arrived.contains(message.newest - age)) message.before |= std::uint64_t{1} << (age - 1);
+            if (arrived.contains(message.newest - age))
+              message.before |= std::uint64_t{1} << (age - 1);
           for (std::uint32_t number = 1; number <= message.newest; ++number) {
             if (sent[number].is_settled) continue;
             if (arrived.contains(number)) sent[number].is_settled = true;
@@ -93,7 +99,8 @@ TEST(DatagramLedger, OwesWhatNoLaterDatagramSaysAndLetsGoOfEveryList) {
       for (const DatagramLedger::Lost& each : lost) owed[each.handle] |= each.attributes.bits;
       EXPECT_EQ(owed, wanted);
       EXPECT_EQ(ledger.unsettled(), 0u);
-      EXPECT_FALSE(ledger.acknowledge({static_cast<std::uint32_t>(sent.size()), 0}, now, lost)) << "of one that was never sent";
+      EXPECT_FALSE(ledger.acknowledge({static_cast<std::uint32_t>(sent.size()), 0}, now, lost))
+          << "of one that was never sent";
       EXPECT_EQ(lists.in_use(), 0u);
       ledger.note(now, lists.add(list_of({{1, 1}}).groups()));
       EXPECT_EQ(lists.in_use(), 1u);

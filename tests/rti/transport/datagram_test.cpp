@@ -1,4 +1,5 @@
-// Best-effort updates by datagrams that are lost, doubled, late and early: who hears of an object knows its newest state in the end, and never goes back.
+// Best-effort updates by datagrams that are lost, doubled, late and early: who hears of an object
+// knows its newest state in the end, and never goes back.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,15 +14,17 @@ using namespace over_the_strait;
 
 /// What the air does to datagrams.
 struct Air {
-  double loss = 0.0, doubling = 0.0, delay = 0.0;  ///< probabilities; a delayed one stays for up to eight polls
-  bool is_blocked = false;                         ///< nothing gets through
+  double loss = 0.0, doubling = 0.0,
+         delay = 0.0;       ///< probabilities; a delayed one stays for up to eight polls
+  bool is_blocked = false;  ///< nothing gets through
   std::size_t size_max = 1191;
 };
 
 /// An in-process end that also carries datagrams, badly.
 class StormyEndpoint final : public Transport, private TransportListener {
  public:
-  StormyEndpoint(InProcessNetwork& network, Air& weather, std::mt19937& random) : stream_(network), weather_(weather), random_(random) {}
+  StormyEndpoint(InProcessNetwork& network, Air& weather, std::mt19937& random)
+      : stream_(network), weather_(weather), random_(random) {}
   InProcessEndpoint& stream() { return stream_; }
   /// Where this end's datagrams of `connection` come out.
   void lead(ConnectionId connection, StormyEndpoint& other, ConnectionId there) {
@@ -31,7 +34,9 @@ class StormyEndpoint final : public Transport, private TransportListener {
   void poll(std::chrono::nanoseconds wait, TransportListener& listener) override {
     listener_ = &listener;
     std::vector<Arrival> here;
-    std::erase_if(arrivals_, [&](Arrival& each) { return --each.polls < 0 ? (here.push_back(std::move(each)), true) : false; });
+    std::erase_if(arrivals_, [&](Arrival& each) {
+      return --each.polls < 0 ? (here.push_back(std::move(each)), true) : false;
+    });
     // Before or after what the stream brings, as it happens.
     const bool is_first = random_() % 2 == 0;
     if (!is_first) stream_.poll(wait, *this);
@@ -39,9 +44,13 @@ class StormyEndpoint final : public Transport, private TransportListener {
       if (is_open_.contains(each.connection)) listener.on_datagram(each.connection, each.bytes);
     if (is_first) stream_.poll(wait, *this);
   }
-  void send(ConnectionId connection, std::span<const Bytes> parts) override { stream_.send(connection, parts); }
+  void send(ConnectionId connection, std::span<const Bytes> parts) override {
+    stream_.send(connection, parts);
+  }
   void close(ConnectionId connection) override { stream_.close(connection); }
-  TransportCounters counters(ConnectionId connection) const override { return stream_.counters(connection); }
+  TransportCounters counters(ConnectionId connection) const override {
+    return stream_.counters(connection);
+  }
   std::size_t datagram_max(ConnectionId) const override { return weather_.size_max; }
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override {
     for (const Datagram& each : datagrams) {
@@ -49,7 +58,9 @@ class StormyEndpoint final : public Transport, private TransportListener {
       EXPECT_LE(each.head.size() + each.body.size(), weather_.size_max);
       if (weather_.is_blocked || chance() < weather_.loss || connection >= leads_.size()) continue;
       for (int copies = chance() < weather_.doubling ? 2 : 1; copies > 0; --copies) {
-        Arrival arrival{leads_[connection].second, {each.head.begin(), each.head.end()}, chance() < weather_.delay ? static_cast<int>(random_() % 8) : 0};
+        Arrival arrival{leads_[connection].second,
+                        {each.head.begin(), each.head.end()},
+                        chance() < weather_.delay ? static_cast<int>(random_() % 8) : 0};
         arrival.bytes.insert(arrival.bytes.end(), each.body.begin(), each.body.end());
         leads_[connection].first->arrivals_.push_back(std::move(arrival));
       }
@@ -64,9 +75,15 @@ class StormyEndpoint final : public Transport, private TransportListener {
     int polls;
   };
   double chance() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
-  void on_open(ConnectionId connection) override { is_open_.insert(connection), listener_->on_open(connection); }
-  void on_bytes(ConnectionId connection, Bytes bytes) override { listener_->on_bytes(connection, bytes); }
-  void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override { is_open_.erase(connection), listener_->on_close(connection, reason, detail); }
+  void on_open(ConnectionId connection) override {
+    is_open_.insert(connection), listener_->on_open(connection);
+  }
+  void on_bytes(ConnectionId connection, Bytes bytes) override {
+    listener_->on_bytes(connection, bytes);
+  }
+  void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override {
+    is_open_.erase(connection), listener_->on_close(connection, reason, detail);
+  }
 
   InProcessEndpoint stream_;
   Air& weather_;
@@ -89,15 +106,22 @@ struct BuoyWatcher : FederateAmbassador {
   };
   std::map<std::uint32_t, Known> known;
   int went_back = 0, unknown = 0;
-  void discover_object_instance(ObjectHandle object, ObjectClassHandle, std::string_view) override { known[object.value] = {}; }
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle, std::string_view) override {
+    known[object.value] = {};
+  }
   void remove_object_instance(ObjectHandle object) override { known.erase(object.value); }
   void attributes_in_scope(ObjectHandle object) override { known[object.value].is_in_scope = true; }
-  void attributes_out_of_scope(ObjectHandle object) override { known[object.value].is_in_scope = false; }
-  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp&) override {
+  void attributes_out_of_scope(ObjectHandle object) override {
+    known[object.value].is_in_scope = false;
+  }
+  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values,
+                                const Stamp&) override {
     if (!known.contains(object.value) || !known[object.value].is_in_scope) ++unknown;
     Known& one = known[object.value];
-    if (set.includes(height)) read(strait().value(buoy, set, *strait().attribute(buoy, "height"), values), one.height);
-    if (set.includes(heading)) read(strait().value(buoy, set, *strait().attribute(buoy, "heading"), values), one.heading);
+    if (set.includes(height))
+      read(strait().value(buoy, set, *strait().attribute(buoy, "height"), values), one.height);
+    if (set.includes(heading))
+      read(strait().value(buoy, set, *strait().attribute(buoy, "heading"), values), one.heading);
   }
   template <class Number>
   void read(Bytes bytes, Number& value) {
@@ -116,7 +140,8 @@ class StormySea {
     far_.stream().listen("far");
     host_.add(near_);
     host_.add(far_);
-    publisher.link = std::make_unique<FederateLink>(publisher.ambassador, own_, own_.connect("near"));
+    publisher.link =
+        std::make_unique<FederateLink>(publisher.ambassador, own_, own_.connect("near"));
     own_links_.add(*publisher.link);
     publisher.ambassador.join("rink", "publisher", "");
     publisher.ambassador.publish_object_class_attributes(buoy, number | height | heading);
@@ -160,7 +185,8 @@ class StormySea {
     if (set.includes(heading)) append(values, values_of(truth[object.value].heading += 1.0f));
     publisher.ambassador.update_attribute_values(object, set, values, {now, 0});
   }
-  /// Everybody's mirror against what was last said; nobody ever went back or heard of what he did not see.
+  /// Everybody's mirror against what was last said; nobody ever went back or heard of what he did
+  /// not see.
   void expect_truth() {
     for (const BuoyWatcher& watcher : watchers) {
       EXPECT_EQ(watcher.went_back, 0);
@@ -173,7 +199,9 @@ class StormySea {
       }
     }
   }
-  static void append(std::vector<std::byte>& bytes, const std::vector<std::byte>& more) { bytes.insert(bytes.end(), more.begin(), more.end()); }
+  static void append(std::vector<std::byte>& bytes, const std::vector<std::byte>& more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  }
   const FederationCounters& counters() const { return execution_.counters(); }
   FederationExecution& execution() { return execution_; }
   StormyEndpoint& far() { return far_; }
@@ -225,7 +253,8 @@ TEST(Datagrams, CostNothingWhereNothingIsBestEffort) {
   pilot.ambassador.publish_object_class_attributes(vessel, AttributeSet{position, speed});
   coast.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{position, speed});
   const ObjectHandle object = pilot.ambassador.register_object_instance(vessel);
-  pilot.ambassador.update_attribute_values(object, AttributeSet{position, speed}, values_of(1.0f, 2.0f, 3.0f), {});
+  pilot.ambassador.update_attribute_values(object, AttributeSet{position, speed},
+                                           values_of(1.0f, 2.0f, 3.0f), {});
   rig.settle();
   EXPECT_EQ(rig.execution().counters().datagrams_sent, 0u);
   EXPECT_EQ(coast.ambassador.counters().datagrams_received, 0u);
@@ -245,7 +274,8 @@ TEST(Datagrams, AreAcknowledgedTenTimesASecondWhereNoneIsMissing) {
   }
   EXPECT_GE(sea.clients().sent - before, 3 * 8);
   EXPECT_LE(sea.clients().sent - before, 3 * 10 + 1);
-  EXPECT_LE(sea.counters().frames_sent - frames_before, 4u) << "and who hears of us by datagrams needs no heartbeats";
+  EXPECT_LE(sea.counters().frames_sent - frames_before, 4u)
+      << "and who hears of us by datagrams needs no heartbeats";
   sea.expect_truth();
 }
 
@@ -283,16 +313,22 @@ TEST(Datagrams, StormsChangeNothingInTheEnd) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     StormySea sea(seed, 3);
-    sea.weather = {.loss = 0.3, .doubling = 0.2, .delay = 0.5, .is_blocked = false, .size_max = seed % 2 == 0 ? 1191u : 300u};
+    sea.weather = {.loss = 0.3,
+                   .doubling = 0.2,
+                   .delay = 0.5,
+                   .is_blocked = false,
+                   .size_max = seed % 2 == 0 ? 1191u : 300u};
     std::mt19937 random(seed);
     for (int tick = 0; tick < 200; ++tick) {
       if (tick < 40 && tick % 2 == 0) sea.place_buoy();
       for (const ObjectHandle object : sea.buoys) {
         const unsigned choice = random() % 8;
-        if (choice < 3) sea.update(object, choice == 0 ? height : choice == 1 ? heading : height | heading);
+        if (choice < 3)
+          sea.update(object, choice == 0 ? height : choice == 1 ? heading : height | heading);
         if (choice == 3 && tick % 10 == 0) sea.update(object, number | height);
       }
-      // Watchers look away and come back, which brings the whole state by the stream, ahead of datagrams that are still on their way.
+      // Watchers look away and come back, which brings the whole state by the stream, ahead of
+      // datagrams that are still on their way.
       if (tick % 7 == 3) {
         BuoyWatcher& watcher = sea.watchers[random() % 3];
         watcher.ambassador.unsubscribe_object_class(buoy);
@@ -343,7 +379,8 @@ TEST(Datagrams, NonsenseIsIgnoredAndCounted) {
     std::vector<std::byte> bytes(random() % 60);
     for (std::byte& byte : bytes) byte = static_cast<std::byte>(random() % (i % 2 == 0 ? 256 : 64));
     if (bytes.size() >= 8 && i % 3 != 0) {
-      // A plausible number, or receipts of all later ones would be spoilt, as a stranger without the key cannot.
+      // A plausible number, or receipts of all later ones would be spoilt, as a stranger without
+      // the key cannot.
       std::fill(bytes.begin(), bytes.begin() + 8, std::byte{0});
     }
     if (i % 3 != 0) watcher.ambassador.receive_datagram(bytes);
@@ -366,14 +403,17 @@ TEST(DatagramReceipts, TellOfTheLastSixtyFourAsASetWould) {
     std::set<std::uint32_t> arrived;
     std::uint32_t front = 1;
     for (int i = 0; i < 500; ++i) {
-      const auto back = static_cast<std::uint32_t>(random() % 80), number = front > back ? front - back : 1;
-      if (random() % 3 == 0) front += 1 + static_cast<std::uint32_t>(random() % (seed % 5 == 0 ? 100 : 3));
+      const auto back = static_cast<std::uint32_t>(random() % 80),
+                 number = front > back ? front - back : 1;
+      if (random() % 3 == 0)
+        front += 1 + static_cast<std::uint32_t>(random() % (seed % 5 == 0 ? 100 : 3));
       const std::uint32_t newest = arrived.empty() ? 0 : *arrived.rbegin();
       const bool is_new = !arrived.contains(number) && (number > newest || newest - number <= 64);
       EXPECT_EQ(receipts.note(number), is_new) << number << " after " << newest;
       if (is_new) arrived.insert(number);
       const AcknowledgeDatagramsMessage told = receipts.acknowledge();
-      for (std::uint32_t age = 0; age <= 64 && age < told.newest; ++age) EXPECT_EQ(told.has(told.newest - age), arrived.contains(told.newest - age));
+      for (std::uint32_t age = 0; age <= 64 && age < told.newest; ++age)
+        EXPECT_EQ(told.has(told.newest - age), arrived.contains(told.newest - age));
     }
   }
 }

@@ -1,4 +1,5 @@
-// Reliable lines over a bad network: everything arrives, in order, and as late as RFC 6298 says; cuts halt it and healing lets it go on.
+// Reliable lines over a bad network: everything arrives, in order, and as late as RFC 6298 says;
+// cuts halt it and healing lets it go on.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,8 +13,13 @@ namespace {
 
 using namespace testing;
 
-NetworkConditions both_ways(const LinkConditions& conditions, std::vector<Partition> partitions = {}) {
-  return {.seed = 3, .to_listener = conditions, .from_listener = conditions, .exceptions = {}, .partitions = std::move(partitions)};
+NetworkConditions both_ways(const LinkConditions& conditions,
+                            std::vector<Partition> partitions = {}) {
+  return {.seed = 3,
+          .to_listener = conditions,
+          .from_listener = conditions,
+          .exceptions = {},
+          .partitions = std::move(partitions)};
 }
 
 /// Remembers text and instants.
@@ -24,7 +30,9 @@ struct Ear : TransportListener {
     text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     last_ns = network.now_ns();
   }
-  void on_datagram(ConnectionId, Bytes bytes) override { datagrams.append(reinterpret_cast<const char*>(bytes.data()), bytes.size()); }
+  void on_datagram(ConnectionId, Bytes bytes) override {
+    datagrams.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
   void on_close(ConnectionId, CloseReason reason, const std::string&) override {
     closed = to_string(reason);
     closed_ns = network.now_ns();
@@ -35,7 +43,8 @@ struct Ear : TransportListener {
 };
 
 struct Talk {
-  explicit Talk(NetworkConditions conditions, std::size_t queue_max = 64u << 20) : model(std::move(conditions)), network(model, 0, queue_max) {
+  explicit Talk(NetworkConditions conditions, std::size_t queue_max = 64u << 20)
+      : model(std::move(conditions)), network(model, 0, queue_max) {
     network.carry_datagrams();
     server.listen("here");
     line = client.connect("here");
@@ -49,12 +58,15 @@ struct Talk {
       if (!next_ns || *next_ns > until_ns) return;
     }
   }
-  void say(const std::string& text) { client.send(line, std::array{Bytes(std::as_bytes(std::span(text)))}); }
+  void say(const std::string& text) {
+    client.send(line, std::array{Bytes(std::as_bytes(std::span(text)))});
+  }
   void toss(const std::string& text) { toss(client, line, text); }
   void toss_back(const std::string& text) { toss(server, 0, text); }
   static void toss(VirtualEndpoint& from, ConnectionId line, const std::string& text) {
     const Bytes bytes = std::as_bytes(std::span(text));
-    from.send_datagrams(line, std::array{Datagram{bytes.first(bytes.size() / 2), bytes.subspan(bytes.size() / 2)}});
+    from.send_datagrams(
+        line, std::array{Datagram{bytes.first(bytes.size() / 2), bytes.subspan(bytes.size() / 2)}});
   }
   NetworkModel model;
   VirtualNetwork network;
@@ -64,7 +76,12 @@ struct Talk {
 };
 
 TEST(ModelledTcp, AllArrivesInOrderOverABadNetwork) {
-  Talk talk(both_ways({.latency_ns = 20 * ms, .jitter_ns = 10 * ms, .loss = PacketLoss::in_bursts(0.2, 3.0), .reorder = 0.2, .held_ns = 30 * ms, .duplicate = 0.2,
+  Talk talk(both_ways({.latency_ns = 20 * ms,
+                       .jitter_ns = 10 * ms,
+                       .loss = PacketLoss::in_bursts(0.2, 3.0),
+                       .reorder = 0.2,
+                       .held_ns = 30 * ms,
+                       .duplicate = 0.2,
                        .rate_bits_per_s = 1'000'000}));
   std::string said;
   for (int i = 0; i < 1000; ++i) {
@@ -88,7 +105,8 @@ TEST(ModelledTcp, TheFirstTimeOutIsASecondAndDoublesUntilTheCutHeals) {
 
 TEST(ModelledTcp, OnceTheRoundTripIsKnownTheTimeOutFollowsIt) {
   for (const std::int64_t latency_ns : {50 * ms, 400 * ms}) {
-    Talk talk(both_ways({.latency_ns = latency_ns}, {{.from_ns = 200 * second, .until_ns = 200 * second + 1}}));
+    Talk talk(both_ways({.latency_ns = latency_ns},
+                        {{.from_ns = 200 * second, .until_ns = 200 * second + 1}}));
     for (int i = 0; i < 100; ++i) {
       talk.say("x");
       talk.run(talk.network.now_ns() + second);
@@ -97,14 +115,17 @@ TEST(ModelledTcp, OnceTheRoundTripIsKnownTheTimeOutFollowsIt) {
     talk.say("lost once");
     talk.run(300 * second);
     // A round trip that never changes lets the variation die out in whole nanoseconds.
-    EXPECT_NEAR(static_cast<double>(talk.server_ear.last_ns - 200 * second), static_cast<double>(std::max(200 * ms, 2 * latency_ns) + latency_ns), 1e3);
+    EXPECT_NEAR(static_cast<double>(talk.server_ear.last_ns - 200 * second),
+                static_cast<double>(std::max(200 * ms, 2 * latency_ns) + latency_ns), 1e3);
   }
 }
 
-/// RFC 6298: after a first round trip r the time-out is r + 4 r/2, and a round trip goes there and back.
+/// RFC 6298: after a first round trip r the time-out is r + 4 r/2, and a round trip goes there and
+/// back.
 TEST(ModelledTcp, ARoundTripTakesTheLatencyOfEachWay) {
   for (const auto& [up, down] : {std::pair(10 * ms, 200 * ms), std::pair(200 * ms, 10 * ms)}) {
-    NetworkConditions conditions = both_ways({.latency_ns = up}, {{.from_ns = 2 * second, .until_ns = 2 * second + 300 * ms}});
+    NetworkConditions conditions =
+        both_ways({.latency_ns = up}, {{.from_ns = 2 * second, .until_ns = 2 * second + 300 * ms}});
     conditions.from_listener.latency_ns = down;
     Talk talk(std::move(conditions));
     talk.run(2 * second);
@@ -118,7 +139,9 @@ TEST(ModelledTcp, ARoundTripTakesTheLatencyOfEachWay) {
 TEST(ModelledTcp, ASegmentWithThreeBehindItIsSentAgainAfterOneRoundTrip) {
   // 1500 bytes take 12 ms at 1 Mbit/s: the cut takes the first of five segments, or the last.
   const auto arrival_ns = [](std::int64_t cut_ns) {
-    const Partition cut{.from_ns = 10 * second + cut_ns - ms, .until_ns = 10 * second + cut_ns + ms, .direction = LinkDirection::to_listener};
+    const Partition cut{.from_ns = 10 * second + cut_ns - ms,
+                        .until_ns = 10 * second + cut_ns + ms,
+                        .direction = LinkDirection::to_listener};
     Talk talk(both_ways({.latency_ns = 30 * ms, .rate_bits_per_s = 1'000'000}, {cut}));
     talk.run(10 * second);
     talk.say(std::string(5 * segment_max, 'x'));
@@ -127,8 +150,10 @@ TEST(ModelledTcp, ASegmentWithThreeBehindItIsSentAgainAfterOneRoundTrip) {
     return talk.server_ear.last_ns - 10 * second;
   };
   const std::int64_t whole_ns = 5 * 12 * ms + 30 * ms;
-  EXPECT_LT(arrival_ns(12 * ms), whole_ns + 60 * ms) << "hidden behind the rest, or a round trip later";
-  EXPECT_GE(arrival_ns(60 * ms), whole_ns + 200 * ms) << "nothing follows the last one: the time-out";
+  EXPECT_LT(arrival_ns(12 * ms), whole_ns + 60 * ms)
+      << "hidden behind the rest, or a round trip later";
+  EXPECT_GE(arrival_ns(60 * ms), whole_ns + 200 * ms)
+      << "nothing follows the last one: the time-out";
 }
 
 TEST(ModelledTcp, ASenderBehindACutThatNeverHealsGivesUp) {
@@ -139,13 +164,18 @@ TEST(ModelledTcp, ASenderBehindACutThatNeverHealsGivesUp) {
   talk.run(5000 * second);
   EXPECT_EQ(talk.client_ear.closed, to_string(CloseReason::failed));
   // RTT known: 0.2 0.4 ... 51.2 s, then 60 s: nine doublings, seven at the limit.
-  EXPECT_NEAR(1e-9 * static_cast<double>(talk.client_ear.closed_ns), 1.0 + 0.2 * 511.0 + 7 * 60.0, 1e-6);
+  EXPECT_NEAR(1e-9 * static_cast<double>(talk.client_ear.closed_ns), 1.0 + 0.2 * 511.0 + 7 * 60.0,
+              1e-6);
   EXPECT_EQ(talk.server_ear.closed, "") << "who is cut off hears nothing of it";
   EXPECT_EQ(talk.server_ear.text, "");
 }
 
 TEST(ModelledTcp, ACutOfOneDirectionLetsTheOtherThrough) {
-  Talk talk(both_ways({.latency_ns = ms}, {{.from_ns = second, .until_ns = 2 * second, .first = 0, .last = 0, .direction = LinkDirection::from_listener}}));
+  Talk talk(both_ways({.latency_ns = ms}, {{.from_ns = second,
+                                            .until_ns = 2 * second,
+                                            .first = 0,
+                                            .last = 0,
+                                            .direction = LinkDirection::from_listener}}));
   talk.run(1500 * ms);
   talk.say("heard");
   talk.toss("seen");

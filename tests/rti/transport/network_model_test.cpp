@@ -1,4 +1,5 @@
-// Fates of packets against the closed forms of their models: loss, bursts, queues, jitter, order, copies.
+// Fates of packets against the closed forms of their models: loss, bursts, queues, jitter, order,
+// copies.
 #include "rti/transport/modelled/network_model.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,12 @@ using namespace testing;
 
 /// One link of its own, whose direction to the listener is `conditions`.
 struct Link {
-  explicit Link(const LinkConditions& conditions, std::uint64_t seed = 1) : model({.seed = seed, .to_listener = conditions, .from_listener = {}, .exceptions = {}, .partitions = {}}) {
+  explicit Link(const LinkConditions& conditions, std::uint64_t seed = 1)
+      : model({.seed = seed,
+               .to_listener = conditions,
+               .from_listener = {},
+               .exceptions = {},
+               .partitions = {}}) {
     EXPECT_EQ(conditions.objection(), "");
     model.open_line(0, {"here", 0, LinkDirection::to_listener});
   }
@@ -58,8 +64,11 @@ TEST(NetworkModel, IndependentLossesHaveTheirRateAndGeometricRuns) {
     EXPECT_NEAR(sum_of(runs) / count, p, sigmas * std::sqrt(p * (1.0 - p) / count)) << "p " << p;
     EXPECT_NEAR(PacketLoss::independent(p).burst(), 1.0 / (1.0 - p), 1e-9);
     for (std::size_t length = 1; length <= 4; ++length) {
-      const double expected = (1.0 - p) * std::pow(p, static_cast<double>(length - 1)), n = static_cast<double>(runs.size());
-      EXPECT_NEAR(static_cast<double>(std::ranges::count(runs, length)) / n, expected, sigmas * std::sqrt(expected * (1.0 - expected) / n) + 1.0 / n) << "p " << p << ", runs of " << length;
+      const double expected = (1.0 - p) * std::pow(p, static_cast<double>(length - 1)),
+                   n = static_cast<double>(runs.size());
+      EXPECT_NEAR(static_cast<double>(std::ranges::count(runs, length)) / n, expected,
+                  sigmas * std::sqrt(expected * (1.0 - expected) / n) + 1.0 / n)
+          << "p " << p << ", runs of " << length;
     }
   }
 }
@@ -74,9 +83,12 @@ TEST(NetworkModel, BurstsHaveTheRateAndTheMeanLengthThatWasAskedFor) {
     Link link({.loss = loss}, 11);
     const std::vector<std::size_t> runs = lost_runs(link, count);
     const double memory = 1.0 - loss.to_bad - loss.to_good;  // correlation of neighbours
-    EXPECT_NEAR(sum_of(runs) / count, rate, sigmas * std::sqrt(rate * (1.0 - rate) / count * (1.0 + memory) / (1.0 - memory))) << "burst " << burst;
+    EXPECT_NEAR(sum_of(runs) / count, rate,
+                sigmas * std::sqrt(rate * (1.0 - rate) / count * (1.0 + memory) / (1.0 - memory)))
+        << "burst " << burst;
     const double n = static_cast<double>(runs.size());
-    EXPECT_NEAR(sum_of(runs) / n, burst, sigmas * std::sqrt(burst * (burst - 1.0) / n)) << "rate " << rate;
+    EXPECT_NEAR(sum_of(runs) / n, burst, sigmas * std::sqrt(burst * (burst - 1.0) / n))
+        << "rate " << rate;
   }
 }
 
@@ -87,8 +99,10 @@ TEST(NetworkModel, AChainThatAlsoLosesInItsGoodStateAndNotAllInItsBadOneFollowsI
   EXPECT_NEAR(loss.loss(), 5.0 / 6.0 * 0.01 + 0.7 / 6.0, 1e-12);
   Link link({.loss = loss}, 13);
   const std::vector<std::size_t> runs = lost_runs(link, count);
-  EXPECT_NEAR(sum_of(runs) / count, loss.loss(), sigmas * std::sqrt(loss.loss() * (1.0 - loss.loss()) / count * (1.88 / 0.12)));
-  EXPECT_NEAR(sum_of(runs) / static_cast<double>(runs.size()), loss.burst(), 0.01 * loss.burst()) << runs.size() << " runs";
+  EXPECT_NEAR(sum_of(runs) / count, loss.loss(),
+              sigmas * std::sqrt(loss.loss() * (1.0 - loss.loss()) / count * (1.88 / 0.12)));
+  EXPECT_NEAR(sum_of(runs) / static_cast<double>(runs.size()), loss.burst(), 0.01 * loss.burst())
+      << runs.size() << " runs";
 }
 
 TEST(NetworkModel, ABurstLeavesALimitedRateOnePacketAfterTheOther) {
@@ -129,7 +143,8 @@ TEST(NetworkModel, PoissonArrivalsWaitAsPollaczekAndKhinchineSay) {
       sum += waited_s / per_batch;
       square += waited_s / per_batch * waited_s / per_batch;
     }
-    const double mean = sum / batches, deviation = std::sqrt((square / batches - mean * mean) / (batches - 1));
+    const double mean = sum / batches,
+                 deviation = std::sqrt((square / batches - mean * mean) / (batches - 1));
     EXPECT_NEAR(mean, load * service_s / (2.0 * (1.0 - load)), 4.0 * deviation) << "load " << load;
     EXPECT_LT(deviation, 0.02 * mean);
   }
@@ -140,18 +155,26 @@ TEST(NetworkModel, JitterIsExponential) {
   Link link({.latency_ns = 30 * ms, .jitter_ns = 4 * ms}, 19);
   std::vector<double> late(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::int64_t now_ns = static_cast<std::int64_t>(i) * second;  // too far apart to hold each other up
-    late[i] = static_cast<double>(link.send(now_ns).at(0) - now_ns - 30 * ms) / static_cast<double>(4 * ms);
+    const std::int64_t now_ns =
+        static_cast<std::int64_t>(i) * second;  // too far apart to hold each other up
+    late[i] = static_cast<double>(link.send(now_ns).at(0) - now_ns - 30 * ms) /
+              static_cast<double>(4 * ms);
   }
   std::ranges::sort(late);
   double distance = 0.0;  // Kolmogorov and Smirnov's
-  for (std::size_t i = 0; i < count; ++i) distance = std::max(distance, std::abs(-std::expm1(-late[i]) - (static_cast<double>(i) + 0.5) / count));
+  for (std::size_t i = 0; i < count; ++i)
+    distance = std::max(distance,
+                        std::abs(-std::expm1(-late[i]) - (static_cast<double>(i) + 0.5) / count));
   EXPECT_LT(distance * std::sqrt(count), 1.95) << "exceeded by one sample in a thousand";
   EXPECT_GE(late.front(), 0.0);
 }
 
 TEST(NetworkModel, NothingOvertakesUnlessItMay) {
-  Link link({.latency_ns = 10 * ms, .jitter_ns = 20 * ms, .loss = PacketLoss::independent(0.1), .duplicate = 0.1}, 23);
+  Link link({.latency_ns = 10 * ms,
+             .jitter_ns = 20 * ms,
+             .loss = PacketLoss::independent(0.1),
+             .duplicate = 0.1},
+            23);
   std::int64_t last_ns = 0;
   for (std::int64_t i = 0; i < 20'000; ++i)
     for (const std::int64_t arrival_ns : link.send(i * ms)) {
@@ -171,7 +194,8 @@ TEST(NetworkModel, TheFractionHeldIsOvertakenAndNoOther) {
     held += taken_ns == 17 * ms;
     ASSERT_TRUE(taken_ns == 10 * ms || taken_ns == 17 * ms);
   }
-  EXPECT_NEAR(static_cast<double>(held) / count, reorder, sigmas * std::sqrt(reorder * (1.0 - reorder) / count));
+  EXPECT_NEAR(static_cast<double>(held) / count, reorder,
+              sigmas * std::sqrt(reorder * (1.0 - reorder) / count));
 }
 
 TEST(NetworkModel, TheFractionDuplicatedComesTwice) {
@@ -180,7 +204,8 @@ TEST(NetworkModel, TheFractionDuplicatedComesTwice) {
   Link link({.duplicate = duplicate}, 31);
   std::int64_t twice = 0;
   for (std::int64_t i = 0; i < count; ++i) twice += link.send(i * ms).size() == 2;
-  EXPECT_NEAR(static_cast<double>(twice) / count, duplicate, sigmas * std::sqrt(duplicate * (1.0 - duplicate) / count));
+  EXPECT_NEAR(static_cast<double>(twice) / count, duplicate,
+              sigmas * std::sqrt(duplicate * (1.0 - duplicate) / count));
   EXPECT_EQ(link.model.counters().duplicated, static_cast<std::uint64_t>(twice));
 }
 
@@ -192,19 +217,31 @@ TEST(NetworkModel, WhatIsLostDependsOnNoOtherProperty) {
     return lost;
   };
   const PacketLoss loss = PacketLoss::in_bursts(0.2, 3.0);
-  EXPECT_EQ(fates({.loss = loss}), fates({.latency_ns = ms, .jitter_ns = ms, .loss = loss, .reorder = 0.5, .held_ns = ms, .duplicate = 0.5}));
+  EXPECT_EQ(fates({.loss = loss}), fates({.latency_ns = ms,
+                                          .jitter_ns = ms,
+                                          .loss = loss,
+                                          .reorder = 0.5,
+                                          .held_ns = ms,
+                                          .duplicate = 0.5}));
 }
 
 TEST(NetworkModel, ALinksFateIsItsOwn) {
   const LinkConditions conditions{.jitter_ns = ms, .loss = PacketLoss::independent(0.3)};
-  const auto fates = [&](std::uint32_t others, std::uint32_t link, LinkDirection direction, std::uint64_t seed) {
-    NetworkModel model({.seed = seed, .to_listener = conditions, .from_listener = conditions, .exceptions = {}, .partitions = {}});
-    for (std::uint32_t line = 0; line < others; ++line) model.open_line(line, {"elsewhere", line, LinkDirection::to_listener});
+  const auto fates = [&](std::uint32_t others, std::uint32_t link, LinkDirection direction,
+                         std::uint64_t seed) {
+    NetworkModel model({.seed = seed,
+                        .to_listener = conditions,
+                        .from_listener = conditions,
+                        .exceptions = {},
+                        .partitions = {}});
+    for (std::uint32_t line = 0; line < others; ++line)
+      model.open_line(line, {"elsewhere", line, LinkDirection::to_listener});
     model.open_line(others, {"here", link, direction});
     std::vector<std::int64_t> all;
     for (std::int64_t i = 0; i < 500; ++i) {
       for (std::uint32_t line = 0; line < others; ++line) model.datagram(line, i * ms, 50);
-      for (const std::int64_t arrival_ns : model.datagram(others, i * ms, 50)) all.push_back(arrival_ns);
+      for (const std::int64_t arrival_ns : model.datagram(others, i * ms, 50))
+        all.push_back(arrival_ns);
     }
     return all;
   };
@@ -216,8 +253,14 @@ TEST(NetworkModel, ALinksFateIsItsOwn) {
 }
 
 TEST(NetworkModel, SomeLinksAreLikeNoOther) {
-  NetworkModel model({.seed = 1, .to_listener = {.latency_ns = 10}, .from_listener = {.latency_ns = 20},
-                      .exceptions = {{.first = 3, .last = 5, .to_listener = {.latency_ns = 30}, .from_listener = {.latency_ns = 40}}}, .partitions = {}});
+  NetworkModel model({.seed = 1,
+                      .to_listener = {.latency_ns = 10},
+                      .from_listener = {.latency_ns = 20},
+                      .exceptions = {{.first = 3,
+                                      .last = 5,
+                                      .to_listener = {.latency_ns = 30},
+                                      .from_listener = {.latency_ns = 40}}},
+                      .partitions = {}});
   for (std::uint32_t link = 0; link < 8; ++link) {
     model.open_line(2 * link, {"here", link, LinkDirection::to_listener});
     model.open_line(2 * link + 1, {"here", link, LinkDirection::from_listener});
@@ -229,9 +272,12 @@ TEST(NetworkModel, SomeLinksAreLikeNoOther) {
 
 TEST(NetworkModel, NumbersThatMakeNoLinkAreNamed) {
   EXPECT_EQ(LinkConditions{}.objection(), "");
-  for (const LinkConditions& bad : {LinkConditions{.latency_ns = -1}, LinkConditions{.jitter_ns = -1}, LinkConditions{.loss = PacketLoss::independent(1.1)},
-                                    LinkConditions{.loss = PacketLoss::in_bursts(0.9, 1.0)},
-                                    LinkConditions{.reorder = -0.1}, LinkConditions{.duplicate = 2.0}, LinkConditions{.rate_bits_per_s = 1000, .queue_bytes = 100}})
+  for (const LinkConditions& bad :
+       {LinkConditions{.latency_ns = -1}, LinkConditions{.jitter_ns = -1},
+        LinkConditions{.loss = PacketLoss::independent(1.1)},
+        LinkConditions{.loss = PacketLoss::in_bursts(0.9, 1.0)}, LinkConditions{.reorder = -0.1},
+        LinkConditions{.duplicate = 2.0},
+        LinkConditions{.rate_bits_per_s = 1000, .queue_bytes = 100}})
     EXPECT_NE(bad.objection(), "");
 }
 

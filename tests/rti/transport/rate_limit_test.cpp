@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "tests/rti/rig.h"
 #include "rti/admission/token_bucket.h"
 #include "rti/transport/rate_limited_transport.h"
+#include "tests/rti/rig.h"
 #include "tests/rti/transport/scripted_transport.h"
 
 namespace rink::rti::testing {
@@ -98,7 +98,8 @@ TEST(RateLimit, FramesCountHoweverTheyAreCut) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     LimitedLine line({.frames_per_s = 50.0});
-    const std::vector<std::byte> allowed = frames(50, static_cast<std::uint32_t>(1 + random() % 30));
+    const std::vector<std::byte> allowed =
+        frames(50, static_cast<std::uint32_t>(1 + random() % 30));
     for (Bytes left = allowed; !left.empty();) {
       const std::size_t size = std::min<std::size_t>(left.size(), 1 + random() % 40);
       line.say(left.first(size));

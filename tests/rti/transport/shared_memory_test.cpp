@@ -1,4 +1,5 @@
-// Shared memory between processes: what a busy connection costs, killed and hostile peers, and that nothing is left behind.
+// Shared memory between processes: what a busy connection costs, killed and hostile peers, and that
+// nothing is left behind.
 #include "rti/transport/shared_memory/shared_memory.h"
 
 #include <gtest/gtest.h>
@@ -35,16 +36,22 @@ struct Tale : TransportListener {
   int closed = 0;
   CloseReason reason = CloseReason::closed_by_us;
   void on_open(ConnectionId connection) override { open.push_back(connection); }
-  void on_bytes(ConnectionId, Bytes received) override { bytes.insert(bytes.end(), received.begin(), received.end()); }
-  void on_close(ConnectionId, CloseReason why, const std::string&) override { ++closed, reason = why; }
+  void on_bytes(ConnectionId, Bytes received) override {
+    bytes.insert(bytes.end(), received.begin(), received.end());
+  }
+  void on_close(ConnectionId, CloseReason why, const std::string&) override {
+    ++closed, reason = why;
+  }
 };
 
 /// A connected pair in one process.
 struct ConnectedPair {
-  explicit ConnectedPair(const std::string& name, const SharedMemorySettings& settings = {}) : server(settings), client(settings) {
+  explicit ConnectedPair(const std::string& name, const SharedMemorySettings& settings = {})
+      : server(settings), client(settings) {
     server.listen(name);
     connection = client.connect(name);
-    for (int i = 0; i < 1000 && (here.open.empty() || there.open.empty()); ++i) server.poll({}, here), client.poll({}, there);
+    for (int i = 0; i < 1000 && (here.open.empty() || there.open.empty()); ++i)
+      server.poll({}, here), client.poll({}, there);
   }
   SharedMemoryTransport server, client;
   Tale here, there;
@@ -73,9 +80,11 @@ TEST(SharedMemory, AStreamManyTimesAsLongAsTheRingArrivesInOrder) {
     const Bytes part = piece;
     pair.client.send(pair.connection, std::span(&part, 1));
     sent.insert(sent.end(), piece.begin(), piece.end());
-    while (pair.client.counters(pair.connection).queued_bytes > 100'000) pair.server.poll({}, pair.here), pair.client.poll({}, pair.there);
+    while (pair.client.counters(pair.connection).queued_bytes > 100'000)
+      pair.server.poll({}, pair.here), pair.client.poll({}, pair.there);
   }
-  for (int i = 0; i < 100'000 && pair.here.bytes.size() < sent.size(); ++i) pair.server.poll({}, pair.here), pair.client.poll({}, pair.there);
+  for (int i = 0; i < 100'000 && pair.here.bytes.size() < sent.size(); ++i)
+    pair.server.poll({}, pair.here), pair.client.poll({}, pair.there);
   EXPECT_TRUE(pair.here.bytes == sent);
 }
 
@@ -102,7 +111,8 @@ TEST(SharedMemory, AKilledProcessIsNoticedWithinASecondAndLeavesNothingBehind) {
       for (;;) theirs.poll(10ms, told);
     });
     for (int i = 0; i < 500 && tale.open.empty(); ++i) {
-      if (is_server_killed && tale.closed == static_cast<int>(i)) ours.connect(name);  // until it listens
+      if (is_server_killed && tale.closed == static_cast<int>(i))
+        ours.connect(name);  // until it listens
       ours.poll(10ms, tale);
       if (tale.open.empty()) std::this_thread::sleep_for(2ms);
     }
@@ -110,14 +120,18 @@ TEST(SharedMemory, AKilledProcessIsNoticedWithinASecondAndLeavesNothingBehind) {
     const int closed_before = tale.closed;
     kill(child, SIGKILL);
     const auto start = std::chrono::steady_clock::now();
-    while (tale.closed == closed_before && std::chrono::steady_clock::now() - start < 5s) ours.poll(100ms, tale);
+    while (tale.closed == closed_before && std::chrono::steady_clock::now() - start < 5s)
+      ours.poll(100ms, tale);
     EXPECT_LT(std::chrono::steady_clock::now() - start, 1s);
     EXPECT_EQ(tale.reason, CloseReason::closed_by_peer);
     waitpid(child, nullptr, 0);
-    EXPECT_NO_THROW(SharedMemoryTransport().listen(name + (is_server_killed ? "" : "-other"))) << "the address is free at once";
+    EXPECT_NO_THROW(SharedMemoryTransport().listen(name + (is_server_killed ? "" : "-other")))
+        << "the address is free at once";
   }
   std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);) EXPECT_EQ(line.find("memfd:rink"), std::string::npos) << "the memory has no name, and ends with its last mapping: " << line;
+  for (std::string line; std::getline(maps, line);)
+    EXPECT_EQ(line.find("memfd:rink"), std::string::npos)
+        << "the memory has no name, and ends with its last mapping: " << line;
 }
 
 std::pair<sockaddr_un, socklen_t> abstract_address(const std::string& name) {
@@ -146,7 +160,8 @@ struct HostileClient {
     int number = -1;
     std::memcpy(&number, CMSG_DATA(CMSG_FIRSTHDR(&header)), sizeof number);
     memory_file = File(number);
-    states = static_cast<SharedRingState*>(::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, number, 0));
+    states = static_cast<SharedRingState*>(
+        ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, number, 0));
     ASSERT_NE(states, MAP_FAILED);
   }
   ~HostileClient() {
@@ -171,7 +186,9 @@ TEST(SharedMemory, ImpossiblePositionsEndTheConnectionAndNothingElse) {
     for (int i = 0; i < 8; ++i) server.poll({}, tale);
     client.take_memory();
     EXPECT_NE(::ftruncate(client.memory_file.number(), 0), 0) << "its size is sealed";
-    const std::uint64_t position = trick % 6 == 0 ? ~std::uint64_t{0} : (256u * 1024u + 1u) + random() % (std::uint64_t{1} << 62);
+    const std::uint64_t position = trick % 6 == 0
+                                       ? ~std::uint64_t{0}
+                                       : (256u * 1024u + 1u) + random() % (std::uint64_t{1} << 62);
     if (trick % 2 == 0) client.states[0].written = position;
     else client.states[1].read = position;
     const auto words = bytes_of("for the hostile one");
@@ -185,7 +202,8 @@ TEST(SharedMemory, ImpossiblePositionsEndTheConnectionAndNothingElse) {
   const auto words = bytes_of("still here");
   const Bytes part = words;
   honest.send(friendly, std::span(&part, 1));
-  for (int i = 0; i < 100 && tale.bytes.size() < words.size(); ++i) honest.poll({}, told), server.poll({}, tale);
+  for (int i = 0; i < 100 && tale.bytes.size() < words.size(); ++i)
+    honest.poll({}, told), server.poll({}, tale);
   EXPECT_EQ(text_of(tale.bytes), "still here");
 }
 
@@ -242,7 +260,8 @@ void send_memory(const File& socket, std::uint32_t version) {
   header.msg_iovlen = 1;
   header.msg_control = control;
   header.msg_controllen = sizeof control;
-  *CMSG_FIRSTHDR(&header) = {.cmsg_len = CMSG_LEN(sizeof(int)), .cmsg_level = SOL_SOCKET, .cmsg_type = SCM_RIGHTS};
+  *CMSG_FIRSTHDR(&header) = {
+      .cmsg_len = CMSG_LEN(sizeof(int)), .cmsg_level = SOL_SOCKET, .cmsg_type = SCM_RIGHTS};
   const int number = ::fileno(file);
   std::memcpy(CMSG_DATA(CMSG_FIRSTHDR(&header)), &number, sizeof number);
   ASSERT_GT(::sendmsg(socket.number(), &header, 0), 0);
@@ -269,7 +288,8 @@ TEST(SharedMemory, AServerWithAnotherLayoutIsNamedWithBothVersions) {
   SharedMemoryTransport client;
   struct : Tale {
     std::string why;
-    void on_close(ConnectionId connection, CloseReason close_reason, const std::string& detail) override {
+    void on_close(ConnectionId connection, CloseReason close_reason,
+                  const std::string& detail) override {
       why = detail;
       Tale::on_close(connection, close_reason, detail);
     }

@@ -14,7 +14,9 @@ namespace {
 
 struct Hearer final : TransportListener {
   void on_open(ConnectionId) override { ++opened; }
-  void on_bytes(ConnectionId connection, Bytes bytes) override { heard.emplace_back(connection, bytes.size()); }
+  void on_bytes(ConnectionId connection, Bytes bytes) override {
+    heard.emplace_back(connection, bytes.size());
+  }
   void on_close(ConnectionId, CloseReason, const std::string&) override {}
   std::vector<std::pair<ConnectionId, std::size_t>> heard;
   int opened = 0;
@@ -31,7 +33,8 @@ class Staggered : public ::testing::Test {
     transport->poll({}, at_server);
     const std::vector<std::byte> bytes(size);
     const Bytes whole = bytes;
-    for (ConnectionId connection = 0; connection < client_count; ++connection) transport->send(connection, std::span(&whole, 1));
+    for (ConnectionId connection = 0; connection < client_count; ++connection)
+      transport->send(connection, std::span(&whole, 1));
     transport->push();
   }
   std::size_t arrived() {

@@ -1,4 +1,5 @@
-// TCP as the federation sees it: errors by kind, slow readers, killed peers, and the kernel's own count.
+// TCP as the federation sees it: errors by kind, slow readers, killed peers, and the kernel's own
+// count.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -25,7 +26,9 @@ struct Tally final : TransportListener {
   std::string detail;
   void on_open(ConnectionId connection) override { ++opened, last = connection; }
   void on_bytes(ConnectionId, Bytes received) override { bytes += received.size(); }
-  void on_close(ConnectionId, CloseReason why, const std::string& text) override { ++closed, reason = why, detail = text; }
+  void on_close(ConnectionId, CloseReason why, const std::string& text) override {
+    ++closed, reason = why, detail = text;
+  }
 };
 
 TEST(Tcp, APortInUseAndAnUnknownAddressAreErrorsOfTheirOwn) {
@@ -36,7 +39,9 @@ TEST(Tcp, APortInUseAndAnUnknownAddressAreErrorsOfTheirOwn) {
     FAIL();
   } catch (const TransportError& error) {
     EXPECT_EQ(error.kind(), TransportError::Kind::in_use);
-    EXPECT_NE(std::string(error.what()).find("127.0.0.1:" + std::to_string(port)), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("127.0.0.1:" + std::to_string(port)),
+              std::string::npos)
+        << error.what();
   }
   try {
     second.listen("203.0.113.7", 0);  // an address of documentation, nobody's
@@ -89,13 +94,16 @@ TEST(Tcp, CountsAgreeWithTheKernels) {
     server.poll(1ms, here);
   }
   while (here.bytes < 50 * 3700) client.poll(0ms, there), server.poll(1ms, here);
-  for (int i = 0; i < 100 && client.counters(connection).kernel_bytes_sent.value_or(0) < 50 * 3700; ++i) client.poll(1ms, there);
+  for (int i = 0; i < 100 && client.counters(connection).kernel_bytes_sent.value_or(0) < 50 * 3700;
+       ++i)
+    client.poll(1ms, there);
   const TransportCounters sent = client.counters(connection), received = server.counters(here.last);
   EXPECT_EQ(sent.bytes_sent, 50u * 3700u);
   EXPECT_EQ(sent.writes, 50u);
   EXPECT_EQ(sent.segments_sent, 50u * 3u);
   ASSERT_TRUE(sent.kernel_bytes_sent && received.kernel_bytes_received);
-  EXPECT_LE(*sent.kernel_bytes_sent - sent.bytes_sent, 1u) << "the kernel counts the opening handshake as one byte";
+  EXPECT_LE(*sent.kernel_bytes_sent - sent.bytes_sent, 1u)
+      << "the kernel counts the opening handshake as one byte";
   EXPECT_EQ(*received.kernel_bytes_received, received.bytes_received);
   EXPECT_EQ(received.bytes_received, sent.bytes_sent);
   client.close(connection);
@@ -119,7 +127,8 @@ TEST(Tcp, AReaderThatNeverReadsIsClosedAtItsQueuesLimit) {
   }
   EXPECT_EQ(here.closed, 1);
   EXPECT_EQ(here.reason, CloseReason::queue_full);
-  EXPECT_LE(server.counters(here.last).bytes_sent, 1'000'000u) << "the kernel's own queue for it is bounded too";
+  EXPECT_LE(server.counters(here.last).bytes_sent, 1'000'000u)
+      << "the kernel's own queue for it is bounded too";
 }
 
 TEST(Tcp, ManyFilesAreRaisedOrNamed) {
@@ -160,13 +169,15 @@ TEST(Tcp, AFederationDropsTheSlowReaderAndServesTheOthers) {
   const ObjectHandle object = pilot.ambassador.register_object_instance(ferry);
   const auto town = varying(std::string(30'000, 'x'));
   for (int i = 0; i < 2000 && rig.host().closed_by_full_queue() == 0; ++i) {
-    pilot.ambassador.update_attribute_values(object, AttributeSet{destination}, town, {static_cast<double>(i), 0});
+    pilot.ambassador.update_attribute_values(object, AttributeSet{destination}, town,
+                                             {static_cast<double>(i), 0});
     rig.round();
   }
   rig.settle();
   EXPECT_EQ(rig.host().closed_by_full_queue(), 1u);
   EXPECT_THAT(coast.heard.log, ::testing::Contains("deaf lost"));
-  EXPECT_EQ(static_cast<std::uint64_t>(coast.heard.objects[object.value].updates), pilot.ambassador.counters().updates_sent);
+  EXPECT_EQ(static_cast<std::uint64_t>(coast.heard.objects[object.value].updates),
+            pilot.ambassador.counters().updates_sent);
   EXPECT_EQ(rig.execution().federate_count(), 2u);
 }
 
@@ -193,7 +204,8 @@ TEST(Tcp, AKilledProcessLeavesTheFederationWithinASecond) {
   ASSERT_EQ(rig.execution().federate_count(), 2u);
   kill(child, SIGKILL);
   const auto start = std::chrono::steady_clock::now();
-  while (rig.execution().federate_count() == 2 && std::chrono::steady_clock::now() - start < 5s) rig.round();
+  while (rig.execution().federate_count() == 2 && std::chrono::steady_clock::now() - start < 5s)
+    rig.round();
   EXPECT_LT(std::chrono::steady_clock::now() - start, 1s);
   rig.settle();
   EXPECT_THAT(coast.heard.log, ::testing::Contains("doomed lost"));
@@ -219,7 +231,9 @@ TEST(Tcp, APeerThatSendsWithoutPauseKeepsNeitherThePollNorTheOthersWaiting) {
     server.poll(1ms, here);
     most = std::max(most, here.bytes - before);
     if (i == 3) {
-      EXPECT_EQ(std::min(server.counters(0).bytes_received, server.counters(1).bytes_received), little.size()) << "its turn comes soon";
+      EXPECT_EQ(std::min(server.counters(0).bytes_received, server.counters(1).bytes_received),
+                little.size())
+          << "its turn comes soon";
     }
     flooder.poll(0ms, there);
   }
@@ -243,7 +257,8 @@ TEST(Tcp, WaitsAtLeastAsLongAsAskedAndRecordsHowMuchLonger) {
     const double due_ms = i % 2 == 0 ? 0.5 : 3.3;
     const auto start = std::chrono::steady_clock::now();
     transport.poll(std::chrono::nanoseconds(static_cast<std::int64_t>(due_ms * 1e6)), tally);
-    const double waited_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    const double waited_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     EXPECT_GE(waited_ms, due_ms);
     late_ms.push_back(waited_ms - due_ms);
   }
@@ -290,7 +305,8 @@ TEST(TcpThreaded, AServerAndItsClientsTalkFromThreadsOfTheirOwn) {
       ++ready;
       while (ready < client_count) pump();
       for (int i = 0; i < update_count; ++i) {
-        ambassador.update_attribute_values(object, AttributeSet{speed}, values_of(static_cast<float>(i)), {});
+        ambassador.update_attribute_values(object, AttributeSet{speed},
+                                           values_of(static_cast<float>(i)), {});
         pump();
       }
       const std::uint64_t due = (client_count - 1) * update_count;

@@ -1,4 +1,5 @@
-// The contract of docs/transports.md, for every kind of transport: opening, order, limits, counting, closing and waiting.
+// The contract of docs/transports.md, for every kind of transport: opening, order, limits,
+// counting, closing and waiting.
 #include <gtest/gtest.h>
 #include <time.h>
 
@@ -48,10 +49,12 @@ struct Log final : TransportListener {
     line.reason = reason;
   }
   std::size_t opened() const {
-    return static_cast<std::size_t>(std::ranges::count_if(lines, [](const auto& each) { return each.second.opened > 0; }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(lines, [](const auto& each) { return each.second.opened > 0; }));
   }
   std::size_t closed() const {
-    return static_cast<std::size_t>(std::ranges::count_if(lines, [](const auto& each) { return each.second.closed > 0; }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(lines, [](const auto& each) { return each.second.closed > 0; }));
   }
   bool is_in_turn() const {
     return std::ranges::none_of(lines, [](const auto& each) { return each.second.is_out_of_turn; });
@@ -61,7 +64,8 @@ struct Log final : TransportListener {
 /// Bytes that tell where in a stream they belong.
 std::vector<std::byte> stretch(std::size_t from, std::size_t size) {
   std::vector<std::byte> bytes(size);
-  for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::byte>(((from + i) * 2654435761u) >> 13);
+  for (std::size_t i = 0; i < size; ++i)
+    bytes[i] = static_cast<std::byte>(((from + i) * 2654435761u) >> 13);
   return bytes;
 }
 
@@ -79,7 +83,8 @@ class TransportContract : public ::testing::TestWithParam<KitChoice> {
   /// Polls both ends until `is_done`, for at most ten seconds.
   template <class Condition>
   bool settle(Condition is_done) {
-    for (const auto start = std::chrono::steady_clock::now(); std::chrono::steady_clock::now() - start < 10s;) {
+    for (const auto start = std::chrono::steady_clock::now();
+         std::chrono::steady_clock::now() - start < 10s;) {
       if (is_done()) return true;
       step();
     }
@@ -89,11 +94,14 @@ class TransportContract : public ::testing::TestWithParam<KitChoice> {
   ConnectionId open() {
     const std::size_t before = here.opened();
     const ConnectionId connection = kit->connect();
-    EXPECT_TRUE(settle([&] { return here.opened() > before && there.lines[connection].opened == 1; }));
+    EXPECT_TRUE(
+        settle([&] { return here.opened() > before && there.lines[connection].opened == 1; }));
     return connection;
   }
   ConnectionId newest_here() const { return here.lines.rbegin()->first; }
-  static void send(Transport& transport, ConnectionId connection, Bytes bytes) { transport.send(connection, std::span(&bytes, 1)); }
+  static void send(Transport& transport, ConnectionId connection, Bytes bytes) {
+    transport.send(connection, std::span(&bytes, 1));
+  }
   ~TransportContract() override {
     EXPECT_TRUE(here.is_in_turn());
     EXPECT_TRUE(there.is_in_turn());
@@ -132,7 +140,9 @@ TEST_P(TransportContract, KeepsTheOrderBothWaysHoweverTheBytesAreCut) {
     at += first + second;
     if (random() % 4 == 0) step();
   }
-  ASSERT_TRUE(settle([&] { return here.lines[other_end].bytes.size() == up && there.lines[connection].bytes.size() == down; }));
+  ASSERT_TRUE(settle([&] {
+    return here.lines[other_end].bytes.size() == up && there.lines[connection].bytes.size() == down;
+  }));
   EXPECT_EQ(here.lines[other_end].bytes, stretch(0, up));
   EXPECT_EQ(there.lines[connection].bytes, stretch(0, down));
 }
@@ -140,7 +150,8 @@ TEST_P(TransportContract, KeepsTheOrderBothWaysHoweverTheBytesAreCut) {
 TEST_P(TransportContract, CarriesWhatIsSentBeforeItIsOpen) {
   const ConnectionId connection = kit->connect();
   send(kit->client(), connection, stretch(0, 5000));
-  ASSERT_TRUE(settle([&] { return here.opened() == 1 && here.lines[newest_here()].bytes.size() == 5000; }));
+  ASSERT_TRUE(
+      settle([&] { return here.opened() == 1 && here.lines[newest_here()].bytes.size() == 5000; }));
   EXPECT_EQ(here.lines[newest_here()].bytes, stretch(0, 5000));
 }
 
@@ -150,7 +161,10 @@ TEST_P(TransportContract, CarriesMessagesAsLargeAsItsQueue) {
   for (std::size_t round = 0, size = 900'000; round < 5; ++round) {
     send(kit->server(), other_end, stretch(round * size, size));
     send(kit->client(), connection, stretch(round * size, size));
-    ASSERT_TRUE(settle([&] { return there.lines[connection].bytes.size() == (round + 1) * size && here.lines[other_end].bytes.size() == (round + 1) * size; }));
+    ASSERT_TRUE(settle([&] {
+      return there.lines[connection].bytes.size() == (round + 1) * size &&
+             here.lines[other_end].bytes.size() == (round + 1) * size;
+    }));
   }
   EXPECT_EQ(there.lines[connection].bytes, stretch(0, 4'500'000));
   EXPECT_EQ(here.lines[other_end].bytes, stretch(0, 4'500'000));
@@ -161,9 +175,12 @@ TEST_P(TransportContract, TellsBothEndsOnceWhenEitherCloses) {
     const ConnectionId connection = open();
     const ConnectionId other_end = newest_here();
     is_ours ? kit->client().close(connection) : kit->server().close(other_end);
-    ASSERT_TRUE(settle([&] { return there.lines[connection].closed == 1 && here.lines[other_end].closed == 1; }));
-    EXPECT_EQ(there.lines[connection].reason, is_ours ? CloseReason::closed_by_us : CloseReason::closed_by_peer);
-    EXPECT_EQ(here.lines[other_end].reason, is_ours ? CloseReason::closed_by_peer : CloseReason::closed_by_us);
+    ASSERT_TRUE(settle(
+        [&] { return there.lines[connection].closed == 1 && here.lines[other_end].closed == 1; }));
+    EXPECT_EQ(there.lines[connection].reason,
+              is_ours ? CloseReason::closed_by_us : CloseReason::closed_by_peer);
+    EXPECT_EQ(here.lines[other_end].reason,
+              is_ours ? CloseReason::closed_by_peer : CloseReason::closed_by_us);
     kit->client().close(connection);
     send(kit->client(), connection, stretch(0, 10));
     send(kit->server(), other_end, stretch(0, 10));
@@ -205,8 +222,12 @@ TEST_P(TransportContract, CountsAtBothEndsWhatArrived) {
     send(kit->server(), other_end, stretch(0, 100));
     send(kit->server(), other_end, {});
   }
-  ASSERT_TRUE(settle([&] { return here.lines[other_end].bytes.size() == 28'980 && there.lines[connection].bytes.size() == 2000; }));
-  const TransportCounters ours = kit->client().counters(connection), theirs = kit->server().counters(other_end);
+  ASSERT_TRUE(settle([&] {
+    return here.lines[other_end].bytes.size() == 28'980 &&
+           there.lines[connection].bytes.size() == 2000;
+  }));
+  const TransportCounters ours = kit->client().counters(connection),
+                          theirs = kit->server().counters(other_end);
   EXPECT_EQ(ours.bytes_sent, 28'980u);
   EXPECT_EQ(theirs.bytes_received, 28'980u);
   EXPECT_EQ(theirs.bytes_sent, 2000u);
@@ -235,7 +256,8 @@ TEST_P(TransportContract, AnAddressIsFreeAtOnceAfterItsOwnerHasGone) {
     ASSERT_TRUE(settle([&] { return here.lines[newest_here()].bytes.size() == 100; }));
     here.lines.clear();
     kit->restart_server();
-    ASSERT_TRUE(settle([&] { return there.lines[connection].closed == 1; })) << "who was connected to the former owner is told";
+    ASSERT_TRUE(settle([&] { return there.lines[connection].closed == 1; }))
+        << "who was connected to the former owner is told";
     EXPECT_EQ(there.lines[connection].reason, CloseReason::closed_by_peer);
   }
 }
@@ -261,12 +283,23 @@ TEST_P(TransportContract, CarriesACrowd) {
     crowd.push_back(kit->connect());
     if (i % 64 == 0) step();
   }
-  ASSERT_TRUE(settle([&] { return here.opened() == crowd.size() && there.opened() == crowd.size(); })) << here.opened() << " of " << crowd.size();
-  for (const ConnectionId connection : crowd) send(kit->client(), connection, stretch(connection, 64));
-  ASSERT_TRUE(settle([&] { return std::ranges::all_of(here.lines, [](const auto& each) { return each.second.bytes.size() == 64; }); }));
+  ASSERT_TRUE(settle([&] {
+    return here.opened() == crowd.size() && there.opened() == crowd.size();
+  })) << here.opened()
+      << " of " << crowd.size();
+  for (const ConnectionId connection : crowd)
+    send(kit->client(), connection, stretch(connection, 64));
+  ASSERT_TRUE(settle([&] {
+    return std::ranges::all_of(here.lines,
+                               [](const auto& each) { return each.second.bytes.size() == 64; });
+  }));
   for (const auto& [connection, line] : here.lines) send(kit->server(), connection, line.bytes);
-  ASSERT_TRUE(settle([&] { return std::ranges::all_of(there.lines, [](const auto& each) { return each.second.bytes.size() == 64; }); }));
-  for (const ConnectionId connection : crowd) EXPECT_EQ(there.lines[connection].bytes, stretch(connection, 64)) << "everybody gets his own";
+  ASSERT_TRUE(settle([&] {
+    return std::ranges::all_of(there.lines,
+                               [](const auto& each) { return each.second.bytes.size() == 64; });
+  }));
+  for (const ConnectionId connection : crowd)
+    EXPECT_EQ(there.lines[connection].bytes, stretch(connection, 64)) << "everybody gets his own";
 }
 
 double processor_seconds() {
@@ -295,13 +328,15 @@ TEST_P(TransportContract, APollIsWokenByWhatIsSent) {
     kit->client().push();
   });
   const auto start = std::chrono::steady_clock::now();
-  while (here.lines[newest_here()].bytes.empty() && std::chrono::steady_clock::now() - start < 5s) kit->server().poll(5s, here);
+  while (here.lines[newest_here()].bytes.empty() && std::chrono::steady_clock::now() - start < 5s)
+    kit->server().poll(5s, here);
   EXPECT_LT(std::chrono::steady_clock::now() - start, 2s);
   EXPECT_EQ(here.lines[newest_here()].bytes.size(), 24u);
   sender.join();
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, TransportContract, ::testing::ValuesIn(transport_kits()), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Kinds, TransportContract, ::testing::ValuesIn(transport_kits()),
+                         [](const auto& info) { return info.param.name; });
 
 std::string text_of_file(const std::string& path) {
   std::ostringstream text;
@@ -313,7 +348,8 @@ TEST(TransportPage, ShowsTheSampleThatThisSuiteRuns) {
   const std::string sample = text_of_file("tests/rti/transport/sample_transport.h");
   ASSERT_FALSE(sample.empty());
   EXPECT_LT(std::ranges::count(sample, '\n'), 150);
-  EXPECT_NE(text_of_file("docs/transports.md").find("```cpp\n" + sample + "```"), std::string::npos) << "docs/transports.md must hold tests/rti/transport/sample_transport.h verbatim";
+  EXPECT_NE(text_of_file("docs/transports.md").find("```cpp\n" + sample + "```"), std::string::npos)
+      << "docs/transports.md must hold tests/rti/transport/sample_transport.h verbatim";
 }
 
 }  // namespace

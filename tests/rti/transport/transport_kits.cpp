@@ -1,4 +1,5 @@
-// The kits: in-process, TCP, UDP, shared memory, the virtual network, and the sample of docs/transports.md.
+// The kits: in-process, TCP, UDP, shared memory, the virtual network, and the sample of
+// docs/transports.md.
 #include "tests/rti/transport/transport_kits.h"
 
 #include <chrono>
@@ -6,11 +7,11 @@
 
 #include "rti/transport/bundle.h"
 #include "rti/transport/in_process.h"
+#include "rti/transport/modelled/virtual_network.h"
 #include "rti/transport/shared_memory/shared_memory.h"
 #include "rti/transport/staggered_transport.h"
 #include "rti/transport/tcp/tcp.h"
 #include "rti/transport/udp/udp.h"
-#include "rti/transport/modelled/virtual_network.h"
 #include "tests/rti/transport/sample_transport.h"
 #include "tests/temporary_folder.h"
 
@@ -57,8 +58,12 @@ struct Delay {
 class VirtualKit final : private Delay, public LocalKit<VirtualNetwork, VirtualEndpoint> {
  public:
   VirtualKit() : LocalKit(model) {}
-  void pass_time() override { network_.advance_to(network_.next_arrival_ns().value_or(network_.now_ns() + 1000)); }
-  bool limit_queue(std::size_t) override { return false; }  // what is under way is the network's, not a queue
+  void pass_time() override {
+    network_.advance_to(network_.next_arrival_ns().value_or(network_.now_ns() + 1000));
+  }
+  bool limit_queue(std::size_t) override {
+    return false;
+  }  // what is under way is the network's, not a queue
 };
 
 std::uint16_t port_of_nobody() {
@@ -142,7 +147,9 @@ class BundleKit final : public AboveTcpKit<BundledTransport> {
   }
 
  private:
-  ConnectionId connect_at(std::uint16_t port) override { return client_.connect(client_tcp_.connect("127.0.0.1", port)); }
+  ConnectionId connect_at(std::uint16_t port) override {
+    return client_.connect(client_tcp_.connect("127.0.0.1", port));
+  }
   void set_up(std::optional<BundledTransport>& above, TcpTransport& below) override {
     above.emplace(below);
     trunk_.reset();
@@ -159,9 +166,14 @@ class StaggeredKit final : public AboveTcpKit<StaggeredTransport> {
   ConnectionId connect() override { return connect_at(port_); }
 
  private:
-  ConnectionId connect_at(std::uint16_t port) override { return client_tcp_.connect("127.0.0.1", port); }
+  ConnectionId connect_at(std::uint16_t port) override {
+    return client_tcp_.connect("127.0.0.1", port);
+  }
   void set_up(std::optional<StaggeredTransport>& above, TcpTransport& below) override {
-    above.emplace(below, 0.002, [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); });
+    above.emplace(below, 0.002, [] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+          .count();
+    });
   }
 };
 
@@ -230,8 +242,14 @@ KitChoice choice(const std::string& name) {
 }  // namespace
 
 std::vector<KitChoice> transport_kits() {
-  return {choice<InProcessKit>("in_process"), choice<VirtualKit>("virtual_network"), choice<TcpKit>("tcp"), choice<UdpKit>("udp"),
-          choice<SharedMemoryKit>("shared_memory"), choice<BundleKit>("bundle"), choice<StaggeredKit>("staggered"), choice<SampleKit>("sample")};
+  return {choice<InProcessKit>("in_process"),
+          choice<VirtualKit>("virtual_network"),
+          choice<TcpKit>("tcp"),
+          choice<UdpKit>("udp"),
+          choice<SharedMemoryKit>("shared_memory"),
+          choice<BundleKit>("bundle"),
+          choice<StaggeredKit>("staggered"),
+          choice<SampleKit>("sample")};
 }
 
 }  // namespace rink::rti::testing

@@ -23,7 +23,8 @@ class TransportKit {
   virtual void restart_server() = 0;
   /// Lets what was sent arrive, where a clock of the kit's own decides that.
   virtual void pass_time() {}
-  /// Has the server's side queue no more than so much from the next restart on; false if the kind knows no limit.
+  /// Has the server's side queue no more than so much from the next restart on; false if the kind
+  /// knows no limit.
   virtual bool limit_queue(std::size_t /*queue_max*/) { return true; }
 
   bool can_wait = true;           ///< `poll` waits, and another thread's sending wakes it
@@ -33,7 +34,9 @@ class TransportKit {
 struct KitChoice {
   std::string name;
   std::function<std::unique_ptr<TransportKit>()> make;
-  friend std::ostream& operator<<(std::ostream& out, const KitChoice& choice) { return out << choice.name; }
+  friend std::ostream& operator<<(std::ostream& out, const KitChoice& choice) {
+    return out << choice.name;
+  }
 };
 std::vector<KitChoice> transport_kits();
 

@@ -1,4 +1,5 @@
-// What speaks UDP beside TCP by hand: sockets of somebody's own, and control datagrams byte by byte.
+// What speaks UDP beside TCP by hand: sockets of somebody's own, and control datagrams byte by
+// byte.
 #pragma once
 
 #include <arpa/inet.h>
@@ -22,13 +23,18 @@ struct DatagramEar final : TransportListener {
   std::vector<std::byte> stream;
   int closed = 0;
   void on_open(ConnectionId connection) override { open.push_back(connection); }
-  void on_bytes(ConnectionId, Bytes bytes) override { stream.insert(stream.end(), bytes.begin(), bytes.end()); }
+  void on_bytes(ConnectionId, Bytes bytes) override {
+    stream.insert(stream.end(), bytes.begin(), bytes.end());
+  }
   void on_close(ConnectionId, CloseReason, const std::string&) override { ++closed; }
-  void on_datagram(ConnectionId, Bytes datagram) override { datagrams.emplace_back(datagram.begin(), datagram.end()); }
+  void on_datagram(ConnectionId, Bytes datagram) override {
+    datagrams.emplace_back(datagram.begin(), datagram.end());
+  }
 };
 
 template <class Condition>
-bool pump(UdpTransport& server, DatagramEar& here, Transport& client, DatagramEar& there, Condition is_done) {
+bool pump(UdpTransport& server, DatagramEar& here, Transport& client, DatagramEar& there,
+          Condition is_done) {
   for (const auto start = std::chrono::steady_clock::now(); !is_done();) {
     if (std::chrono::steady_clock::now() - start > std::chrono::seconds(10)) return false;
     server.poll(std::chrono::microseconds(200), here);
@@ -52,7 +58,8 @@ struct RawSocket {
   }
   void send(std::uint16_t port, Bytes bytes) {
     const sockaddr_in to = place("127.0.0.1", port);
-    ::sendto(file.number(), bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+    ::sendto(file.number(), bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to),
+             sizeof to);
   }
   std::vector<std::byte> receive() {
     std::vector<std::byte> bytes(2000);
@@ -63,7 +70,8 @@ struct RawSocket {
   File file;
 };
 
-inline std::vector<std::byte> control(std::uint64_t key, std::uint8_t kind, std::uint64_t nonce, std::size_t size) {
+inline std::vector<std::byte> control(std::uint64_t key, std::uint8_t kind, std::uint64_t nonce,
+                                      std::size_t size) {
   std::vector<std::byte> bytes = values_of(key, kind, nonce);
   bytes.resize(size);
   return bytes;

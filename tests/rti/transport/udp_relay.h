@@ -1,4 +1,5 @@
-// A man in the middle of one connection of TCP and UDP: passes on and writes down all that is said, and loses the datagrams that he is told to.
+// A man in the middle of one connection of TCP and UDP: passes on and writes down all that is said,
+// and loses the datagrams that he is told to.
 #pragma once
 
 #include <arpa/inet.h>
@@ -20,8 +21,10 @@ namespace rink::rti::testing {
 /// Of one connection: the client connects to `port` instead of the server's.
 class UdpRelay {
  public:
-  /// Writes to `record` in the second reader's form. `is_lost(is_up, bytes)` is asked of each datagram.
-  UdpRelay(std::uint16_t server_port, std::uint32_t number, std::string& record, std::function<bool(bool, Bytes)> is_lost)
+  /// Writes to `record` in the second reader's form. `is_lost(is_up, bytes)` is asked of each
+  /// datagram.
+  UdpRelay(std::uint16_t server_port, std::uint32_t number, std::string& record,
+           std::function<bool(bool, Bytes)> is_lost)
       : server_port_(server_port), number_(number), record_(record), is_lost_(std::move(is_lost)) {
     for (const File* each : {&door_, &client_facing_, &server_facing_}) bind_to_loopback(*each);
     EXPECT_EQ(::listen(door_.number(), 1), 0);
@@ -38,7 +41,9 @@ class UdpRelay {
   }
 
  private:
-  static File socket_of(int type) { return File(::socket(AF_INET, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)); }
+  static File socket_of(int type) {
+    return File(::socket(AF_INET, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  }
   static sockaddr_in loopback(std::uint16_t port) {
     sockaddr_in place{};
     place.sin_family = AF_INET;
@@ -61,7 +66,8 @@ class UdpRelay {
     if (!client_) return;
     server_ = File(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const sockaddr_in place = loopback(server_port_);
-    EXPECT_EQ(::connect(server_.number(), reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
+    EXPECT_EQ(::connect(server_.number(), reinterpret_cast<const sockaddr*>(&place), sizeof place),
+              0);
   }
   void keep(char what, Bytes bytes) {
     record_ += what;
@@ -69,7 +75,8 @@ class UdpRelay {
     record_ += text_of(bytes);
   }
   void carry_stream(File& from, File& to, char what) {
-    for (ssize_t size = 0; (size = ::recv(from.number(), buffer_, sizeof buffer_, MSG_DONTWAIT)) > 0;) {
+    for (ssize_t size = 0;
+         (size = ::recv(from.number(), buffer_, sizeof buffer_, MSG_DONTWAIT)) > 0;) {
       if (what == 'd' && !has_greeting_) {  // where the datagrams must go: to us
         ASSERT_GE(size, 22);
         std::memcpy(&server_datagrams_, buffer_ + 4, 2);
@@ -83,9 +90,13 @@ class UdpRelay {
   }
   void carry_datagrams() {
     socklen_t length = sizeof client_place_;
-    for (ssize_t size = 0; (size = ::recvfrom(client_facing_.number(), buffer_, sizeof buffer_, MSG_DONTWAIT, reinterpret_cast<sockaddr*>(&client_place_), &length)) > 0;)
+    for (ssize_t size = 0;
+         (size = ::recvfrom(client_facing_.number(), buffer_, sizeof buffer_, MSG_DONTWAIT,
+                            reinterpret_cast<sockaddr*>(&client_place_), &length)) > 0;)
       pass(Bytes(buffer_, static_cast<std::size_t>(size)), true);
-    for (ssize_t size = 0; (size = ::recv(server_facing_.number(), buffer_, sizeof buffer_, MSG_DONTWAIT)) > 0;) pass(Bytes(buffer_, static_cast<std::size_t>(size)), false);
+    for (ssize_t size = 0;
+         (size = ::recv(server_facing_.number(), buffer_, sizeof buffer_, MSG_DONTWAIT)) > 0;)
+      pass(Bytes(buffer_, static_cast<std::size_t>(size)), false);
   }
   void pass(Bytes datagram, bool is_up) {
     const bool is_lost = is_lost_(is_up, datagram);
@@ -93,14 +104,17 @@ class UdpRelay {
     if (is_lost) return;
     const sockaddr_in place = is_up ? loopback(server_datagrams_) : client_place_;
     const File& from = is_up ? server_facing_ : client_facing_;
-    EXPECT_EQ(::sendto(from.number(), datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr*>(&place), sizeof place), static_cast<ssize_t>(datagram.size()));
+    EXPECT_EQ(::sendto(from.number(), datagram.data(), datagram.size(), 0,
+                       reinterpret_cast<const sockaddr*>(&place), sizeof place),
+              static_cast<ssize_t>(datagram.size()));
   }
 
   std::uint16_t server_port_, server_datagrams_ = 0;
   std::uint32_t number_;
   std::string& record_;
   std::function<bool(bool, Bytes)> is_lost_;
-  File door_ = socket_of(SOCK_STREAM), client_facing_ = socket_of(SOCK_DGRAM), server_facing_ = socket_of(SOCK_DGRAM), client_, server_;
+  File door_ = socket_of(SOCK_STREAM), client_facing_ = socket_of(SOCK_DGRAM),
+       server_facing_ = socket_of(SOCK_DGRAM), client_, server_;
   sockaddr_in client_place_{};
   bool has_greeting_ = false;
   std::byte buffer_[65536];

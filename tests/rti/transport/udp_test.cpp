@@ -1,4 +1,5 @@
-// UDP beside TCP: how the way opens, who may not use it, and a federation whose best-effort updates take it.
+// UDP beside TCP: how the way opens, who may not use it, and a federation whose best-effort updates
+// take it.
 #include "rti/transport/udp/udp.h"
 
 #include <gtest/gtest.h>
@@ -16,10 +17,14 @@ using namespace std::chrono_literals;
 class Udp : public ::testing::TestWithParam<bool> {};
 
 TEST_P(Udp, CarriesDatagramsWholeBothWays) {
-  UdpTransport server({.tcp = {}, .use_offload = GetParam()}), client({.tcp = {}, .use_offload = GetParam()});
+  UdpTransport server({.tcp = {}, .use_offload = GetParam()}),
+      client({.tcp = {}, .use_offload = GetParam()});
   DatagramEar here, there;
   const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
-  ASSERT_TRUE(pump(server, here, client, there, [&] { return !here.open.empty() && server.datagram_max(here.open[0]) > 0 && client.datagram_max(connection) > 0; }));
+  ASSERT_TRUE(pump(server, here, client, there, [&] {
+    return !here.open.empty() && server.datagram_max(here.open[0]) > 0 &&
+           client.datagram_max(connection) > 0;
+  }));
   const std::size_t size_max = server.datagram_max(here.open[0]);
   EXPECT_EQ(size_max, 1200u - 9u);
   std::mt19937 random(1);
@@ -28,27 +33,37 @@ TEST_P(Udp, CarriesDatagramsWholeBothWays) {
     // Runs of one size with a shorter one at their end, as blocks are cut, and others.
     std::vector<std::vector<std::byte>> wholes;
     for (int i = 0; i < 9; ++i) {
-      std::vector<std::byte> whole(burst % 2 == 0 && i % 4 != 3 ? size_max : 1 + random() % size_max);
+      std::vector<std::byte> whole(burst % 2 == 0 && i % 4 != 3 ? size_max
+                                                                : 1 + random() % size_max);
       for (std::byte& byte : whole) byte = static_cast<std::byte>(random());
       wholes.push_back(std::move(whole));
     }
     std::vector<Datagram> datagrams;
-    for (const auto& whole : wholes) datagrams.push_back({Bytes(whole).first(whole.size() / 3), Bytes(whole).subspan(whole.size() / 3)});
-    (burst % 3 == 0 ? client : server).send_datagrams(burst % 3 == 0 ? connection : here.open[0], datagrams);
+    for (const auto& whole : wholes)
+      datagrams.push_back(
+          {Bytes(whole).first(whole.size() / 3), Bytes(whole).subspan(whole.size() / 3)});
+    (burst % 3 == 0 ? client : server)
+        .send_datagrams(burst % 3 == 0 ? connection : here.open[0], datagrams);
     (burst % 3 == 0 ? client : server).push();
     DatagramEar& ear = burst % 3 == 0 ? here : there;
-    ASSERT_TRUE(pump(server, here, client, there, [&] { return ear.datagrams.size() >= wholes.size(); }));
+    ASSERT_TRUE(
+        pump(server, here, client, there, [&] { return ear.datagrams.size() >= wholes.size(); }));
     EXPECT_EQ(ear.datagrams, wholes);
     ear.datagrams.clear();
   }
-  EXPECT_EQ(server.counters(here.open[0]).datagrams_sent, client.counters(connection).datagrams_received);
-  EXPECT_EQ(server.counters(here.open[0]).datagram_bytes_sent, client.counters(connection).datagram_bytes_received);
-  EXPECT_EQ(client.counters(connection).datagrams_sent, server.counters(here.open[0]).datagrams_received);
+  EXPECT_EQ(server.counters(here.open[0]).datagrams_sent,
+            client.counters(connection).datagrams_received);
+  EXPECT_EQ(server.counters(here.open[0]).datagram_bytes_sent,
+            client.counters(connection).datagram_bytes_received);
+  EXPECT_EQ(client.counters(connection).datagrams_sent,
+            server.counters(here.open[0]).datagrams_received);
   EXPECT_EQ(server.udp_counters().ways_opened, 1u);
-  EXPECT_EQ(server.udp_counters().stranger_datagrams + client.udp_counters().stranger_datagrams, 0u);
+  EXPECT_EQ(server.udp_counters().stranger_datagrams + client.udp_counters().stranger_datagrams,
+            0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Offload, Udp, ::testing::Bool(), [](const auto& info) { return info.param ? "by_kernel" : "none"; });
+INSTANTIATE_TEST_SUITE_P(Offload, Udp, ::testing::Bool(),
+                         [](const auto& info) { return info.param ? "by_kernel" : "none"; });
 
 TEST(Udp, AClientOfPlainTcpHasTheStreamOnly) {
   UdpTransport server;
@@ -62,7 +77,8 @@ TEST(Udp, AClientOfPlainTcpHasTheStreamOnly) {
   EXPECT_EQ(text_of(here.stream), "RRKRK is");
   EXPECT_EQ(server.datagram_max(here.open[0]), 0u);
   server.send(here.open[0], std::span(&part, 1));
-  ASSERT_TRUE(pump(server, here, client, there, [&] { return there.stream.size() == words.size(); }));
+  ASSERT_TRUE(
+      pump(server, here, client, there, [&] { return there.stream.size() == words.size(); }));
 }
 
 TEST(Udp, WhereItDoesNotGetThroughTheStreamCarriesOnAndItIsCounted) {
@@ -75,7 +91,8 @@ TEST(Udp, WhereItDoesNotGetThroughTheStreamCarriesOnAndItIsCounted) {
     UdpTransport gone;
     dead_port = gone.listen("127.0.0.1", 0);
   }
-  std::vector<std::byte> greeting = values_of(std::uint32_t{0x47444b52}, dead_port, std::uint64_t{1}, std::uint64_t{2});
+  std::vector<std::byte> greeting =
+      values_of(std::uint32_t{0x47444b52}, dead_port, std::uint64_t{1}, std::uint64_t{2});
   const auto start = std::chrono::steady_clock::now();
   bool is_greeted = false;
   while (client.udp_counters().ways_failed == 0 && std::chrono::steady_clock::now() - start < 10s) {
@@ -118,28 +135,36 @@ TEST(Udp, AFederationsBestEffortUpdatesTakeItAndAllElseTheStream) {
   };
   for (int i = 0; i < 5; ++i) {
     Station& station = stations.emplace_back(harbour());
-    station.link = std::make_unique<FederateLink>(station.ambassador, clients, clients.connect("127.0.0.1", port));
+    station.link = std::make_unique<FederateLink>(station.ambassador, clients,
+                                                  clients.connect("127.0.0.1", port));
     links.add(*station.link);
     station.ambassador.join("rink", "station " + std::to_string(i), "");
     if (i == 0) station.ambassador.publish_object_class_attributes(tide, level);
     else station.ambassador.subscribe_object_class_attributes(tide, level);
   }
-  for (int i = 0; i < 2000 && (execution.federate_count() < 5 || server.udp_counters().ways_opened < 5); ++i) round();
+  for (int i = 0;
+       i < 2000 && (execution.federate_count() < 5 || server.udp_counters().ways_opened < 5); ++i)
+    round();
   ASSERT_EQ(server.udp_counters().ways_opened, 5u);
   for (int i = 0; i < 20; ++i) round();
   std::vector<ObjectHandle> gauges;
-  for (int i = 0; i < 300; ++i) gauges.push_back(stations[0].ambassador.register_object_instance(tide));
+  for (int i = 0; i < 300; ++i)
+    gauges.push_back(stations[0].ambassador.register_object_instance(tide));
   for (int tick = 0; tick < 50; ++tick) {
-    for (const ObjectHandle gauge : gauges) stations[0].ambassador.update_attribute_values(gauge, level, values_of(static_cast<double>(tick)), {now, 0});
+    for (const ObjectHandle gauge : gauges)
+      stations[0].ambassador.update_attribute_values(
+          gauge, level, values_of(static_cast<double>(tick)), {now, 0});
     round();
   }
   for (int i = 0; i < 300; ++i) round();
   EXPECT_GE(execution.counters().datagrams_received, 50u) << "the owner's own go by datagram too";
-  std::uint64_t received = stations[0].ambassador.counters().datagrams_received;  // acknowledgements of its own
+  std::uint64_t received =
+      stations[0].ambassador.counters().datagrams_received;  // acknowledgements of its own
   for (std::size_t i = 1; i < 5; ++i) {
     received += stations[i].ambassador.counters().datagrams_received;
     EXPECT_EQ(stations[i].heard.objects.size(), 300u);
-    for (const auto& [handle, object] : stations[i].heard.objects) EXPECT_EQ(object.values.at(0), values_of(49.0));
+    for (const auto& [handle, object] : stations[i].heard.objects)
+      EXPECT_EQ(object.values.at(0), values_of(49.0));
   }
   EXPECT_GE(execution.counters().datagrams_sent, 4u * 40u * 2u);
   EXPECT_EQ(received, execution.counters().datagrams_sent) << "loopback loses nothing";
@@ -170,19 +195,23 @@ TEST(Udp, AnAttributesTransportationMayChangeWhileItIsUpdated) {
   };
   for (int i = 0; i < 2; ++i) {
     Station& station = stations.emplace_back(harbour());
-    station.link = std::make_unique<FederateLink>(station.ambassador, clients, clients.connect("127.0.0.1", port));
+    station.link = std::make_unique<FederateLink>(station.ambassador, clients,
+                                                  clients.connect("127.0.0.1", port));
     links.add(*station.link);
     station.ambassador.join("rink", "station " + std::to_string(i), "");
     if (i == 0) station.ambassador.publish_object_class_attributes(tide, level);
     else station.ambassador.subscribe_object_class_attributes(tide, level);
   }
-  for (int i = 0; i < 2000 && (execution.federate_count() < 2 || server.udp_counters().ways_opened < 2); ++i) round();
+  for (int i = 0;
+       i < 2000 && (execution.federate_count() < 2 || server.udp_counters().ways_opened < 2); ++i)
+    round();
   ASSERT_EQ(server.udp_counters().ways_opened, 2u);
   for (int i = 0; i < 20; ++i) round();
   const ObjectHandle gauge = stations[0].ambassador.register_object_instance(tide);
   const auto update = [&](int times) {
     for (int i = 0; i < times; ++i) {
-      stations[0].ambassador.update_attribute_values(gauge, level, values_of(value += 1.0), {now, 0});
+      stations[0].ambassador.update_attribute_values(gauge, level, values_of(value += 1.0),
+                                                     {now, 0});
       for (int k = 0; k < 4; ++k) round();
     }
     for (int k = 0; k < 40; ++k) round();  // all acknowledged
@@ -194,17 +223,21 @@ TEST(Udp, AnAttributesTransportationMayChangeWhileItIsUpdated) {
   const std::uint64_t up_first = up(), down_first = down();
   EXPECT_GE(up_first, 15u);
   EXPECT_GE(down_first, 15u);
-  stations[0].ambassador.request_attribute_transportation_type_change(gauge, level, Transportation::reliable);
+  stations[0].ambassador.request_attribute_transportation_type_change(gauge, level,
+                                                                      Transportation::reliable);
   update(20);
   EXPECT_EQ(up(), up_first) << "by the stream from the request on";
   EXPECT_LE(down(), down_first + 1);
   const std::uint64_t down_second = down();
-  stations[0].ambassador.request_attribute_transportation_type_change(gauge, level, Transportation::best_effort);
+  stations[0].ambassador.request_attribute_transportation_type_change(gauge, level,
+                                                                      Transportation::best_effort);
   for (int k = 0; k < 40; ++k) round();
   update(20);
   EXPECT_GE(up(), up_first + 15);
   EXPECT_GE(down(), down_second + 15);
-  EXPECT_EQ(execution.counters().updates_outdated + stations[1].ambassador.counters().updates_outdated, 0u);
+  EXPECT_EQ(
+      execution.counters().updates_outdated + stations[1].ambassador.counters().updates_outdated,
+      0u);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A federate's own best-effort updates by datagram: lost ones are repaired, old ones change nothing, and nothing that goes by the stream is overtaken.
+// A federate's own best-effort updates by datagram: lost ones are repaired, old ones change
+// nothing, and nothing that goes by the stream is overtaken.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -20,11 +21,13 @@ TEST(UpwardDatagrams, CarryBestEffortUpdatesAndNothingElse) {
   Strait scene;
   const ObjectHandle object = scene.place();
   scene.ticks(3);
-  const std::uint64_t frames = scene.publisher.counters().frames_sent, received = scene.counters().datagrams_received;
+  const std::uint64_t frames = scene.publisher.counters().frames_sent,
+                      received = scene.counters().datagrams_received;
   for (int i = 1; i <= 10; ++i) say_and_hear(scene, object, i);
   EXPECT_EQ(scene.publisher.counters().frames_sent, frames) << "not by the stream";
   EXPECT_EQ(scene.counters().datagrams_received - received, 10u);
-  scene.publisher.update_attribute_values(object, number | height | heading, values_of(std::int32_t{7}, 11.0, 3.0f), {scene.now, 0});
+  scene.publisher.update_attribute_values(object, number | height | heading,
+                                          values_of(std::int32_t{7}, 11.0, 3.0f), {scene.now, 0});
   scene.tick();
   EXPECT_EQ(scene.publisher.counters().frames_sent, frames + 1) << "the reliable part";
   EXPECT_EQ(scene.counters().datagrams_received - received, 11u);
@@ -68,7 +71,8 @@ TEST(UpwardDatagrams, ALostFinalStateIsRepaired) {
   EXPECT_EQ(scene.publisher.counters().datagram_fallbacks, 0u);
   const std::uint64_t sent = scene.publisher.counters().datagrams_sent;
   scene.ticks(40);
-  EXPECT_EQ(scene.publisher.counters().datagrams_sent, sent) << "once it has arrived, it is not said again";
+  EXPECT_EQ(scene.publisher.counters().datagrams_sent, sent)
+      << "once it has arrived, it is not said again";
 }
 
 TEST(UpwardDatagrams, AnOldOneChangesNothingAndADoubledOneCountsOnce) {
@@ -102,7 +106,8 @@ TEST(UpwardDatagrams, WhatIsMadeReliableIsNotOvertakenByWhatWasSaidBefore) {
   scene.tick();
   scene.delivers = false;
   scene.set(object, 2.0);
-  scene.publisher.request_attribute_transportation_type_change(object, height, Transportation::reliable);
+  scene.publisher.request_attribute_transportation_type_change(object, height,
+                                                               Transportation::reliable);
   scene.set(object, 3.0);  // in the same tick: by the stream
   scene.tick();
   EXPECT_EQ(scene.seen(object), 3.0);
@@ -116,7 +121,8 @@ TEST(UpwardDatagrams, WhatIsMadeReliableIsNotOvertakenByWhatWasSaidBefore) {
   for (int i = 4; i < 8; ++i) say_and_hear(scene, object, i);
   EXPECT_EQ(scene.counters().datagrams_received, received) << "reliable from the request on";
   EXPECT_EQ(scene.heard[0].confirmed, 1);
-  scene.publisher.request_attribute_transportation_type_change(object, height, Transportation::best_effort);
+  scene.publisher.request_attribute_transportation_type_change(object, height,
+                                                               Transportation::best_effort);
   scene.set(object, 8.0);
   scene.tick();
   EXPECT_EQ(scene.counters().datagrams_received, received) << "not before it is confirmed";
@@ -134,7 +140,8 @@ TEST(UpwardDatagrams, SentWithinACallbackOfADatagramLeaveItsValuesAsTheyAre) {
   scene.set(own, 1.0);
   scene.ticks(2);  // from now on its updates go by datagram
   scene.delivers = false;
-  scene.listener.update_attribute_values(theirs, height | heading, values_of(2.5, 10.0f), {scene.now, 0});
+  scene.listener.update_attribute_values(theirs, height | heading, values_of(2.5, 10.0f),
+                                         {scene.now, 0});
   scene.tick();
   ASSERT_FALSE(scene.down.empty());
   const std::vector<std::byte> older = scene.down.back();
@@ -145,9 +152,13 @@ TEST(UpwardDatagrams, SentWithinACallbackOfADatagramLeaveItsValuesAsTheyAre) {
   Ear& heard = scene.heard[0];
   scene.publisher.receive_datagram(scene.down.back());
   ASSERT_EQ(heard.known[theirs.value].heading, 20.0f);
-  // Of the older datagram only the height is still news; meanwhile the federate sends an update of which a part goes by the stream.
+  // Of the older datagram only the height is still news; meanwhile the federate sends an update of
+  // which a part goes by the stream.
   const int before = heard.reflections;
-  heard.meanwhile = [&] { scene.publisher.update_attribute_values(own, number | height, values_of(std::int32_t{7}, 99.0), {scene.now, 0}); };
+  heard.meanwhile = [&] {
+    scene.publisher.update_attribute_values(own, number | height, values_of(std::int32_t{7}, 99.0),
+                                            {scene.now, 0});
+  };
   scene.publisher.receive_datagram(older);
   EXPECT_EQ(heard.reflections, before + 1);
   EXPECT_EQ(heard.known[theirs.value].height, 2.5);
@@ -217,7 +228,8 @@ TEST(UpwardDatagrams, AWayThatLosesEverythingFallsBackToTheStreamAndOpensAgain) 
   scene.set(object, 1.0);
   scene.tick();
   scene.delivers = false;
-  for (int i = 2; i < 90; ++i) scene.set(object, i), scene.tick(), scene.up.clear(), scene.down.clear();
+  for (int i = 2; i < 90; ++i)
+    scene.set(object, i), scene.tick(), scene.up.clear(), scene.down.clear();
   EXPECT_EQ(scene.publisher.counters().datagram_fallbacks, 1u);
   EXPECT_EQ(scene.seen(object), 89.0);
   scene.delivers = true;
@@ -279,7 +291,9 @@ TEST(UpwardDatagrams, CostNothingWhereNothingIsBestEffort) {
   Rig rig(Carrier::in_process);
   Station& pilot = rig.join("pilot");
   const std::size_t memory = pilot.ambassador.memory_bytes();
-  const Fom reliable = Fom::parse("<objectModel><objects><objectClass><name>Root</name></objectClass></objects></objectModel>", "reliable.xml");
+  const Fom reliable = Fom::parse(
+      "<objectModel><objects><objectClass><name>Root</name></objectClass></objects></objectModel>",
+      "reliable.xml");
   Recorder heard;
   Ambassador ambassador(reliable, heard);
   ambassador.expect_datagrams(1191);
@@ -287,8 +301,9 @@ TEST(UpwardDatagrams, CostNothingWhereNothingIsBestEffort) {
   EXPECT_LE(ambassador.memory_bytes(), memory + 4096);
 }
 
-/// Datagrams are lost, doubled and late, the stream is late, regions of the class come and go, attributes change their transportation: in the end everybody knows the truth, and nobody
-/// ever went back.
+/// Datagrams are lost, doubled and late, the stream is late, regions of the class come and go,
+/// attributes change their transportation: in the end everybody knows the truth, and nobody ever
+/// went back.
 TEST(UpwardDatagrams, StormsChangeNothingInTheEnd) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -301,9 +316,15 @@ TEST(UpwardDatagrams, StormsChangeNothingInTheEnd) {
       for (auto& [object, value] : truth) {
         const auto what = random() % 16;
         if (what < 9) scene.set(object, value += 1.0);
-        if (what == 9) scene.publisher.update_attribute_values(object, number | height, values_of(std::int32_t{step}, value += 1.0), {scene.now, 0});
-        if (what == 10) scene.publisher.request_attribute_transportation_type_change(object, height, Transportation::reliable);
-        if (what == 11) scene.publisher.request_attribute_transportation_type_change(object, height, Transportation::best_effort);
+        if (what == 9)
+          scene.publisher.update_attribute_values(
+              object, number | height, values_of(std::int32_t{step}, value += 1.0), {scene.now, 0});
+        if (what == 10)
+          scene.publisher.request_attribute_transportation_type_change(object, height,
+                                                                       Transportation::reliable);
+        if (what == 11)
+          scene.publisher.request_attribute_transportation_type_change(object, height,
+                                                                       Transportation::best_effort);
       }
       if (random() % 40 == 0) scene.listener.unsubscribe_object_class(buoy);
       if (random() % 20 == 0) scene.listener.subscribe_object_class_attributes(buoy, height);

@@ -19,9 +19,15 @@ Bytes bytes_of(const std::string& text) { return std::as_bytes(std::span(text));
 struct Diary : TransportListener {
   explicit Diary(const VirtualNetwork& network) : network(network) {}
   void on_open(ConnectionId connection) override { note(connection, "open"); }
-  void on_bytes(ConnectionId connection, Bytes bytes) override { note(connection, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())); }
-  void on_close(ConnectionId connection, CloseReason reason, const std::string&) override { note(connection, to_string(reason)); }
-  void note(ConnectionId connection, const std::string& what) { text += std::to_string(network.now_ns()) + " " + std::to_string(connection) + " " + what + "\n"; }
+  void on_bytes(ConnectionId connection, Bytes bytes) override {
+    note(connection, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  }
+  void on_close(ConnectionId connection, CloseReason reason, const std::string&) override {
+    note(connection, to_string(reason));
+  }
+  void note(ConnectionId connection, const std::string& what) {
+    text += std::to_string(network.now_ns()) + " " + std::to_string(connection) + " " + what + "\n";
+  }
   const VirtualNetwork& network;
   std::string text;
 };
@@ -44,7 +50,9 @@ struct Pair {
   Diary heard{network}, told{network};
 };
 
-void send(VirtualEndpoint& from, ConnectionId connection, const std::string& text) { from.send(connection, std::array{bytes_of(text)}); }
+void send(VirtualEndpoint& from, ConnectionId connection, const std::string& text) {
+  from.send(connection, std::array{bytes_of(text)});
+}
 
 TEST(VirtualNetwork, BytesArriveExactlyOneDelayAfterTheyWereSent) {
   ConstantDelay link(7);
@@ -75,7 +83,9 @@ TEST(VirtualNetwork, WhatIsSentAtOneInstantArrivesInTheOrderOfSending) {
 
 /// Alternately slow and fast.
 struct Overtaking final : LinkModel {
-  std::int64_t arrival_ns(std::uint32_t, std::int64_t now_ns, std::size_t size) override { return now_ns + (size > 3 ? 100 : 10); }
+  std::int64_t arrival_ns(std::uint32_t, std::int64_t now_ns, std::size_t size) override {
+    return now_ns + (size > 3 ? 100 : 10);
+  }
 };
 
 TEST(VirtualNetwork, NothingOvertakesOnOneLineWhateverTheModelSays) {
@@ -104,7 +114,8 @@ TEST(VirtualNetwork, BytesSentBeforeAClosingStillArriveAndNoneAfter) {
   pair.clients.close(line);
   send(pair.clients, line, "too late");
   pair.run(100);
-  EXPECT_EQ(pair.heard.text, "60 0 last words\n60 0 " + std::string(to_string(CloseReason::closed_by_peer)) + "\n");
+  EXPECT_EQ(pair.heard.text,
+            "60 0 last words\n60 0 " + std::string(to_string(CloseReason::closed_by_peer)) + "\n");
   EXPECT_EQ(pair.told.text, "60 0 " + std::string(to_string(CloseReason::closed_by_us)) + "\n");
   EXPECT_EQ(pair.server.totals().bytes_received, 10u);
 }
@@ -136,7 +147,8 @@ TEST(VirtualNetwork, WhatOneEndSentTheOtherReceived) {
   EXPECT_EQ(pair.clients.totals().segments_sent, segments);
   EXPECT_EQ(pair.server.totals().bytes_received, sent);
   std::uint64_t by_line = 0;
-  for (ConnectionId line = 0; line < 4; ++line) by_line += pair.server.counters(line).bytes_received;
+  for (ConnectionId line = 0; line < 4; ++line)
+    by_line += pair.server.counters(line).bytes_received;
   EXPECT_EQ(by_line, sent);
   EXPECT_EQ(pair.clients.totals().bytes_received, pair.server.totals().bytes_sent);
 }
@@ -158,7 +170,8 @@ TEST(VirtualNetwork, AnEndpointThatGoesAwayLeavesNothingToArrive) {
   server.poll(no_wait, heard);
   send(server, 0, "nor this");
   network.advance_to(200);
-  EXPECT_EQ(heard.text, "10 0 open\n10 0 hello\n100 0 " + std::string(to_string(CloseReason::closed_by_peer)) + "\n");
+  EXPECT_EQ(heard.text, "10 0 open\n10 0 hello\n100 0 " +
+                            std::string(to_string(CloseReason::closed_by_peer)) + "\n");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Periodic state as differences to acknowledged baselines: whatever is lost, late or unknown, what is heard is the quantised truth.
+// Periodic state as differences to acknowledged baselines: whatever is lost, late or unknown, what
+// is heard is the quantised truth.
 #include <gtest/gtest.h>
 
 #include "rti/wire/baseline_messages.h"
@@ -15,7 +16,8 @@ struct Fleet {
   std::mt19937_64 dice;
   std::vector<Boat> boats;
 
-  explicit Fleet(unsigned seed, std::size_t count, const FederationSettings& settings = {}) : traffic(settings), dice(seed) {
+  explicit Fleet(unsigned seed, std::size_t count, const FederationSettings& settings = {})
+      : traffic(settings), dice(seed) {
     for (std::size_t i = 0; i < count; ++i) launch();
   }
   void launch() {
@@ -46,7 +48,8 @@ std::size_t expect_truth(const Shore& shore, const Fleet& fleet) {
   for (const Boat& each : fleet.boats) {
     const auto seen = shore.heard.seen.find(each.object.value);
     if (seen == shore.heard.seen.end() || seen->second.time != fleet.traffic.now) continue;
-    EXPECT_EQ(seen->second.track, each.truth) << "boat " << each.object.value << " at " << fleet.traffic.now;
+    EXPECT_EQ(seen->second.track, each.truth)
+        << "boat " << each.object.value << " at " << fleet.traffic.now;
     ++told;
   }
   EXPECT_EQ(shore.heard.lost, "");
@@ -67,7 +70,10 @@ TEST(Baselines, WhatIsHeardIsTheQuantisedTruthInAThirdOfTheBytes) {
     bytes += fleet.traffic.execution.counters().bytes_sent - before.bytes_sent;
     updates += fleet.traffic.execution.counters().updates_sent - before.updates_sent;
   }
-  const double absolute = 1.0 + static_cast<double>((track_codec().packed_bits() + 7) / 8);  // bytes of a record that refers to nothing, with the step to its handle
+  const double absolute =
+      1.0 + static_cast<double>(
+                (track_codec().packed_bits() + 7) /
+                8);  // bytes of a record that refers to nothing, with the step to its handle
   EXPECT_LT(static_cast<double>(bytes) / static_cast<double>(updates), absolute / 2.5);
   EXPECT_EQ(fleet.counters().acknowledgements_ignored, 0u);
   EXPECT_EQ(fleet.counters().refused, 0u);
@@ -84,8 +90,11 @@ TEST(Baselines, LostFramesAndLateAcknowledgementsNeverBreakDecoding) {
     fleet.sail();
     fleet.traffic.tick();
     std::mt19937_64 weather(seed);
-    const unsigned held = static_cast<unsigned>(weather() % 100), lost = static_cast<unsigned>(weather() % 60);
-    const auto holds = [&](Shore& shore) { return &shore != &fleet.traffic.owner && weather() % 100 < held; };
+    const unsigned held = static_cast<unsigned>(weather() % 100),
+                   lost = static_cast<unsigned>(weather() % 60);
+    const auto holds = [&](Shore& shore) {
+      return &shore != &fleet.traffic.owner && weather() % 100 < held;
+    };
     const auto loses = [&](Shore&) { return weather() % 100 < lost; };
     std::size_t told = 0;
     for (int i = 0; i < 200; ++i) {
@@ -111,7 +120,8 @@ TEST(Baselines, AcknowledgementsThatNeverComeLeaveAbsoluteStates) {
   EXPECT_EQ(fleet.counters().differences_sent, 0u);
   fleet.traffic.tick();  // now all come at once; only those of the last keyframes count
   EXPECT_EQ(fleet.counters().acknowledged, keyframe_window);
-  EXPECT_EQ(fleet.counters().acknowledged + fleet.counters().acknowledgements_ignored, fleet.counters().keyframes);
+  EXPECT_EQ(fleet.counters().acknowledged + fleet.counters().acknowledgements_ignored,
+            fleet.counters().keyframes);
   fleet.sail();
   fleet.traffic.tick();
   EXPECT_EQ(expect_truth(shore, fleet), 20u);
@@ -126,10 +136,14 @@ TEST(Baselines, InterestEntriesExitsStopsNewBoatsAndOddValuesStayTrue) {
     settings.filter_settings.cell_size = 150.0;
     settings.filter_settings.world = {0.0, 0.0, 2000.0, 2000.0};
     Fleet fleet(seed, 60, settings);
-    for (const double low : {0.0, 300.0, 900.0}) fleet.traffic.watch("shore " + std::to_string(low), im::Region{low, low, low + 700.0, low + 700.0});
+    for (const double low : {0.0, 300.0, 900.0})
+      fleet.traffic.watch("shore " + std::to_string(low),
+                          im::Region{low, low, low + 700.0, low + 700.0});
     fleet.traffic.tick();
     std::mt19937_64 weather(seed);
-    const auto holds = [&](Shore& shore) { return &shore != &fleet.traffic.owner && weather() % 3 == 0; };
+    const auto holds = [&](Shore& shore) {
+      return &shore != &fleet.traffic.owner && weather() % 3 == 0;
+    };
     std::size_t told = 0;
     for (int i = 0; i < 300; ++i) {
       fleet.traffic.now += tick_s;
@@ -140,14 +154,20 @@ TEST(Baselines, InterestEntriesExitsStopsNewBoatsAndOddValuesStayTrue) {
         fleet.follow(each);
         each.tell(fleet.traffic.owner.ambassador, fleet.traffic.now);
         if (each.x == 1e9) each.x = 1000.0;
-        if (fleet.dice() % 30 == 0) fleet.traffic.owner.ambassador.update_attribute_values(each.object, {track, cargo}, [&] {
-          auto both = each.value();
-          each.truth = rounded(both);
-          std::ranges::copy(values_of(1.5), std::back_inserter(both));
-          return both;
-        }(), {fleet.traffic.now, 0});
+        if (fleet.dice() % 30 == 0)
+          fleet.traffic.owner.ambassador.update_attribute_values(
+              each.object, {track, cargo},
+              [&] {
+                auto both = each.value();
+                each.truth = rounded(both);
+                std::ranges::copy(values_of(1.5), std::back_inserter(both));
+                return both;
+              }(),
+              {fleet.traffic.now, 0});
       }
-      if (i % 40 == 20) fleet.traffic.owner.ambassador.delete_object_instance(fleet.boats.back().object), fleet.boats.pop_back();
+      if (i % 40 == 20)
+        fleet.traffic.owner.ambassador.delete_object_instance(fleet.boats.back().object),
+            fleet.boats.pop_back();
       if (i % 40 == 30) fleet.launch();
       fleet.traffic.tick(holds);
       for (const Shore& shore : fleet.traffic.shores) told += expect_truth(shore, fleet);
@@ -174,7 +194,8 @@ TEST(Baselines, AnUnknownBaselineIsRefusedAndAbsoluteStatesFollowOverTheSameConn
   fleet.traffic.tick();
   for (int i = 0; i < 10; ++i) fleet.sail(), fleet.traffic.tick();
   // Four frames are lost, among them two keyframes; somebody acknowledges one of them all the same.
-  for (int i = 0; i < 4; ++i) fleet.sail(), fleet.traffic.tick({}, [&](Shore& each) { return &each == &shore; });
+  for (int i = 0; i < 4; ++i)
+    fleet.sail(), fleet.traffic.tick({}, [&](Shore& each) { return &each == &shore; });
   const auto lost_keyframe = static_cast<std::uint16_t>(fleet.counters().keyframes);
   std::vector<std::byte> forged(frame_header_size);
   AcknowledgeKeyframeMessage message{lost_keyframe};
@@ -184,7 +205,9 @@ TEST(Baselines, AnUnknownBaselineIsRefusedAndAbsoluteStatesFollowOverTheSameConn
   fleet.traffic.execution.receive(shore.connection, forged);
   fleet.sail();
   fleet.traffic.tick();
-  EXPECT_EQ(expect_truth(shore, fleet), shore.ambassador.counters().differences_refused == 10u ? 0u : 1u) << "nothing is shown that may be wrong";
+  EXPECT_EQ(expect_truth(shore, fleet),
+            shore.ambassador.counters().differences_refused == 10u ? 0u : 1u)
+      << "nothing is shown that may be wrong";
   EXPECT_GT(shore.ambassador.counters().differences_refused, 0u);
   fleet.sail();
   fleet.traffic.tick();
@@ -205,7 +228,13 @@ TEST(Baselines, AcknowledgementsOfWhatWasNeverSentAreIgnored) {
   for (int i = 0; i < 5; ++i) fleet.sail(), fleet.traffic.tick();
   const std::uint64_t ignored = fleet.counters().acknowledgements_ignored;
   for (const unsigned number : {0u, 77u, 65535u, 32768u}) {
-    std::vector<std::byte> frame = {std::byte{3}, {}, {}, {}, std::byte{50}, static_cast<std::byte>(number), static_cast<std::byte>(number >> 8)};
+    std::vector<std::byte> frame = {std::byte{3},
+                                    {},
+                                    {},
+                                    {},
+                                    std::byte{50},
+                                    static_cast<std::byte>(number),
+                                    static_cast<std::byte>(number >> 8)};
     fleet.traffic.execution.receive(shore.connection, frame);
   }
   EXPECT_EQ(fleet.counters().acknowledgements_ignored, ignored + 4);
@@ -250,7 +279,9 @@ TEST(Baselines, FederatesSurviveHostileBlocks) {
     }
     Ambassador stranger(fjord(), shore.heard);
     stranger.join("rink", "stranger", "tester");
-    std::vector<std::byte> joined = {std::byte{9}, {}, {}, {}, std::byte{64}, std::byte{9}, {}, {}, {}, std::byte{9}, {}, {}, {}};
+    std::vector<std::byte> joined = {std::byte{9}, {}, {}, {}, std::byte{64},
+                                     std::byte{9}, {}, {}, {}, std::byte{9},
+                                     {},           {}, {}};
     ASSERT_TRUE(stranger.receive(joined));
     for (const Boat& each : fleet.boats) {
       std::vector<std::byte> discovery(frame_header_size);

@@ -1,4 +1,5 @@
-// Bit streams: what is written is read back, in exactly as many bits as were measured; rounding stays within the stated error; strangers' bits are refused.
+// Bit streams: what is written is read back, in exactly as many bits as were measured; rounding
+// stays within the stated error; strangers' bits are refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,14 +16,16 @@ namespace {
 /// A message of every kind of field, with one function for all three streams.
 struct BuoyMessage {
   bool is_lit = false;
-  std::int64_t depth = 0;                     ///< -11,000 to 9,000
+  std::int64_t depth = 0;  ///< -11,000 to 9,000
   double bearing = 0.0, tide = 0.0, mass = 0.0;
   std::uint64_t visits = 0, serial = 0;
 };
 template <class Stream>
 bool exchange(Stream& stream, BuoyMessage& buoy) {
-  return stream.flag(buoy.is_lit) && stream.ranged(buoy.depth, -11'000, 9'000) && stream.quantised(buoy.bearing, 0.0, 360.0, 0.25) &&
-         stream.quantised(buoy.tide, -20.0, 20.0, 1e-3) && stream.full(buoy.mass) && stream.golomb(buoy.visits, 3) && stream.bits(buoy.serial, 40);
+  return stream.flag(buoy.is_lit) && stream.ranged(buoy.depth, -11'000, 9'000) &&
+         stream.quantised(buoy.bearing, 0.0, 360.0, 0.25) &&
+         stream.quantised(buoy.tide, -20.0, 20.0, 1e-3) && stream.full(buoy.mass) &&
+         stream.golomb(buoy.visits, 3) && stream.bits(buoy.serial, 40);
 }
 
 BuoyMessage random_buoy(std::mt19937_64& random) {
@@ -60,7 +63,8 @@ TEST(BitStream, ReadsBackWhatWasWrittenInAsManyBitsAsWereMeasured) {
       EXPECT_EQ(read.depth, buoy.depth);
       EXPECT_LE(std::abs(read.bearing - buoy.bearing), 0.25);
       EXPECT_LE(std::abs(read.tide - buoy.tide), 1e-3);
-      EXPECT_EQ(std::bit_cast<std::uint64_t>(read.mass), std::bit_cast<std::uint64_t>(buoy.mass)) << "not a number, for one, has many forms";
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(read.mass), std::bit_cast<std::uint64_t>(buoy.mass))
+          << "not a number, for one, has many forms";
       EXPECT_EQ(read.visits, buoy.visits);
       EXPECT_EQ(read.serial, buoy.serial);
     }
@@ -80,13 +84,22 @@ TEST(BitStream, TakesExactlyTheBitsThatTellTheValuesApart) {
   EXPECT_EQ(bits_of([](BitMeasurer& stream) { stream.ranged(1, 0, 1); }), 1u);
   EXPECT_EQ(bits_of([](BitMeasurer& stream) { stream.ranged(0, -128, 127); }), 8u);
   EXPECT_EQ(bits_of([](BitMeasurer& stream) { stream.ranged(0, -128, 128); }), 9u);
-  EXPECT_EQ(bits_of([](BitMeasurer& stream) { stream.ranged(0, std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()); }), 64u);
+  EXPECT_EQ(bits_of([](BitMeasurer& stream) {
+              stream.ranged(0, std::numeric_limits<std::int64_t>::min(),
+                            std::numeric_limits<std::int64_t>::max());
+            }),
+            64u);
   // 64 m in steps of 2^-11 m are 2^17 steps and one value more than 17 bits tell apart.
   EXPECT_EQ(bits_of([](BitMeasurer& stream) { stream.quantised(0.0, 0.0, 64.0, 0x1p-12); }), 18u);
-  EXPECT_EQ(bits_of([](BitMeasurer& stream) { stream.quantised(0.0, 0.0, 64.0 - 0x1p-11, 0x1p-12); }), 17u);
-  EXPECT_EQ(bits_of([](BitMeasurer& stream) { stream.quantised(0.0, 0.0, 63.0, 0.0005 / 2); }), 17u) << "in steps of 2^-11 m, the power of two below 0.0005";
+  EXPECT_EQ(
+      bits_of([](BitMeasurer& stream) { stream.quantised(0.0, 0.0, 64.0 - 0x1p-11, 0x1p-12); }),
+      17u);
+  EXPECT_EQ(bits_of([](BitMeasurer& stream) { stream.quantised(0.0, 0.0, 63.0, 0.0005 / 2); }), 17u)
+      << "in steps of 2^-11 m, the power of two below 0.0005";
   for (std::uint64_t value = 0; value < 1000; ++value)
-    EXPECT_EQ(golomb_size(value, 0), 2 * static_cast<unsigned>(std::floor(std::log2(static_cast<double>(value) + 1.0))) + 1);
+    EXPECT_EQ(
+        golomb_size(value, 0),
+        2 * static_cast<unsigned>(std::floor(std::log2(static_cast<double>(value) + 1.0))) + 1);
 }
 
 TEST(BitStream, RoundsByNoMoreThanTheStatedErrorAndNeverTwice) {
@@ -94,14 +107,19 @@ TEST(BitStream, RoundsByNoMoreThanTheStatedErrorAndNeverTwice) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     const double middle = between(random, -1.0, 1.0) * std::pow(10.0, between(random, -3.0, 6.0));
-    const double span = std::pow(10.0, between(random, -3.0, 6.0)), error = span * std::pow(10.0, between(random, -7.0, -0.1));
+    const double span = std::pow(10.0, between(random, -3.0, 6.0)),
+                 error = span * std::pow(10.0, between(random, -7.0, -0.1));
     const double low = middle - span, high = middle + span;
     const auto grid = Quantisation::of(low, high, error);
     if (!grid) continue;
     EXPECT_LE(grid->error(), error);
     EXPECT_GT(2.0 * grid->error(), error) << "a step twice as long would not do";
     for (int i = 0; i < 20; ++i) {
-      const double value = i == 0 ? low : i == 1 ? high : i == 2 ? std::nextafter(low, high) : i == 3 ? std::nextafter(high, low) : between(random, low, high);
+      const double value = i == 0   ? low
+                           : i == 1 ? high
+                           : i == 2 ? std::nextafter(low, high)
+                           : i == 3 ? std::nextafter(high, low)
+                                    : between(random, low, high);
       std::vector<std::byte> bytes;
       BitWriter(bytes).quantised(value, low, high, error);
       double read = 0.0;
@@ -116,7 +134,8 @@ TEST(BitStream, RoundsByNoMoreThanTheStatedErrorAndNeverTwice) {
 }
 
 TEST(BitStream, HasNoGridForARangeOrErrorThatNoneCovers) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                   infinite = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(Quantisation::of(1.0, 1.0, 0.1));
   EXPECT_FALSE(Quantisation::of(2.0, 1.0, 0.1));
   EXPECT_FALSE(Quantisation::of(0.0, 1.0, 0.0));
@@ -166,7 +185,9 @@ TEST(BitStream, SurvivesHostileBytesAndWritesAgainWhatItAccepts) {
     BitReader rest(bytes, reader.at());
     ASSERT_EQ(again.size(), reader.bytes_read());
     for (std::size_t bit = 0; bit < reader.at(); ++bit)
-      ASSERT_EQ(static_cast<unsigned>(again[bit / 8]) >> bit % 8 & 1u, static_cast<unsigned>(bytes[bit / 8]) >> bit % 8 & 1u) << "bit " << bit;
+      ASSERT_EQ(static_cast<unsigned>(again[bit / 8]) >> bit % 8 & 1u,
+                static_cast<unsigned>(bytes[bit / 8]) >> bit % 8 & 1u)
+          << "bit " << bit;
   }
 }
 
@@ -187,7 +208,8 @@ TEST(BitStream, ReadsNothingFromFewerBits) {
   }
 }
 
-/// The code bit by bit, as its definition says: zeros up to a one, as many bits of the head, then `order` bits; nothing if they end before.
+/// The code bit by bit, as its definition says: zeros up to a one, as many bits of the head, then
+/// `order` bits; nothing if they end before.
 std::optional<std::uint64_t> golomb_bit_by_bit(Bytes bytes, std::size_t at, unsigned order) {
   const auto left = [&] { return 8 * bytes.size() - at; };
   const auto next = [&] {
@@ -212,7 +234,8 @@ TEST(BitStream, ReadsGolombCodesFromEachBitToTheLastAsTheirDefinitionSays) {
   for (unsigned order = 0; order <= golomb_order_max; ++order)
     for (std::size_t at = 0; at < 16; ++at)
       for (unsigned width = 0; width <= 56; ++width) {
-        const std::uint64_t value = width == 0 ? 0 : (random() | std::uint64_t{1} << 63) >> (64 - width);
+        const std::uint64_t value =
+            width == 0 ? 0 : (random() | std::uint64_t{1} << 63) >> (64 - width);
         std::vector<std::byte> bytes;
         {
           BitWriter writer(bytes);
@@ -220,13 +243,16 @@ TEST(BitStream, ReadsGolombCodesFromEachBitToTheLastAsTheirDefinitionSays) {
           writer.golomb(value, order);
         }
         bytes.resize(bytes.size() + 9);
-        for (std::size_t size = (at + 7) / 8; size <= bytes.size(); ++size) {  // cut off, whole, and with zeros behind
+        for (std::size_t size = (at + 7) / 8; size <= bytes.size();
+             ++size) {  // cut off, whole, and with zeros behind
           const Bytes seen = Bytes(bytes).first(size);
           BitReader reader(seen, at);
           std::uint64_t read = 0;
           const bool is_read = reader.golomb(read, order);
           const std::optional<std::uint64_t> expected = golomb_bit_by_bit(seen, at, order);
-          ASSERT_EQ(is_read, expected.has_value()) << "order " << order << ", from bit " << at << ", value " << value << ", " << size << " bytes";
+          ASSERT_EQ(is_read, expected.has_value())
+              << "order " << order << ", from bit " << at << ", value " << value << ", " << size
+              << " bytes";
           if (is_read) {
             ASSERT_EQ(read, *expected);
             ASSERT_EQ(read, value);

@@ -1,4 +1,5 @@
-// A federate that stops reading: it is told the newest state when it reads again, its queue stays bounded, and nobody else notices.
+// A federate that stops reading: it is told the newest state when it reads again, its queue stays
+// bounded, and nobody else notices.
 #include "rti/buffering/newest_state.h"
 
 #include <gtest/gtest.h>
@@ -16,14 +17,18 @@ constexpr std::size_t hold_above = 4000, resume_below = 500;
 
 FederationServices small_marks() {
   FederationServices services;
-  services.buffering = [] { return std::make_unique<NewestState>(NewestStateSettings{hold_above, resume_below}); };
+  services.buffering = [] {
+    return std::make_unique<NewestState>(NewestStateSettings{hold_above, resume_below});
+  };
   return services;
 }
 
-/// A harbour master who moves vessels, and a watcher who may stop reading, each in process on an endpoint of its own.
+/// A harbour master who moves vessels, and a watcher who may stop reading, each in process on an
+/// endpoint of its own.
 class DozingHarbour {
  public:
-  explicit DozingHarbour(FederationServices services = small_marks()) : execution_(harbour(), {}, services), host_(execution_) {
+  explicit DozingHarbour(FederationServices services = small_marks())
+      : execution_(harbour(), {}, services), host_(execution_) {
     server_.listen("rti");
     host_.add(server_);
     master = &join("master"), steady = &join("steady"), dozing = &join("dozing");
@@ -37,7 +42,10 @@ class DozingHarbour {
     tick();
   }
   struct Watcher {
-    explicit Watcher(InProcessNetwork& network) : endpoint(network), link(ambassador, endpoint, endpoint.connect("rti")) { links.add(link); }
+    explicit Watcher(InProcessNetwork& network)
+        : endpoint(network), link(ambassador, endpoint, endpoint.connect("rti")) {
+      links.add(link);
+    }
     Recorder heard;
     Ambassador ambassador{harbour(), heard};
     InProcessEndpoint endpoint;
@@ -57,13 +65,15 @@ class DozingHarbour {
   /// A new value of both attributes.
   void move(ObjectHandle object, float value) {
     std::vector<std::byte> values = values_of(value, -value, 10.0f * value);
-    master->ambassador.update_attribute_values(object, harbour().attributes(vessel), values, {static_cast<double>(value), 0});
+    master->ambassador.update_attribute_values(object, harbour().attributes(vessel), values,
+                                               {static_cast<double>(value), 0});
     newest[object.value] = values_of(value, -value);
   }
   /// What the RTI has left to wait for `dozing`: the third connection.
   std::size_t waiting() const { return server_.queued_bytes(2); }
   void expect_newest(const Watcher& watcher) const {
-    for (const auto& [object, value] : newest) EXPECT_EQ(watcher.heard.objects.at(object).values.at(position.value), value) << object;
+    for (const auto& [object, value] : newest)
+      EXPECT_EQ(watcher.heard.objects.at(object).values.at(position.value), value) << object;
   }
 
   Watcher *master = nullptr, *steady = nullptr, *dozing = nullptr;
@@ -101,7 +111,8 @@ TEST(NewestState, HoldsBackAboveOneMarkUntilBelowTheOther) {
 TEST(Buffering, OneWhoStoppedReadingForAThousandTicksHearsTheNewestStateOnce) {
   DozingHarbour scene;
   std::vector<ObjectHandle> vessels;
-  for (int i = 0; i < 20; ++i) vessels.push_back(scene.master->ambassador.register_object_instance(vessel));
+  for (int i = 0; i < 20; ++i)
+    vessels.push_back(scene.master->ambassador.register_object_instance(vessel));
   for (const ObjectHandle each : vessels) scene.move(each, 1.0f);
   scene.tick();
   scene.dozing->is_reading = false;
@@ -115,15 +126,18 @@ TEST(Buffering, OneWhoStoppedReadingForAThousandTicksHearsTheNewestStateOnce) {
   EXPECT_GT(scene.waiting(), hold_above);
   EXPECT_GT(scene.counters().updates_held_back, 20u * 950u);
   scene.expect_newest(*scene.steady);
-  EXPECT_EQ(scene.steady->heard.objects.at(vessels[0].value).updates, 999) << "others hear of every update";
+  EXPECT_EQ(scene.steady->heard.objects.at(vessels[0].value).updates, 999)
+      << "others hear of every update";
   scene.dozing->is_reading = true;
   scene.tick();  // it reads what waited
   const int before = scene.dozing->heard.objects.at(vessels[0].value).updates;
   scene.tick();
   scene.expect_newest(*scene.dozing);
-  for (const ObjectHandle each : vessels) EXPECT_EQ(scene.dozing->heard.objects.at(each.value).updates, before + 1);
+  for (const ObjectHandle each : vessels)
+    EXPECT_EQ(scene.dozing->heard.objects.at(each.value).updates, before + 1);
   scene.tick();
-  EXPECT_EQ(scene.dozing->heard.objects.at(vessels[0].value).updates, before + 1) << "nothing is due any more";
+  EXPECT_EQ(scene.dozing->heard.objects.at(vessels[0].value).updates, before + 1)
+      << "nothing is due any more";
 }
 
 TEST(Buffering, InteractionsDiscoveriesAndRemovalsReachOneWhoStoppedReadingInTheirOrder) {
@@ -164,7 +178,8 @@ TEST(Buffering, RandomReadersAllEndWithTheNewestState) {
       for (auto* each : {scene.steady, scene.dozing}) {
         if (random() % 10 == 0) each->is_reading = !each->is_reading;
       }
-      if (vessels.size() < 40 && random() % 2 == 0) vessels.push_back(scene.master->ambassador.register_object_instance(vessel));
+      if (vessels.size() < 40 && random() % 2 == 0)
+        vessels.push_back(scene.master->ambassador.register_object_instance(vessel));
       if (!vessels.empty() && random() % 8 == 0) {
         const std::size_t victim = random() % vessels.size();
         scene.master->ambassador.delete_object_instance(vessels[victim]);
@@ -190,7 +205,8 @@ TEST(Buffering, RandomReadersAllEndWithTheNewestState) {
 /// A user's own: every destination hears of values at every third flush only.
 class EveryThird final : public Buffering {
  public:
-  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp, Bytes values) override {
+  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes,
+              const Stamp& stamp, Bytes values) override {
     runs_.append(owner, slot, object, attributes, stamp, values);
   }
   std::span<const UpdateRun> seal() override {
@@ -218,7 +234,8 @@ TEST(Buffering, IsReplaceableByAUsersOwn) {
   }
   scene.tick();
   scene.tick();
-  EXPECT_EQ(scene.steady->heard.objects.at(object.value).updates, 10 + 1) << "one of three, and the last";
+  EXPECT_EQ(scene.steady->heard.objects.at(object.value).updates, 10 + 1)
+      << "one of three, and the last";
   scene.expect_newest(*scene.steady);
 }
 

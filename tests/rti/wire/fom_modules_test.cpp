@@ -44,7 +44,8 @@ TEST(FomModules, ClassesOfSeveralModulesAreOneTreeAndInheritAcrossThem) {
   EXPECT_EQ(fom.parameter(*fom.interaction_class("Signal"), "words"), ParameterHandle{0});
   EXPECT_EQ(fom.at(*fom.dimension("Sector")).upper_bound, 360u);
   EXPECT_EQ(fom.dimensions().size(), 3u);
-  EXPECT_EQ(fom.at(*fom.object_class("Light")).attributes[0].dimensions, DimensionSet{*fom.dimension("Sector")});
+  EXPECT_EQ(fom.at(*fom.object_class("Light")).attributes[0].dimensions,
+            DimensionSet{*fom.dimension("Sector")});
 }
 
 TEST(FomModules, AScaffoldMayComeBeforeItsDefinition) {
@@ -55,38 +56,59 @@ TEST(FomModules, AScaffoldMayComeBeforeItsDefinition) {
 
 TEST(FomModules, AModuleThatRepeatsAnotherChangesNothing) {
   std::string commented = harbour_xml;
-  commented.insert(commented.find("<attribute><name>speed") + 11, "<!-- over ground --><semantics>over ground</semantics>");
+  commented.insert(commented.find("<attribute><name>speed") + 11,
+                   "<!-- over ground --><semantics>over ground</semantics>");
   EXPECT_EQ(merged(harbour_xml, commented).hash(), harbour().hash());
 }
 
 /// The complaint about two modules after `from` in the second became `to`.
-std::string conflict(const std::string& from, const std::string& to, std::string second = harbour_xml) {
+std::string conflict(const std::string& from, const std::string& to,
+                     std::string second = harbour_xml) {
   const std::size_t at = second.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   second.replace(at, from.size(), to);
   try {
     merged(harbour_xml, second);
   } catch (const FileError& error) {
-    return std::string(error.what()) + (error.error() == HlaError::inconsistent_fdd ? "" : " [not InconsistentFDD]");
+    return std::string(error.what()) +
+           (error.error() == HlaError::inconsistent_fdd ? "" : " [not InconsistentFDD]");
   }
   return "accepted";
 }
 
 TEST(FomModules, ContradictionsNameBothPlaces) {
-  EXPECT_EQ(conflict("<dataType>HLAfloat32LE</dataType></attribute>", "<dataType>HLAfloat64LE</dataType></attribute>"),
-            "lights.xml:8: InconsistentFDD: <attribute> 'speed' of class 'Vessel' differs in <dataType> from its definition at harbour.xml:8");
+  EXPECT_EQ(conflict("<dataType>HLAfloat32LE</dataType></attribute>",
+                     "<dataType>HLAfloat64LE</dataType></attribute>"),
+            "lights.xml:8: InconsistentFDD: <attribute> 'speed' of class 'Vessel' differs in "
+            "<dataType> from its definition at harbour.xml:8");
   EXPECT_EQ(conflict("<order>TimeStamp</order>", "<order>Receive</order>"),
-            "lights.xml:10: InconsistentFDD: <attribute> 'destination' of class 'Ferry' differs in <order> from its definition at harbour.xml:10");
-  EXPECT_EQ(conflict("<dimension>Y</dimension>", ""), "lights.xml:7: InconsistentFDD: <attribute> 'position' of class 'Vessel' differs in <dimensions> from its definition at harbour.xml:7");
-  EXPECT_EQ(conflict("<name>speed</name>", "<name>pace</name>"), "lights.xml:6: InconsistentFDD: <attribute> 'speed' of class 'Vessel' is missing here; it is defined at harbour.xml:8");
-  EXPECT_EQ(conflict("<attribute><name>speed", "<attribute><name>flag</name><dataType>HLAoctet</dataType></attribute><attribute><name>speed"),
-            "lights.xml:8: InconsistentFDD: <attribute> 'flag' of class 'Vessel' is missing in the definition at harbour.xml:6");
-  EXPECT_EQ(conflict("<field><name>x</name><dataType>HLAfloat32LE", "<field><name>x</name><dataType>HLAfloat32BE"),
-            "lights.xml:29: InconsistentFDD: <fixedRecordData> 'Position' differs in <dataType> from its definition at harbour.xml:28");
-  EXPECT_EQ(conflict("<name>words</name><dataType>HLAASCIIstring", "<name>words</name><dataType>HLAunicodeString"),
-            "lights.xml:20: InconsistentFDD: <parameter> 'words' of class 'Hail' differs in <dataType> from its definition at harbour.xml:20");
-  EXPECT_EQ(conflict("<upperBound>360</upperBound></dimension>", "<upperBound>360</upperBound></dimension><dimension><name>Y</name><upperBound>5</upperBound></dimension>", lights_xml),
-            "lights.xml:9: InconsistentFDD: <dimension> 'Y' differs from its definition at harbour.xml:25");
+            "lights.xml:10: InconsistentFDD: <attribute> 'destination' of class 'Ferry' differs in "
+            "<order> from its definition at harbour.xml:10");
+  EXPECT_EQ(conflict("<dimension>Y</dimension>", ""),
+            "lights.xml:7: InconsistentFDD: <attribute> 'position' of class 'Vessel' differs in "
+            "<dimensions> from its definition at harbour.xml:7");
+  EXPECT_EQ(conflict("<name>speed</name>", "<name>pace</name>"),
+            "lights.xml:6: InconsistentFDD: <attribute> 'speed' of class 'Vessel' is missing here; "
+            "it is defined at harbour.xml:8");
+  EXPECT_EQ(conflict("<attribute><name>speed",
+                     "<attribute><name>flag</name><dataType>HLAoctet</dataType></"
+                     "attribute><attribute><name>speed"),
+            "lights.xml:8: InconsistentFDD: <attribute> 'flag' of class 'Vessel' is missing in the "
+            "definition at harbour.xml:6");
+  EXPECT_EQ(conflict("<field><name>x</name><dataType>HLAfloat32LE",
+                     "<field><name>x</name><dataType>HLAfloat32BE"),
+            "lights.xml:29: InconsistentFDD: <fixedRecordData> 'Position' differs in <dataType> "
+            "from its definition at harbour.xml:28");
+  EXPECT_EQ(conflict("<name>words</name><dataType>HLAASCIIstring",
+                     "<name>words</name><dataType>HLAunicodeString"),
+            "lights.xml:20: InconsistentFDD: <parameter> 'words' of class 'Hail' differs in "
+            "<dataType> from its definition at harbour.xml:20");
+  EXPECT_EQ(conflict("<upperBound>360</upperBound></dimension>",
+                     "<upperBound>360</upperBound></dimension><dimension><name>Y</"
+                     "name><upperBound>5</upperBound></dimension>",
+                     lights_xml),
+            "lights.xml:9: InconsistentFDD: <dimension> 'Y' differs from its definition at "
+            "harbour.xml:25");
 }
 
 struct Malformed {
@@ -95,39 +117,82 @@ struct Malformed {
 
 TEST(FomModules, EveryMalformedModuleIsRefusedByLineAndElement) {
   const std::array table{
-      Malformed{"<upperBound>360</upperBound>", "<upperBound>0</upperBound>", "lights.xml:9: <dimension> 'Sector' must have an <upperBound> that is a whole number from 1 to 4294967295"},
-      Malformed{"<upperBound>360</upperBound>", "<upperBound>-3</upperBound>", "lights.xml:9: <dimension> 'Sector' must have an <upperBound> that is a whole number from 1 to 4294967295"},
-      Malformed{"<dimension>Sector</dimension>", "<dimension>Depth</dimension>", "lights.xml:5: <attribute> 'colour' has the unknown dimension 'Depth'; allowed are those in <dimensions>"},
-      Malformed{"<objectClass><name>Light", "<objectClass><name>Vessel", "lights.xml:4: <objectClass> 'Vessel' is declared twice"},
-      Malformed{"<name>Light</name>", "<name>Light</name><attribute><name>colour</name><dataType>Colour</dataType></attribute>",
-                "lights.xml:5: <attribute> 'colour' is declared twice in class 'Light' or what it inherits"},
-      Malformed{"<name>pull</name>", "<name>speed</name>", "lights.xml:3: <attribute> 'speed' is declared twice in class 'Tug' or what it inherits"},
+      Malformed{"<upperBound>360</upperBound>", "<upperBound>0</upperBound>",
+                "lights.xml:9: <dimension> 'Sector' must have an <upperBound> that is a whole "
+                "number from 1 to 4294967295"},
+      Malformed{"<upperBound>360</upperBound>", "<upperBound>-3</upperBound>",
+                "lights.xml:9: <dimension> 'Sector' must have an <upperBound> that is a whole "
+                "number from 1 to 4294967295"},
+      Malformed{"<dimension>Sector</dimension>", "<dimension>Depth</dimension>",
+                "lights.xml:5: <attribute> 'colour' has the unknown dimension 'Depth'; allowed are "
+                "those in <dimensions>"},
+      Malformed{"<objectClass><name>Light", "<objectClass><name>Vessel",
+                "lights.xml:4: <objectClass> 'Vessel' is declared twice"},
+      Malformed{
+          "<name>Light</name>",
+          "<name>Light</name><attribute><name>colour</name><dataType>Colour</dataType></attribute>",
+          "lights.xml:5: <attribute> 'colour' is declared twice in class 'Light' or what it "
+          "inherits"},
+      Malformed{
+          "<name>pull</name>", "<name>speed</name>",
+          "lights.xml:3: <attribute> 'speed' is declared twice in class 'Tug' or what it inherits"},
       Malformed{"<dataType>Pull</dataType>", "<dataType>Push</dataType>",
-                "lights.xml:3: <attribute> 'pull' has the unknown data type 'Push'; allowed are those in <dataTypes> and the standard's, such as HLAfloat32LE"},
-      Malformed{"<representation>HLAfloat64BE", "<representation>Real", "lights.xml:11: <simpleData> 'Pull' has the unknown data type 'Real'; allowed are those in <dataTypes> and the standard's, such as HLAfloat32LE"},
-      Malformed{"<representation>HLAfloat64BE</representation>", "", "lights.xml:11: <simpleData> 'Pull' lacks <representation>"},
-      Malformed{"<representation>HLAfloat64BE", "<representation>Pull", "lights.xml:11: data type 'Pull' contains itself"},
-      Malformed{"<name>green</name>", "<name>red</name>", "lights.xml:13: <enumerator> 'red' of <enumeratedData> 'Colour' is declared twice"},
-      Malformed{"<dataType>Colour</dataType>\n    <alternative>", "<dataType>Pull</dataType>\n    <alternative>",
-                "lights.xml:14: <variantRecordData> 'Beam' must have an enumerated data type as its discriminant, not 'Pull'"},
+                "lights.xml:3: <attribute> 'pull' has the unknown data type 'Push'; allowed are "
+                "those in <dataTypes> and the standard's, such as HLAfloat32LE"},
+      Malformed{"<representation>HLAfloat64BE", "<representation>Real",
+                "lights.xml:11: <simpleData> 'Pull' has the unknown data type 'Real'; allowed are "
+                "those in <dataTypes> and the standard's, such as HLAfloat32LE"},
+      Malformed{"<representation>HLAfloat64BE</representation>", "",
+                "lights.xml:11: <simpleData> 'Pull' lacks <representation>"},
+      Malformed{"<representation>HLAfloat64BE", "<representation>Pull",
+                "lights.xml:11: data type 'Pull' contains itself"},
+      Malformed{"<name>green</name>", "<name>red</name>",
+                "lights.xml:13: <enumerator> 'red' of <enumeratedData> 'Colour' is declared twice"},
+      Malformed{"<dataType>Colour</dataType>\n    <alternative>",
+                "<dataType>Pull</dataType>\n    <alternative>",
+                "lights.xml:14: <variantRecordData> 'Beam' must have an enumerated data type as "
+                "its discriminant, not 'Pull'"},
       Malformed{"<name>reach</name><dataType>HLAfloat64BE", "<name>reach</name><dataType>Real",
-                "lights.xml:15: <alternative> 'reach' has the unknown data type 'Real'; allowed are those in <dataTypes> and the standard's, such as HLAfloat32LE"},
-      Malformed{"<enumerator>red</enumerator>", "", "lights.xml:15: <alternative> 'reach' lacks <enumerator>"},
-      Malformed{"<simpleDataTypes><simpleData>", "<simpleDataTypes><plainData/><simpleData>", "lights.xml:11: <plainData> lacks <name>"},
-      Malformed{"<enumeratedDataTypes>", "<enumeratedDataTypes><plainData><name>Odd</name></plainData>",
-                "lights.xml:12: <dataTypes> holds <plainData> 'Odd'; allowed are basicData, simpleData, enumeratedData, arrayData, fixedRecordData, variantRecordData"},
+                "lights.xml:15: <alternative> 'reach' has the unknown data type 'Real'; allowed "
+                "are those in <dataTypes> and the standard's, such as HLAfloat32LE"},
+      Malformed{"<enumerator>red</enumerator>", "",
+                "lights.xml:15: <alternative> 'reach' lacks <enumerator>"},
+      Malformed{"<simpleDataTypes><simpleData>", "<simpleDataTypes><plainData/><simpleData>",
+                "lights.xml:11: <plainData> lacks <name>"},
+      Malformed{"<enumeratedDataTypes>",
+                "<enumeratedDataTypes><plainData><name>Odd</name></plainData>",
+                "lights.xml:12: <dataTypes> holds <plainData> 'Odd'; allowed are basicData, "
+                "simpleData, enumeratedData, arrayData, fixedRecordData, variantRecordData"},
       Malformed{"<simpleDataTypes>", "<plainDataTypes/><simpleDataTypes>",
-                "lights.xml:11: <dataTypes> holds <plainDataTypes>; allowed are basicDataRepresentations, simpleDataTypes, enumeratedDataTypes, arrayDataTypes, fixedRecordDataTypes, variantRecordDataTypes"},
-      Malformed{"<name>Light</name>", "<name>HLAlight</name>", "lights.xml:4: <objectClass> 'HLAlight': names that begin with HLA are the standard's"},
-      Malformed{"<name>pull</name>", "<name>hlaPull</name>", "lights.xml:3: <attribute> 'hlaPull': names that begin with HLA are the standard's"},
-      Malformed{"<name>Signal</name>", "<name>HLAsignal</name>", "lights.xml:8: <interactionClass> 'HLAsignal': names that begin with HLA are the standard's"},
-      Malformed{"<simpleData><name>Pull</name>", "<simpleData><name>HLAinteger32BE</name>", "lights.xml:3: <attribute> 'pull' has the unknown data type 'Pull'"},
-      Malformed{"<simpleDataTypes>", "<simpleDataTypes><simpleData><name>HLAinteger32BE</name><representation>HLAfloat64BE</representation></simpleData>",
-                "lights.xml:11: <simpleData> 'HLAinteger32BE' is the standard's, whose size is 32 bits"},
-      Malformed{"<simpleDataTypes>", "<simpleDataTypes><simpleData><name>HLAclock</name><representation>HLAfloat64BE</representation></simpleData>",
-                "lights.xml:11: <simpleData> 'HLAclock': names that begin with HLA are the standard's"},
-      Malformed{"<objectModel>", "<objectModels>", "lights.xml:18: no well-formed XML: Start-end tags mismatch"},
-      Malformed{"<name>Tug</name>", "<name>Tug boat</name>", "lights.xml:2: <name> of <objectClass> 'Tug boat' must hold one word, not 'Tug boat'"},
+                "lights.xml:11: <dataTypes> holds <plainDataTypes>; allowed are "
+                "basicDataRepresentations, simpleDataTypes, enumeratedDataTypes, arrayDataTypes, "
+                "fixedRecordDataTypes, variantRecordDataTypes"},
+      Malformed{
+          "<name>Light</name>", "<name>HLAlight</name>",
+          "lights.xml:4: <objectClass> 'HLAlight': names that begin with HLA are the standard's"},
+      Malformed{
+          "<name>pull</name>", "<name>hlaPull</name>",
+          "lights.xml:3: <attribute> 'hlaPull': names that begin with HLA are the standard's"},
+      Malformed{"<name>Signal</name>", "<name>HLAsignal</name>",
+                "lights.xml:8: <interactionClass> 'HLAsignal': names that begin with HLA are the "
+                "standard's"},
+      Malformed{"<simpleData><name>Pull</name>", "<simpleData><name>HLAinteger32BE</name>",
+                "lights.xml:3: <attribute> 'pull' has the unknown data type 'Pull'"},
+      Malformed{
+          "<simpleDataTypes>",
+          "<simpleDataTypes><simpleData><name>HLAinteger32BE</name><representation>HLAfloat64BE</"
+          "representation></simpleData>",
+          "lights.xml:11: <simpleData> 'HLAinteger32BE' is the standard's, whose size is 32 bits"},
+      Malformed{
+          "<simpleDataTypes>",
+          "<simpleDataTypes><simpleData><name>HLAclock</name><representation>HLAfloat64BE</"
+          "representation></simpleData>",
+          "lights.xml:11: <simpleData> 'HLAclock': names that begin with HLA are the standard's"},
+      Malformed{"<objectModel>", "<objectModels>",
+                "lights.xml:18: no well-formed XML: Start-end tags mismatch"},
+      Malformed{
+          "<name>Tug</name>", "<name>Tug boat</name>",
+          "lights.xml:2: <name> of <objectClass> 'Tug boat' must hold one word, not 'Tug boat'"},
   };
   for (const Malformed& each : table) {
     SCOPED_TRACE(std::string(each.from) + " became " + each.to);
@@ -137,13 +202,16 @@ TEST(FomModules, EveryMalformedModuleIsRefusedByLineAndElement) {
 }
 
 TEST(FomModules, OnlyTheStandardsOwnModuleDefinesNamesThatBeginWithHla) {
-  constexpr const char* standard = R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name><objectClass><name>HLAmanager</name>
+  constexpr const char* standard =
+      R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name><objectClass><name>HLAmanager</name>
 <attribute><name>HLAcount</name><dataType>HLAinteger32BE</dataType></attribute></objectClass></objectClass></objects></objectModel>)";
-  constexpr const char* extension = R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name><objectClass><name>HLAmanager</name>
+  constexpr const char* extension =
+      R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name><objectClass><name>HLAmanager</name>
 <objectClass><name>Own</name></objectClass></objectClass></objectClass></objects></objectModel>)";
   const std::array modules{FomModule{standard, "mim.xml", true}, FomModule{extension, "own.xml"}};
   const Fom fom = Fom::parse(modules);
-  EXPECT_EQ(fom.at(*fom.object_class("Own")).attributes.size(), 1u) << "a scaffold of the standard's class";
+  EXPECT_EQ(fom.at(*fom.object_class("Own")).attributes.size(), 1u)
+      << "a scaffold of the standard's class";
   EXPECT_THROW(Fom::parse(extension, "own.xml"), FileError);
 }
 
@@ -162,24 +230,35 @@ TEST(FomModules, AFederateWithAnotherModelIsToldWhichAttributeDiffers) {
     const std::string& said = station.heard.log.back();
     return said.substr(said.rfind(": ") + 2);
   };
-  EXPECT_EQ(answer(changed("<dataType>HLAfloat32LE</dataType></attribute>", "<dataType>HLAfloat64LE</dataType></attribute>")),
+  EXPECT_EQ(answer(changed("<dataType>HLAfloat32LE</dataType></attribute>",
+                           "<dataType>HLAfloat64LE</dataType></attribute>")),
             "attribute 'speed' of object class 'HLAobjectRoot.Vessel' differs");
   EXPECT_EQ(answer(changed("<name>destination</name>", "<name>goal</name>")),
-            "attribute 'goal' of object class 'HLAobjectRoot.Vessel.Ferry' is unknown to the federation (and 1 more)");
-  EXPECT_EQ(answer(changed("<dimensions><dimension><name>X</name>", "<dimensions><dimension><name>X</name><upperBound>9</upperBound>")), "dimension 'X' differs");
-  EXPECT_EQ(answer(merged(harbour_xml, lights_xml)).substr(0, 57), "object class 'HLAobjectRoot.Vessel.Tug' is unknown to the");
+            "attribute 'goal' of object class 'HLAobjectRoot.Vessel.Ferry' is unknown to the "
+            "federation (and 1 more)");
+  EXPECT_EQ(answer(changed("<dimensions><dimension><name>X</name>",
+                           "<dimensions><dimension><name>X</name><upperBound>9</upperBound>")),
+            "dimension 'X' differs");
+  EXPECT_EQ(answer(merged(harbour_xml, lights_xml)).substr(0, 57),
+            "object class 'HLAobjectRoot.Vessel.Tug' is unknown to the");
 }
 
 TEST(FomModules, ModelsInAnotherOrderAreToldApart) {
   const Fom one = merged(harbour_xml, lights_xml), other = merged(lights_xml, harbour_xml);
   EXPECT_NE(one.hash(), other.hash());
   EXPECT_EQ(difference(one, digest(one)), "");
-  EXPECT_EQ(difference(one, digest(other)), "the same elements stand in another order: load the modules in the federation's");
+  EXPECT_EQ(difference(one, digest(other)),
+            "the same elements stand in another order: load the modules in the federation's");
 }
 
 TEST(FederationFile, MayListModulesOfTheObjectModel) {
-  const auto read = [](const std::string& fom) { return parse_federation_file("federation = \"port\"\nfom = " + fom + "\naddress = \"127.0.0.1\"\nport = 7000\n", "games/port.toml"); };
-  EXPECT_EQ(read("[\"harbour.xml\", \"/etc/lights.xml\"]").fom, (std::vector<std::string>{"games/harbour.xml", "/etc/lights.xml"}));
+  const auto read = [](const std::string& fom) {
+    return parse_federation_file(
+        "federation = \"port\"\nfom = " + fom + "\naddress = \"127.0.0.1\"\nport = 7000\n",
+        "games/port.toml");
+  };
+  EXPECT_EQ(read("[\"harbour.xml\", \"/etc/lights.xml\"]").fom,
+            (std::vector<std::string>{"games/harbour.xml", "/etc/lights.xml"}));
   const auto complaint = [&](const std::string& fom) {
     try {
       read(fom);
@@ -189,8 +268,10 @@ TEST(FederationFile, MayListModulesOfTheObjectModel) {
     return std::string("accepted");
   };
   EXPECT_EQ(complaint("[]"), "games/port.toml:2: key 'fom' must name at least one module");
-  EXPECT_EQ(complaint("[\"a.xml\", 3]"), "games/port.toml:2: key 'fom' must be a text that is not empty, or a list of such");
-  EXPECT_EQ(complaint("[\"a.xml\", \"a.xml\"]"), "games/port.toml:2: key 'fom' names 'a.xml' twice");
+  EXPECT_EQ(complaint("[\"a.xml\", 3]"),
+            "games/port.toml:2: key 'fom' must be a text that is not empty, or a list of such");
+  EXPECT_EQ(complaint("[\"a.xml\", \"a.xml\"]"),
+            "games/port.toml:2: key 'fom' names 'a.xml' twice");
 }
 
 }  // namespace

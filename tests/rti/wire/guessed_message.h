@@ -1,8 +1,9 @@
-// Messages of any kind whose fields are guesses: well-formed for the most part, so that they reach what looks at their meaning.
+// Messages of any kind whose fields are guesses: well-formed for the most part, so that they reach
+// what looks at their meaning.
 #pragma once
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -16,7 +17,8 @@
 
 namespace rink::rti::testing {
 
-/// Reads a message that nobody has written: makes up each field as it is asked for, and keeps the bytes. One field in sixteen is out of its range.
+/// Reads a message that nobody has written: makes up each field as it is asked for, and keeps the
+/// bytes. One field in sixteen is out of its range.
 class Guess {
  public:
   static constexpr bool is_reading = true;
@@ -37,14 +39,16 @@ class Guess {
   }
   bool part(std::uint64_t& value, std::size_t size) {
     if (size > sizeof value) return false;
-    value = any<std::uint64_t>() & (size == sizeof value ? ~std::uint64_t{0} : (std::uint64_t{1} << (8 * size)) - 1);
+    value = any<std::uint64_t>() &
+            (size == sizeof value ? ~std::uint64_t{0} : (std::uint64_t{1} << (8 * size)) - 1);
     const auto* at = reinterpret_cast<const std::byte*>(&value);
     bytes_.insert(bytes_.end(), at, at + size);
     return true;
   }
   template <class Number>
   bool range(Number& value, std::uint64_t max) {
-    const std::uint64_t small = random_() % 4 == 0 ? 255 : 3, any_small = random_() % (std::min(max, small) + 1);
+    const std::uint64_t small = random_() % 4 == 0 ? 255 : 3,
+                        any_small = random_() % (std::min(max, small) + 1);
     value = static_cast<Number>(random_() % 16 == 0 ? max + 1 : any_small);
     return keep(value);
   }
@@ -68,7 +72,9 @@ class Guess {
       value = names;
       return true;
     }
-    std::size_t size = random_() % 16 == 0 ? std::min<std::size_t>(max + 1, 400) : random_() % 4 == 0 ? 4 * (random_() % 4) : random_() % 20;
+    std::size_t size = random_() % 16 == 0  ? std::min<std::size_t>(max + 1, 400)
+                       : random_() % 4 == 0 ? 4 * (random_() % 4)
+                                            : random_() % 20;
     size = std::min<std::size_t>(size, std::numeric_limits<Length>::max());
     keep(static_cast<Length>(size));
     return rest(value, size);
@@ -92,7 +98,9 @@ class Guess {
     };
     for (std::size_t at = 0; at < size; at += of == 2 ? 16 : 4) {
       if (of == 0) put(at, static_cast<std::uint32_t>(random_()));
-      else if (of == 2) put(at, static_cast<double>(random_() % 3)), put(at + 8, static_cast<double>(2 + random_() % 3));
+      else if (of == 2)
+        put(at, static_cast<double>(random_() % 3)),
+            put(at + 8, static_cast<double>(2 + random_() % 3));
       else put(at, any<std::uint32_t>());
     }
     bytes_.insert(bytes_.end(), made.begin(), made.end());
@@ -103,7 +111,8 @@ class Guess {
  private:
   /// For the most part one that somebody has used.
   std::string_view name() {
-    const std::array<std::string_view, 8> names{"Aurora", "start", "rink", "witness", "guess", "", "tester", "Vessel"};
+    const std::array<std::string_view, 8> names{"Aurora", "start", "rink",   "witness",
+                                                "guess",  "",      "tester", "Vessel"};
     return names[random_() % names.size()];
   }
   /// Numbers of what there is: classes, attributes, objects, regions, federates.
@@ -111,7 +120,17 @@ class Guess {
   Number any() {
     if constexpr (std::is_floating_point_v<Number>) return static_cast<Number>(random_() % 4);
     else {
-      const std::array<std::uint64_t, 11> numbers{0, 1, 2, 3, object_block, object_block + 1, vessel_number, 7, 0xffffffffu, ~std::uint64_t{0}, random_()};
+      const std::array<std::uint64_t, 11> numbers{0,
+                                                  1,
+                                                  2,
+                                                  3,
+                                                  object_block,
+                                                  object_block + 1,
+                                                  vessel_number,
+                                                  7,
+                                                  0xffffffffu,
+                                                  ~std::uint64_t{0},
+                                                  random_()};
       const std::size_t count = random_() % 8 == 0 ? numbers.size() : 7;
       return static_cast<Number>(numbers[random_() % count]);
     }
@@ -128,7 +147,8 @@ class Guess {
   std::vector<std::vector<std::byte>> made_;
 };
 
-/// A frame of one message of that type, now and then with a tail: records that it announces, or what does not belong to it.
+/// A frame of one message of that type, now and then with a tail: records that it announces, or
+/// what does not belong to it.
 template <class Message>
 std::vector<std::byte> guessed_frame(std::mt19937& random) {
   std::vector<std::byte> bytes(frame_header_size);
@@ -137,7 +157,8 @@ std::vector<std::byte> guessed_frame(std::mt19937& random) {
   Guess guess(random, bytes);
   exchange(guess, message);
   if (random() % 2 == 0) {
-    for (std::size_t size = random() % 24; size > 0; --size) bytes.push_back(static_cast<std::byte>(random() % 3 == 0 ? random() : random() % 6));
+    for (std::size_t size = random() % 24; size > 0; --size)
+      bytes.push_back(static_cast<std::byte>(random() % 3 == 0 ? random() : random() % 6));
     bytes.push_back(std::byte{0});
   }
   const auto length = static_cast<std::uint32_t>(bytes.size() - frame_header_size);

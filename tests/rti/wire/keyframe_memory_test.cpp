@@ -1,4 +1,5 @@
-// What a federate keeps of keyframes: those that are still referred to, in the memory of those that are not.
+// What a federate keeps of keyframes: those that are still referred to, in the memory of those that
+// are not.
 #include "rti/baselines/keyframe_memory.h"
 
 #include <gtest/gtest.h>

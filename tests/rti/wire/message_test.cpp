@@ -1,4 +1,5 @@
-// Every message: what is written is what is read, as long as it was measured, and nothing less is accepted.
+// Every message: what is written is what is read, as long as it was measured, and nothing less is
+// accepted.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,9 +10,9 @@
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/fom_messages.h"
 #include "rti/wire/management_messages.h"
+#include "rti/wire/message.h"
 #include "rti/wire/object_messages.h"
 #include "rti/wire/region_messages.h"
-#include "rti/wire/message.h"
 #include "rti/wire/update_block.h"
 #include "tests/rti/rig.h"
 
@@ -25,7 +26,9 @@ struct Dice {
   std::vector<std::byte> bytes;
 
   template <class Number>
-  Number number() { return static_cast<Number>(random()); }
+  Number number() {
+    return static_cast<Number>(random());
+  }
   std::string_view text() {
     return words.emplace_back(random() % 256, static_cast<char>('a' + random() % 26));
   }
@@ -51,7 +54,8 @@ void expect_round_trip(Message message) {
   EXPECT_EQ(again, written);
   for (std::size_t size = 0; size < body.size(); ++size) {
     Reader truncated(body.first(size));
-    ASSERT_FALSE(exchange(truncated, read)) << "cut to " << size << " of " << body.size() << " bytes";
+    ASSERT_FALSE(exchange(truncated, read))
+        << "cut to " << size << " of " << body.size() << " bytes";
   }
 }
 
@@ -74,13 +78,15 @@ TEST(Message, ReadsBackAsItWasWrittenAndNeverFromLess) {
     expect_round_trip(UpdatesMessage{u16(), u32()});
     expect_round_trip(InteractionMessage{u16(), u32(), dice.stamp(), dice.some(u32() % 300)});
     const auto regions = static_cast<std::uint16_t>(u32() % 5);
-    expect_round_trip(ModifyRegionsMessage{regions, dice.some(regions * ModifyRegionsMessage::record_size)});
+    expect_round_trip(
+        ModifyRegionsMessage{regions, dice.some(regions * ModifyRegionsMessage::record_size)});
     expect_round_trip(AssociateRegionMessage{u32(), u32()});
     expect_round_trip(CreateRegionMessage{u32() % region_max});
     expect_round_trip(JoinedMessage{u32(), u32() % object_block_max});
     expect_round_trip(RefusedMessage{static_cast<std::uint8_t>(u32()), dice.text()});
     expect_round_trip(FederateJoinedMessage{u32(), dice.text(), dice.text()});
-    expect_round_trip(FederateResignedMessage{u32(), static_cast<std::uint8_t>(u32() % 3), dice.text(), dice.text()});
+    expect_round_trip(FederateResignedMessage{u32(), static_cast<std::uint8_t>(u32() % 3),
+                                              dice.text(), dice.text()});
   }
 }
 
@@ -91,14 +97,20 @@ TEST(Message, OfRegionsReadsBackAsItWasWrittenAndNeverFromLess) {
     const auto region = dice.number<std::uint32_t>() % region_max;
     const auto object_class = dice.number<std::uint16_t>();
     const auto count = static_cast<std::uint16_t>(dice.number<std::uint32_t>() % 5);
-    const std::vector<std::byte> records(count * RegionalClassMessage::pair_size), regions(count * sizeof(std::uint32_t)), ranges(count * ModifyRangesMessage::range_size);
+    const std::vector<std::byte> records(count * RegionalClassMessage::pair_size),
+        regions(count * sizeof(std::uint32_t)), ranges(count * ModifyRangesMessage::range_size);
     expect_round_trip(CreateRegionOverMessage{region, std::uint64_t{1} << count});
     expect_round_trip(ModifyRangesMessage{region, static_cast<std::uint8_t>(count), ranges});
-    expect_round_trip(RegionalClassMessage{object_class, static_cast<std::uint8_t>(count % 3), count, records});
-    expect_round_trip(RegionalInteractionMessage{object_class, static_cast<std::uint8_t>(count % 2), count, regions});
-    expect_round_trip(AssociateRegionsMessage{dice.number<std::uint32_t>(), static_cast<std::uint8_t>(count % 2), count, records});
-    expect_round_trip(InteractionWithinMessage{object_class, dice.stamp(), count, regions, dice.some(100)});
-    expect_round_trip(ProvideUpdateMessage{dice.number<std::uint32_t>(), dice.number<std::uint32_t>(), dice.some(count)});
+    expect_round_trip(
+        RegionalClassMessage{object_class, static_cast<std::uint8_t>(count % 3), count, records});
+    expect_round_trip(RegionalInteractionMessage{object_class, static_cast<std::uint8_t>(count % 2),
+                                                 count, regions});
+    expect_round_trip(AssociateRegionsMessage{
+        dice.number<std::uint32_t>(), static_cast<std::uint8_t>(count % 2), count, records});
+    expect_round_trip(
+        InteractionWithinMessage{object_class, dice.stamp(), count, regions, dice.some(100)});
+    expect_round_trip(ProvideUpdateMessage{dice.number<std::uint32_t>(),
+                                           dice.number<std::uint32_t>(), dice.some(count)});
     expect_round_trip(FomDigestMessage{count, records});
   }
 }
@@ -130,18 +142,24 @@ TEST(Message, OfFederationManagementReadsBackAsItWasWrittenAndNeverFromLess) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Dice dice{std::mt19937_64(seed), {}, {}};
     const auto handles = static_cast<std::uint16_t>(dice.number<std::uint32_t>() % 5);
-    const std::vector<std::byte> tag(dice.number<std::uint32_t>() % 100), records(handles * sizeof(std::uint32_t));
+    const std::vector<std::byte> tag(dice.number<std::uint32_t>() % 100),
+        records(handles * sizeof(std::uint32_t));
     expect_round_trip(RegisterSynchronizationPointMessage{dice.text(), tag, {handles, records}});
-    expect_round_trip(SynchronizationPointAchievedMessage{dice.text(), static_cast<std::uint8_t>(handles % 2)});
-    expect_round_trip(SynchronizationPointRegisteredMessage{dice.text(), static_cast<std::uint8_t>(handles % 3)});
+    expect_round_trip(
+        SynchronizationPointAchievedMessage{dice.text(), static_cast<std::uint8_t>(handles % 2)});
+    expect_round_trip(
+        SynchronizationPointRegisteredMessage{dice.text(), static_cast<std::uint8_t>(handles % 3)});
     expect_round_trip(AnnounceSynchronizationPointMessage{dice.text(), tag});
     expect_round_trip(FederationSynchronizedMessage{dice.text(), {handles, records}});
     expect_round_trip(CreateFederationExecutionMessage{dice.text(), dice.number<std::uint64_t>()});
     expect_round_trip(DestroyFederationExecutionMessage{dice.text()});
-    expect_round_trip(FederationExecutionCreatedMessage{dice.text(), static_cast<std::uint8_t>(handles)});
-    expect_round_trip(FederationExecutionMessage{0, dice.text(), dice.text(), dice.number<std::uint32_t>()});
+    expect_round_trip(
+        FederationExecutionCreatedMessage{dice.text(), static_cast<std::uint8_t>(handles)});
+    expect_round_trip(
+        FederationExecutionMessage{0, dice.text(), dice.text(), dice.number<std::uint32_t>()});
     expect_round_trip(FederationExecutionMessage{1, {}, {}, 0});
-    FederationReportMessage report{dice.text(), dice.text(), dice.text(), dice.number<std::uint32_t>(), {}};
+    FederationReportMessage report{
+        dice.text(), dice.text(), dice.text(), dice.number<std::uint32_t>(), {}};
     for (std::uint64_t& drops : report.drops) drops = dice.number<std::uint64_t>();
     expect_round_trip(report);
     FederateReportMessage federate{dice.number<std::uint32_t>(), dice.text(), dice.text(), {}};
@@ -162,7 +180,8 @@ TEST(Message, StampsLeaveOutTheZerosOfTimeAndTag) {
   EXPECT_EQ(size_of({Stamp{0.0, 0}}), 2u);
   EXPECT_EQ(size_of({Stamp{-0.0, 0}}), 3u);
   EXPECT_EQ(size_of({Stamp{1.0, 1}}), 5u) << "two bytes of the time, one of the tag";
-  EXPECT_EQ(size_of({Stamp{299.0 + 1023.0 / 1024.0, 0}}), 6u) << "any instant of a match's first 512 s on a grid of 1/1024 s";
+  EXPECT_EQ(size_of({Stamp{299.0 + 1023.0 / 1024.0, 0}}), 6u)
+      << "any instant of a match's first 512 s on a grid of 1/1024 s";
   EXPECT_EQ(size_of({Stamp{0.1, ~0ull}}), StampMessage::size_max);
 }
 
@@ -177,7 +196,8 @@ TEST(Message, StampsWithImpossibleSizesOrTimesAreRefused) {
   };
   EXPECT_TRUE(is_read({0x02, 0xf0, 0x3f})) << "1 s";
   EXPECT_FALSE(is_read({0x02, 0xf0, 0x7f})) << "infinity";
-  for (unsigned sizes = 0; sizes < 256; ++sizes) EXPECT_EQ(is_read({sizes}), (sizes & 15u) <= 8 && sizes >> 4 <= 8) << sizes;
+  for (unsigned sizes = 0; sizes < 256; ++sizes)
+    EXPECT_EQ(is_read({sizes}), (sizes & 15u) <= 8 && sizes >> 4 <= 8) << sizes;
 }
 
 TEST(Message, NumbersTakeOneByteForEachSevenBitsAndReadBackAtEveryPowerOfTwo) {
@@ -186,7 +206,9 @@ TEST(Message, NumbersTakeOneByteForEachSevenBitsAndReadBackAtEveryPowerOfTwo) {
       std::uint64_t written = value, read = 0;
       std::vector<std::byte> bytes;
       Writer(bytes).varint(written);
-      EXPECT_EQ(bytes.size(), std::max<std::size_t>(1, (static_cast<std::size_t>(std::bit_width(value)) + 6) / 7)) << value;
+      EXPECT_EQ(bytes.size(),
+                std::max<std::size_t>(1, (static_cast<std::size_t>(std::bit_width(value)) + 6) / 7))
+          << value;
       Reader reader(bytes);
       ASSERT_TRUE(reader.varint(read));
       EXPECT_EQ(read, value);
@@ -195,7 +217,8 @@ TEST(Message, NumbersTakeOneByteForEachSevenBitsAndReadBackAtEveryPowerOfTwo) {
       EXPECT_FALSE(cut.varint(read));
       std::uint16_t narrow = 0;
       Reader again(bytes);
-      EXPECT_EQ(again.varint(narrow), value <= 0xffff) << value << ": a number that does not fit is refused, not cut";
+      EXPECT_EQ(again.varint(narrow), value <= 0xffff)
+          << value << ": a number that does not fit is refused, not cut";
     }
   }
 }
@@ -203,7 +226,8 @@ TEST(Message, NumbersTakeOneByteForEachSevenBitsAndReadBackAtEveryPowerOfTwo) {
 TEST(UpdateBlock, StepsBetweenAnyTwoHandlesReadBack) {
   std::mt19937 random(3);
   std::vector<std::uint32_t> handles{0, 0xffffffffu, 0, 5, 5, 4, 0x80000000u, 0x7fffffffu};
-  for (int i = 0; i < 1000; ++i) handles.push_back(static_cast<std::uint32_t>(random() >> random() % 32));
+  for (int i = 0; i < 1000; ++i)
+    handles.push_back(static_cast<std::uint32_t>(random() >> random() % 32));
   std::vector<std::byte> bytes;
   {
     RecordWriter writer(bytes);
@@ -222,7 +246,8 @@ TEST(UpdateBlock, StepsBetweenAnyTwoHandlesReadBack) {
 }
 
 TEST(UpdateBlock, AStepBeyondAllHandlesIsMalformedWhereverItStarts) {
-  for (const std::uint64_t step : {std::uint64_t{1} << 34, ~std::uint64_t{0}, ~std::uint64_t{0} - 1, std::uint64_t{1} << 63}) {
+  for (const std::uint64_t step :
+       {std::uint64_t{1} << 34, ~std::uint64_t{0}, ~std::uint64_t{0} - 1, std::uint64_t{1} << 63}) {
     std::array<std::byte, 2 * varint_size_max> bytes{};
     std::byte* end = put_varint(bytes.data(), handle_step(0, 0xffffffffu));
     end = put_varint(end, step);
@@ -251,11 +276,14 @@ TEST(UpdateBlock, RecordsOfAnySizeReadBackAndNoneIsReadFromABlockThatIsCut) {
   }
   std::size_t count = 0;
   Reader reader(bytes);
-  EXPECT_TRUE(read_records(reader, object_class, set, [&](std::uint32_t, Bytes values) { return std::ranges::equal(values, all[count++]); }));
+  EXPECT_TRUE(read_records(reader, object_class, set, [&](std::uint32_t, Bytes values) {
+    return std::ranges::equal(values, all[count++]);
+  }));
   EXPECT_EQ(count, all.size());
   for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 50) {
     Reader cut(Bytes(bytes).first(size));
-    EXPECT_FALSE(read_records(cut, object_class, set, [](std::uint32_t, Bytes) { return true; })) << size;
+    EXPECT_FALSE(read_records(cut, object_class, set, [](std::uint32_t, Bytes) { return true; }))
+        << size;
   }
 }
 

@@ -1,4 +1,5 @@
-// Values whose types state a range and a resolution: how few bits they take, how near they stay, and how models that cannot be meant are refused.
+// Values whose types state a range and a resolution: how few bits they take, how near they stay,
+// and how models that cannot be meant are refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,18 +11,24 @@
 namespace rink::rti::testing {
 namespace {
 
-std::vector<std::byte> light_of(double x, double y, double energy, std::int32_t colour, std::int16_t below) { return values_of(x, y, energy, colour, below); }
+std::vector<std::byte> light_of(double x, double y, double energy, std::int32_t colour,
+                                std::int16_t below) {
+  return values_of(x, y, energy, colour, below);
+}
 
 template <class Number>
 Number number_at(Bytes bytes, std::size_t at, bool is_big_endian = false) {
-  std::vector<std::byte> part(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.begin() + static_cast<std::ptrdiff_t>(at + sizeof(Number)));
+  std::vector<std::byte> part(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                              bytes.begin() + static_cast<std::ptrdiff_t>(at + sizeof(Number)));
   if (is_big_endian) part = reversed(part);
   Number number;
   std::memcpy(&number, part.data(), sizeof number);
   return number;
 }
 
-const AttributeCodec& codec_of(ObjectClassHandle object_class, AttributeHandle attribute) { return *fjord().at(object_class).attributes[attribute.value].codec; }
+const AttributeCodec& codec_of(ObjectClassHandle object_class, AttributeHandle attribute) {
+  return *fjord().at(object_class).attributes[attribute.value].codec;
+}
 
 std::vector<std::byte> coded(const AttributeCodec& codec, Bytes value) {
   std::vector<std::byte> bytes;
@@ -37,19 +44,25 @@ std::vector<std::byte> decoded(const AttributeCodec& codec, Bytes bytes) {
 
 TEST(QuantisedCodec, BelongsToTypesThatStateARangeAndAResolution) {
   EXPECT_NE(fjord().at(boat).attributes[track.value].codec, nullptr);
-  EXPECT_EQ(fjord().at(boat).attributes[cargo.value].codec, nullptr) << "a double without a range travels in full";
-  EXPECT_NE(fjord().at(boat).attributes[track.value].baselines, nullptr) << "periodic, and quantised throughout";
-  EXPECT_EQ(fjord().at(beacon).attributes[light.value].baselines, nullptr) << "its energy is not quantised";
+  EXPECT_EQ(fjord().at(boat).attributes[cargo.value].codec, nullptr)
+      << "a double without a range travels in full";
+  EXPECT_NE(fjord().at(boat).attributes[track.value].baselines, nullptr)
+      << "periodic, and quantised throughout";
+  EXPECT_EQ(fjord().at(beacon).attributes[light.value].baselines, nullptr)
+      << "its energy is not quantised";
   EXPECT_EQ(fjord().at(beacon).attributes[depth.value].baselines, nullptr) << "not periodic";
   for (const ObjectClass& each : harbour().object_classes())
     for (const Attribute& attribute : each.attributes) EXPECT_EQ(attribute.codec, nullptr);
 }
 
 TEST(QuantisedCodec, TakesTheBitsThatRangesAndResolutionsAskFor) {
-  // 3,000 m in steps of 2^-10 m: 22 bits; 60 m/s in steps of 2^-7 m/s: 13 bits; 11,001 whole metres: 14 bits. One bit before them, and whole bytes at the end.
+  // 3,000 m in steps of 2^-10 m: 22 bits; 60 m/s in steps of 2^-7 m/s: 13 bits; 11,001 whole
+  // metres: 14 bits. One bit before them, and whole bytes at the end.
   const auto bytes_for = [](unsigned bits) { return (bits + 7u) / 8u; };
-  EXPECT_EQ(coded(codec_of(boat, track), track_of(1.0, 2.0, 3.0f, 4.0f)).size(), bytes_for(1 + 2 * 22 + 2 * 13));
-  EXPECT_EQ(coded(codec_of(beacon, light), light_of(1.0, 2.0, 3.0, 4, -5)).size(), bytes_for(1 + 2 * 22 + 64 + 32 + 14));
+  EXPECT_EQ(coded(codec_of(boat, track), track_of(1.0, 2.0, 3.0f, 4.0f)).size(),
+            bytes_for(1 + 2 * 22 + 2 * 13));
+  EXPECT_EQ(coded(codec_of(beacon, light), light_of(1.0, 2.0, 3.0, 4, -5)).size(),
+            bytes_for(1 + 2 * 22 + 64 + 32 + 14));
   EXPECT_EQ(coded(codec_of(beacon, depth), values_of(std::int16_t{-5})).size(), bytes_for(1 + 14));
 }
 
@@ -57,9 +70,12 @@ TEST(QuantisedCodec, StaysWithinHalfTheResolutionAndNeverRoundsTwice) {
   for (unsigned seed = 1; seed <= 5000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    const double x = seed % 50 == 0 ? -500.0 : between(random, -500.0, 2500.0), y = seed % 51 == 0 ? 2500.0 : between(random, -500.0, 2500.0);
-    const auto along = static_cast<float>(between(random, -30.0, 30.0)), across = static_cast<float>(between(random, -30.0, 30.0));
-    const auto value = decoded(codec_of(boat, track), coded(codec_of(boat, track), track_of(x, y, along, across)));
+    const double x = seed % 50 == 0 ? -500.0 : between(random, -500.0, 2500.0),
+                 y = seed % 51 == 0 ? 2500.0 : between(random, -500.0, 2500.0);
+    const auto along = static_cast<float>(between(random, -30.0, 30.0)),
+               across = static_cast<float>(between(random, -30.0, 30.0));
+    const auto value =
+        decoded(codec_of(boat, track), coded(codec_of(boat, track), track_of(x, y, along, across)));
     EXPECT_LE(std::abs(number_at<double>(value, 0) - x), 0.0005);
     EXPECT_LE(std::abs(number_at<double>(value, 8) - y), 0.0005);
     EXPECT_LE(std::abs(number_at<float>(value, 16, true) - along), 0.005f);
@@ -68,15 +84,21 @@ TEST(QuantisedCodec, StaysWithinHalfTheResolutionAndNeverRoundsTwice) {
     const double energy = std::bit_cast<double>(random());
     const auto colour = static_cast<std::int32_t>(random());
     const auto below = static_cast<std::int16_t>(-static_cast<int>(random() % 11'001));
-    const auto shown = decoded(codec_of(beacon, light), coded(codec_of(beacon, light), light_of(x, y, energy, colour, below)));
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(number_at<double>(shown, 16)), std::bit_cast<std::uint64_t>(energy)) << "bit exact";
+    const auto shown =
+        decoded(codec_of(beacon, light),
+                coded(codec_of(beacon, light), light_of(x, y, energy, colour, below)));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(number_at<double>(shown, 16)),
+              std::bit_cast<std::uint64_t>(energy))
+        << "bit exact";
     EXPECT_EQ(number_at<std::int32_t>(shown, 24), colour);
-    EXPECT_EQ(number_at<std::int16_t>(shown, 28), below) << "whole numbers in steps of one are exact";
+    EXPECT_EQ(number_at<std::int16_t>(shown, 28), below)
+        << "whole numbers in steps of one are exact";
   }
 }
 
 TEST(QuantisedCodec, SendsInFullWhatIsOutOfItsRange) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                   infinite = std::numeric_limits<double>::infinity();
   for (const double x : {-500.1, 2501.0, 1e300, -infinite, infinite, nan}) {
     const auto value = track_of(x, 1.23456789, 0.1f, -1e30f);
     const auto bytes = coded(codec_of(boat, track), value);
@@ -90,7 +112,8 @@ TEST(QuantisedCodec, RefusesWhatNoFederateWrites) {
   std::vector<std::byte> value;
   EXPECT_EQ(codec.size({}), std::nullopt);
   const auto bytes = coded(codec, track_of(1.0, 2.0, 3.0f, 4.0f));
-  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(codec.decode(Bytes(bytes).first(size), 0.0, value));
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(codec.decode(Bytes(bytes).first(size), 0.0, value));
   auto padded = bytes;
   padded.back() |= std::byte{0x80};  // 71 bits are said, the 72nd is 0
   EXPECT_FALSE(codec.decode(padded, 0.0, value));
@@ -103,7 +126,8 @@ TEST(QuantisedCodec, RefusesWhatNoFederateWrites) {
     for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
     value.clear();
     const auto size = codec.size(noise);
-    if (!size || *size > noise.size() || !codec.decode(Bytes(noise).first(*size), 0.0, value)) continue;
+    if (!size || *size > noise.size() || !codec.decode(Bytes(noise).first(*size), 0.0, value))
+      continue;
     EXPECT_EQ(value.size(), 24u) << "seed " << seed;
   }
 }
@@ -122,16 +146,34 @@ std::string complaint(const std::string& from, const std::string& to) {
 }
 
 TEST(QuantisedCodec, ModelsThatCannotBeMeantAreRefusedByLineAndElement) {
-  EXPECT_EQ(complaint("<resolution>0.001</resolution>", ""), "fjord.xml:19: <simpleData> 'Place' has a range, so its <resolution> must be a number above 0");
-  EXPECT_EQ(complaint("0.001", "fine"), "fjord.xml:19: <simpleData> 'Place' has a range, so its <resolution> must be a number above 0");
-  EXPECT_EQ(complaint("0.001", "-1"), "fjord.xml:19: <simpleData> 'Place' has a range, so its <resolution> must be a number above 0");
-  EXPECT_EQ(complaint("range -500 2500", "range -500"), "fjord.xml:19: <simpleData> 'Place' has a note 'range -500'; expected 'range LOW HIGH', two numbers");
-  EXPECT_EQ(complaint("range -500 2500", "range 5 5"), "fjord.xml:19: <simpleData> 'Place' has a range and resolution that its representation cannot hold");
-  EXPECT_EQ(complaint("0.01<", "1e-9<"), "fjord.xml:20: <simpleData> 'Speed' has a range and resolution that its representation cannot hold");
-  EXPECT_EQ(complaint("range -11000 0", "range -40000 0"), "fjord.xml:21: <simpleData> 'Depth' has a range and resolution that its representation cannot hold");
-  EXPECT_EQ(complaint("<name>Depth</name><representation>HLAinteger16LE", "<name>Depth</name><representation>HLAinteger64LE"),
-            "fjord.xml:21: <simpleData> 'Depth' has a range, so its <representation> must be HLAfloat32, HLAfloat64, HLAinteger16 or HLAinteger32, LE or BE");
-  EXPECT_EQ(complaint("rate of x", "rate of z"), "fjord.xml:33: <field> 'speedX' is the rate of 'z'; both must be fields of <fixedRecordData> 'Track' with a range and a resolution");
+  EXPECT_EQ(complaint("<resolution>0.001</resolution>", ""),
+            "fjord.xml:19: <simpleData> 'Place' has a range, so its <resolution> must be a number "
+            "above 0");
+  EXPECT_EQ(complaint("0.001", "fine"),
+            "fjord.xml:19: <simpleData> 'Place' has a range, so its <resolution> must be a number "
+            "above 0");
+  EXPECT_EQ(complaint("0.001", "-1"),
+            "fjord.xml:19: <simpleData> 'Place' has a range, so its <resolution> must be a number "
+            "above 0");
+  EXPECT_EQ(complaint("range -500 2500", "range -500"),
+            "fjord.xml:19: <simpleData> 'Place' has a note 'range -500'; expected 'range LOW "
+            "HIGH', two numbers");
+  EXPECT_EQ(complaint("range -500 2500", "range 5 5"),
+            "fjord.xml:19: <simpleData> 'Place' has a range and resolution that its representation "
+            "cannot hold");
+  EXPECT_EQ(complaint("0.01<", "1e-9<"),
+            "fjord.xml:20: <simpleData> 'Speed' has a range and resolution that its representation "
+            "cannot hold");
+  EXPECT_EQ(complaint("range -11000 0", "range -40000 0"),
+            "fjord.xml:21: <simpleData> 'Depth' has a range and resolution that its representation "
+            "cannot hold");
+  EXPECT_EQ(complaint("<name>Depth</name><representation>HLAinteger16LE",
+                      "<name>Depth</name><representation>HLAinteger64LE"),
+            "fjord.xml:21: <simpleData> 'Depth' has a range, so its <representation> must be "
+            "HLAfloat32, HLAfloat64, HLAinteger16 or HLAinteger32, LE or BE");
+  EXPECT_EQ(complaint("rate of x", "rate of z"),
+            "fjord.xml:33: <field> 'speedX' is the rate of 'z'; both must be fields of "
+            "<fixedRecordData> 'Track' with a range and a resolution");
 }
 
 TEST(QuantisedCodec, IsPartOfTheModelsHash) {
@@ -140,8 +182,10 @@ TEST(QuantisedCodec, IsPartOfTheModelsHash) {
     text.replace(text.find(from), from.size(), to);
     return Fom::parse(text, "fjord.xml").hash();
   };
-  EXPECT_EQ(hash_with("ofTheFjord</label>", "ofTheFjord</label><!-- the whole of it -->"), fjord().hash());
-  EXPECT_EQ(hash_with("<resolution>0.001<", "<resolution>0.0011<"), fjord().hash()) << "in the same steps";
+  EXPECT_EQ(hash_with("ofTheFjord</label>", "ofTheFjord</label><!-- the whole of it -->"),
+            fjord().hash());
+  EXPECT_EQ(hash_with("<resolution>0.001<", "<resolution>0.0011<"), fjord().hash())
+      << "in the same steps";
   EXPECT_NE(hash_with("<resolution>0.001<", "<resolution>0.01<"), fjord().hash());
   EXPECT_NE(hash_with("range -30 30", "range -40 40"), fjord().hash());
   EXPECT_NE(hash_with("<updateType>Periodic</updateType>", ""), fjord().hash());
@@ -157,11 +201,14 @@ TEST(QuantisedCodec, FederatesSayAndHearValuesOfTheModel) {
   host.add(server);
   struct Heard : FederateAmbassador {
     std::vector<std::byte> value;
-    void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes values, const Stamp&) override { value.assign(values.begin(), values.end()); }
+    void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes values, const Stamp&) override {
+      value.assign(values.begin(), values.end());
+    }
   } heard;
   FederateAmbassador nothing;
   Ambassador speaker(fjord(), nothing), listener(fjord(), heard);
-  FederateLink first(speaker, clients, clients.connect("rti")), second(listener, clients, clients.connect("rti"));
+  FederateLink first(speaker, clients, clients.connect("rti")),
+      second(listener, clients, clients.connect("rti"));
   FederateLinks links;
   links.add(first), links.add(second);
   const auto round = [&] {

@@ -1,4 +1,5 @@
-// A session of federates that write down what they say and hear in the second reader's words, and every byte between them.
+// A session of federates that write down what they say and hear in the second reader's words, and
+// every byte between them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -37,19 +38,27 @@ inline std::string hex(Bytes bytes) {
   }
   return text.empty() ? "-" : text;
 }
-inline std::string stamp_text(const Stamp& stamp) { return hex(stamp.time) + " " + std::to_string(stamp.tag); }
+inline std::string stamp_text(const Stamp& stamp) {
+  return hex(stamp.time) + " " + std::to_string(stamp.tag);
+}
 inline std::string word(std::string_view text) { return text.empty() ? "-" : std::string(text); }
 inline std::string list_of_handles(std::span<const FederateHandle> handles) {
   std::string text;
-  for (const FederateHandle handle : handles) text += (text.empty() ? "" : ",") + std::to_string(handle.value);
+  for (const FederateHandle handle : handles)
+    text += (text.empty() ? "" : ",") + std::to_string(handle.value);
   return word(text);
 }
-inline std::string name_of(ObjectClassHandle object_class) { return harbour().at(object_class).name; }
-inline std::string name_of(InteractionClassHandle interaction_class) { return harbour().at(interaction_class).name; }
+inline std::string name_of(ObjectClassHandle object_class) {
+  return harbour().at(object_class).name;
+}
+inline std::string name_of(InteractionClassHandle interaction_class) {
+  return harbour().at(interaction_class).name;
+}
 inline std::string names_of(ObjectClassHandle object_class, AttributeSet set) {
   std::string text;
   for (std::uint32_t k = 0; k < harbour().at(object_class).attributes.size(); ++k)
-    if (set.contains({k})) text += (text.empty() ? "" : "+") + harbour().at(object_class).attributes[k].name;
+    if (set.contains({k}))
+      text += (text.empty() ? "" : "+") + harbour().at(object_class).attributes[k].name;
   return word(text);
 }
 
@@ -64,7 +73,8 @@ class Clerk final : public FederateAmbassador {
 
   void join(const std::string& name) {
     ambassador.join("rink", name, "clerk");
-    said.push_back(line_of("join version", protocol_version, "model", hex(harbour().hash()), "rink", name, "clerk"));
+    said.push_back(line_of("join version", protocol_version, "model", hex(harbour().hash()), "rink",
+                           name, "clerk"));
   }
   void publish(ObjectClassHandle object_class, AttributeSet set) {
     ambassador.publish_object_class_attributes(object_class, set);
@@ -72,7 +82,8 @@ class Clerk final : public FederateAmbassador {
   }
   void subscribe(ObjectClassHandle object_class, AttributeSet set, RegionHandle region = {}) {
     ambassador.subscribe_object_class_attributes(object_class, set, region);
-    said.push_back(line_of("subscribe", name_of(object_class), names_of(object_class, set), region ? std::to_string(wire_number(region)) : "-", "active"));
+    said.push_back(line_of("subscribe", name_of(object_class), names_of(object_class, set),
+                           region ? std::to_string(wire_number(region)) : "-", "active"));
   }
   void exchange_interactions(InteractionClassHandle interaction_class) {
     ambassador.publish_interaction_class(interaction_class);
@@ -88,50 +99,96 @@ class Clerk final : public FederateAmbassador {
     classes_[object.value] = object_class;
     return object;
   }
-  void update(ObjectHandle object, AttributeSet set, const std::vector<std::byte>& values, const Stamp& stamp) {
+  void update(ObjectHandle object, AttributeSet set, const std::vector<std::byte>& values,
+              const Stamp& stamp) {
     ambassador.update_attribute_values(object, set, values, stamp);
-    said.push_back(line_of("update", object.value, name_of(classes_.at(object.value)), names_of(classes_.at(object.value), set), stamp_text(stamp), hex(values)));
+    said.push_back(line_of("update", object.value, name_of(classes_.at(object.value)),
+                           names_of(classes_.at(object.value), set), stamp_text(stamp),
+                           hex(values)));
   }
   void remove(ObjectHandle object) {
     ambassador.delete_object_instance(object);
     said.push_back(line_of("delete", object.value));
   }
-  void send(InteractionClassHandle interaction_class, std::string_view words, const Stamp& stamp, FederateHandle receiver = {}) {
-    if (receiver) ambassador.send_directed_interaction(interaction_class, receiver, bytes_of(words), stamp);
+  void send(InteractionClassHandle interaction_class, std::string_view words, const Stamp& stamp,
+            FederateHandle receiver = {}) {
+    if (receiver)
+      ambassador.send_directed_interaction(interaction_class, receiver, bytes_of(words), stamp);
     else ambassador.send_interaction(interaction_class, bytes_of(words), stamp);
-    said.push_back(line_of("send", name_of(interaction_class), receiver ? std::to_string(receiver.value) : "-", stamp_text(stamp), hex(bytes_of(words))));
+    said.push_back(line_of("send", name_of(interaction_class),
+                           receiver ? std::to_string(receiver.value) : "-", stamp_text(stamp),
+                           hex(bytes_of(words))));
   }
 
-  void joined(FederateHandle federate) override { heard.push_back(line_of("joined", federate.value)); }
-  void synchronization_point_registration_succeeded(std::string_view label) override { heard.push_back(line_of("registered", label, 0)); }
-  void announce_synchronization_point(std::string_view label, Bytes tag) override { heard.push_back(line_of("announced", label, hex(tag))); }
-  void federation_synchronized(std::string_view label, std::span<const FederateHandle> failed) override { heard.push_back(line_of("synchronized", label, list_of_handles(failed))); }
-  void federate_joined(FederateHandle handle, std::string_view name, std::string_view type) override { heard.push_back(line_of("federate_joined", handle.value, name, type)); }
-  void federate_resigned(FederateHandle handle, std::string_view name, std::string_view type, ResignReason reason) override {
-    heard.push_back(line_of("federate_resigned", handle.value, static_cast<int>(reason), name, type));
+  void joined(FederateHandle federate) override {
+    heard.push_back(line_of("joined", federate.value));
   }
-  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class, std::string_view name) override {
+  void synchronization_point_registration_succeeded(std::string_view label) override {
+    heard.push_back(line_of("registered", label, 0));
+  }
+  void announce_synchronization_point(std::string_view label, Bytes tag) override {
+    heard.push_back(line_of("announced", label, hex(tag)));
+  }
+  void federation_synchronized(std::string_view label,
+                               std::span<const FederateHandle> failed) override {
+    heard.push_back(line_of("synchronized", label, list_of_handles(failed)));
+  }
+  void federate_joined(FederateHandle handle, std::string_view name,
+                       std::string_view type) override {
+    heard.push_back(line_of("federate_joined", handle.value, name, type));
+  }
+  void federate_resigned(FederateHandle handle, std::string_view name, std::string_view type,
+                         ResignReason reason) override {
+    heard.push_back(
+        line_of("federate_resigned", handle.value, static_cast<int>(reason), name, type));
+  }
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class,
+                                std::string_view name) override {
     classes_[object.value] = object_class;
-    heard.push_back(line_of("discover", object.value, name_of(object_class), name == NameBook::default_name(object) ? "-" : name));  // a default name is not sent
+    heard.push_back(line_of(
+        "discover", object.value, name_of(object_class),
+        name == NameBook::default_name(object) ? "-" : name));  // a default name is not sent
   }
-  void object_instance_name_reservation_succeeded(std::string_view name) override { heard.push_back(line_of("names granted", name)); }
-  void object_instance_name_reservation_failed(std::string_view name) override { heard.push_back(line_of(is_registering ? "names registration_refused" : "names refused", name)); }
-  void multiple_object_instance_name_reservation_succeeded(const std::vector<std::string>& names) override { heard.push_back(line_of("names set_granted", list_of(names))); }
-  void multiple_object_instance_name_reservation_failed(const std::vector<std::string>& names) override { heard.push_back(line_of("names set_refused", list_of(names))); }
-  void provide_attribute_value_update(ObjectHandle object, AttributeSet set, Bytes tag) override { heard.push_back(line_of("provide", object.value, binary(set), hex(tag))); }
-  void confirm_attribute_transportation_type_change(ObjectHandle object, AttributeSet set, Transportation type) override {
-    heard.push_back(line_of("transportation object confirmation", object.value, set.bits, static_cast<int>(type)));
+  void object_instance_name_reservation_succeeded(std::string_view name) override {
+    heard.push_back(line_of("names granted", name));
   }
-  void report_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute, Transportation type) override {
-    heard.push_back(line_of("transportation object answer", object.value, attribute.value, static_cast<int>(type)));
+  void object_instance_name_reservation_failed(std::string_view name) override {
+    heard.push_back(line_of(is_registering ? "names registration_refused" : "names refused", name));
   }
-  void confirm_interaction_transportation_type_change(InteractionClassHandle each, Transportation type) override {
-    heard.push_back(line_of("transportation interaction confirmation", each.value, 0, static_cast<int>(type)));
+  void multiple_object_instance_name_reservation_succeeded(
+      const std::vector<std::string>& names) override {
+    heard.push_back(line_of("names set_granted", list_of(names)));
   }
-  void report_interaction_transportation_type(FederateHandle federate, InteractionClassHandle each, Transportation type) override {
-    heard.push_back(line_of("transportation interaction answer", each.value, federate.value, static_cast<int>(type)));
+  void multiple_object_instance_name_reservation_failed(
+      const std::vector<std::string>& names) override {
+    heard.push_back(line_of("names set_refused", list_of(names)));
   }
-  void turn_updates_on_for_object_instance(ObjectHandle object, AttributeSet set) override { heard.push_back(line_of("object_relevance", object.value, binary(set))); }
+  void provide_attribute_value_update(ObjectHandle object, AttributeSet set, Bytes tag) override {
+    heard.push_back(line_of("provide", object.value, binary(set), hex(tag)));
+  }
+  void confirm_attribute_transportation_type_change(ObjectHandle object, AttributeSet set,
+                                                    Transportation type) override {
+    heard.push_back(line_of("transportation object confirmation", object.value, set.bits,
+                            static_cast<int>(type)));
+  }
+  void report_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute,
+                                            Transportation type) override {
+    heard.push_back(line_of("transportation object answer", object.value, attribute.value,
+                            static_cast<int>(type)));
+  }
+  void confirm_interaction_transportation_type_change(InteractionClassHandle each,
+                                                      Transportation type) override {
+    heard.push_back(
+        line_of("transportation interaction confirmation", each.value, 0, static_cast<int>(type)));
+  }
+  void report_interaction_transportation_type(FederateHandle federate, InteractionClassHandle each,
+                                              Transportation type) override {
+    heard.push_back(line_of("transportation interaction answer", each.value, federate.value,
+                            static_cast<int>(type)));
+  }
+  void turn_updates_on_for_object_instance(ObjectHandle object, AttributeSet set) override {
+    heard.push_back(line_of("object_relevance", object.value, binary(set)));
+  }
   static std::string list_of(const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& each : names) text += (text.empty() ? "" : ",") + each;
@@ -139,32 +196,63 @@ class Clerk final : public FederateAmbassador {
   }
   static std::string binary(AttributeSet set) {
     std::string text;
-    for (std::uint32_t bits = set.bits; bits != 0; bits >>= 1) text.insert(text.begin(), (bits & 1u) != 0 ? '1' : '0');
+    for (std::uint32_t bits = set.bits; bits != 0; bits >>= 1)
+      text.insert(text.begin(), (bits & 1u) != 0 ? '1' : '0');
     return text.empty() ? "0" : text;
   }
   bool is_registering = false;  ///< by a name that is taken
-  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp& stamp) override {
-    heard.push_back(line_of("reflect", object.value, name_of(classes_.at(object.value)), names_of(classes_.at(object.value), set), stamp_text(stamp), hex(values)));
+  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values,
+                                const Stamp& stamp) override {
+    heard.push_back(line_of("reflect", object.value, name_of(classes_.at(object.value)),
+                            names_of(classes_.at(object.value), set), stamp_text(stamp),
+                            hex(values)));
   }
-  void attributes_in_scope(ObjectHandle object) override { heard.push_back(line_of("in_scope", object.value)); }
-  void attributes_out_of_scope(ObjectHandle object) override { heard.push_back(line_of("out_of_scope", object.value)); }
-  void remove_object_instance(ObjectHandle object) override { heard.push_back(line_of("remove", object.value)); }
-  void receive_interaction(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle sender, const Stamp& stamp) override {
-    heard.push_back(line_of("receive", name_of(interaction_class), sender.value, stamp_text(stamp), hex(parameters)));
+  void attributes_in_scope(ObjectHandle object) override {
+    heard.push_back(line_of("in_scope", object.value));
+  }
+  void attributes_out_of_scope(ObjectHandle object) override {
+    heard.push_back(line_of("out_of_scope", object.value));
+  }
+  void remove_object_instance(ObjectHandle object) override {
+    heard.push_back(line_of("remove", object.value));
+  }
+  void receive_interaction(InteractionClassHandle interaction_class, Bytes parameters,
+                           FederateHandle sender, const Stamp& stamp) override {
+    heard.push_back(line_of("receive", name_of(interaction_class), sender.value, stamp_text(stamp),
+                            hex(parameters)));
   }
 
   // Time.
   void say(const std::string& line) { said.push_back(line); }
-  void time_regulation_enabled(LogicalTime time) override { heard.push_back(line_of("time_regulation_enabled", hex(time.value), hex(time.value + ambassador.query_lookahead()))); }
-  void time_constrained_enabled(LogicalTime time) override { heard.push_back(line_of("time_constrained_enabled", hex(time.value))); }
-  void time_advance_grant(LogicalTime time) override { heard.push_back(line_of("time_advance_grant", hex(time.value))); }
-  void request_retraction(const RetractionHandle& handle) override { heard.push_back(line_of("request_retraction", handle.sender.value, handle.number, hex(handle.time))); }
-  void time_bounds(double galt, double lits) override { heard.push_back(line_of("time_bounds", hex(galt), hex(lits))); }
-  static std::string timed_text(const TimedStamp& timed) { return line_of("timed", timed.handle.sender.value, static_cast<int>(timed.is_in_order), timed.handle.number, stamp_text(timed.stamp)); }
-  void receive_interaction_with_time(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle sender, const TimedStamp& timed) override {
-    heard.push_back(line_of(timed_text(timed), "receive", name_of(interaction_class), sender.value, stamp_text({}), hex(parameters)));
+  void time_regulation_enabled(LogicalTime time) override {
+    heard.push_back(line_of("time_regulation_enabled", hex(time.value),
+                            hex(time.value + ambassador.query_lookahead())));
   }
-  void remove_object_instance_with_time(ObjectHandle object, const TimedStamp& timed) override { heard.push_back(line_of(timed_text(timed), "remove", object.value)); }
+  void time_constrained_enabled(LogicalTime time) override {
+    heard.push_back(line_of("time_constrained_enabled", hex(time.value)));
+  }
+  void time_advance_grant(LogicalTime time) override {
+    heard.push_back(line_of("time_advance_grant", hex(time.value)));
+  }
+  void request_retraction(const RetractionHandle& handle) override {
+    heard.push_back(
+        line_of("request_retraction", handle.sender.value, handle.number, hex(handle.time)));
+  }
+  void time_bounds(double galt, double lits) override {
+    heard.push_back(line_of("time_bounds", hex(galt), hex(lits)));
+  }
+  static std::string timed_text(const TimedStamp& timed) {
+    return line_of("timed", timed.handle.sender.value, static_cast<int>(timed.is_in_order),
+                   timed.handle.number, stamp_text(timed.stamp));
+  }
+  void receive_interaction_with_time(InteractionClassHandle interaction_class, Bytes parameters,
+                                     FederateHandle sender, const TimedStamp& timed) override {
+    heard.push_back(line_of(timed_text(timed), "receive", name_of(interaction_class), sender.value,
+                            stamp_text({}), hex(parameters)));
+  }
+  void remove_object_instance_with_time(ObjectHandle object, const TimedStamp& timed) override {
+    heard.push_back(line_of(timed_text(timed), "remove", object.value));
+  }
 
   // Ownership.
   void note(const char* what, ObjectHandle object, AttributeSet set, Bytes tag = {}) {
@@ -172,19 +260,36 @@ class Clerk final : public FederateAmbassador {
     std::snprintf(bits, sizeof bits, "%x", static_cast<unsigned>(set.bits));
     heard.push_back(line_of(what, object.value, bits, hex(tag)));
   }
-  void request_attribute_ownership_release(ObjectHandle object, AttributeSet set, Bytes tag) override { note("release_requested", object, set, tag); }
-  void attribute_ownership_acquisition_notification(ObjectHandle object, AttributeSet set, Bytes tag) override { note("acquired", object, set, tag); }
-  void attribute_ownership_divested(ObjectHandle object, AttributeSet set) override { note("divested", object, set); }
-  void inform_attribute_ownership(ObjectHandle object, AttributeHandle attribute, FederateHandle owner) override { heard.push_back(line_of("owner", object.value, attribute.value, owner.value)); }
+  void request_attribute_ownership_release(ObjectHandle object, AttributeSet set,
+                                           Bytes tag) override {
+    note("release_requested", object, set, tag);
+  }
+  void attribute_ownership_acquisition_notification(ObjectHandle object, AttributeSet set,
+                                                    Bytes tag) override {
+    note("acquired", object, set, tag);
+  }
+  void attribute_ownership_divested(ObjectHandle object, AttributeSet set) override {
+    note("divested", object, set);
+  }
+  void inform_attribute_ownership(ObjectHandle object, AttributeHandle attribute,
+                                  FederateHandle owner) override {
+    heard.push_back(line_of("owner", object.value, attribute.value, owner.value));
+  }
 
   // Reports.
   void report_management(const std::vector<FederationReport>& reports) override {
     for (const FederationReport& report : reports) {
-      heard.push_back(line_of("report", report.federation, report.model, report.filter, "objects", report.objects, "drops", std::accumulate(report.drops.begin(), report.drops.end(), std::uint64_t{0})));
+      heard.push_back(line_of(
+          "report", report.federation, report.model, report.filter, "objects", report.objects,
+          "drops", std::accumulate(report.drops.begin(), report.drops.end(), std::uint64_t{0})));
       for (const FederateReport& each : report.federates) {
         const FederateCounts& counts = each.counts;
-        heard.push_back(line_of("federate", each.federate.value, each.name, each.type, "updates", counts.updates_sent, "reflections", counts.reflections_received, "sent", counts.interactions_sent,
-                                "received", counts.interactions_received, "owned", counts.objects_owned, "time", int{counts.is_time_regulating}, int{counts.is_time_constrained}, hex(counts.logical_time)));
+        heard.push_back(line_of("federate", each.federate.value, each.name, each.type, "updates",
+                                counts.updates_sent, "reflections", counts.reflections_received,
+                                "sent", counts.interactions_sent, "received",
+                                counts.interactions_received, "owned", counts.objects_owned, "time",
+                                int{counts.is_time_regulating}, int{counts.is_time_constrained},
+                                hex(counts.logical_time)));
       }
     }
     heard.push_back("report ends");
@@ -229,8 +334,10 @@ class Session final : public Outlet {
   std::string expected() const {
     std::string text;
     for (std::size_t i = 0; i < clerks_.size(); ++i) {
-      for (const std::string& line : clerks_[i].heard) text += std::to_string(i) + "d " + line + "\n";
-      for (const std::string& line : clerks_[i].said) text += std::to_string(i) + "u " + line + "\n";
+      for (const std::string& line : clerks_[i].heard)
+        text += std::to_string(i) + "d " + line + "\n";
+      for (const std::string& line : clerks_[i].said)
+        text += std::to_string(i) + "u " + line + "\n";
     }
     return text;
   }

@@ -1,4 +1,5 @@
-// A conversation recorded byte by byte, and what a second reader, written in Python from docs/wire.md, makes of it: the very things that were said and heard.
+// A conversation recorded byte by byte, and what a second reader, written in Python from
+// docs/wire.md, makes of it: the very things that were said and heard.
 #include "tests/rti/wire/second_reader_session.h"
 
 #include <fstream>
@@ -30,18 +31,23 @@ void talk(Session& session) {
   const auto look = [&](double x, double y) {
     seen_by.set_region(view, {x, y, x + 10.0, y + 10.0});
     seen_by.commit_region_modifications(view);
-    watchman.said.push_back(line_of("bounds", wire_number(view), hex(x), hex(y), hex(x + 10.0), hex(y + 10.0)));
+    watchman.said.push_back(
+        line_of("bounds", wire_number(view), hex(x), hex(y), hex(x + 10.0), hex(y + 10.0)));
   };
   look(0.0, 0.0);
   watchman.subscribe(vessel, motion, view);
   watchman.subscribe(ferry, everything);
   session.tick();
   // Each publication is answered, and each change of who hears it told; oneself does not count.
-  for (const char* line : {"class_relevance Vessel - -", "class_relevance Ferry - -", "interaction_relevance Hail 0 0", "interaction_relevance Hail 1 1",
-                           "class_relevance Vessel position+speed position+speed", "class_relevance Ferry position+speed position+speed",
-                           "class_relevance Ferry position+speed+destination position+speed+destination"})
+  for (const char* line :
+       {"class_relevance Vessel - -", "class_relevance Ferry - -", "interaction_relevance Hail 0 0",
+        "interaction_relevance Hail 1 1", "class_relevance Vessel position+speed position+speed",
+        "class_relevance Ferry position+speed position+speed",
+        "class_relevance Ferry position+speed+destination position+speed+destination"})
     pilot.heard.push_back(line);
-  for (const char* line : {"class_relevance Vessel - -", "class_relevance Ferry - -", "interaction_relevance Hail 1 1"}) watchman.heard.push_back(line);
+  for (const char* line : {"class_relevance Vessel - -", "class_relevance Ferry - -",
+                           "interaction_relevance Hail 1 1"})
+    watchman.heard.push_back(line);
   const ObjectHandle boat = pilot.add(vessel, "Fram"), crossing = pilot.add(ferry, "");
   watchman.add(vessel, "Watch");
   session.tick();
@@ -49,7 +55,8 @@ void talk(Session& session) {
   pilot.said.push_back(line_of("create_region", wire_number(place)));
   pilot.ambassador.set_region(place, {5.0, 5.0, 6.0, 6.0});
   pilot.ambassador.commit_region_modifications(place);
-  pilot.said.push_back(line_of("bounds", wire_number(place), hex(5.0), hex(5.0), hex(6.0), hex(6.0)));
+  pilot.said.push_back(
+      line_of("bounds", wire_number(place), hex(5.0), hex(5.0), hex(6.0), hex(6.0)));
   pilot.ambassador.associate_regions_for_updates(boat, place);
   pilot.said.push_back(line_of("associate", boat.value, wire_number(place)));
   session.tick();
@@ -68,7 +75,8 @@ void talk(Session& session) {
   }
   watchman.send(hail, "", {2.5, 0}, pilot.ambassador.federate());
   pilot.ambassador.register_synchronization_point("harbour closed", bytes_of("at dusk"));
-  pilot.said.push_back(line_of("register_synchronization_point", "harbour closed", hex(bytes_of("at dusk")), "-"));
+  pilot.said.push_back(
+      line_of("register_synchronization_point", "harbour closed", hex(bytes_of("at dusk")), "-"));
   session.tick();
   pilot.ambassador.synchronization_point_achieved("harbour closed");
   pilot.said.push_back("synchronization_point_achieved harbour closed 1");
@@ -92,8 +100,12 @@ void negotiate(Session& session) {
     clerk->publish(vessel, motion);
     clerk->exchange_interactions(hail);
   }
-  for (const char* line : {"class_relevance Vessel - -", "interaction_relevance Hail 0 0", "interaction_relevance Hail 1 1", "class_relevance Vessel position position"}) pilot.heard.push_back(line);
-  for (const char* line : {"class_relevance Vessel - -", "interaction_relevance Hail 1 1"}) watchman.heard.push_back(line);
+  for (const char* line :
+       {"class_relevance Vessel - -", "interaction_relevance Hail 0 0",
+        "interaction_relevance Hail 1 1", "class_relevance Vessel position position"})
+    pilot.heard.push_back(line);
+  for (const char* line : {"class_relevance Vessel - -", "interaction_relevance Hail 1 1"})
+    watchman.heard.push_back(line);
   const DimensionHandle x = watchman.ambassador.get_dimension_handle("X");
   const RegionHandle strip = watchman.ambassador.create_region(DimensionSet{x});
   watchman.say(line_of("create_region_over", wire_number(strip), 1));
@@ -131,8 +143,10 @@ void negotiate(Session& session) {
   session.tick();
   pilot.ambassador.change_interaction_order_type(hail, Order::timestamp);
   const auto hail_at = [&](double time, const char* words) {
-    const RetractionHandle handle = pilot.ambassador.send_interaction(hail, bytes_of(words), LogicalTime(time));
-    pilot.say(line_of("timed", handle.number, stamp_text({time, 0}), "send", "Hail", "-", stamp_text({}), hex(bytes_of(words))));
+    const RetractionHandle handle =
+        pilot.ambassador.send_interaction(hail, bytes_of(words), LogicalTime(time));
+    pilot.say(line_of("timed", handle.number, stamp_text({time, 0}), "send", "Hail", "-",
+                      stamp_text({}), hex(bytes_of(words))));
     return handle;
   };
   hail_at(2.0, "second");
@@ -183,14 +197,16 @@ void arrange(Session& session) {
   guest.add(vessel, "Maud");
   session.tick();
   const ObjectHandle fram = owner.add(vessel, "Fram");
-  owner.update(fram, AttributeSet{speed}, values_of(1.0f), {});  // kept back: nobody listens, and nothing was ever sent
+  owner.update(fram, AttributeSet{speed}, values_of(1.0f),
+               {});  // kept back: nobody listens, and nothing was ever sent
   owner.said.pop_back();
   session.tick();
   guest.subscribe(vessel, motion);
   session.tick();
   owner.heard.push_back("class_relevance Vessel position+speed position+speed");
   session.tick();
-  owner.said.push_back(line_of("update", fram.value, "Vessel", "speed", stamp_text({}), hex(values_of(1.0f))));
+  owner.said.push_back(
+      line_of("update", fram.value, "Vessel", "speed", stamp_text({}), hex(values_of(1.0f))));
   guest.subscribe(vessel, {});
   session.tick();
   owner.heard.push_back("class_relevance Vessel - -");
@@ -205,16 +221,19 @@ void arrange(Session& session) {
   session.tick();
   owner.heard.push_back("class_relevance Vessel position+speed -");
   session.tick();
-  owner.said.push_back(line_of("update", fram.value, "Vessel", "speed", stamp_text({1.5, 0}), hex(values_of(2.0f))));
+  owner.said.push_back(
+      line_of("update", fram.value, "Vessel", "speed", stamp_text({1.5, 0}), hex(values_of(2.0f))));
   guest.subscribe(vessel, motion);
   owner.heard.push_back("class_relevance Vessel position+speed position+speed");
   session.tick();
   theirs.request_attribute_value_update(vessel, motion, bytes_of("now"));
   theirs.request_attribute_value_update(fram, AttributeSet{speed});
-  guest.said.push_back("request_update class " + std::to_string(vessel.value) + " 11 " + hex(bytes_of("now")));
+  guest.said.push_back("request_update class " + std::to_string(vessel.value) + " 11 " +
+                       hex(bytes_of("now")));
   guest.said.push_back("request_update object " + std::to_string(fram.value) + " 10 -");
   session.tick();
-  ours.request_attribute_transportation_type_change(fram, AttributeSet{speed}, Transportation::best_effort);
+  ours.request_attribute_transportation_type_change(fram, AttributeSet{speed},
+                                                    Transportation::best_effort);
   owner.said.push_back("change_transportation object " + std::to_string(fram.value) + " 10 1");
   session.tick();
   theirs.query_attribute_transportation_type(fram, speed);
@@ -238,13 +257,19 @@ TEST_P(SecondReader, HearsEveryByteOfAConversationByTheWirePageAlone) {
   const std::string base = std::filesystem::path(folder).string();
   std::ofstream(base + "/model.xml") << harbour_xml;
   std::ofstream(base + "/session", std::ios::binary) << session.record();
-  const std::string heard = output_of("python3 -B '" + test::source_folder() + "/tests/rti/wire/second_reader.py' '" + base + "/model.xml' '" + base + "/session' 2>&1");
+  const std::string heard =
+      output_of("python3 -B '" + test::source_folder() + "/tests/rti/wire/second_reader.py' '" +
+                base + "/model.xml' '" + base + "/session' 2>&1");
   EXPECT_EQ(heard, session.expected());
   EXPECT_GT(std::ranges::count(heard, '\n'), 40);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SecondReader, ::testing::Values(talk, negotiate, arrange),
-                         [](const auto& each) { return each.param == talk ? "objects" : each.param == negotiate ? "time_and_ownership" : "names_and_relevance"; });
+                         [](const auto& each) {
+                           return each.param == talk        ? "objects"
+                                  : each.param == negotiate ? "time_and_ownership"
+                                                            : "names_and_relevance";
+                         });
 
 }  // namespace
 }  // namespace rink::rti::testing

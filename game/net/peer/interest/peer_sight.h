@@ -1,4 +1,5 @@
-// What a peer knows at the end of a window, as plain values for whoever draws it in a thread of its own.
+// What a peer knows at the end of a window, as plain values for whoever draws it in a thread of its
+// own.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +19,19 @@ struct KnownBody {
   enum class Source : std::uint8_t { own, ghost, told };
   std::uint32_t body = 0;
   Source source = Source::own;
-  bool is_in_play = true;     ///< not in a goal
-  physics::Motion motion;     ///< since its last event
-  Vector2 thrust{0.0, 0.0};   ///< of bats [m/s^2]
+  bool is_in_play = true;    ///< not in a goal
+  physics::Motion motion;    ///< since its last event
+  Vector2 thrust{0.0, 0.0};  ///< of bats [m/s^2]
 };
 
 struct PeerSight {
   double time = 0.0, since = 0.0;  ///< the window's end, and its start [s]
   std::uint64_t window = 0;
-  std::vector<KnownBody> bodies;   ///< bats and pucks
-  std::uint32_t own_bat = 0;       ///< a body, which may be far from here
+  std::vector<KnownBody> bodies;  ///< bats and pucks
+  std::uint32_t own_bat = 0;      ///< a body, which may be far from here
   Vector2 own_position{0.0, 0.0}, own_velocity{0.0, 0.0};
-  KeysHeld own_held;               ///< by what the bat has felt
-  std::uint32_t own_felt = 0;      ///< keys
+  KeysHeld own_held;           ///< by what the bat has felt
+  std::uint32_t own_felt = 0;  ///< keys
   std::uint32_t goals_left = 0, goals_right = 0;
   ZonesSeen zones;
   std::uint64_t bytes_sent = 0;
@@ -40,10 +41,10 @@ struct PeerSight {
 struct PeerStage {
   enum class Step : std::uint8_t { gathering, countdown, playing, over, lost };
   Step step = Step::gathering;
-  std::string words;              ///< for the player: what is waited for, why it is lost, how it ended
-  double begins_in_s = 0.0;       ///< of a countdown: real time, when it began
+  std::string words;         ///< for the player: what is waited for, why it is lost, how it ended
+  double begins_in_s = 0.0;  ///< of a countdown: real time, when it began
   std::optional<std::uint32_t> player;  ///< whose bat it is, once that is known
-  std::string notice;             ///< what happened to others, the last of it
+  std::string notice;                   ///< what happened to others, the last of it
   std::uint32_t notice_count = 0;
 };
 

@@ -15,11 +15,17 @@ namespace {
 bool take(rti::Reader& reader, bool has_trajectories, ToldOf& told) {
   std::uint64_t head = 0;
   if (!reader.varint(head) || head >> 2 > 0xffffffffu) return false;
-  told = {.body = static_cast<std::uint32_t>(head >> 2), .form = static_cast<ToldOf::Form>(head & 3), .motion = {}};
-  const bool has_motion = told.form == ToldOf::Form::motion || told.form == ToldOf::Form::motion_and_felt;
-  if ((told.form == ToldOf::Form::felt || told.form == ToldOf::Form::motion_and_felt) && !reader.varint(told.felt)) return false;
+  told = {.body = static_cast<std::uint32_t>(head >> 2),
+          .form = static_cast<ToldOf::Form>(head & 3),
+          .motion = {}};
+  const bool has_motion =
+      told.form == ToldOf::Form::motion || told.form == ToldOf::Form::motion_and_felt;
+  if ((told.form == ToldOf::Form::felt || told.form == ToldOf::Form::motion_and_felt) &&
+      !reader.varint(told.felt))
+    return false;
   if (!has_motion) return true;
-  const std::optional<std::size_t> size = has_trajectories ? TrajectoryCodec().size(reader.rest()) : std::optional(sizeof(Position));
+  const std::optional<std::size_t> size =
+      has_trajectories ? TrajectoryCodec().size(reader.rest()) : std::optional(sizeof(Position));
   return size && reader.rest(told.motion, *size);
 }
 
@@ -32,15 +38,19 @@ bool PlayerPicture::hear(peer::PeerNumber from, rti::Bytes message, double windo
   while (!reader.is_at_end()) {
     const std::size_t before = reader.left();
     ToldOf told;
-    if (!take(reader, has_trajectories_, told) || told.body >= kinds_.size() || !apply(from, told, window / windows_per_s)) return false;
+    if (!take(reader, has_trajectories_, told) || told.body >= kinds_.size() ||
+        !apply(from, told, window / windows_per_s))
+      return false;
     heard_.push_back({told.body, static_cast<std::uint32_t>(before - reader.left())});
   }
   return true;
 }
 
 bool PlayerPicture::apply(peer::PeerNumber from, const ToldOf& told, double time) {
-  if (told.form == ToldOf::Form::felt || told.form == ToldOf::Form::motion_and_felt) felt_ = std::max(felt_, told.felt);
-  if (told.form == ToldOf::Form::left && this->belief(told.body).source == from) forget_body(told.body);
+  if (told.form == ToldOf::Form::felt || told.form == ToldOf::Form::motion_and_felt)
+    felt_ = std::max(felt_, told.felt);
+  if (told.form == ToldOf::Form::left && this->belief(told.body).source == from)
+    forget_body(told.body);
   if (told.motion.empty()) return true;
   Belief belief;
   rti::Reader reader(told.motion);
@@ -53,7 +63,8 @@ bool PlayerPicture::apply(peer::PeerNumber from, const ToldOf& told, double time
     belief.motion = motion_of(trajectory, drag_.of(kinds_[told.body]));
   } else {
     Position position;
-    if (!exchange(reader, position) || !std::isfinite(position.x) || !std::isfinite(position.y)) return false;
+    if (!exchange(reader, position) || !std::isfinite(position.x) || !std::isfinite(position.y))
+      return false;
     belief.motion.time = time;
     belief.motion.position = {static_cast<double>(position.x), static_cast<double>(position.y)};
   }
@@ -69,7 +80,8 @@ void PlayerPicture::forget(peer::PeerNumber source) {
 }
 
 void PlayerPicture::forget_body(std::uint32_t body) {
-  if (const auto found = beliefs_.find(body); found != beliefs_.end()) found->second.is_there = false;
+  if (const auto found = beliefs_.find(body); found != beliefs_.end())
+    found->second.is_there = false;
 }
 
 void PlayerPicture::drop_forgotten() {

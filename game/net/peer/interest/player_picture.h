@@ -18,16 +18,18 @@ struct ToldOf {
   enum class Form : std::uint8_t { left, motion, motion_and_felt, felt };
   std::uint32_t body = 0;
   Form form = Form::left;
-  std::uint32_t felt = 0;   ///< keys, of the receiver's own bat
-  rti::Bytes motion;        ///< as the policy codes it
+  std::uint32_t felt = 0;  ///< keys, of the receiver's own bat
+  rti::Bytes motion;       ///< as the policy codes it
 };
 
 /// A body as its owner last told of it.
 struct Belief {
   peer::PeerNumber source = 0;
   bool is_there = false;
-  physics::Motion motion;     ///< its law, or a place that it keeps until it is told of again
-  physics::Vector2 position_at(double instant) const { return motion.at(std::max(instant, motion.time)).position; }
+  physics::Motion motion;  ///< its law, or a place that it keeps until it is told of again
+  physics::Vector2 position_at(double instant) const {
+    return motion.at(std::max(instant, motion.time)).position;
+  }
 };
 
 class PlayerPicture {
@@ -36,7 +38,8 @@ class PlayerPicture {
     std::uint32_t body = 0, bytes = 0;
   };
   /// `kinds`: of all bodies, by number.
-  PlayerPicture(bool has_trajectories, const Drag& drag, std::vector<physics::BodyKind> kinds) : has_trajectories_(has_trajectories), drag_(drag), kinds_(std::move(kinds)) {}
+  PlayerPicture(bool has_trajectories, const Drag& drag, std::vector<physics::BodyKind> kinds)
+      : has_trajectories_(has_trajectories), drag_(drag), kinds_(std::move(kinds)) {}
 
   /// False for what is no whole update message; what could be read of it is applied.
   bool hear(peer::PeerNumber from, rti::Bytes message, double windows_per_s);
@@ -50,7 +53,8 @@ class PlayerPicture {
 
   /// One that is not there, of bodies that nothing is known of.
   const Belief& belief(std::uint32_t body) const;
-  /// By number; few of a large world, of which nothing else is kept. Those that are forgotten, and not dropped yet, are among them.
+  /// By number; few of a large world, of which nothing else is kept. Those that are forgotten, and
+  /// not dropped yet, are among them.
   const std::map<std::uint32_t, Belief>& beliefs() const { return beliefs_; }
   /// Of the player's own bat, as its owner last told.
   std::uint32_t felt() const { return felt_; }

@@ -10,20 +10,27 @@ namespace rink::game {
 
 namespace {
 
-/// Each looks at a place of its own, so that cells and strips lie differently about each; every other body is tiny, for a scheme may go by sizes.
+/// Each looks at a place of its own, so that cells and strips lie differently about each; every
+/// other body is tiny, for a scheme may go by sizes.
 class Trial {
  public:
   Trial(const std::string& scheme, const im::FilterSettings& settings, double extent_max)
-      : filter_(im::make_filter(scheme, settings)), world_(settings.world), extent_max_(extent_max), is_in_(pair_count, false) {
-    const double width = world_.high_x - world_.low_x, height = world_.high_y - world_.low_y, side = 0.1 * std::min(width, height);
+      : filter_(im::make_filter(scheme, settings)),
+        world_(settings.world),
+        extent_max_(extent_max),
+        is_in_(pair_count, false) {
+    const double width = world_.high_x - world_.low_x, height = world_.high_y - world_.low_y,
+                 side = 0.1 * std::min(width, height);
     for (std::uint32_t k = 0; k < pair_count; ++k) {
-      const double x = world_.low_x + 0.5 * width * fraction(0.6180339887498949 * k), y = world_.low_y + 0.5 * height * fraction(0.7548776662466927 * k);
+      const double x = world_.low_x + 0.5 * width * fraction(0.6180339887498949 * k),
+                   y = world_.low_y + 0.5 * height * fraction(0.7548776662466927 * k);
       views_.push_back({x, y, x + side, y + side});
       filter_->set_subscription_region(k, views_.back());
     }
     put(0.0, 0.0);
     // What goes by more than places is the same for all pairs.
-    for (std::uint32_t k = 0; k < pair_count; ++k) filter_->set_entity_role(k, role), filter_->set_subscriber_role(k, role);
+    for (std::uint32_t k = 0; k < pair_count; ++k)
+      filter_->set_entity_role(k, role), filter_->set_subscriber_role(k, role);
   }
 
   /// To the middles of the regions; anybody who may be let in is.
@@ -31,7 +38,8 @@ class Trial {
     put(0.0, 0.0);
     match();
   }
-  /// Whether any pair still, or again, is one with the body so far beyond the region's edge in the direction of (x, y) [m].
+  /// Whether any pair still, or again, is one with the body so far beyond the region's edge in the
+  /// direction of (x, y) [m].
   bool reaches(double x, double y) {
     put(x, y);
     match();
@@ -46,14 +54,19 @@ class Trial {
   void put(double x, double y) {
     for (std::uint32_t k = 0; k < pair_count; ++k) {
       const im::Region& view = views_[k];
-      const auto beyond = [](double low, double high, double by) { return by > 0.0 ? high + by : by < 0.0 ? low + by : 0.5 * (low + high); };
-      const double at_x = beyond(view.low_x, view.high_x, x), at_y = beyond(view.low_y, view.high_y, y), extent = k % 2 == 0 ? extent_max_ : 1e-3 * extent_max_;
+      const auto beyond = [](double low, double high, double by) {
+        return by > 0.0 ? high + by : by < 0.0 ? low + by : 0.5 * (low + high);
+      };
+      const double at_x = beyond(view.low_x, view.high_x, x),
+                   at_y = beyond(view.low_y, view.high_y, y),
+                   extent = k % 2 == 0 ? extent_max_ : 1e-3 * extent_max_;
       filter_->set_update_region(k, {at_x - extent, at_y - extent, at_x + extent, at_y + extent});
     }
   }
   void match() {
     for (const im::Change& change : filter_->match())
-      if (change.subscriber == change.entity) is_in_[change.entity] = change.transition != im::Transition::left;
+      if (change.subscriber == change.entity)
+        is_in_[change.entity] = change.transition != im::Transition::left;
   }
 
   std::unique_ptr<im::Filter> filter_;
@@ -65,7 +78,8 @@ class Trial {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Distances grow by a factor of two from trial to trial. With cells of side c a body d beyond the edge is let in in a share 1 - d/c of the trials: among 32 a distance up to 0.8 c is found, so
+/// Distances grow by a factor of two from trial to trial. With cells of side c a body d beyond the
+/// edge is let in in a share 1 - d/c of the trials: among 32 a distance up to 0.8 c is found, so
 /// 2.5 times the largest found exceeds c.
 double reach_along(Trial& trial, double x, double y, double farthest) {
   constexpr int trials = 14;
@@ -76,7 +90,8 @@ double reach_along(Trial& trial, double x, double y, double farthest) {
     for (const double first : {farthest, std::ldexp(farthest, 1 - trials)}) {
       trial.come_back();
       for (double distance = first; distance <= farthest; distance *= 2.0)
-        if (trial.reaches(sign * x * distance, sign * y * distance)) reach = std::max(reach, distance);
+        if (trial.reaches(sign * x * distance, sign * y * distance))
+          reach = std::max(reach, distance);
     }
   }
   return reach >= farthest ? infinity : safety * reach;
@@ -89,9 +104,12 @@ SchemeReach reach_of(const std::string& scheme, im::FilterSettings settings, dou
     if (scheme == plain) return {extent_max, extent_max};
   if (scheme == "none") return {infinity, infinity};
   settings.posts.clear();  // which only hide
-  const double farthest = std::max(settings.world.high_x - settings.world.low_x, settings.world.high_y - settings.world.low_y);
+  const double farthest = std::max(settings.world.high_x - settings.world.low_x,
+                                   settings.world.high_y - settings.world.low_y);
   Trial trial(scheme, settings, extent_max);
-  const double along_x = reach_along(trial, 1.0, 0.0, farthest), along_y = reach_along(trial, 0.0, 1.0, farthest), across = reach_along(trial, 1.0, 1.0, farthest);
+  const double along_x = reach_along(trial, 1.0, 0.0, farthest),
+               along_y = reach_along(trial, 0.0, 1.0, farthest),
+               across = reach_along(trial, 1.0, 1.0, farthest);
   return {std::max({along_x, across, extent_max}), std::max({along_y, across, extent_max})};
 }
 

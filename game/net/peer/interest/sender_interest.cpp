@@ -17,7 +17,9 @@ namespace {
 
 constexpr float coordinate_max = 1e7f;  // m, or cells
 
-bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t value) { return std::binary_search(sorted.begin(), sorted.end(), value); }
+bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t value) {
+  return std::binary_search(sorted.begin(), sorted.end(), value);
+}
 
 template <class Stream>
 bool exchange(Stream& stream, Gaze& gaze) {
@@ -28,7 +30,8 @@ bool exchange(Stream& stream, Gaze& gaze) {
   for (float* side : {&gaze.low_x, &gaze.low_y, &gaze.high_x, &gaze.high_y}) {
     // Cells are few, so their numbers go in two bytes where they fit.
     auto number = static_cast<std::int16_t>(*side);
-    if (gaze.form == Gaze::Form::region ? !stream.number(*side) : !stream.number(number)) return false;
+    if (gaze.form == Gaze::Form::region ? !stream.number(*side) : !stream.number(number))
+      return false;
     if (gaze.form == Gaze::Form::cells) *side = number;
     if (!std::isfinite(*side) || std::abs(*side) > coordinate_max) return false;
   }
@@ -39,17 +42,26 @@ bool exchange(Stream& stream, Gaze& gaze) {
 
 Gaze gaze_at(const im::Region& region, double cell_size) {
   const auto single = [](double value) { return static_cast<float>(value); };
-  const Gaze exact{Gaze::Form::region, single(region.low_x), single(region.low_y), single(region.high_x), single(region.high_y)};
+  const Gaze exact{Gaze::Form::region, single(region.low_x), single(region.low_y),
+                   single(region.high_x), single(region.high_y)};
   if (cell_size == 0.0) return exact;
-  const auto cell = [cell_size](double value) { return static_cast<float>(std::floor(value / cell_size)); };
-  const Gaze cells{Gaze::Form::cells, cell(region.low_x), cell(region.low_y), cell(region.high_x), cell(region.high_y)};
+  const auto cell = [cell_size](double value) {
+    return static_cast<float>(std::floor(value / cell_size));
+  };
+  const Gaze cells{Gaze::Form::cells, cell(region.low_x), cell(region.low_y), cell(region.high_x),
+                   cell(region.high_y)};
   const auto fits = [](float number) { return std::abs(number) < 32'000.0f; };
-  return fits(cells.low_x) && fits(cells.low_y) && fits(cells.high_x) && fits(cells.high_y) ? cells : exact;
+  return fits(cells.low_x) && fits(cells.low_y) && fits(cells.high_x) && fits(cells.high_y) ? cells
+                                                                                            : exact;
 }
 
 im::Region region_of(const Gaze& gaze, double cell_size) {
-  const auto place = [&](float side, double within) { return gaze.form == Gaze::Form::cells ? (static_cast<double>(side) + within) * cell_size : static_cast<double>(side); };
-  return {place(gaze.low_x, 0.25), place(gaze.low_y, 0.25), place(gaze.high_x, 0.75), place(gaze.high_y, 0.75)};
+  const auto place = [&](float side, double within) {
+    return gaze.form == Gaze::Form::cells ? (static_cast<double>(side) + within) * cell_size
+                                          : static_cast<double>(side);
+  };
+  return {place(gaze.low_x, 0.25), place(gaze.low_y, 0.25), place(gaze.high_x, 0.75),
+          place(gaze.high_y, 0.75)};
 }
 
 std::vector<std::byte> bytes_of(const Gaze& gaze) {
@@ -67,13 +79,17 @@ std::optional<Gaze> gaze_from(rti::Bytes bytes) {
   return exchange(reader, gaze) && reader.is_at_end() ? std::optional(gaze) : std::nullopt;
 }
 
-SenderInterest::SenderInterest(const std::string& scheme, const im::FilterSettings& settings, const std::string& policy, std::vector<im::Role> roles, double extent_max)
+SenderInterest::SenderInterest(const std::string& scheme, const im::FilterSettings& settings,
+                               const std::string& policy, std::vector<im::Role> roles,
+                               double extent_max)
     : filter_(im::make_filter(scheme, settings)),
       world_(settings.world),
       cell_size_(scheme == "grid" ? filter_->cell_size() : 0.0),
-      reach_(cell_size_ > 0.0 ? SchemeReach{extent_max + cell_size_, extent_max + cell_size_} : reach_of(scheme, settings, extent_max)),
+      reach_(cell_size_ > 0.0 ? SchemeReach{extent_max + cell_size_, extent_max + cell_size_}
+                              : reach_of(scheme, settings, extent_max)),
       is_selective_(scheme != "none"),
-      remembers_(scheme.find("with") != std::string::npos || scheme.find("cone") != std::string::npos),
+      remembers_(scheme.find("with") != std::string::npos ||
+                 scheme.find("cone") != std::string::npos),
       tells_trajectories_(policy == "on-event"),
       body_roles_(std::move(roles)),
       is_here_(body_roles_.size(), 0) {
@@ -81,7 +97,9 @@ SenderInterest::SenderInterest(const std::string& scheme, const im::FilterSettin
 }
 
 void SenderInterest::add_player(peer::PeerNumber player, std::uint32_t bat) {
-  if (player >= scopes_.size()) scopes_.resize(player + 1), sent_.resize(player + 1), handed_over_.resize(player + 1), player_roles_.resize(player + 1);
+  if (player >= scopes_.size())
+    scopes_.resize(player + 1), sent_.resize(player + 1), handed_over_.resize(player + 1),
+        player_roles_.resize(player + 1);
   player_roles_[player] = body_roles_[bat];
   if (!is_selective_) look(player, world_);
 }
@@ -106,8 +124,12 @@ void SenderInterest::match(const peer::Peer& peer) {
   std::vector<std::uint32_t> here = peer.owned();
   here.insert(here.end(), peer.ghosts().begin(), peer.ghosts().end());
   const physics::World& world = peer.world();
-  for (const std::uint32_t body : peer.owned()) filter_->set_update_region(body, bounding_box(world.position({body}), world.half_extent({body})));
-  for (const std::uint32_t body : peer.ghosts()) filter_->set_update_region(body, bounding_box(peer.known_place(body), world.half_extent({body})));
+  for (const std::uint32_t body : peer.owned())
+    filter_->set_update_region(body,
+                               bounding_box(world.position({body}), world.half_extent({body})));
+  for (const std::uint32_t body : peer.ghosts())
+    filter_->set_update_region(body,
+                               bounding_box(peer.known_place(body), world.half_extent({body})));
   for (const std::uint32_t body : here) {
     if (is_here_[body] == 0) filter_->set_entity_role(body, body_roles_[body]);
     is_here_[body] = 2;
@@ -123,11 +145,13 @@ void SenderInterest::match(const peer::Peer& peer) {
   for (const std::uint32_t body : here) is_here_[body] = 1;
   here_ = std::move(here);
   if (has_lost)
-    for (std::vector<std::uint32_t>& scope : scopes_) std::erase_if(scope, [this](std::uint32_t body) { return is_here_[body] == 0; });
+    for (std::vector<std::uint32_t>& scope : scopes_)
+      std::erase_if(scope, [this](std::uint32_t body) { return is_here_[body] == 0; });
   const std::span<const im::Change> changes = filter_->match();
   for (std::size_t first = 0, last = 0; first < changes.size(); first = last) {
     std::vector<std::uint32_t>& scope = scopes_[changes[first].subscriber];
-    for (last = first; last < changes.size() && changes[last].subscriber == changes[first].subscriber; ++last) {
+    for (last = first;
+         last < changes.size() && changes[last].subscriber == changes[first].subscriber; ++last) {
       const std::uint32_t body = changes[last].entity;
       const auto place = std::lower_bound(scope.begin(), scope.end(), body);
       const bool is_in = place != scope.end() && *place == body;
@@ -137,17 +161,23 @@ void SenderInterest::match(const peer::Peer& peer) {
   }
 }
 
-/// Once a window for each body of which anybody hears; as the policies of a server do, but for bodies of which nobody does.
-const SenderInterest::Told& SenderInterest::told_of(const physics::World& world, std::uint32_t body, std::uint32_t window) {
+/// Once a window for each body of which anybody hears; as the policies of a server do, but for
+/// bodies of which nobody does.
+const SenderInterest::Told& SenderInterest::told_of(const physics::World& world, std::uint32_t body,
+                                                    std::uint32_t window) {
   Told& told = told_[body];
   if (told.window == window) return told;
-  constexpr double worthwhile_s = 0.1;  // one that is to be replaced so soon may as well be replaced now
-  const bool is_new = told.window == 0xffffffffu || told.window + 1 != window;  // others may have told of it meanwhile
+  constexpr double worthwhile_s =
+      0.1;  // one that is to be replaced so soon may as well be replaced now
+  const bool is_new = told.window == 0xffffffffu ||
+                      told.window + 1 != window;  // others may have told of it meanwhile
   told.window = window;
   if (tells_trajectories_) {
     if (!is_new) told.until_s = holds_until(world, {body}, told.trajectory);
     told.is_due = is_new || told.until_s < world.now() + worthwhile_s;
-    if (told.is_due) told.trajectory = trajectory_of(world, {body}), told.until_s = holds_until(world, {body}, told.trajectory);
+    if (told.is_due)
+      told.trajectory = trajectory_of(world, {body}),
+      told.until_s = holds_until(world, {body}, told.trajectory);
     std::vector<std::byte> value;
     encode(value, told.trajectory);
     told.coded.clear();
@@ -159,7 +189,9 @@ const SenderInterest::Told& SenderInterest::told_of(const physics::World& world,
   return told;
 }
 
-std::vector<std::byte> SenderInterest::updates_for(const peer::Peer& peer, peer::PeerNumber player, std::uint32_t window, const std::function<std::optional<std::uint32_t>(std::uint32_t)>& felt) {
+std::vector<std::byte> SenderInterest::updates_for(
+    const peer::Peer& peer, peer::PeerNumber player, std::uint32_t window,
+    const std::function<std::optional<std::uint32_t>(std::uint32_t)>& felt) {
   using Form = ToldOf::Form;
   std::vector<std::byte> message;
   rti::Writer writer(message);
@@ -184,15 +216,20 @@ std::vector<std::byte> SenderInterest::updates_for(const peer::Peer& peer, peer:
     now_sent.push_back(body);
     const Told& told = told_of(world, body, window);
     const bool is_due = told.is_due || !contains(sent, body);
-    if (is_due) put(body, newly_felt ? Form::motion_and_felt : Form::motion, newly_felt.value_or(0), told.coded);
+    if (is_due)
+      put(body, newly_felt ? Form::motion_and_felt : Form::motion, newly_felt.value_or(0),
+          told.coded);
     else if (newly_felt) put(body, Form::felt, *newly_felt, {});
     motions_sent_ += is_due;
   }
   std::sort(now_sent.begin(), now_sent.end());
-  // What is the player's own or ghost it sees for itself; what is another's by now, and still seen, that one tells of. Where its new owner, who has not seen all that we have, may decide
-  // otherwise, it is told as left: if the new owner has told of it, that is not believed. That one first tells of it in this window, so we do in the next: nobody loses sight of it meanwhile.
+  // What is the player's own or ghost it sees for itself; what is another's by now, and still seen,
+  // that one tells of. Where its new owner, who has not seen all that we have, may decide
+  // otherwise, it is told as left: if the new owner has told of it, that is not believed. That one
+  // first tells of it in this window, so we do in the next: nobody loses sight of it meanwhile.
   for (const std::uint32_t body : handed_over_[player])
-    if (!contains(now_sent, body) && (remembers_ || !contains(scope, body))) put(body, Form::left, 0, {});
+    if (!contains(now_sent, body) && (remembers_ || !contains(scope, body)))
+      put(body, Form::left, 0, {});
   handed_over_[player].clear();
   for (const std::uint32_t body : sent) {
     if (contains(now_sent, body)) continue;

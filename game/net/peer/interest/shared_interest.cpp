@@ -22,9 +22,12 @@ std::vector<physics::BodyKind> kinds_of(const Game& game) {
 /// As the server's.
 im::FilterSettings filter_settings(const Game& start, double cell_size) {
   const physics::Field& field = start.world().spec().field;
-  im::FilterSettings settings{.world = {0.0, 0.0, field.length, field.width}, .cell_size = cell_size};
+  im::FilterSettings settings{.world = {0.0, 0.0, field.length, field.width},
+                              .cell_size = cell_size};
   for (const Entity& entity : start.entities())
-    if (entity.kind == physics::BodyKind::post) settings.posts.push_back({start.position(entity.id).x(), start.position(entity.id).y(), entity.half_extent.x()});
+    if (entity.kind == physics::BodyKind::post)
+      settings.posts.push_back(
+          {start.position(entity.id).x(), start.position(entity.id).y(), entity.half_extent.x()});
   return settings;
 }
 
@@ -45,12 +48,15 @@ std::vector<im::Role> roles_of(const Game& start, RelevantKinds always) {
 
 double extent_max_of(const Game& start) {
   double extent_max = 0.0;
-  for (const Entity& entity : start.entities()) extent_max = std::max(extent_max, entity.half_extent.maxCoeff());
+  for (const Entity& entity : start.entities())
+    extent_max = std::max(extent_max, entity.half_extent.maxCoeff());
   return extent_max;
 }
 
-/// What was told by `from`, who tells no more: it stays in the picture as the `own` peer's, in `kept`, until whoever tells of it from now on has done so.
-void keep_for_now(PlayerPicture& picture, peer::PeerNumber from, peer::PeerNumber own, std::vector<std::uint32_t>& kept) {
+/// What was told by `from`, who tells no more: it stays in the picture as the `own` peer's, in
+/// `kept`, until whoever tells of it from now on has done so.
+void keep_for_now(PlayerPicture& picture, peer::PeerNumber from, peer::PeerNumber own,
+                  std::vector<std::uint32_t>& kept) {
   for (const auto& [body, belief] : picture.beliefs()) {
     if (!belief.is_there || belief.source != from) continue;
     kept.push_back(body);
@@ -58,16 +64,20 @@ void keep_for_now(PlayerPicture& picture, peer::PeerNumber from, peer::PeerNumbe
   }
 }
 
-Drag drag_of(const physics::WorldSpec& spec) { return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction}; }
+Drag drag_of(const physics::WorldSpec& spec) {
+  return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction};
+}
 
 }  // namespace
 
-SharedInterest::SharedInterest(const Game& start, const InterestSettings& settings, const peer::Peer& peer, const peer::Division& division, Send send)
+SharedInterest::SharedInterest(const Game& start, const InterestSettings& settings,
+                               const peer::Peer& peer, const peer::Division& division, Send send)
     : settings_(settings),
       peer_(peer),
       division_(division),
       send_(std::move(send)),
-      interest_(settings.scheme, filter_settings(start, settings.cell_size), settings.policy, roles_of(start, settings.always_relevant), extent_max_of(start)),
+      interest_(settings.scheme, filter_settings(start, settings.cell_size), settings.policy,
+                roles_of(start, settings.always_relevant), extent_max_of(start)),
       picture_(interest_.tells_trajectories(), drag_of(start.world().spec()), kinds_of(start)),
       places_(start.world().body_count(), Place::away) {
   std::vector<peer::PeerNumber> all(settings.bats.size());
@@ -76,18 +86,22 @@ SharedInterest::SharedInterest(const Game& start, const InterestSettings& settin
   if (bat() != no_bat && !settings.is_late) seen_bat_ = start.position({bat()});
 }
 
-void SharedInterest::set_members(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats) {
-  const std::vector<peer::PeerNumber> before = std::exchange(members_, {members.begin(), members.end()});
+void SharedInterest::set_members(std::span<const peer::PeerNumber> members,
+                                 std::vector<std::uint32_t> bats) {
+  const std::vector<peer::PeerNumber> before =
+      std::exchange(members_, {members.begin(), members.end()});
   const std::size_t count = std::max(bats.size(), is_told_.size());
   settings_.bats = std::move(bats);
   settings_.bats.resize(count, no_bat);
   is_told_.resize(count, false);
-  for (std::vector<std::uint32_t>* const counts : {&heard_, &playing_, &felt_, &told_felt_}) counts->resize(count, 0);
+  for (std::vector<std::uint32_t>* const counts : {&heard_, &playing_, &felt_, &told_felt_})
+    counts->resize(count, 0);
   handed_to_.resize(count, peer_.number());
   for (const peer::PeerNumber peer : before)
     if (!is_member(peer)) forget(peer);
   for (const peer::PeerNumber peer : members_)
-    if (settings_.bats[peer] != no_bat && !std::binary_search(before.begin(), before.end(), peer)) interest_.add_player(peer, settings_.bats[peer]);
+    if (settings_.bats[peer] != no_bat && !std::binary_search(before.begin(), before.end(), peer))
+      interest_.add_player(peer, settings_.bats[peer]);
 }
 
 void SharedInterest::forget(peer::PeerNumber peer) {
@@ -107,9 +121,13 @@ void SharedInterest::look_around() {
   bool is_new = false;
   if (const std::optional<physics::Vector2> centre = bat_place()) {
     const double reach = settings_.half_side + settings_.margin;
-    const im::Region region{centre->x() - reach, centre->y() - reach, centre->x() + reach, centre->y() + reach};
-    const physics::Vector2 before{0.5 * (static_cast<double>(gaze_.low_x) + static_cast<double>(gaze_.high_x)), 0.5 * (static_cast<double>(gaze_.low_y) + static_cast<double>(gaze_.high_y))};
-    const bool is_near = gaze_.form == Gaze::Form::region && settings_.margin > 0.0 && (*centre - before).cwiseAbs().maxCoeff() < 0.5 * settings_.margin;
+    const im::Region region{centre->x() - reach, centre->y() - reach, centre->x() + reach,
+                            centre->y() + reach};
+    const physics::Vector2 before{
+        0.5 * (static_cast<double>(gaze_.low_x) + static_cast<double>(gaze_.high_x)),
+        0.5 * (static_cast<double>(gaze_.low_y) + static_cast<double>(gaze_.high_y))};
+    const bool is_near = gaze_.form == Gaze::Form::region && settings_.margin > 0.0 &&
+                         (*centre - before).cwiseAbs().maxCoeff() < 0.5 * settings_.margin;
     const Gaze gaze = is_near ? gaze_ : gaze_at(region, interest_.cell_size());
     is_new = gaze != gaze_;
     gaze_ = gaze;
@@ -120,21 +138,26 @@ void SharedInterest::look_around() {
   is_new = std::exchange(is_undone_, false) || is_new;
   // Zones may have moved though the view has not.
   const SchemeReach& reach = interest_.reach();
-  const peer::Box seen{region.low_x - reach.x, region.low_y - reach.y, region.high_x + reach.x, region.high_y + reach.y};
+  const peer::Box seen{region.low_x - reach.x, region.low_y - reach.y, region.high_x + reach.x,
+                       region.high_y + reach.y};
   for (const peer::PeerNumber other : members_) {
     if (other == peer_.number()) continue;
     const bool is_near = division_.is_near(other, seen, 0.0);
     if (is_near && (is_new || !is_told_[other])) say(other, Traffic::interest, bytes_of(gaze_));
-    if (!is_near && is_told_[other]) say(other, Traffic::interest, bytes_of(Gaze{})), keep_for_now(picture_, other, peer_.number(), parting_);
+    if (!is_near && is_told_[other])
+      say(other, Traffic::interest, bytes_of(Gaze{})),
+          keep_for_now(picture_, other, peer_.number(), parting_);
     is_told_[other] = is_near;
   }
 }
 
-/// Where it is, or was when it was last seen; at first, where it starts. Its owner shows it to live players from time to time, whatever the filter says.
+/// Where it is, or was when it was last seen; at first, where it starts. Its owner shows it to live
+/// players from time to time, whatever the filter says.
 std::optional<physics::Vector2> SharedInterest::bat_place() {
   const Belief& belief = picture_.belief(bat());
   // Where a window is cut it may have gone since places were noted.
-  const bool is_here = peer_.owns(bat()) || std::binary_search(peer_.ghosts().begin(), peer_.ghosts().end(), bat());
+  const bool is_here =
+      peer_.owns(bat()) || std::binary_search(peer_.ghosts().begin(), peer_.ghosts().end(), bat());
   std::optional<physics::Vector2> place;
   if (is_here) place = peer_.world().position({bat()});
   else if (belief.is_there) place = belief.position_at(peer_.now());
@@ -143,7 +166,9 @@ std::optional<physics::Vector2> SharedInterest::bat_place() {
       if (glimpse.bat == bat()) place = glimpse.position;
   // Nobody who tells us of places where no bat can be has us look there.
   const physics::Field& field = peer_.world().spec().field;
-  if (place && place->allFinite()) seen_bat_ = {std::clamp(place->x(), 0.0, field.length), std::clamp(place->y(), 0.0, field.width)};
+  if (place && place->allFinite())
+    seen_bat_ = {std::clamp(place->x(), 0.0, field.length),
+                 std::clamp(place->y(), 0.0, field.width)};
   return seen_bat_;
 }
 
@@ -155,7 +180,8 @@ void SharedInterest::finish(std::uint32_t window) {
   keep_in_sight();
 }
 
-/// What the player sees of own bodies that are others' from now on: these tell of them with the next window. Ghosts are seen anyway.
+/// What the player sees of own bodies that are others' from now on: these tell of them with the
+/// next window. Ghosts are seen anyway.
 void SharedInterest::keep_in_sight() {
   for (const std::uint32_t body : parted_)
     if (picture_.belief(body).source == peer_.number()) picture_.forget_body(body);
@@ -163,15 +189,19 @@ void SharedInterest::keep_in_sight() {
   parting_.clear();
   if (bat() == no_bat) return;
   for (const std::uint32_t body : interest_.scope_of(peer_.number()))
-    if (places_[body] == Place::own && division_.owner_of(peer_.world().position({body})) != peer_.number()) parting_.push_back(body);
-  for (const std::uint32_t body : parting_) picture_.believe(body, {peer_.number(), true, motion_of(body)});
+    if (places_[body] == Place::own &&
+        division_.owner_of(peer_.world().position({body})) != peer_.number())
+      parting_.push_back(body);
+  for (const std::uint32_t body : parting_)
+    picture_.believe(body, {peer_.number(), true, motion_of(body)});
 }
 
 void SharedInterest::tell(std::uint32_t window) {
   for (const peer::PeerNumber player : members_) {
     if (player == peer_.number() || settings_.bats[player] == no_bat) continue;
     const auto newly_felt = [&](std::uint32_t body) -> std::optional<std::uint32_t> {
-      if (body != settings_.bats[player] || felt_[player] <= told_felt_[player]) return std::nullopt;
+      if (body != settings_.bats[player] || felt_[player] <= told_felt_[player])
+        return std::nullopt;
       return told_felt_[player] = felt_[player];
     };
     const std::vector<std::byte> updates = interest_.updates_for(peer_, player, window, newly_felt);
@@ -191,7 +221,8 @@ void SharedInterest::hand_keys_over() {
   }
 }
 
-/// Who is here is seen, not told; who has just come only from the next decision on, in which it takes part.
+/// Who is here is seen, not told; who has just come only from the next decision on, in which it
+/// takes part.
 void SharedInterest::note_places() {
   picture_.drop_forgotten();
   const std::vector<std::uint32_t> before = std::move(here_);
@@ -204,8 +235,10 @@ void SharedInterest::note_places() {
   for (const std::uint32_t body : peer_.ghosts()) places_[body] = Place::ghost;
 }
 
-/// A word that was under way when windows were undone may be heard after this: so whoever looks elsewhere says that, too, to all.
-void SharedInterest::begin_again(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats) {
+/// A word that was under way when windows were undone may be heard after this: so whoever looks
+/// elsewhere says that, too, to all.
+void SharedInterest::begin_again(std::span<const peer::PeerNumber> members,
+                                 std::vector<std::uint32_t> bats) {
   for (const peer::PeerNumber peer : members_)
     if (peer != peer_.number()) forget(peer);
   picture_.forget(peer_.number());
@@ -233,7 +266,8 @@ void SharedInterest::press() {
   if (owner != peer_.number()) say_keys(owner, KeyWord::pressed, peer_.number(), pressed_);
 }
 
-void SharedInterest::say_keys(peer::PeerNumber to, KeyWord word, peer::PeerNumber player, std::uint32_t count) {
+void SharedInterest::say_keys(peer::PeerNumber to, KeyWord word, peer::PeerNumber player,
+                              std::uint32_t count) {
   std::vector<std::byte> bytes;
   rti::Writer writer(bytes);
   writer.number(word);
@@ -247,11 +281,15 @@ bool SharedInterest::hear_keys(rti::Bytes content) {
   std::uint8_t word = 0;
   peer::PeerNumber player = 0;
   std::uint32_t count = 0;
-  if (!reader.range(word, 1) || !reader.varint(player) || player >= settings_.bats.size() || !reader.varint(count) || !reader.is_at_end()) return false;
+  if (!reader.range(word, 1) || !reader.varint(player) || player >= settings_.bats.size() ||
+      !reader.varint(count) || !reader.is_at_end())
+    return false;
   const bool is_news = count > heard_[player];
   heard_[player] = std::max(heard_[player], count);
   const peer::PeerNumber owner = owner_of_bat(player);
-  if (is_news && player != peer_.number() && owner != peer_.number() && static_cast<KeyWord>(word) == KeyWord::pressed) say_keys(owner, KeyWord::pressed, player, count);
+  if (is_news && player != peer_.number() && owner != peer_.number() &&
+      static_cast<KeyWord>(word) == KeyWord::pressed)
+    say_keys(owner, KeyWord::pressed, player, count);
   return true;
 }
 
@@ -260,10 +298,14 @@ bool SharedInterest::hear(peer::PeerNumber from, Traffic about, rti::Bytes conte
   switch (about) {
     case Traffic::halo:
     case Traffic::claims:
-    case Traffic::agreement: return false;
-    case Traffic::keys: return hear_keys(content);
-    case Traffic::updates: return picture_.hear(from, content, settings_.rate_hz);
-    case Traffic::interest: break;
+    case Traffic::agreement:
+      return false;
+    case Traffic::keys:
+      return hear_keys(content);
+    case Traffic::updates:
+      return picture_.hear(from, content, settings_.rate_hz);
+    case Traffic::interest:
+      break;
   }
   const std::optional<Gaze> gaze = gaze_from(content);
   if (!gaze || !interest_.is_selective() || settings_.bats[from] == no_bat) return false;
@@ -274,7 +316,8 @@ bool SharedInterest::hear(peer::PeerNumber from, Traffic about, rti::Bytes conte
 
 std::uint32_t SharedInterest::felt() const {
   if (bat() == no_bat) return 0;
-  return places_[bat()] == Place::own ? std::max(felt_[peer_.number()], picture_.felt()) : picture_.felt();
+  return places_[bat()] == Place::own ? std::max(felt_[peer_.number()], picture_.felt())
+                                      : picture_.felt();
 }
 
 void SharedInterest::list_scope(std::vector<std::uint32_t>& bodies) const {

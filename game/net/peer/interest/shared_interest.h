@@ -1,4 +1,5 @@
-// Interest among peers, seen from one of them: where its player looks, what the others are told of the bodies here, and what it is told of theirs. No clock, no socket.
+// Interest among peers, seen from one of them: where its player looks, what the others are told of
+// the bodies here, and what it is told of theirs. No clock, no socket.
 #pragma once
 
 #include <algorithm>
@@ -25,36 +26,45 @@ inline constexpr std::uint32_t no_bat = 0xffffffffu;
 struct InterestSettings {
   std::string scheme = "region", policy = "on-event";  ///< see SenderInterest
   double cell_size = 0.0;                              ///< m; 0 lets the scheme choose
-  double half_side = 1.0, margin = 0.0;                ///< m: of a player's view, and by how much its region exceeds it (game::ClientSettings)
-  RelevantKinds always_relevant;                       ///< what the scheme `always` lets through
-  double rate_hz = 20.0;                               ///< windows per second of simulated time: the k-th ends at k / rate_hz
-  std::vector<std::uint32_t> bats;                     ///< by peer, the body that its player moves; or no_bat. Of those who begin
-  bool is_late = false;                                ///< others have played before: the bat is not where it started
+  double half_side = 1.0, margin = 0.0;  ///< m: of a player's view, and by how much its region
+                                         ///< exceeds it (game::ClientSettings)
+  RelevantKinds always_relevant;         ///< what the scheme `always` lets through
+  double rate_hz = 20.0;  ///< windows per second of simulated time: the k-th ends at k / rate_hz
+  std::vector<std::uint32_t>
+      bats;              ///< by peer, the body that its player moves; or no_bat. Of those who begin
+  bool is_late = false;  ///< others have played before: the bat is not where it started
 };
 
 /// Keys are counted by who owns the bat, as a server that replays does. Throws nothing.
 class SharedInterest {
  public:
-  using Send = std::function<void(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content)>;
-  /// Of as many members as there are bats. `peer` and `division` must outlive it, and may be made anew where they are (then `begin_again`). What is sent must come before what the protocol
+  using Send =
+      std::function<void(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content)>;
+  /// Of as many members as there are bats. `peer` and `division` must outlive it, and may be made
+  /// anew where they are (then `begin_again`). What is sent must come before what the protocol
   /// sends to the same peer afterwards.
-  SharedInterest(const Game& start, const InterestSettings& settings, const peer::Peer& peer, const peer::Division& division, Send send);
+  SharedInterest(const Game& start, const InterestSettings& settings, const peer::Peer& peer,
+                 const peer::Division& division, Send send);
   SharedInterest(const SharedInterest&) = delete;
   SharedInterest& operator=(const SharedInterest&) = delete;
 
   /// The steps of a window. Before it is played:
   void begin_window() { playing_ = heard_; }
-  /// After the run, before it is agreed upon: so that others know where the player looks when they tell of this window. A view need not be exact.
+  /// After the run, before it is agreed upon: so that others know where the player looks when they
+  /// tell of this window. A view need not be exact.
   void look_around();
-  /// All have accepted window `window`, and the others have been sent what they need for the next; it is not committed yet.
+  /// All have accepted window `window`, and the others have been sent what they need for the next;
+  /// it is not committed yet.
   void finish(std::uint32_t window);
   /// It is; and once before the first.
   void note_places();
 
-  /// From now on these are the members (sorted), and `bats` theirs, by number. Who was one goes on with what was told and heard; with who comes all begins, with who is gone it ends. All call
+  /// From now on these are the members (sorted), and `bats` theirs, by number. Who was one goes on
+  /// with what was told and heard; with who comes all begins, with who is gone it ends. All call
   /// this before they hear what a newcomer says.
   void set_members(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats);
-  /// Likewise, but windows were undone: everybody forgets what was told and where others look, and tells everybody anew. All who are left call this at the same window.
+  /// Likewise, but windows were undone: everybody forgets what was told and where others look, and
+  /// tells everybody anew. All who are left call this at the same window.
   void begin_again(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats);
 
   /// From a member. False for what is no message of its kind.
@@ -89,7 +99,9 @@ class SharedInterest {
   void say_keys(peer::PeerNumber to, KeyWord word, peer::PeerNumber player, std::uint32_t count);
   std::optional<physics::Vector2> bat_place();
   peer::PeerNumber owner_of_bat(peer::PeerNumber player) const;
-  bool is_member(peer::PeerNumber peer) const { return std::binary_search(members_.begin(), members_.end(), peer); }
+  bool is_member(peer::PeerNumber peer) const {
+    return std::binary_search(members_.begin(), members_.end(), peer);
+  }
   void forget(peer::PeerNumber peer);
 
   InterestSettings settings_;
@@ -98,16 +110,21 @@ class SharedInterest {
   Send send_;
   SenderInterest interest_;
   PlayerPicture picture_;
-  std::vector<peer::PeerNumber> members_;                  ///< sorted
-  std::vector<Place> places_;                              ///< by body
+  std::vector<peer::PeerNumber> members_;  ///< sorted
+  std::vector<Place> places_;              ///< by body
   std::vector<std::uint32_t> here_;
-  std::vector<std::uint32_t> parted_, parting_;            ///< own bodies that are others' since the last window and from now on, as they were then in the picture
+  std::vector<std::uint32_t> parted_,
+      parting_;  ///< own bodies that are others' since the last window and from now on, as they
+                 ///< were then in the picture
   Gaze gaze_;
-  std::optional<physics::Vector2> seen_bat_;               ///< where the player's bat was last seen [m]
-  bool is_undone_ = false;                                 ///< what was said before counts no more
-  std::vector<bool> is_told_;                              ///< by peer: it knows the present gaze, or an earlier one, and must be told of its end
-  std::vector<std::uint32_t> heard_, playing_, felt_, told_felt_;  ///< by peer, keys of its player: that came here; and, as the bat's owner, in the window that is played, in final ones, told to it
-  std::vector<peer::PeerNumber> handed_to_;                ///< by peer: who got its bat from us
+  std::optional<physics::Vector2> seen_bat_;  ///< where the player's bat was last seen [m]
+  bool is_undone_ = false;                    ///< what was said before counts no more
+  std::vector<bool> is_told_;  ///< by peer: it knows the present gaze, or an earlier one, and must
+                               ///< be told of its end
+  std::vector<std::uint32_t> heard_, playing_, felt_,
+      told_felt_;  ///< by peer, keys of its player: that came here; and, as the bat's owner, in the
+                   ///< window that is played, in final ones, told to it
+  std::vector<peer::PeerNumber> handed_to_;  ///< by peer: who got its bat from us
   std::uint32_t pressed_ = 0;
 };
 

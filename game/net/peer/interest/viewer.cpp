@@ -20,9 +20,13 @@ std::uint32_t window_of(rti::Bytes updates) {
 
 }  // namespace
 
-Viewer::Viewer(const SharedGame& game, InterestSettings settings, Asides& asides) : game_(game), settings_(std::move(settings)), asides_(asides) {
-  if (const auto complaint = im::complaint_about(settings_.scheme, {})) throw peer::ProtocolError("the first peer names a scheme that is none: " + *complaint);
-  if (settings_.policy != "on-event" && settings_.policy != "periodic") throw peer::ProtocolError("the first peer names the policy '" + settings_.policy + "': expected on-event or periodic");
+Viewer::Viewer(const SharedGame& game, InterestSettings settings, Asides& asides)
+    : game_(game), settings_(std::move(settings)), asides_(asides) {
+  if (const auto complaint = im::complaint_about(settings_.scheme, {}))
+    throw peer::ProtocolError("the first peer names a scheme that is none: " + *complaint);
+  if (settings_.policy != "on-event" && settings_.policy != "periodic")
+    throw peer::ProtocolError("the first peer names the policy '" + settings_.policy +
+                              "': expected on-event or periodic");
 }
 
 Viewer::~Viewer() { asides_.hear_aside = {}; }
@@ -34,17 +38,21 @@ void Viewer::begin(const peer::Session& session) {
   InterestSettings settings = settings_;
   settings.bats = bats();
   settings.is_late = session.step() > 0;
-  interest_.emplace(game_.start(), settings, session.peer(), session.division(), [this](peer::PeerNumber to, Traffic about, const std::vector<std::uint8_t>& content) {
-    sent_[static_cast<std::size_t>(about)] += content.size();
-    ++messages_sent_[static_cast<std::size_t>(about)];
-    std::vector<std::uint8_t> words(content.size() + 1);
-    words[0] = static_cast<std::uint8_t>(about);
-    if (!content.empty()) std::memcpy(words.data() + 1, content.data(), content.size());
-    asides_.say_aside(to, std::move(words));
-  });
+  interest_.emplace(
+      game_.start(), settings, session.peer(), session.division(),
+      [this](peer::PeerNumber to, Traffic about, const std::vector<std::uint8_t>& content) {
+        sent_[static_cast<std::size_t>(about)] += content.size();
+        ++messages_sent_[static_cast<std::size_t>(about)];
+        std::vector<std::uint8_t> words(content.size() + 1);
+        words[0] = static_cast<std::uint8_t>(about);
+        if (!content.empty()) std::memcpy(words.data() + 1, content.data(), content.size());
+        asides_.say_aside(to, std::move(words));
+      });
   interest_->set_members(members_, bats());
   interest_->note_places();
-  asides_.hear_aside = [this](peer::PeerNumber from, std::vector<std::uint8_t> bytes) { return hear(from, std::move(bytes)); };
+  asides_.hear_aside = [this](peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
+    return hear(from, std::move(bytes));
+  };
 }
 
 /// By peer: the bats that all agree on.
@@ -52,11 +60,13 @@ std::vector<std::uint32_t> Viewer::bats() const {
   std::vector<std::uint32_t> bats = settings_.bats;
   bats.resize(session_->slots(), no_bat);
   for (const peer::Player& player : session_->players())
-    if (player.bat_count > 0 && player.peer < bats.size()) bats[player.peer] = game_.start().bat(player.first_bat)->index;
+    if (player.bat_count > 0 && player.peer < bats.size())
+      bats[player.peer] = game_.start().bat(player.first_bat)->index;
   return bats;
 }
 
-/// Who the members are follows from the step, and nobody hears of a step from somebody who has it before all others have what leads to it; so all settle before they hear a newcomer's word.
+/// Who the members are follows from the step, and nobody hears of a step from somebody who has it
+/// before all others have what leads to it; so all settle before they hear a newcomer's word.
 void Viewer::settle() {
   if (session_->members() == members_) return;
   members_ = session_->members();
@@ -101,7 +111,9 @@ void Viewer::when_stepped() {
     interest_->begin_again(members_, bats());
     // Of windows up to this one their senders have forgotten what they told.
     for (const auto& [from, bytes] : std::exchange(put_off_, {}))
-      if (static_cast<Traffic>(bytes[0]) != Traffic::updates || window_of(std::as_bytes(std::span(bytes).subspan(1))) > session_->window()) apply(from, bytes);
+      if (static_cast<Traffic>(bytes[0]) != Traffic::updates ||
+          window_of(std::as_bytes(std::span(bytes).subspan(1))) > session_->window())
+        apply(from, bytes);
   }
   if (on_commit) on_commit();
 }
@@ -110,8 +122,13 @@ void Viewer::end() {
   std::vector<std::uint32_t> scope;
   interest_->list_scope(scope);
   in_view_ = scope.size();
-  told_of_ = static_cast<std::size_t>(std::count_if(scope.begin(), scope.end(), [&](std::uint32_t body) { return interest_->picture().belief(body).is_there; }));
-  asides_.hear_aside = [](peer::PeerNumber, const std::vector<std::uint8_t>&) { return true; };  // others may still have something to say
+  told_of_ =
+      static_cast<std::size_t>(std::count_if(scope.begin(), scope.end(), [&](std::uint32_t body) {
+        return interest_->picture().belief(body).is_there;
+      }));
+  asides_.hear_aside = [](peer::PeerNumber, const std::vector<std::uint8_t>&) {
+    return true;
+  };  // others may still have something to say
   interest_.reset();
 }
 

@@ -1,4 +1,5 @@
-// Interest in a running session: what a peer's player sees beyond what the peer has, and what the other players are told, window by window.
+// Interest in a running session: what a peer's player sees beyond what the peer has, and what the
+// other players are told, window by window.
 #pragma once
 
 #include <functional>
@@ -6,22 +7,25 @@
 #include <utility>
 #include <vector>
 
+#include "game/net/peer/interest/shared_interest.h"
 #include "game/net/peer/meeting/asides.h"
 #include "game/net/peer/shared_game.h"
-#include "game/net/peer/interest/shared_interest.h"
 #include "game/net/peer/traffic.h"
 
 namespace rink::game {
 
-/// To be given to SharedGame::play as its listener. Of each aside the first byte says what it is about (Traffic). With who comes all begins, who leaves is forgotten; when somebody is lost,
-/// and windows are undone, all who are left tell each other anew.
+/// To be given to SharedGame::play as its listener. Of each aside the first byte says what it is
+/// about (Traffic). With who comes all begins, who leaves is forgotten; when somebody is lost, and
+/// windows are undone, all who are left tell each other anew.
 class Viewer : public WindowListener {
  public:
-  /// `game` and `asides` must outlive it. Throws peer::ProtocolError for a scheme or a policy of the settings that is none.
+  /// `game` and `asides` must outlive it. Throws peer::ProtocolError for a scheme or a policy of
+  /// the settings that is none.
   Viewer(const SharedGame& game, InterestSettings settings, Asides& asides);
   ~Viewer() override;
 
-  /// All have accepted a window; and all is known that others tell of it: the player's picture is whole.
+  /// All have accepted a window; and all is known that others tell of it: the player's picture is
+  /// whole.
   std::function<void()> on_final, on_commit;
 
   void begin(const peer::Session& session) override;
@@ -55,8 +59,10 @@ class Viewer : public WindowListener {
   const peer::Session* session_ = nullptr;
   std::optional<SharedInterest> interest_;
   std::vector<peer::PeerNumber> members_;
-  std::size_t lost_ = 0, in_view_ = 0, told_of_ = 0;       ///< `lost_`: how many when all was last told anew
-  std::vector<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>> put_off_;  ///< that came while the session recovers
+  std::size_t lost_ = 0, in_view_ = 0,
+              told_of_ = 0;  ///< `lost_`: how many when all was last told anew
+  std::vector<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>>
+      put_off_;  ///< that came while the session recovers
   TrafficBytes sent_{}, messages_sent_{};
 };
 

@@ -14,65 +14,133 @@ namespace rink::game {
 namespace {
 
 void add_evidence_options(CLI::App& app, ViewingOptions& options) {
-  CLI::Option* evidence = app.add_option("--evidence", options.evidence, "file for what this peer sent, knew and when, and what its player saw (docs/metrics.md), as JSON lines; with --pace realtime and a first peer with --scheme --seated --unmirrored --balance 0");
-  app.add_option("--warm-up", options.warm_up_s, "with --evidence: simulated seconds before anything counts")->check(number_from(0.0, seconds_max))->needs(evidence)->capture_default_str();
-  app.add_option("--evidence-seed", options.evidence_seed, "with --evidence: of whose player it is taken and when; the same for all")->needs(evidence)->capture_default_str();
+  CLI::Option* evidence =
+      app.add_option("--evidence", options.evidence,
+                     "file for what this peer sent, knew and when, and what its player saw "
+                     "(docs/metrics.md), as JSON lines; with --pace realtime and a first peer with "
+                     "--scheme --seated --unmirrored --balance 0");
+  app.add_option("--warm-up", options.warm_up_s,
+                 "with --evidence: simulated seconds before anything counts")
+      ->check(number_from(0.0, seconds_max))
+      ->needs(evidence)
+      ->capture_default_str();
+  app.add_option("--evidence-seed", options.evidence_seed,
+                 "with --evidence: of whose player it is taken and when; the same for all")
+      ->needs(evidence)
+      ->capture_default_str();
 }
 
 }  // namespace
 
-std::string objection_to(const std::string& scheme) { return im::complaint_about(scheme, {}).value_or(""); }
+std::string objection_to(const std::string& scheme) {
+  return im::complaint_about(scheme, {}).value_or("");
+}
 
 void add_viewing_options(CLI::App& app, ViewingOptions& options, Terms& terms, CLI::Option* join) {
   InterestTerms& interest = terms.interest;
-  app.add_option("--scheme", interest.scheme, "peers tell each other where their players look, and what these see of others' bodies: the filter of each sender (docs/im.md), e.g. region; without this nobody is told anything; the first peer's to say")
+  app.add_option("--scheme", interest.scheme,
+                 "peers tell each other where their players look, and what these see of others' "
+                 "bodies: the filter of each sender (docs/im.md), e.g. region; without this nobody "
+                 "is told anything; the first peer's to say")
       ->check(objection_to)
       ->excludes(join);
-  app.add_option("--policy", interest.policy, "with --scheme: on-event, trajectories when they change; or periodic, positions in every window; the first peer's to say")
+  app.add_option("--policy", interest.policy,
+                 "with --scheme: on-event, trajectories when they change; or periodic, positions "
+                 "in every window; the first peer's to say")
       ->check(CLI::IsMember({"on-event", "periodic"}))
       ->excludes(join)
       ->capture_default_str();
-  app.add_option("--cell-size", interest.cell_size, "with --scheme: side of its cells [m]; 0 lets it choose; the first peer's to say")->check(zero_or_number_from(cell_size_min, 1e6))->excludes(join)->capture_default_str();
-  app.add_option("--always", options.always, "with --scheme: kinds of bodies that the scheme always lets through: puck, bat, post; unless said otherwise posts, and the pucks of a match to a number of goals; the first peer's to say")
+  app.add_option("--cell-size", interest.cell_size,
+                 "with --scheme: side of its cells [m]; 0 lets it choose; the first peer's to say")
+      ->check(zero_or_number_from(cell_size_min, 1e6))
+      ->excludes(join)
+      ->capture_default_str();
+  app.add_option("--always", options.always,
+                 "with --scheme: kinds of bodies that the scheme always lets through: puck, bat, "
+                 "post; unless said otherwise posts, and the pucks of a match to a number of "
+                 "goals; the first peer's to say")
       ->delimiter(',')
       ->check(CLI::IsMember(relevant_kind_names))
       ->excludes(join);
-  app.add_flag("--seated", terms.is_seated, "each peer has for its player one of the first bats, the one in its zone, and zones are cut around these bats; their keys are those that all know; the first peer's to say")->excludes(join);
-  app.add_option("--view", options.view_fraction, "area of the own player's view as a fraction of the field's; 1 or more: everything")->check(number_from(1e-9, 1e6))->capture_default_str();
-  app.add_option("--view-area", options.view_area, "area of that view [m^2] instead; 0: as --view says")->check(number_from(0.0, view_area_max))->capture_default_str();
+  app.add_flag(
+         "--seated", terms.is_seated,
+         "each peer has for its player one of the first bats, the one in its zone, and zones are "
+         "cut around these bats; their keys are those that all know; the first peer's to say")
+      ->excludes(join);
+  app.add_option(
+         "--view", options.view_fraction,
+         "area of the own player's view as a fraction of the field's; 1 or more: everything")
+      ->check(number_from(1e-9, 1e6))
+      ->capture_default_str();
+  app.add_option("--view-area", options.view_area,
+                 "area of that view [m^2] instead; 0: as --view says")
+      ->check(number_from(0.0, view_area_max))
+      ->capture_default_str();
   add_evidence_options(app, options);
-  app.add_option("--view-margin", options.view_margin, "how far the region that is told reaches beyond the view [m]; it is told anew when the bat has moved by half of that")->check(number_from(0.0, view_margin_max))->capture_default_str();
+  app.add_option("--view-margin", options.view_margin,
+                 "how far the region that is told reaches beyond the view [m]; it is told anew "
+                 "when the bat has moved by half of that")
+      ->check(number_from(0.0, view_margin_max))
+      ->capture_default_str();
 }
 
-void require_viewing(const Terms& terms, const ViewingOptions& options, const SharedGame& game, std::uint32_t bots) {
+void require_viewing(const Terms& terms, const ViewingOptions& options, const SharedGame& game,
+                     std::uint32_t bots) {
   if (!options.always.empty() && !im::names_scheme(terms.interest.scheme, "always"))
-    throw std::invalid_argument("--always: " + (terms.interest.scheme.empty() ? "there is no scheme that could ask" : "the scheme '" + terms.interest.scheme + "' does not name always") + ": expected one that does, such as --scheme \"region or always\"");
+    throw std::invalid_argument(
+        "--always: " +
+        (terms.interest.scheme.empty()
+             ? "there is no scheme that could ask"
+             : "the scheme '" + terms.interest.scheme + "' does not name always") +
+        ": expected one that does, such as --scheme \"region or always\"");
   if (!terms.is_seated) return;
-  if (bots > 0) throw std::invalid_argument("--bots: with --seated each peer's player is the bat in its zone, whose keys all know (--keys): expected no --bots");
+  if (bots > 0)
+    throw std::invalid_argument(
+        "--bots: with --seated each peer's player is the bat in its zone, whose keys all know "
+        "(--keys): expected no --bots");
   if (terms.peer_count > game.bat_count())
-    throw std::invalid_argument("--seated: " + std::to_string(terms.peer_count) + " peers, but the scene has " + std::to_string(game.bat_count()) + " bats: expected at least one for each");
+    throw std::invalid_argument("--seated: " + std::to_string(terms.peer_count) +
+                                " peers, but the scene has " + std::to_string(game.bat_count()) +
+                                " bats: expected at least one for each");
 }
 
-Viewing make_viewing(const SharedGame& game, Meeting& meeting, const ViewingOptions& options, double (*now_s)()) {
+Viewing make_viewing(const SharedGame& game, Meeting& meeting, const ViewingOptions& options,
+                     double (*now_s)()) {
   const Terms& terms = meeting.terms();
   const bool wants_evidence = !options.evidence.empty();
-  if (wants_evidence && (!terms.is_seated || !terms.interest.is_wanted() || terms.is_mirrored || terms.balance_windows > 0 || !terms.starts_together))
-    throw std::invalid_argument("--evidence: it is of a player who looks beyond what its peer has, among peers who stay as they are: expected a first peer with --scheme, --seated, --unmirrored, --balance 0 and --evidence");
-  if (wants_evidence && options.warm_up_s >= terms.until) throw std::invalid_argument("--warm-up: the game ends at " + std::to_string(terms.until) + " s: expected less");
+  if (wants_evidence && (!terms.is_seated || !terms.interest.is_wanted() || terms.is_mirrored ||
+                         terms.balance_windows > 0 || !terms.starts_together))
+    throw std::invalid_argument(
+        "--evidence: it is of a player who looks beyond what its peer has, among peers who stay as "
+        "they are: expected a first peer with --scheme, --seated, --unmirrored, --balance 0 and "
+        "--evidence");
+  if (wants_evidence && options.warm_up_s >= terms.until)
+    throw std::invalid_argument("--warm-up: the game ends at " + std::to_string(terms.until) +
+                                " s: expected less");
   if (!terms.interest.is_wanted()) return {};
   const physics::Field& field = game.scene().world.field;
-  const double half_side = view_half_side(options.view_area, options.view_fraction, field.length, field.width);
-  const InterestSettings settings = interest_settings(game.start(), terms, meeting.guests(), half_side, options.view_margin);
+  const double half_side =
+      view_half_side(options.view_area, options.view_fraction, field.length, field.width);
+  const InterestSettings settings =
+      interest_settings(game.start(), terms, meeting.guests(), half_side, options.view_margin);
   if (!wants_evidence) return {std::make_unique<Viewer>(game, settings, meeting), nullptr};
-  const SamplingSettings sampling{.seed = options.evidence_seed, .clients = terms.peer_count, .from_s = options.warm_up_s, .until_s = terms.until};
+  const SamplingSettings sampling{.seed = options.evidence_seed,
+                                  .clients = terms.peer_count,
+                                  .from_s = options.warm_up_s,
+                                  .until_s = terms.until};
   auto witness = std::make_unique<RunWitness>(game, settings, meeting, sampling, now_s);
   RunWitness* const itself = witness.get();
   return {std::move(witness), itself};
 }
 
 nlohmann::ordered_json report_of(const rti::TransportCounters& counters) {
-  const auto or_null = [](const std::optional<std::uint64_t>& count) { return count ? nlohmann::ordered_json(*count) : nlohmann::ordered_json(nullptr); };
-  return {{"bytes_sent", counters.bytes_sent}, {"bytes_received", counters.bytes_received}, {"kernel_bytes_sent", or_null(counters.kernel_bytes_sent)}, {"kernel_bytes_received", or_null(counters.kernel_bytes_received)}};
+  const auto or_null = [](const std::optional<std::uint64_t>& count) {
+    return count ? nlohmann::ordered_json(*count) : nlohmann::ordered_json(nullptr);
+  };
+  return {{"bytes_sent", counters.bytes_sent},
+          {"bytes_received", counters.bytes_received},
+          {"kernel_bytes_sent", or_null(counters.kernel_bytes_sent)},
+          {"kernel_bytes_received", or_null(counters.kernel_bytes_received)}};
 }
 
 nlohmann::ordered_json report_of(const Viewer& viewer) {

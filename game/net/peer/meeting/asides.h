@@ -9,13 +9,15 @@
 
 namespace rink::game {
 
-/// They go whole and in order, with the mail: what was said aside before a message was sent is heard before that message is.
+/// They go whole and in order, with the mail: what was said aside before a message was sent is
+/// heard before that message is.
 class Asides {
  public:
   virtual ~Asides() = default;
   /// To one who is gone: does nothing.
   virtual void say_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) = 0;
-  /// Called while the mail is waited for; what comes as long as it is empty waits. False for what no peer says: its sender is given up.
+  /// Called while the mail is waited for; what comes as long as it is empty waits. False for what
+  /// no peer says: its sender is given up.
   std::function<bool(peer::PeerNumber from, std::vector<std::uint8_t> bytes)> hear_aside;
 };
 

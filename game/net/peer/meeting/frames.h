@@ -1,4 +1,5 @@
-// Frames cut out of a stream of bytes: four bytes of length, lowest first, then the kind and what is in it, which the length counts.
+// Frames cut out of a stream of bytes: four bytes of length, lowest first, then the kind and what
+// is in it, which the length counts.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +15,10 @@
 namespace rink::game {
 
 inline constexpr std::size_t frame_head = 5;
-inline constexpr std::uint32_t stranger_frame_max = 32 * 1024;  ///< of those who have not been let in [bytes]
-inline constexpr std::uint32_t peer_frame_max = 1u << 30;        ///< the states of four million bodies [bytes]
+inline constexpr std::uint32_t stranger_frame_max =
+    32 * 1024;  ///< of those who have not been let in [bytes]
+inline constexpr std::uint32_t peer_frame_max =
+    1u << 30;  ///< the states of four million bodies [bytes]
 
 struct Frame {
   FrameKind kind = FrameKind::hello;
@@ -35,7 +38,9 @@ class FrameReader {
  public:
   void add(rti::Bytes bytes) {
     if (bytes.empty()) return;
-    if (begin_ > 0) bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(begin_)), begin_ = 0;
+    if (begin_ > 0)
+      bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(begin_)),
+          begin_ = 0;
     const std::size_t before = bytes_.size();
     bytes_.resize(before + bytes.size());
     std::memcpy(bytes_.data() + before, bytes.data(), bytes.size());
@@ -46,7 +51,8 @@ class FrameReader {
     if (is_broken_ || rest.size() < frame_head) return std::nullopt;
     std::uint32_t length = 0;
     for (std::size_t k = 0; k < 4; ++k) length |= static_cast<std::uint32_t>(rest[k]) << (8 * k);
-    is_broken_ = length == 0 || length > length_max || rest[4] > static_cast<std::uint8_t>(frame_kind_max);
+    is_broken_ =
+        length == 0 || length > length_max || rest[4] > static_cast<std::uint8_t>(frame_kind_max);
     if (is_broken_ || rest.size() < length + std::size_t{4}) return std::nullopt;
     Frame frame{static_cast<FrameKind>(rest[4]), std::vector<std::uint8_t>(length - 1)};
     if (length > 1) std::memcpy(frame.content.data(), rest.data() + frame_head, length - 1);

@@ -1,4 +1,5 @@
-// What peers tell each other before and after they play (docs/peer-to-peer.md, "Joining"), as plain values with one function each that writes and reads.
+// What peers tell each other before and after they play (docs/peer-to-peer.md, "Joining"), as plain
+// values with one function each that writes and reads.
 #pragma once
 
 #include <array>
@@ -18,18 +19,32 @@ inline constexpr std::uint32_t peer_protocol_version = 7;
 inline constexpr std::uint32_t peers_max = 64;
 
 /// The first byte of every frame.
-enum class FrameKind : std::uint8_t { hello, welcome, elsewhere, refusal, greeting, mail, farewell, sign, aside };
+enum class FrameKind : std::uint8_t {
+  hello,
+  welcome,
+  elsewhere,
+  refusal,
+  greeting,
+  mail,
+  farewell,
+  sign,
+  aside
+};
 inline constexpr FrameKind frame_kind_max = FrameKind::aside;
 
 /// Where a peer can be reached by all others.
 struct Place {
   std::string address;
   std::uint16_t port = 0;
-  std::string text() const { return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + std::to_string(port); }
+  std::string text() const {
+    return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" +
+           std::to_string(port);
+  }
 };
 
-/// One of the peers, and which bats it plays: `bat_count` from `first_bat` on, each of which looks at `puck_count` pucks. The first `hand_count` of them are played by persons, who look
-/// at every window's end. `token` is a number that it chose, and nobody else has.
+/// One of the peers, and which bats it plays: `bat_count` from `first_bat` on, each of which looks
+/// at `puck_count` pucks. The first `hand_count` of them are played by persons, who look at every
+/// window's end. `token` is a number that it chose, and nobody else has.
 struct Guest {
   Place place;
   std::uint32_t first_bat = 0, bat_count = 0, puck_count = 0, hand_count = 0;
@@ -43,25 +58,34 @@ struct Luggage {
   std::uint64_t keys = 0;       ///< of all keys, scripted and recorded
 };
 
-/// How all decide what players are told that look beyond what their peers have (SharedInterest); with no scheme nobody is told anything.
+/// How all decide what players are told that look beyond what their peers have (SharedInterest);
+/// with no scheme nobody is told anything.
 struct InterestTerms {
   std::string scheme, policy = "on-event";
   double cell_size = 0.0;  ///< m; 0 lets the scheme choose
-  std::uint8_t always = 0; ///< kinds of bodies that the scheme `always` lets through: RelevantKinds::bits
+  std::uint8_t always =
+      0;  ///< kinds of bodies that the scheme `always` lets through: RelevantKinds::bits
   bool is_wanted() const { return !scheme.empty(); }
-  bool fit() const { return cell_size >= 0.0 && cell_size <= 1e6 && always <= RelevantKinds::bits_max; }
+  bool fit() const {
+    return cell_size >= 0.0 && cell_size <= 1e6 && always <= RelevantKinds::bits_max;
+  }
 };
 
 /// What the first peer decides for all.
 struct Terms {
   std::uint32_t peer_count = 2;
   double until = 0.0, window = 0.0;  ///< s
-  std::uint32_t balance_windows = 0; ///< after so many windows zones shift toward equal load; 0: they stay
-  bool is_mirrored = true;           ///< whether each peer's part is kept by another, too
-  bool is_seated = false;            ///< each peer has the player in its zone, whose keys all know, and zones are cut around these (seated_division)
-  bool starts_together = false;      ///< at an instant that the first peer says (start_together)
+  std::uint32_t balance_windows =
+      0;                    ///< after so many windows zones shift toward equal load; 0: they stay
+  bool is_mirrored = true;  ///< whether each peer's part is kept by another, too
+  bool is_seated = false;  ///< each peer has the player in its zone, whose keys all know, and zones
+                           ///< are cut around these (seated_division)
+  bool starts_together = false;  ///< at an instant that the first peer says (start_together)
   InterestTerms interest{};
-  bool fit() const { return peer_count >= 1 && peer_count <= peers_max && until > 0.0 && until <= 1e9 && window > 0.0 && until / window <= 1e9 && interest.fit(); }
+  bool fit() const {
+    return peer_count >= 1 && peer_count <= peers_max && until > 0.0 && until <= 1e9 &&
+           window > 0.0 && until / window <= 1e9 && interest.fit();
+  }
 };
 
 /// A newcomer's first words, to any peer. What follows `version` is of that version.
@@ -80,7 +104,8 @@ struct Introduced {
   Guest guest;
 };
 
-/// The answer of `sponsor`, before they play the first peer, then whoever was asked: the newcomer is `number`, and plays bats from `first_bat` on.
+/// The answer of `sponsor`, before they play the first peer, then whoever was asked: the newcomer
+/// is `number`, and plays bats from `first_bat` on.
 struct Welcome {
   std::uint64_t session = 0;
   Terms terms;
@@ -131,7 +156,10 @@ bool exchange(Stream& stream, Place& place) {
 
 template <class Stream>
 bool exchange(Stream& stream, Guest& guest) {
-  return exchange(stream, guest.place) && stream.numbers(guest.first_bat, guest.bat_count, guest.puck_count, guest.hand_count, guest.token) && guest.hand_count <= guest.bat_count;
+  return exchange(stream, guest.place) &&
+         stream.numbers(guest.first_bat, guest.bat_count, guest.puck_count, guest.hand_count,
+                        guest.token) &&
+         guest.hand_count <= guest.bat_count;
 }
 
 template <class Stream>
@@ -140,27 +168,37 @@ bool exchange(Stream& stream, Hello& hello) {
     if (!stream.number(byte)) return false;
   if (hello.magic != Hello().magic || !stream.number(hello.version)) return false;
   Luggage& luggage = hello.luggage;
-  return !hello.is_of_this_version() || (stream.numbers(luggage.self_test, luggage.scene, luggage.keys) && exchange(stream, hello.guest));
+  return !hello.is_of_this_version() ||
+         (stream.numbers(luggage.self_test, luggage.scene, luggage.keys) &&
+          exchange(stream, hello.guest));
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Welcome& welcome) {
   Terms& terms = welcome.terms;
   InterestTerms& interest = terms.interest;
-  const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until, terms.window, terms.balance_windows, welcome.sponsor, welcome.number, welcome.first_bat, interest.cell_size) &&
-                         stream.truth(terms.is_mirrored) && stream.truth(terms.is_seated) && stream.truth(terms.starts_together) && stream.truth(welcome.is_playing) &&
-                         exchange(stream, interest.scheme) && exchange(stream, interest.policy) && stream.number(interest.always);
+  const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until,
+                                        terms.window, terms.balance_windows, welcome.sponsor,
+                                        welcome.number, welcome.first_bat, interest.cell_size) &&
+                         stream.truth(terms.is_mirrored) && stream.truth(terms.is_seated) &&
+                         stream.truth(terms.starts_together) && stream.truth(welcome.is_playing) &&
+                         exchange(stream, interest.scheme) && exchange(stream, interest.policy) &&
+                         stream.number(interest.always);
   if (!is_headed || !stream.size(welcome.others)) return false;
   bool has_sponsor = false;
   std::uint32_t least = 0;
   for (Introduced& one : welcome.others) {
-    if (!stream.number(one.number) || !stream.truth(one.is_member) || !exchange(stream, one.guest) || one.number < least || one.number >= peer::numbers_max) return false;
+    if (!stream.number(one.number) || !stream.truth(one.is_member) ||
+        !exchange(stream, one.guest) || one.number < least || one.number >= peer::numbers_max)
+      return false;
     least = one.number + 1;
     has_sponsor = has_sponsor || one.number == welcome.sponsor;
     if (one.number == welcome.number) return false;
   }
   return terms.fit() && has_sponsor && welcome.number < peer::numbers_max &&
-         (welcome.is_playing ? terms.is_mirrored : welcome.sponsor == 0 && welcome.number == welcome.others.size() && welcome.number < terms.peer_count && least == welcome.number);
+         (welcome.is_playing ? terms.is_mirrored
+                             : welcome.sponsor == 0 && welcome.number == welcome.others.size() &&
+                                   welcome.number < terms.peer_count && least == welcome.number);
 }
 
 template <class Stream>

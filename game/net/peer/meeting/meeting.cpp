@@ -12,7 +12,8 @@ constexpr std::size_t strangers_max = 64;
 /// That wait until somebody listens.
 constexpr std::size_t asides_max = 4096;
 constexpr double stranger_patience_s = 5.0;
-/// Transports close a connection whose queue gets longer than a megabyte; what is beyond half of that waits in our own.
+/// Transports close a connection whose queue gets longer than a megabyte; what is beyond half of
+/// that waits in our own.
 constexpr std::size_t queued_max = 512 * 1024, slice_max = 128 * 1024;
 constexpr double wait_s_max = 0.05;
 /// Who is interrupted has so long to hand over what it owns, and three windows.
@@ -24,7 +25,8 @@ constexpr double signs_per_patience = 4.0;
 
 }  // namespace
 
-Meeting::Meeting(rti::SocketTransport& sockets, const MeetingSettings& settings, double (*now_s)()) : sockets_(sockets), settings_(settings), now_s_(now_s) {}
+Meeting::Meeting(rti::SocketTransport& sockets, const MeetingSettings& settings, double (*now_s)())
+    : sockets_(sockets), settings_(settings), now_s_(now_s) {}
 
 void Meeting::note(ExitStatus status, const std::string& what) {
   if (!trouble_) trouble_.emplace(status, what);
@@ -38,20 +40,28 @@ void Meeting::lose(Link& link, ExitStatus status, const std::string& what) {
 
 void Meeting::show_signs() {
   for (auto& [connection, link] : links_)
-    if (link.role == Role::peer && link.is_open && !link.is_closed && now_s_() > link.said_s + settings_.patience_s / signs_per_patience) say(connection, FrameKind::sign, {});
+    if (link.role == Role::peer && link.is_open && !link.is_closed &&
+        now_s_() > link.said_s + settings_.patience_s / signs_per_patience)
+      say(connection, FrameKind::sign, {});
 }
 
 void Meeting::attend(double wait_s) {
   if (before_wait) wait_s = std::clamp(before_wait() - now_s_(), 0.0, wait_s);
   if (may_lose_) show_signs();
   push_all();
-  const bool is_sending = std::any_of(links_.begin(), links_.end(), [](const auto& entry) { return !entry.second.outbox.empty(); });
-  sockets_.get().poll(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * (is_sending ? std::min(0.001, wait_s) : wait_s))), *this);
+  const bool is_sending = std::any_of(
+      links_.begin(), links_.end(), [](const auto& entry) { return !entry.second.outbox.empty(); });
+  sockets_.get().poll(std::chrono::nanoseconds(static_cast<std::int64_t>(
+                          1e9 * (is_sending ? std::min(0.001, wait_s) : wait_s))),
+                      *this);
   pass_asides_on();
   std::vector<rti::ConnectionId> idle;
   for (const auto& [connection, link] : links_) {
-    const double patience_s = link.role == Role::stranger && link.early ? settings_.patience_s : stranger_patience_s;
-    if ((link.role == Role::stranger || link.role == Role::dismissed) && now_s_() > link.since_s + patience_s) idle.push_back(connection);
+    const double patience_s =
+        link.role == Role::stranger && link.early ? settings_.patience_s : stranger_patience_s;
+    if ((link.role == Role::stranger || link.role == Role::dismissed) &&
+        now_s_() > link.since_s + patience_s)
+      idle.push_back(connection);
   }
   for (const rti::ConnectionId connection : idle) dismiss(connection);
   const bool must_end = settings_.must_end();
@@ -62,7 +72,9 @@ void Meeting::attend(double wait_s) {
 
 /// Not before the first window: until then there is nothing to hand over.
 bool Meeting::may_leave_in_order() const {
-  return may_lose_ && window_begin_s_ && now_s_() <= *interrupted_s_ + leaving_s_max + leaving_windows_max * std::max(terms_.window, longest_window_s_);
+  return may_lose_ && window_begin_s_ &&
+         now_s_() <= *interrupted_s_ + leaving_s_max +
+                         leaving_windows_max * std::max(terms_.window, longest_window_s_);
 }
 
 void Meeting::begin() {
@@ -97,7 +109,8 @@ void Meeting::push_all() {
 }
 
 void Meeting::push(rti::ConnectionId connection, Link& link) {
-  while (link.is_open && !link.is_closed && !link.outbox.empty() && sockets_.get().queued_bytes(connection) < queued_max) {
+  while (link.is_open && !link.is_closed && !link.outbox.empty() &&
+         sockets_.get().queued_bytes(connection) < queued_max) {
     const std::vector<std::uint8_t>& first = link.outbox.front();
     const std::size_t size = std::min(slice_max, first.size() - link.out_begin);
     const rti::Bytes slice = std::as_bytes(std::span(first).subspan(link.out_begin, size));
@@ -114,7 +127,8 @@ void Meeting::dial(const Guest& guest, Role role, peer::PeerNumber number) {
   if (role == Role::peer) become_peer(connection, number, guest);
 }
 
-void Meeting::say(rti::ConnectionId connection, FrameKind kind, const std::vector<std::uint8_t>& content) {
+void Meeting::say(rti::ConnectionId connection, FrameKind kind,
+                  const std::vector<std::uint8_t>& content) {
   Link& link = links_.at(connection);
   if (link.is_closed) return;
   link.said_s = now_s_();
@@ -141,7 +155,9 @@ void Meeting::on_open(rti::ConnectionId connection) {
   if (is_stranger) {
     link.since_s = now_s_();
     const auto is_one = [](const auto& other) { return other.second.role == Role::stranger; };
-    if (static_cast<std::size_t>(std::count_if(links_.begin(), links_.end(), is_one)) > strangers_max) dismiss(connection);
+    if (static_cast<std::size_t>(std::count_if(links_.begin(), links_.end(), is_one)) >
+        strangers_max)
+      dismiss(connection);
   } else if (link.role == Role::asked) {
     Hello hello;
     hello.luggage = settings_.luggage, hello.guest = settings_.self;
@@ -160,35 +176,48 @@ void Meeting::on_bytes(rti::ConnectionId connection, rti::Bytes bytes) {
 }
 
 void Meeting::read_frames(rti::ConnectionId connection) {
-  for (auto entry = links_.find(connection); entry != links_.end() && !entry->second.is_closed && !entry->second.early; entry = links_.find(connection)) {
+  for (auto entry = links_.find(connection);
+       entry != links_.end() && !entry->second.is_closed && !entry->second.early;
+       entry = links_.find(connection)) {
     Link& link = entry->second;
-    const std::optional<Frame> frame = link.reader.next(link.role == Role::peer ? peer_frame_max : stranger_frame_max);
+    const std::optional<Frame> frame =
+        link.reader.next(link.role == Role::peer ? peer_frame_max : stranger_frame_max);
     if (!frame && (!link.reader.is_broken() || link.role == Role::dismissed)) return;
     const Role role = link.role;
     if (role == Role::dismissed) continue;
     const auto hears = [&] {
       if (role == Role::stranger) return hear_stranger(connection, *frame);
-      return role == Role::asked ? hear_answer(connection, *frame) : role == Role::peer && hear_peer(connection, link, *frame);
+      return role == Role::asked ? hear_answer(connection, *frame)
+                                 : role == Role::peer && hear_peer(connection, link, *frame);
     };
     const bool is_good = frame && hears();
     if (is_good) continue;
     if (role == Role::stranger || role == Role::caller) return dismiss(connection);
-    if (role == Role::peer) lose(link, ExitStatus::failed, name_of(link) + " sent what is no message");
-    else note(ExitStatus::no_server, "what answers at " + link.guest.place.text() + " is no peer that speaks version " + std::to_string(peer_protocol_version) + " of the peers' protocol");
+    if (role == Role::peer)
+      lose(link, ExitStatus::failed, name_of(link) + " sent what is no message");
+    else
+      note(ExitStatus::no_server,
+           "what answers at " + link.guest.place.text() + " is no peer that speaks version " +
+               std::to_string(peer_protocol_version) + " of the peers' protocol");
     link.is_closed = true;
     sockets_.get().close(connection);
   }
 }
 
-void Meeting::on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) {
+void Meeting::on_close(rti::ConnectionId connection, rti::CloseReason reason,
+                       const std::string& detail) {
   const auto entry = links_.find(connection);
   if (entry == links_.end()) return;
   Link& link = entry->second;
-  const std::string why = std::string(rti::to_string(reason)) + (detail.empty() ? "" : ", " + detail);
+  const std::string why =
+      std::string(rti::to_string(reason)) + (detail.empty() ? "" : ", " + detail);
   link.is_closed = true;
   link.outbox.clear();
-  if (link.role == Role::peer && !link.is_done && !link.is_parted) lose(link, ExitStatus::connection_lost, name_of(link) + (link.is_open ? " is gone: " : " cannot be reached: ") + why);
-  if (link.role == Role::asked) unanswered_ = "no peer answers at " + link.guest.place.text() + ": " + why;
+  if (link.role == Role::peer && !link.is_done && !link.is_parted)
+    lose(link, ExitStatus::connection_lost,
+         name_of(link) + (link.is_open ? " is gone: " : " cannot be reached: ") + why);
+  if (link.role == Role::asked)
+    unanswered_ = "no peer answers at " + link.guest.place.text() + ": " + why;
   // Of whom a greeting is kept, that it is gone is news when it is expected.
   if (link.role != Role::peer && !link.early) links_.erase(entry);
 }
@@ -204,19 +233,24 @@ bool Meeting::hear_peer(rti::ConnectionId connection, Link& link, const Frame& f
     return !link.is_done;
   }
   if (frame.kind == FrameKind::aside) {
-    // Where players do not look beyond what their peers have nobody says anything aside; where they do, nobody is further ahead of those who listen than a window.
+    // Where players do not look beyond what their peers have nobody says anything aside; where they
+    // do, nobody is further ahead of those who listen than a window.
     if (!terms_.interest.is_wanted() || asides_.size() >= asides_max) return false;
     asides_.emplace_back(link.number, frame.content);
     return !link.is_done;
   }
   if (frame.kind == FrameKind::sign) return frame.content.empty();
-  const auto farewell = frame.kind == FrameKind::farewell ? message_from<Farewell>(frame.content) : std::nullopt;
+  const auto farewell =
+      frame.kind == FrameKind::farewell ? message_from<Farewell>(frame.content) : std::nullopt;
   if (!farewell) return false;
   link.is_done = true;
   // Who leaves with our consent waits for this word.
   if (link.is_parted && !link.is_closed) say(connection, FrameKind::farewell, bytes_of(Farewell{}));
-  if (farewell->kind == FarewellKind::interrupted) lose(link, ExitStatus::connection_lost, name_of(link) + " was interrupted" + (may_lose_ ? "" : ", so all end"));
-  if (farewell->kind == FarewellKind::trouble) lose(link, ExitStatus::connection_lost, name_of(link) + " ended: " + farewell->reason);
+  if (farewell->kind == FarewellKind::interrupted)
+    lose(link, ExitStatus::connection_lost,
+         name_of(link) + " was interrupted" + (may_lose_ ? "" : ", so all end"));
+  if (farewell->kind == FarewellKind::trouble)
+    lose(link, ExitStatus::connection_lost, name_of(link) + " ended: " + farewell->reason);
   return true;
 }
 
@@ -233,23 +267,29 @@ void Meeting::say_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) {
 std::vector<std::uint8_t> Meeting::receive(peer::PeerNumber from) {
   double begin_s = now_s_(), looked_s = begin_s;
   for (;;) {
-    // Who was stopped itself may not call that the others' silence: what they said meanwhile has not been read yet.
+    // Who was stopped itself may not call that the others' silence: what they said meanwhile has
+    // not been read yet.
     const double now = now_s_();
     if (now - looked_s > std::max(0.5 * settings_.patience_s, 2.0 * wait_s_max)) begin_s = now;
     looked_s = now;
     if (!sent_away_.empty()) throw peer::SentAway(sent_away_);
     for (const auto& [connection, other] : links_)
-      if (other.role == Role::peer && other.is_counted && !other.loss.empty() && !other.is_parted) throw peer::PeerGone(other.number, false, other.loss);
+      if (other.role == Role::peer && other.is_counted && !other.loss.empty() && !other.is_parted)
+        throw peer::PeerGone(other.number, false, other.loss);
     Link* const link = link_at(from);
     if (link && !link->inbox.empty()) {
       std::vector<std::uint8_t> first = std::move(link->inbox.front());
       link->inbox.pop_front();
       return first;
     }
-    if (link && link->is_done && may_lose_) throw peer::PeerGone(from, true, name_of(*link) + " has left");
-    if (link && link->is_done) throw Parting(ExitStatus::connection_lost, name_of(*link) + " left before the end");
-    const std::string silence = " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s";
-    if (!link && now > begin_s + settings_.patience_s) throw peer::PeerGone(from, false, "peer " + std::to_string(from) + silence);
+    if (link && link->is_done && may_lose_)
+      throw peer::PeerGone(from, true, name_of(*link) + " has left");
+    if (link && link->is_done)
+      throw Parting(ExitStatus::connection_lost, name_of(*link) + " left before the end");
+    const std::string silence =
+        " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s";
+    if (!link && now > begin_s + settings_.patience_s)
+      throw peer::PeerGone(from, false, "peer " + std::to_string(from) + silence);
     if (link && now > std::max(begin_s, link->heard_s) + settings_.patience_s) {
       link->is_counted = true;
       lose(*link, ExitStatus::connection_lost, name_of(*link) + silence);
@@ -275,21 +315,35 @@ void Meeting::rejoin(peer::PeerNumber peer) {
   Link* const link = link_at(peer);
   if (!link) return;
   link->is_parted = false;
-  if (link->is_closed && !link->is_done) lose(*link, ExitStatus::connection_lost, name_of(*link) + " is gone");
+  if (link->is_closed && !link->is_done)
+    lose(*link, ExitStatus::connection_lost, name_of(*link) + " is gone");
 }
 
 void Meeting::rest_until(double time_s) {
-  for (double left_s = time_s - now_s_(); left_s > 0.0 && !settings_.must_end(); left_s = time_s - now_s_()) attend(std::min(left_s, wait_s_max));
+  for (double left_s = time_s - now_s_(); left_s > 0.0 && !settings_.must_end();
+       left_s = time_s - now_s_())
+    attend(std::min(left_s, wait_s_max));
 }
 
 void Meeting::leave(const Farewell& farewell) {
   for (auto& [connection, link] : links_)
-    if (link.role == Role::peer && !link.is_closed) say(connection, FrameKind::farewell, bytes_of(farewell));
+    if (link.role == Role::peer && !link.is_closed)
+      say(connection, FrameKind::farewell, bytes_of(farewell));
   // Whoever closes a connection before it has read all may take its last words back with it.
-  const double give_up_s = now_s_() + (farewell.kind == FarewellKind::done ? std::min(settings_.patience_s, goodbye_s_max) : 0.5);
-  const auto is_open = [](const auto& entry) { return entry.second.role == Role::peer && entry.second.is_open && !entry.second.is_closed && !entry.second.is_done; };
-  const auto is_sending = [&](const auto& entry) { return !entry.second.is_closed && entry.second.is_open && (!entry.second.outbox.empty() || sockets_.get().queued_bytes(entry.first) > 0); };
-  while ((std::any_of(links_.begin(), links_.end(), is_open) || std::any_of(links_.begin(), links_.end(), is_sending)) && now_s_() < give_up_s) {
+  const double give_up_s =
+      now_s_() +
+      (farewell.kind == FarewellKind::done ? std::min(settings_.patience_s, goodbye_s_max) : 0.5);
+  const auto is_open = [](const auto& entry) {
+    return entry.second.role == Role::peer && entry.second.is_open && !entry.second.is_closed &&
+           !entry.second.is_done;
+  };
+  const auto is_sending = [&](const auto& entry) {
+    return !entry.second.is_closed && entry.second.is_open &&
+           (!entry.second.outbox.empty() || sockets_.get().queued_bytes(entry.first) > 0);
+  };
+  while ((std::any_of(links_.begin(), links_.end(), is_open) ||
+          std::any_of(links_.begin(), links_.end(), is_sending)) &&
+         now_s_() < give_up_s) {
     push_all();
     sockets_.get().poll(std::chrono::milliseconds(1), *this);
   }

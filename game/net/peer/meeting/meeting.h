@@ -1,4 +1,5 @@
-// How peers find each other through any that is there already, and the mail between them: one connection from each to each.
+// How peers find each other through any that is there already, and the mail between them: one
+// connection from each to each.
 #pragma once
 
 #include <cstdint>
@@ -32,22 +33,28 @@ class Parting : public std::runtime_error {
 };
 
 struct MeetingSettings {
-  Guest self;               ///< where others reach this peer, which listens there already; and how many bats it plays, of so many:
+  Guest self;  ///< where others reach this peer, which listens there already; and how many bats it
+               ///< plays, of so many:
   std::uint32_t bats = 0;
   Luggage luggage;
   std::uint64_t session = 0;  ///< of a first peer: a number that nobody guesses
   double patience_s = 30.0;   ///< with one whose answer is due
-  std::function<bool()> must_end = [] { return is_interrupted != 0; };  ///< the user wants this peer's part to be over
+  std::function<bool()> must_end = [] {
+    return is_interrupted != 0;
+  };  ///< the user wants this peer's part to be over
 };
 
-/// Calls that wait throw Parting: when another peer is gone, interrupted or silent, when we are refused, or when a user interrupts us. From `begin` on, where parts are mirrored,
-/// it is peer::PeerGone instead of the first three (peer::SentAway of a newcomer who may ask again), and of a user's interrupt only what takes too long. A stranger who says what a peer
-/// would not loses the connection, and nothing else happens.
+/// Calls that wait throw Parting: when another peer is gone, interrupted or silent, when we are
+/// refused, or when a user interrupts us. From `begin` on, where parts are mirrored, it is
+/// peer::PeerGone instead of the first three (peer::SentAway of a newcomer who may ask again), and
+/// of a user's interrupt only what takes too long. A stranger who says what a peer would not loses
+/// the connection, and nothing else happens.
 class Meeting final : public peer::Mail, public Asides, private rti::TransportListener {
  public:
   Meeting(rti::SocketTransport& sockets, const MeetingSettings& settings, double (*now_s)());
 
-  /// Become the first peer, number 0; or ask the peer at `any`, again and again for some seconds if nobody answers there, and hear who is there.
+  /// Become the first peer, number 0; or ask the peer at `any`, again and again for some seconds if
+  /// nobody answers there, and hear who is there.
   void found(const Terms& terms);
   void join(const Place& any);
   /// Of a newcomer while others play: whom it was told of; otherwise nobody.
@@ -80,30 +87,35 @@ class Meeting final : public peer::Mail, public Asides, private rti::TransportLi
   void rejoin(peer::PeerNumber peer) override;
   std::vector<peer::Newcomer> callers() override;
   void refuse(std::uint64_t token, const std::string& reason, bool may_ask_again) override;
-  void expect(const peer::Candidate& candidate, bool has_asked_here, const peer::State& state) override;
+  void expect(const peer::Candidate& candidate, bool has_asked_here,
+              const peer::State& state) override;
   bool reaches(peer::PeerNumber candidate) override;
   bool has_given_up(peer::PeerNumber candidate) override;
   void admit(peer::PeerNumber candidate, bool is_in) override;
   void say_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
 
   /// An aside that was heard too early.
-  void hear_again(peer::PeerNumber from, std::vector<std::uint8_t> bytes) { asides_.emplace_back(from, std::move(bytes)); }
+  void hear_again(peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
+    asides_.emplace_back(from, std::move(bytes));
+  }
 
-  /// If not empty, called before each wait, also for mail: does what is due, and says when it wants to be called again [s of the clock].
+  /// If not empty, called before each wait, also for mail: does what is due, and says when it wants
+  /// to be called again [s of the clock].
   std::function<double()> before_wait;
 
  private:
-  /// A caller has asked to be let in while we play. Who is dismissed is heard no more, and closes the connection itself or has it closed.
+  /// A caller has asked to be let in while we play. Who is dismissed is heard no more, and closes
+  /// the connection itself or has it closed.
   enum class Role : std::uint8_t { stranger, asked, caller, peer, dismissed };
   struct Link {
     Role role = Role::stranger;
     bool is_open = false, is_closed = false, is_done = false;
-    bool is_counted = true;         ///< of a peer: its loss matters, as that of a candidate does not
-    bool is_told_of = false;        ///< of a caller: by `callers`
+    bool is_counted = true;   ///< of a peer: its loss matters, as that of a candidate does not
+    bool is_told_of = false;  ///< of a caller: by `callers`
     peer::PeerNumber number = 0;
     Guest guest;
     bool is_parted = false;
-    std::string loss;               ///< why it is gone, if it is
+    std::string loss;  ///< why it is gone, if it is
     double since_s = 0.0, heard_s = 0.0, said_s = 0.0;
     FrameReader reader;
     std::optional<Greeting> early;  ///< came before we knew our own number
@@ -115,7 +127,8 @@ class Meeting final : public peer::Mail, public Asides, private rti::TransportLi
 
   void on_open(rti::ConnectionId connection) override;
   void on_bytes(rti::ConnectionId connection, rti::Bytes bytes) override;
-  void on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) override;
+  void on_close(rti::ConnectionId connection, rti::CloseReason reason,
+                const std::string& detail) override;
 
   void attend(double wait_s);
   void read_frames(rti::ConnectionId connection);
@@ -141,7 +154,9 @@ class Meeting final : public peer::Mail, public Asides, private rti::TransportLi
   bool may_leave_in_order() const;
   Link* link_at(peer::PeerNumber number);
   Link& link_of(peer::PeerNumber number) { return links_.at(*peers_[number]); }
-  static std::string name_of(const Link& link) { return "peer " + std::to_string(link.number) + " (" + link.guest.place.text() + ")"; }
+  static std::string name_of(const Link& link) {
+    return "peer " + std::to_string(link.number) + " (" + link.guest.place.text() + ")";
+  }
 
   rti::SocketTransport& sockets_;
   MeetingSettings settings_;
@@ -152,16 +167,20 @@ class Meeting final : public peer::Mail, public Asides, private rti::TransportLi
   std::optional<double> interrupted_s_, window_begin_s_;
   double longest_window_s_ = 0.0;
   std::vector<peer::PeerNumber> members_;
-  std::string unanswered_, sent_away_;                   ///< why we are to ask again; why we, newcomers, are not in after all
-  std::map<peer::PeerNumber, Guest> expected_;           ///< candidates and newcomers, who will connect to us
+  std::string unanswered_,
+      sent_away_;  ///< why we are to ask again; why we, newcomers, are not in after all
+  std::map<peer::PeerNumber, Guest>
+      expected_;  ///< candidates and newcomers, who will connect to us
   std::map<peer::PeerNumber, std::vector<std::vector<std::uint8_t>>> waiting_mail_;  ///< for such
   int redirections_ = 0;
   bool may_ask_again_ = false;
   std::map<rti::ConnectionId, Link> links_;
   std::vector<std::optional<rti::ConnectionId>> peers_;  ///< by number
-  std::vector<Guest> guests_;                            ///< by number: whom the first peer has let in, or who has said that it was
-  std::uint32_t guest_count_ = 1, bats_taken_ = 0;       ///< of a first peer
-  std::deque<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>> asides_;  ///< that were not heard yet
+  std::vector<Guest>
+      guests_;  ///< by number: whom the first peer has let in, or who has said that it was
+  std::uint32_t guest_count_ = 1, bats_taken_ = 0;  ///< of a first peer
+  std::deque<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>>
+      asides_;  ///< that were not heard yet
   std::optional<Parting> trouble_;
   std::uint64_t dismissed_ = 0, bytes_sent_ = 0;
 };

@@ -13,7 +13,9 @@ constexpr std::size_t address_max = 253;  // characters, of a host's name
 /// Who comes before anybody listens tries for so long, this often.
 constexpr double redial_s_max = 5.0, redial_s = 0.2;
 
-bool is_reachable(const Place& place) { return !place.address.empty() && place.address.size() <= address_max && place.port != 0; }
+bool is_reachable(const Place& place) {
+  return !place.address.empty() && place.address.size() <= address_max && place.port != 0;
+}
 
 }  // namespace
 
@@ -31,10 +33,13 @@ void Meeting::join(const Place& any) {
   const double begin_s = now_s_();
   for (double asked_s = begin_s; !is_in_;) {
     const double now = now_s_();
-    if (now > begin_s + std::max(settings_.patience_s, redial_s_max)) throw Parting(ExitStatus::no_server, unanswered_.empty() ? "no peer has answered at " + any.text() : unanswered_);
+    if (now > begin_s + std::max(settings_.patience_s, redial_s_max))
+      throw Parting(ExitStatus::no_server,
+                    unanswered_.empty() ? "no peer has answered at " + any.text() : unanswered_);
     attend(0.05);
     if (unanswered_.empty()) continue;
-    if (now > begin_s + redial_s_max && !may_ask_again_) throw Parting(ExitStatus::no_server, unanswered_);
+    if (now > begin_s + redial_s_max && !may_ask_again_)
+      throw Parting(ExitStatus::no_server, unanswered_);
     if (now < asked_s + redial_s) continue;
     unanswered_.clear();
     may_ask_again_ = false;
@@ -50,7 +55,8 @@ bool Meeting::are_all_here() const {
   return true;
 }
 
-/// Who has come and falls silent before all are there would keep the others waiting for ever: it neither plays nor closes its connection.
+/// Who has come and falls silent before all are there would keep the others waiting for ever: it
+/// neither plays nor closes its connection.
 void Meeting::gather() {
   double begin_s = now_s_(), looked_s = begin_s;
   while (!are_all_here()) {
@@ -61,19 +67,25 @@ void Meeting::gather() {
     if (now - looked_s > 0.5 * settings_.patience_s) begin_s = now;
     looked_s = now;
     for (const auto& [connection, link] : links_)
-      if (link.role == Role::peer && !link.is_closed && now > std::max({begin_s, link.since_s, link.heard_s}) + settings_.patience_s)
-        throw Parting(ExitStatus::connection_lost, name_of(link) + " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s, before all were there");
+      if (link.role == Role::peer && !link.is_closed &&
+          now > std::max({begin_s, link.since_s, link.heard_s}) + settings_.patience_s)
+        throw Parting(ExitStatus::connection_lost,
+                      name_of(link) + " has said nothing for " +
+                          std::to_string(static_cast<int>(settings_.patience_s)) +
+                          " s, before all were there");
   }
 }
 
-void Meeting::become_peer(rti::ConnectionId connection, peer::PeerNumber number, const Guest& guest) {
+void Meeting::become_peer(rti::ConnectionId connection, peer::PeerNumber number,
+                          const Guest& guest) {
   Link& link = links_.at(connection);
   link.role = Role::peer, link.number = number, link.guest = guest;
   if (number >= peers_.size()) peers_.resize(number + 1), guests_.resize(number + 1);
   peers_[number] = connection;
   guests_[number] = guest;
   if (const auto mail = waiting_mail_.extract(number))
-    for (const std::vector<std::uint8_t>& bytes : mail.mapped()) say(connection, FrameKind::mail, bytes);
+    for (const std::vector<std::uint8_t>& bytes : mail.mapped())
+      say(connection, FrameKind::mail, bytes);
 }
 
 /// False for what no peer would say.
@@ -83,35 +95,52 @@ bool Meeting::hear_stranger(rti::ConnectionId connection, const Frame& frame) {
     if (hello) answer(connection, *hello);
     return hello.has_value();
   }
-  const auto greeting = frame.kind == FrameKind::greeting ? message_from<Greeting>(frame.content) : std::nullopt;
+  const auto greeting =
+      frame.kind == FrameKind::greeting ? message_from<Greeting>(frame.content) : std::nullopt;
   if (greeting) admit(connection, *greeting);
   return greeting.has_value();
 }
 
-/// The first peer gives the numbers, so that those who come at the same time through different peers get different ones.
+/// The first peer gives the numbers, so that those who come at the same time through different
+/// peers get different ones.
 void Meeting::answer(rti::ConnectionId connection, const Hello& hello) {
-  if (!hello.is_of_this_version()) return refuse(connection, RefusalKind::wrong_version, other_version(hello.version));
+  if (!hello.is_of_this_version())
+    return refuse(connection, RefusalKind::wrong_version, other_version(hello.version));
   if (!is_in_) {
     links_.at(connection).asking = hello;
     return;
   }
-  if (const auto reason = difference(hello.luggage, settings_.luggage)) return refuse(connection, RefusalKind::other, *reason);
+  if (const auto reason = difference(hello.luggage, settings_.luggage))
+    return refuse(connection, RefusalKind::other, *reason);
   if (is_playing_ || !members_.empty()) return answer_in_play(connection, hello);
   if (number_ != 0) {
     say(connection, FrameKind::elsewhere, bytes_of(Elsewhere{guests_[0].place}));
     return;
   }
   Guest guest = hello.guest;
-  if (!is_reachable(guest.place)) return refuse(connection, RefusalKind::other, "it does not say where others reach it");
+  if (!is_reachable(guest.place))
+    return refuse(connection, RefusalKind::other, "it does not say where others reach it");
   // A newcomer, who was not waited for, can be let in once they play.
   if (guest_count_ == terms_.peer_count)
-    return refuse(connection, terms_.is_mirrored ? RefusalKind::again : RefusalKind::other, "all " + std::to_string(terms_.peer_count) + " peers that were waited for are there, and do not play yet");
+    return refuse(connection, terms_.is_mirrored ? RefusalKind::again : RefusalKind::other,
+                  "all " + std::to_string(terms_.peer_count) +
+                      " peers that were waited for are there, and do not play yet");
   if (const std::uint32_t free = settings_.bats - bats_taken_; guest.bat_count > free)
-    return refuse(connection, RefusalKind::other, "it wants to play " + std::to_string(guest.bat_count) + " bats, of " + std::to_string(settings_.bats) + " here " + std::to_string(free) + " are free");
+    return refuse(connection, RefusalKind::other,
+                  "it wants to play " + std::to_string(guest.bat_count) + " bats, of " +
+                      std::to_string(settings_.bats) + " here " + std::to_string(free) +
+                      " are free");
   guest.first_bat = bats_taken_;
   bats_taken_ += guest.bat_count;
-  Welcome welcome{.session = settings_.session, .terms = terms_, .sponsor = 0, .number = guest_count_, .first_bat = guest.first_bat, .is_playing = false, .others = {}};
-  for (peer::PeerNumber k = 0; k < guest_count_; ++k) welcome.others.push_back({k, true, guests_[k]});
+  Welcome welcome{.session = settings_.session,
+                  .terms = terms_,
+                  .sponsor = 0,
+                  .number = guest_count_,
+                  .first_bat = guest.first_bat,
+                  .is_playing = false,
+                  .others = {}};
+  for (peer::PeerNumber k = 0; k < guest_count_; ++k)
+    welcome.others.push_back({k, true, guests_[k]});
   become_peer(connection, guest_count_++, guest);
   say(connection, FrameKind::welcome, bytes_of(welcome));
 }
@@ -119,14 +148,19 @@ void Meeting::answer(rti::ConnectionId connection, const Hello& hello) {
 void Meeting::admit(rti::ConnectionId connection, const Greeting& greeting) {
   const bool is_of_us = greeting.session == settings_.session && is_reachable(greeting.guest.place);
   const auto expected = expected_.find(greeting.number);
-  const bool is_expected = expected != expected_.end() && expected->second.token == greeting.guest.token;
-  const bool is_early = !is_in_ || (is_of_us && (is_playing_ || !members_.empty()) && !is_expected && greeting.number < peer::numbers_max);
+  const bool is_expected =
+      expected != expected_.end() && expected->second.token == greeting.guest.token;
+  const bool is_early = !is_in_ || (is_of_us && (is_playing_ || !members_.empty()) &&
+                                    !is_expected && greeting.number < peer::numbers_max);
   // Before we know our own number, or have heard of it.
   if (is_early) {
     links_.at(connection).early = greeting;
     return;
   }
-  const bool is_due = is_of_us && (is_expected || (greeting.number > number_ && greeting.number < terms_.peer_count && !is_playing_)) && !link_at(greeting.number);
+  const bool is_due = is_of_us &&
+                      (is_expected || (greeting.number > number_ &&
+                                       greeting.number < terms_.peer_count && !is_playing_)) &&
+                      !link_at(greeting.number);
   if (!is_due) return refuse(connection, RefusalKind::other, "it is none of this session's peers");
   become_peer(connection, greeting.number, greeting.guest);
   links_.at(connection).is_counted = !is_expected;
@@ -136,13 +170,16 @@ bool Meeting::hear_answer(rti::ConnectionId connection, const Frame& frame) {
   if (frame.kind == FrameKind::refusal) {
     const auto refused = message_from<Refused>(frame.content);
     if (refused && refused->kind == RefusalKind::again) {
-      unanswered_ = "the peer at " + links_.at(connection).guest.place.text() + " does not let this one in: " + refused->reason;
+      unanswered_ = "the peer at " + links_.at(connection).guest.place.text() +
+                    " does not let this one in: " + refused->reason;
       may_ask_again_ = true;
       links_.erase(connection);
       sockets_.get().close(connection);
     } else if (refused)
-      note(refused->kind == RefusalKind::wrong_version ? ExitStatus::wrong_version : ExitStatus::not_admitted,
-           "the peer at " + links_.at(connection).guest.place.text() + " does not let this one in: " + refused->reason);
+      note(refused->kind == RefusalKind::wrong_version ? ExitStatus::wrong_version
+                                                       : ExitStatus::not_admitted,
+           "the peer at " + links_.at(connection).guest.place.text() +
+               " does not let this one in: " + refused->reason);
     return refused.has_value();
   }
   if (frame.kind == FrameKind::elsewhere) {
@@ -153,7 +190,8 @@ bool Meeting::hear_answer(rti::ConnectionId connection, const Frame& frame) {
     dial({.place = elsewhere->first}, Role::asked, 0);
     return true;
   }
-  const auto welcome = frame.kind == FrameKind::welcome ? message_from<Welcome>(frame.content) : std::nullopt;
+  const auto welcome =
+      frame.kind == FrameKind::welcome ? message_from<Welcome>(frame.content) : std::nullopt;
   if (!welcome) return false;
   for (const Introduced& one : welcome->others)
     if (!is_reachable(one.guest.place)) return false;
@@ -175,7 +213,8 @@ void Meeting::enter(rti::ConnectionId connection, const Welcome& welcome) {
       become_peer(connection, one.number, one.guest);
     } else {
       dial(one.guest, Role::peer, one.number);
-      say(*peers_[one.number], FrameKind::greeting, bytes_of(Greeting{settings_.session, number_, settings_.self}));
+      say(*peers_[one.number], FrameKind::greeting,
+          bytes_of(Greeting{settings_.session, number_, settings_.self}));
     }
     link_of(one.number).is_counted = one.is_member;
     if (one.is_member && welcome.is_playing) members_.push_back(one.number);
@@ -185,7 +224,8 @@ void Meeting::enter(rti::ConnectionId connection, const Welcome& welcome) {
     if (link.early) early.push_back(other);
     if (link.asking) asking.push_back(other);
   }
-  for (const rti::ConnectionId other : asking) answer(other, *std::exchange(links_.at(other).asking, std::nullopt));
+  for (const rti::ConnectionId other : asking)
+    answer(other, *std::exchange(links_.at(other).asking, std::nullopt));
   for (const rti::ConnectionId other : early) {
     admit(other, *std::exchange(links_.at(other).early, std::nullopt));
     read_frames(other);

@@ -11,7 +11,8 @@ namespace {
 Guest guest_of(const peer::Candidate& candidate) {
   const auto place = message_from<Place>(candidate.newcomer.place);
   const peer::Newcomer& newcomer = candidate.newcomer;
-  return {place.value_or(Place{}), candidate.first_bat, newcomer.bat_count, newcomer.puck_count, newcomer.hand_count, newcomer.token};
+  return {place.value_or(Place{}), candidate.first_bat, newcomer.bat_count,
+          newcomer.puck_count,     newcomer.hand_count, newcomer.token};
 }
 
 }  // namespace
@@ -24,9 +25,13 @@ Meeting::Link* Meeting::link_at(peer::PeerNumber number) {
 
 /// What is different is known already; whether there is room all decide together.
 void Meeting::answer_in_play(rti::ConnectionId connection, const Hello& hello) {
-  if (!terms_.is_mirrored) return refuse(connection, RefusalKind::other, "they play already, and without mirrors (--unmirrored) nobody can join them");
-  const bool is_good = !hello.guest.place.address.empty() && hello.guest.place.port != 0 && bytes_of(hello.guest.place).size() <= peer::Newcomer::place_max;
-  if (!is_good) return refuse(connection, RefusalKind::other, "it does not say where others reach it");
+  if (!terms_.is_mirrored)
+    return refuse(connection, RefusalKind::other,
+                  "they play already, and without mirrors (--unmirrored) nobody can join them");
+  const bool is_good = !hello.guest.place.address.empty() && hello.guest.place.port != 0 &&
+                       bytes_of(hello.guest.place).size() <= peer::Newcomer::place_max;
+  if (!is_good)
+    return refuse(connection, RefusalKind::other, "it does not say where others reach it");
   Link& link = links_.at(connection);
   link.role = Role::caller, link.guest = hello.guest, link.since_s = now_s_();
 }
@@ -37,23 +42,32 @@ std::vector<peer::Newcomer> Meeting::callers() {
     if (link.role != Role::caller || link.is_told_of || link.is_closed) continue;
     link.is_told_of = true;
     const Guest& guest = link.guest;
-    all.push_back({.token = guest.token, .bat_count = guest.bat_count, .puck_count = guest.puck_count, .hand_count = guest.hand_count, .place = bytes_of(guest.place)});
+    all.push_back({.token = guest.token,
+                   .bat_count = guest.bat_count,
+                   .puck_count = guest.puck_count,
+                   .hand_count = guest.hand_count,
+                   .place = bytes_of(guest.place)});
   }
   return all;
 }
 
 void Meeting::refuse(std::uint64_t token, const std::string& reason, bool may_ask_again) {
-  const auto caller = std::find_if(links_.begin(), links_.end(), [&](const auto& entry) { return entry.second.role == Role::caller && entry.second.guest.token == token; });
-  if (caller != links_.end()) refuse(caller->first, may_ask_again ? RefusalKind::again : RefusalKind::other, reason);
+  const auto caller = std::find_if(links_.begin(), links_.end(), [&](const auto& entry) {
+    return entry.second.role == Role::caller && entry.second.guest.token == token;
+  });
+  if (caller != links_.end())
+    refuse(caller->first, may_ask_again ? RefusalKind::again : RefusalKind::other, reason);
 }
 
-void Meeting::expect(const peer::Candidate& candidate, bool has_asked_here, const peer::State& state) {
+void Meeting::expect(const peer::Candidate& candidate, bool has_asked_here,
+                     const peer::State& state) {
   if (link_at(candidate.number)) return;
   const Guest guest = guest_of(candidate);
   const auto is_it = [&](const auto& entry) {
     const Link& link = entry.second;
     if (has_asked_here) return link.role == Role::caller && link.guest.token == guest.token;
-    return link.role == Role::stranger && link.early && link.early->number == candidate.number && link.early->guest.token == guest.token;
+    return link.role == Role::stranger && link.early && link.early->number == candidate.number &&
+           link.early->guest.token == guest.token;
   };
   expected_[candidate.number] = guest;
   const auto found = std::find_if(links_.begin(), links_.end(), is_it);
@@ -62,14 +76,25 @@ void Meeting::expect(const peer::Candidate& candidate, bool has_asked_here, cons
   Link& link = found->second;
   link.is_counted = false;
   const bool was_early = std::exchange(link.early, std::nullopt).has_value();
-  if (link.is_closed) link.loss = "peer " + std::to_string(candidate.number) + " (" + guest.place.text() + ") is gone";
+  if (link.is_closed)
+    link.loss =
+        "peer " + std::to_string(candidate.number) + " (" + guest.place.text() + ") is gone";
   become_peer(connection, candidate.number, guest);
   if (was_early) return read_frames(connection);
-  Welcome welcome{.session = settings_.session, .terms = terms_, .sponsor = number_, .number = candidate.number, .first_bat = candidate.first_bat, .is_playing = true, .others = {}};
-  for (const peer::PeerNumber member : state.members) welcome.others.push_back({member, true, guests_[member]});
+  Welcome welcome{.session = settings_.session,
+                  .terms = terms_,
+                  .sponsor = number_,
+                  .number = candidate.number,
+                  .first_bat = candidate.first_bat,
+                  .is_playing = true,
+                  .others = {}};
+  for (const peer::PeerNumber member : state.members)
+    welcome.others.push_back({member, true, guests_[member]});
   for (const peer::Candidate& other : state.candidates)
-    if (other.number < candidate.number) welcome.others.push_back({other.number, false, guest_of(other)});
-  std::sort(welcome.others.begin(), welcome.others.end(), [](const Introduced& a, const Introduced& b) { return a.number < b.number; });
+    if (other.number < candidate.number)
+      welcome.others.push_back({other.number, false, guest_of(other)});
+  std::sort(welcome.others.begin(), welcome.others.end(),
+            [](const Introduced& a, const Introduced& b) { return a.number < b.number; });
   say(connection, FrameKind::welcome, bytes_of(welcome));
 }
 
@@ -93,7 +118,9 @@ void Meeting::admit(peer::PeerNumber candidate, bool is_in) {
   waiting_mail_.erase(candidate);
   if (!link) return;
   // It closes the connection itself: what we closed now could take the word back.
-  if (!link->is_closed) say(*peers_[candidate], FrameKind::refusal, bytes_of(Refused{RefusalKind::again, "others were lost or left before it was in"}));
+  if (!link->is_closed)
+    say(*peers_[candidate], FrameKind::refusal,
+        bytes_of(Refused{RefusalKind::again, "others were lost or left before it was in"}));
   link->role = Role::dismissed, link->since_s = now_s_();
   peers_[candidate].reset();
 }

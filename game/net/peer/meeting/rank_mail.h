@@ -1,4 +1,5 @@
-// The mail between peers that are ranks of MPI, and how they find out at the start whether they can play together.
+// The mail between peers that are ranks of MPI, and how they find out at the start whether they can
+// play together.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@
 
 namespace rink::game {
 
-/// What a rank tells all others first. What follows `version` is of that version; all versions say it in `rank_words` bytes.
+/// What a rank tells all others first. What follows `version` is of that version; all versions say
+/// it in `rank_words` bytes.
 struct RankWords {
   std::array<std::uint8_t, 8> magic{'R', 'i', 'n', 'k', 'R', 'a', 'n', 'k'};
   std::uint32_t version = peer_protocol_version;
@@ -29,7 +31,8 @@ bool exchange(Stream& stream, RankWords& words) {
     if (!stream.number(byte)) return false;
   if (words.magic != RankWords().magic || !stream.number(words.version)) return false;
   Luggage& luggage = words.luggage;
-  return !words.is_of_this_version() || stream.numbers(luggage.self_test, luggage.scene, luggage.keys, words.until, words.window);
+  return !words.is_of_this_version() ||
+         stream.numbers(luggage.self_test, luggage.scene, luggage.keys, words.until, words.window);
 }
 
 /// A rank that is refused, and why.
@@ -47,9 +50,11 @@ std::vector<RefusedRank> refused_ranks(std::span<const std::uint8_t> all);
 class RankMail final : public peer::Mail {
  public:
   /// `wait` is called between two looks, with how many there have been in a row that found nothing.
-  RankMail(rti::Ranks& ranks, double patience_s, double (*now_s)(), void (*wait)(std::uint32_t looks));
+  RankMail(rti::Ranks& ranks, double patience_s, double (*now_s)(),
+           void (*wait)(std::uint32_t looks));
 
-  /// Whether all ranks can play `terms` together with the same luggage. Throws Parting for all if not; the first one names those who cannot.
+  /// Whether all ranks can play `terms` together with the same luggage. Throws Parting for all if
+  /// not; the first one names those who cannot.
   void agree(const Luggage& luggage, const Terms& terms);
 
   peer::PeerNumber number() const { return ranks_.number(); }
@@ -60,7 +65,8 @@ class RankMail final : public peer::Mail {
 
   void send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
   std::vector<std::uint8_t> receive(peer::PeerNumber from) override;
-  std::vector<std::vector<std::uint8_t>> share(peer::PeerNumber own, peer::PeerNumber peer_count, std::vector<std::uint8_t> bytes) override;
+  std::vector<std::vector<std::uint8_t>> share(peer::PeerNumber own, peer::PeerNumber peer_count,
+                                               std::vector<std::uint8_t> bytes) override;
   /// Until all that was sent is on its way.
   void flush();
 

@@ -11,7 +11,8 @@ namespace rink::game {
 SeatedDivision seated_division(const Game& start, peer::PeerNumber peer_count) {
   assert(peer_count <= start.player_count());
   std::vector<Vector2> places;
-  for (peer::PeerNumber player = 0; player < peer_count; ++player) places.push_back(start.position(*start.bat(player)));
+  for (peer::PeerNumber player = 0; player < peer_count; ++player)
+    places.push_back(start.position(*start.bat(player)));
   peer::Cuts cuts = peer::Cuts::by_count(start.world().spec().field, places, peer_count);
   SeatedDivision seated{cuts, cuts.division(peer_count), std::vector<std::uint32_t>(peer_count)};
   std::vector<bool> is_taken(peer_count, false);
@@ -28,22 +29,30 @@ SeatedDivision seated_division(const Game& start, peer::PeerNumber peer_count) {
   return seated;
 }
 
-std::vector<std::uint32_t> bats_of_peers(const Game& start, const Terms& terms, std::span<const Guest> guests) {
+std::vector<std::uint32_t> bats_of_peers(const Game& start, const Terms& terms,
+                                         std::span<const Guest> guests) {
   const std::string there = "the scene has " + std::to_string(start.player_count()) + " bats";
-  if (terms.is_seated && terms.peer_count > start.player_count()) throw peer::ProtocolError("each of " + std::to_string(terms.peer_count) + " peers is to have a player, but " + there);
+  if (terms.is_seated && terms.peer_count > start.player_count())
+    throw peer::ProtocolError("each of " + std::to_string(terms.peer_count) +
+                              " peers is to have a player, but " + there);
   if (terms.is_seated) return seated_division(start, terms.peer_count).bats;
   std::vector<std::uint32_t> bats(terms.peer_count, no_bat);
-  for (peer::PeerNumber peer = 0; peer < std::min<std::size_t>(guests.size(), terms.peer_count); ++peer) {
+  for (peer::PeerNumber peer = 0; peer < std::min<std::size_t>(guests.size(), terms.peer_count);
+       ++peer) {
     if (guests[peer].bat_count == 0) continue;
-    if (guests[peer].first_bat >= start.player_count()) throw peer::ProtocolError("peer " + std::to_string(peer) + " plays bat " + std::to_string(guests[peer].first_bat) + ", but " + there);
+    if (guests[peer].first_bat >= start.player_count())
+      throw peer::ProtocolError("peer " + std::to_string(peer) + " plays bat " +
+                                std::to_string(guests[peer].first_bat) + ", but " + there);
     bats[peer] = start.bat(guests[peer].first_bat)->index;
   }
   return bats;
 }
 
-InterestSettings interest_settings(const Game& start, const Terms& terms, std::span<const Guest> guests, double half_side, double margin) {
+InterestSettings interest_settings(const Game& start, const Terms& terms,
+                                   std::span<const Guest> guests, double half_side, double margin) {
   InterestSettings settings;
-  settings.scheme = terms.interest.scheme, settings.policy = terms.interest.policy, settings.cell_size = terms.interest.cell_size;
+  settings.scheme = terms.interest.scheme, settings.policy = terms.interest.policy,
+  settings.cell_size = terms.interest.cell_size;
   settings.half_side = half_side, settings.margin = margin;
   settings.always_relevant = RelevantKinds::of_bits(terms.interest.always);
   settings.rate_hz = 1.0 / terms.window;

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "game/control/game.h"
-#include "game/net/peer/meeting/greetings.h"
 #include "game/net/peer/interest/shared_interest.h"
+#include "game/net/peer/meeting/greetings.h"
 #include "game/peer/cuts.h"
 
 namespace rink::game {
 
-/// A division with one of these bats in each zone, and who of them is which peer's: the body by peer.
+/// A division with one of these bats in each zone, and who of them is which peer's: the body by
+/// peer.
 struct SeatedDivision {
   peer::Cuts cuts;
   peer::Division division;
@@ -21,10 +22,13 @@ struct SeatedDivision {
 /// Of the first `peer_count` players (at most as many as there are: asserted).
 SeatedDivision seated_division(const Game& start, peer::PeerNumber peer_count);
 
-/// By peer, the body that its player moves, or no_bat: the one in its zone if the terms seat them, else the first of the bats that it plays. Throws peer::ProtocolError if there is none such.
-std::vector<std::uint32_t> bats_of_peers(const Game& start, const Terms& terms, std::span<const Guest> guests);
+/// By peer, the body that its player moves, or no_bat: the one in its zone if the terms seat them,
+/// else the first of the bats that it plays. Throws peer::ProtocolError if there is none such.
+std::vector<std::uint32_t> bats_of_peers(const Game& start, const Terms& terms,
+                                         std::span<const Guest> guests);
 
 /// For one whose view is `half_side` and `margin` [m] wide.
-InterestSettings interest_settings(const Game& start, const Terms& terms, std::span<const Guest> guests, double half_side, double margin);
+InterestSettings interest_settings(const Game& start, const Terms& terms,
+                                   std::span<const Guest> guests, double half_side, double margin);
 
 }  // namespace rink::game
