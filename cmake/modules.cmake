@@ -50,16 +50,16 @@ function(rink_module name)
   target_link_libraries(rink_${name} PUBLIC ${module_DEPENDS} PRIVATE $<BUILD_INTERFACE:rink_options> ${module_PRIVATE})
 endfunction()
 
-# rink_command(PATH DEPENDS targets...): the executable rink-NAME from PATH_main.cpp, PATH ending in NAME.
+# rink_command(PATH SOURCES files... DEPENDS targets...): the executable rink-NAME from PATH_main.cpp, PATH ending in NAME, and what else it is made of.
 function(rink_command path)
-  cmake_parse_arguments(command "" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(command "" "" "SOURCES;DEPENDS" ${ARGN})
   get_filename_component(name ${path} NAME)
-  add_executable(rink-${name} ${path}_main.cpp)
+  add_executable(rink-${name} ${path}_main.cpp ${command_SOURCES})
   # What a command does is in its modules. Its flags alone take g++ a minute under a sanitizer with optimisation, half of that without.
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(rink-${name} PRIVATE -O0 ${RINK_FEWER_CHECKS})
   endif()
-  target_link_libraries(rink-${name} PRIVATE ${command_DEPENDS} rink::version rink_options)
+  target_link_libraries(rink-${name} PRIVATE ${command_DEPENDS} rink::apps rink::version rink_options)
   set_property(GLOBAL APPEND PROPERTY RINK_COMMANDS ${name})
   install(TARGETS rink-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT commands)
 endfunction()

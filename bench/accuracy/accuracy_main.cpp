@@ -2,11 +2,8 @@
 // libraries in the same run.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -16,12 +13,15 @@
 #include "bench/accuracy/tables.h"
 #include "bench/peers/peers.h"
 #include "bench/trials/stability_trials.h"
+#include "game/apps/command.h"
+#include "game/net/interrupt.h"
 #include "game/version/version.h"
 #include "loadgen/report/provenance.h"
 
 namespace {
 
 using namespace rink::accuracy;
+using rink::game::Check, rink::game::is_interrupted;
 namespace fs = std::filesystem;
 
 enum ExitStatus { success = 0, bad_usage = 2, output_failed = 5, interrupted = 130 };
@@ -34,8 +34,6 @@ data of each plot. Method, error measure and the settings of the other libraries
 Exit status: 0 done; 2 bad usage; 5 results could not be written, or are already there; 130 interrupted (what was measured is kept).
 
 Example: rink accuracy --scenes gas,dense --engines exact,chipmunk,box2d --out accuracy)";
-
-std::atomic<bool> is_interrupted = false;
 
 struct Options {
   std::string out;
@@ -56,13 +54,14 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-CLI::Validator one_of(const std::vector<std::string>& names) {
-  return {[names](const std::string& name) {
+/// Unlike game::one_of it leaves the names to the flag's meaning.
+Check expected_one_of(const std::vector<std::string>& names) {
+  return {[names](const std::string& name) -> std::string {
             return std::ranges::find(names, name) != names.end()
-                       ? std::string()
+                       ? ""
                        : name + ": expected one of " + listed(names);
           },
-          "", ""};
+          ""};
 }
 
 template <class Trials, class Name>
@@ -186,61 +185,61 @@ int run(const Options& options, const std::vector<std::string>& command_line) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int count, char** words) {
+  rink::game::speak_as("rink accuracy");
   Options options;
-  CLI::App app(
+  rink::game::Flags flags(
       "Measures run time against error for every engine, integrator and step, with Chipmunk and "
       "Box2D beside them, or who survives what is hard.",
       "rink accuracy");
-  app.set_version_flag("--version", rink::game::version_line("rink-accuracy"));
+  flags.version(rink::game::version_line("rink-accuracy"));
   const auto diagram_names =
       names_of(diagram_trials(), [](const DiagramTrial& trial) { return trial.trial.name; });
   const auto stability_names =
       names_of(stability_trials(), [](const Trial& trial) { return trial.name; });
-  app.add_flag(
+  flags.flag(
       "--stability", options.is_stability,
       "the stability table instead: overlap, escapes, energy error, events, survived or not");
-  app.add_option("--out", options.out,
-                 "folder for the report, made if it is not there, refused if it holds anything "
-                 "(default: accuracy, or the first free of accuracy-2, ...)");
-  app.add_option("--scenes", options.scenes, "only these, separated by commas (default: all)")
-      ->delimiter(',');
-  app.add_option(
-         "--engines", options.engines,
-         "only these, separated by commas: " + listed(contender_engines()) + " (default: all)")
-      ->delimiter(',')
-      ->check(one_of(contender_engines()));
-  app.add_option("--integrators", options.integrators,
-                 "of paper and naive, separated by commas: " +
-                     listed(rink::physics::integrator_names()) + " (default: all)")
-      ->delimiter(',')
-      ->check(one_of(rink::physics::integrator_names()));
-  CLI::Option* quick = app.add_flag("--quick", options.is_quick, "short runs: half a minute");
-  app.add_flag("--full", options.is_full, "steps until a run takes 2 s: about twenty minutes")
-      ->excludes(quick);
-  app.add_option("--dt", options.dt,
-                 "step of the stepping engines with --stability [s] (default: 1/60)")
-      ->check(CLI::Range(1e-6, 1.0));
-  app.footer(footer);
-  try {
-    app.parse(argc, argv);
+  flags.option("--out", options.out,
+               "folder for the report, made if it is not there, refused if it holds anything "
+               "(default: accuracy, or the first free of accuracy-2, ...)");
+  flags.option("--scenes", options.scenes, "only these, separated by commas (default: all)")
+      .delimiter(',');
+  flags
+      .option("--engines", options.engines,
+              "only these, separated by commas: " + listed(contender_engines()) + " (default: all)")
+      .delimiter(',')
+      .check(expected_one_of(contender_engines()));
+  flags
+      .option("--integrators", options.integrators,
+              "of paper and naive, separated by commas: " +
+                  listed(rink::physics::integrator_names()) + " (default: all)")
+      .delimiter(',')
+      .check(expected_one_of(rink::physics::integrator_names()));
+  const rink::game::Flag quick =
+      flags.flag("--quick", options.is_quick, "short runs: half a minute");
+  flags.flag("--full", options.is_full, "steps until a run takes 2 s: about twenty minutes")
+      .excludes(quick);
+  flags
+      .option("--dt", options.dt,
+              "step of the stepping engines with --stability [s] (default: 1/60)")
+      .check(rink::game::number_from(1e-6, 1.0));
+  flags.footer(footer);
+  const auto expect_scenes = [&] {
+    const Check check = expected_one_of(options.is_stability ? stability_names : diagram_names);
     for (const std::string& scene : options.scenes)
-      if (const std::string objection =
-              one_of(options.is_stability ? stability_names
-                                          : diagram_names)(const_cast<std::string&>(scene));
-          !objection.empty())
-        throw CLI::ValidationError("--scenes", objection);
-    struct sigaction action {};
-    action.sa_handler = [](int) { is_interrupted.store(true); };
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
-    return run(options, std::vector<std::string>(argv, argv + argc));
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? success : bad_usage;
-  } catch (const OutputError& error) {
-    std::cerr << "rink accuracy: " << error.what() << '\n';
-    return output_failed;
-  } catch (const std::exception& error) {
-    std::cerr << "rink accuracy: " << error.what() << '\n';
-    return bad_usage;
-  }
+      if (const std::string objection = check.objection(scene); !objection.empty())
+        throw rink::game::FlagError("--scenes", objection);
+  };
+  return rink::game::run_command(
+      flags, count, words,
+      {.run =
+           [&] {
+             expect_scenes();
+             return run(options, std::vector<std::string>(words, words + count));
+           },
+       .status_of = [](const std::exception& error) -> int {
+         return dynamic_cast<const OutputError*>(&error) != nullptr ? output_failed : bad_usage;
+       },
+       .bad_flags = bad_usage});
 }

@@ -2,19 +2,23 @@
 // told.
 #pragma once
 
+#include <atomic>
 #include <csignal>
-#include <initializer_list>
 
 namespace rink::game {
 
-/// Set once a signal asked for the end.
-inline volatile std::sig_atomic_t is_interrupted = 0;
+/// Set once a signal asked for the end; the latter if it was that the terminal went away.
+inline std::atomic<bool> is_interrupted = false, is_hung_up = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal may come at any time");
 
-/// From now on SIGINT, SIGTERM and SIGHUP set `is_interrupted`, and a peer that is gone is an error
-/// of writing instead of a signal.
+/// From now on SIGINT, SIGTERM and SIGHUP set `is_interrupted`, and a peer or a reader that is gone
+/// is an error of writing instead of a signal.
 inline void hear_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    std::signal(signal, [](int) { is_interrupted = 1; });
+    std::signal(signal, [](int number) {
+      is_interrupted = true;
+      if (number == SIGHUP) is_hung_up = true;
+    });
   std::signal(SIGPIPE, SIG_IGN);
 }
 

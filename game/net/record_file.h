@@ -1,29 +1,23 @@
-// The file for what a run is to leave, tried out before the run.
+// Files for what a run is to leave, tried out before the run.
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <system_error>
-
-#include "game/net/flags.h"
 
 namespace rink::game {
+
+/// Throws std::runtime_error if `path` is given and cannot be written, before a run that would be
+/// lost. An existing file keeps its content.
+void require_writable(const std::string& flag, const std::string& path);
+/// `text` and an end of line. Throws std::runtime_error if it cannot be written.
+void write_file(const std::string& path, const std::string& text);
 
 /// If the run leaves no record, nor does it leave the empty file of that trial.
 class RecordFile {
  public:
   /// `path` may be empty: no file. Throws std::runtime_error, naming `flag`, if it cannot be
   /// written.
-  RecordFile(const std::string& flag, const std::string& path)
-      : path_(path), is_new_(!path.empty() && !std::filesystem::exists(path)) {
-    require_writable(flag, path);
-  }
-  ~RecordFile() {
-    std::error_code error;
-    if (is_new_ && std::filesystem::is_regular_file(path_, error) &&
-        std::filesystem::file_size(path_, error) == 0)
-      std::filesystem::remove(path_, error);
-  }
+  RecordFile(const std::string& flag, const std::string& path);
+  ~RecordFile();
   RecordFile(const RecordFile&) = delete;
   RecordFile& operator=(const RecordFile&) = delete;
 

@@ -1,24 +1,20 @@
 // rink bots: a crowd of headless clients in one process, pressing keys by a plan fixed before the
 // run or by what they see of the game.
-#include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
-#include <chrono>
 #include <ctime>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "game/apps/command.h"
 #include "game/control/key_log.h"
-#include "game/control/seed_flag.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"
-#include "game/net/flags.h"
 #include "game/net/fom_file.h"
 #include "game/net/gate.h"
 #include "game/net/interrupt.h"
-#include "game/net/speak_as.h"
+#include "game/net/limits.h"
+#include "game/net/record_file.h"
 #include "game/players/player.h"
 #include "game/players/random_plan.h"
 #include "game/replication/trajectory_codec.h"
@@ -32,6 +28,7 @@
 namespace {
 
 using namespace rink;
+using game::existing_file, game::now_s, game::one_of;
 using Json = nlohmann::ordered_json;
 
 struct Options {
@@ -44,12 +41,6 @@ struct Options {
   double view_fraction = 0.05, view_area = 0.0, view_margin = 0.3, start_s = 0.0, duration_s = 10.0,
          warm_up_s = 0.0, patience_s = 30.0;
 };
-
-double now_s() {
-  return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                        std::chrono::steady_clock::now().time_since_epoch())
-                                        .count());
-}
 
 std::string player_names() {
   std::string names;
@@ -89,91 +80,96 @@ class ProcessorLoad {
   Reading end_;
 };
 
-void add_options(CLI::App& app, Options& options) {
-  app.description(
+void add_options(game::Flags& flags, Options& options) {
+  flags.description(
       "Any number of headless clients in one process, each with its own connection, pressing keys "
       "by a plan fixed before the run or as they see fit.");
-  app.footer(std::string("Example: rink bots --connect 127.0.0.1:4711 --count 100 --seed 7 "
-                         "--duration 30 --report bots.json\n\n") +
-             game::exit_status_help);
-  app.add_option("--connect", options.connect, "server, as ADDRESS:PORT")->capture_default_str();
-  app.add_option("--transport", options.transport, "tcp, udp or shm: the same as the server's")
-      ->check(CLI::IsMember(std::vector<std::string>(rti::socket_transport_names.begin(),
-                                                     rti::socket_transport_names.end())))
-      ->capture_default_str();
-  app.add_option("--key-file", options.key_file, "the server's key file, if it asks for one")
-      ->check(CLI::ExistingFile);
-  app.add_option("--federation", options.federation, "name of the federation execution to join")
-      ->capture_default_str();
-  app.add_option("--federation-file", options.federation_file,
-                 "the server's federation file instead of --connect and --federation; if it lists "
-                 "nodes, bots bear their names from the --first on");
-  app.add_option("--count", options.count, "bots")
-      ->check(game::number_from(1, game::bats_max))
-      ->capture_default_str();
-  app.add_option("--first", options.first,
-                 "the first bot's bat; the others take the following ones, and who asks for one "
-                 "that is taken or not there any that is free")
-      ->check(game::number_from(0, game::bats_max))
-      ->capture_default_str();
-  app.add_option("--plan", options.plan,
-                 "key log to play; without it the plan is made from the seed")
-      ->check(CLI::ExistingFile);
-  app.add_option(
-         "--players", options.players,
-         "who plays: random, by the plan; or by what they see of the game, " + player_names())
-      ->check(CLI::IsMember([] {
+  flags.footer(std::string("Example: rink bots --connect 127.0.0.1:4711 --count 100 --seed 7 "
+                           "--duration 30 --report bots.json\n\n") +
+               game::exit_status_help);
+  flags.option("--connect", options.connect, "server, as ADDRESS:PORT").shows_default();
+  flags.option("--transport", options.transport, "tcp, udp or shm: the same as the server's")
+      .check(one_of({rti::socket_transport_names.begin(), rti::socket_transport_names.end()}))
+      .shows_default();
+  flags.option("--key-file", options.key_file, "the server's key file, if it asks for one")
+      .check(existing_file());
+  flags.option("--federation", options.federation, "name of the federation execution to join")
+      .shows_default();
+  flags.option("--federation-file", options.federation_file,
+               "the server's federation file instead of --connect and --federation; if it lists "
+               "nodes, bots bear their names from the --first on");
+  flags.option("--count", options.count, "bots")
+      .check(game::number_from(1, game::bats_max))
+      .shows_default();
+  flags
+      .option("--first", options.first,
+              "the first bot's bat; the others take the following ones, and who asks for one "
+              "that is taken or not there any that is free")
+      .check(game::number_from(0, game::bats_max))
+      .shows_default();
+  flags.option("--plan", options.plan, "key log to play; without it the plan is made from the seed")
+      .check(existing_file());
+  flags
+      .option("--players", options.players,
+              "who plays: random, by the plan; or by what they see of the game, " + player_names())
+      .check(one_of([] {
         auto kinds = game::player_kinds();
         kinds.push_back("random");
         return kinds;
       }()))
-      ->capture_default_str();
-  app.add_option("--scene", options.scene,
-                 "the server's scene, of which players know the rules: goals, drag, thrust")
-      ->capture_default_str();
-  app.add_option("--seed", options.seed,
-                 "of the plan, of players, and of what evidence is taken of")
-      ->check(game::seed_number())
-      ->capture_default_str();
-  app.add_option("--view", options.view_fraction,
-                 "area of a bot's interest as a fraction of the field's; 1 or more: everything")
-      ->check(game::number_from(1e-9, 1e6))
-      ->capture_default_str();
-  app.add_option("--view-area", options.view_area,
-                 "area of a bot's view [m^2] instead; 0: as --view says")
-      ->check(game::number_from(0.0, game::view_area_max))
-      ->capture_default_str();
-  app.add_option("--view-margin", options.view_margin,
-                 "how far the declared region reaches beyond the view [m]; it is declared anew "
-                 "when the bat has moved by half of that")
-      ->check(game::number_from(0.0, game::view_margin_max))
-      ->capture_default_str();
-  app.add_flag("--regions,!--no-regions", options.declares_regions,
-               "whether bots declare their views as regions, or subscribe to everything: under "
-               "none, which looks at no places, that is the same for less")
-      ->capture_default_str();
-  app.add_flag("--extrapolate,!--no-extrapolate", options.extrapolates,
-               "whether what is told positions alone (periodic) is believed ahead of the last by "
-               "the velocity between the last two, or there")
-      ->capture_default_str();
-  app.add_option("--start", options.start_s,
-                 "simulated seconds of the saved game from which the server begins: keys up to "
-                 "then have been pressed, and --duration and --warm-up count from there")
-      ->check(game::number_from(0.0, game::seconds_max))
-      ->capture_default_str();
-  app.add_option("--duration", options.duration_s, "simulated seconds to play")
-      ->check(game::number_from(0.001, game::seconds_max))
-      ->capture_default_str();
-  app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")
-      ->check(game::number_from(0.0, game::seconds_max))
-      ->capture_default_str();
-  app.add_option("--patience", options.patience_s, "seconds to wait for the start")
-      ->check(game::number_from(0.001, game::seconds_max))
-      ->capture_default_str();
-  app.add_option(
+      .shows_default();
+  flags
+      .option("--scene", options.scene,
+              "the server's scene, of which players know the rules: goals, drag, thrust")
+      .shows_default();
+  flags.option("--seed", options.seed, "of the plan, of players, and of what evidence is taken of")
+      .check(game::seed_number())
+      .shows_default();
+  flags
+      .option("--view", options.view_fraction,
+              "area of a bot's interest as a fraction of the field's; 1 or more: everything")
+      .check(game::number_from(1e-9, 1e6))
+      .shows_default();
+  flags
+      .option("--view-area", options.view_area,
+              "area of a bot's view [m^2] instead; 0: as --view says")
+      .check(game::number_from(0.0, game::view_area_max))
+      .shows_default();
+  flags
+      .option("--view-margin", options.view_margin,
+              "how far the declared region reaches beyond the view [m]; it is declared anew "
+              "when the bat has moved by half of that")
+      .check(game::number_from(0.0, game::view_margin_max))
+      .shows_default();
+  flags
+      .flag("--regions,!--no-regions", options.declares_regions,
+            "whether bots declare their views as regions, or subscribe to everything: under "
+            "none, which looks at no places, that is the same for less")
+      .shows_default();
+  flags
+      .flag("--extrapolate,!--no-extrapolate", options.extrapolates,
+            "whether what is told positions alone (periodic) is believed ahead of the last by "
+            "the velocity between the last two, or there")
+      .shows_default();
+  flags
+      .option("--start", options.start_s,
+              "simulated seconds of the saved game from which the server begins: keys up to "
+              "then have been pressed, and --duration and --warm-up count from there")
+      .check(game::number_from(0.0, game::seconds_max))
+      .shows_default();
+  flags.option("--duration", options.duration_s, "simulated seconds to play")
+      .check(game::number_from(0.001, game::seconds_max))
+      .shows_default();
+  flags.option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")
+      .check(game::number_from(0.0, game::seconds_max))
+      .shows_default();
+  flags.option("--patience", options.patience_s, "seconds to wait for the start")
+      .check(game::number_from(0.001, game::seconds_max))
+      .shows_default();
+  flags.option(
       "--evidence", options.evidence,
       "file for what some of the bots heard and believed (docs/metrics.md), as JSON lines");
-  app.add_option("--report", options.report, "file for the measurements, as JSON");
+  flags.option("--report", options.report, "file for the measurements, as JSON");
 }
 
 std::vector<game::InputEvent> plan_of(const Options& options) {
@@ -205,8 +201,9 @@ std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) 
 game::ExitStatus status(const loadgen::BotCrowd& crowd) {
   if (game::is_interrupted) return game::ExitStatus::interrupted;
   if (!crowd.has_started() || crowd.lost_count() > 0) {
-    spdlog::error("{} of {} bots were lost: {}", crowd.lost_count(), crowd.bot_count(),
-                  crowd.first_trouble().empty() ? "the game did not start" : crowd.first_trouble());
+    game::complain(
+        crowd.lost_count(), " of ", crowd.bot_count(), " bots were lost: ",
+        crowd.first_trouble().empty() ? "the game did not start" : crowd.first_trouble());
     return crowd.first_status();
   }
   return game::ExitStatus::ok;
@@ -274,38 +271,30 @@ game::ExitStatus play(const Options& options) {
   crowd.resign();
   if (const auto evidence = crowd.evidence()) loadgen::write_evidence(options.evidence, *evidence);
   if (!options.report.empty()) {
-    std::ofstream file(options.report);
-    file << written.dump(2) << '\n';
-    if (!file.flush()) throw std::runtime_error("cannot write '" + options.report + "'");
+    game::write_file(options.report, written.dump(2));
   } else if (crowd.has_started()) {
     std::printf("%s\n", written.dump(2).c_str());
   }
   return result;
 }
 
+int status_of(const std::exception& error) {
+  const auto* failure = dynamic_cast<const rti::TransportError*>(&error);
+  if (failure == nullptr) return static_cast<int>(game::ExitStatus::bad_input);
+  return static_cast<int>(failure->kind() == rti::TransportError::Kind::too_many_files
+                              ? game::ExitStatus::too_few_files
+                              : game::ExitStatus::no_server);
+}
+
 }  // namespace
 
-int main(int count, char** values) {
+int main(int count, char** words) {
   game::speak_as("rink-bots");
-  CLI::App app;
-  app.set_version_flag("--version", game::version_line("rink-bots"));
+  game::Flags flags;
+  flags.version(game::version_line("rink-bots"));
   Options options;
-  add_options(app, options);
-  try {
-    app.parse(count, values);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
-  }
-  game::hear_interrupts();
-  try {
-    return static_cast<int>(play(options));
-  } catch (const rti::TransportError& error) {
-    spdlog::error("{}", error.what());
-    const bool lacks_files = error.kind() == rti::TransportError::Kind::too_many_files;
-    return static_cast<int>(lacks_files ? game::ExitStatus::too_few_files
-                                        : game::ExitStatus::no_server);
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    return static_cast<int>(game::ExitStatus::bad_input);
-  }
+  add_options(flags, options);
+  return game::run_command(
+      flags, count, words,
+      {.run = [&] { return static_cast<int>(play(options)); }, .status_of = status_of});
 }

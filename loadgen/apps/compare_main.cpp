@@ -2,15 +2,14 @@
 // report.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "game/net/flags.h"
+#include "game/apps/command.h"
+#include "game/net/interrupt.h"
 #include "game/version/version.h"
+#include "loadgen/apps/compare_flags.h"
 #include "loadgen/experiment/plan_text.h"
 #include "loadgen/measure/assertion.h"
 #include "loadgen/measure/discovery_table.h"
@@ -33,87 +32,13 @@
 #include "loadgen/run/resume.h"
 #include "loadgen/run/run_journal.h"
 #include "loadgen/run/saturation/saturate_command.h"
-#include "rti/schemes.h"
 
 namespace {
 
 using namespace rink::loadgen;
-
-enum ExitStatus {
-  success = 0,
-  bad_usage = 2,
-  some_invalid = 3,
-  nothing_measured = 4,
-  output_failed = 5,
-  assertion_failed = 6,
-  reader_gone = 7,
-  no_baseline = 8,
-  width_not_reached = 9,
-  bad_report_folder = 10,
-  not_repeated = 11,
-  no_relevance = 12,
-  hung_up = 129,
-  interrupted = 130
-};
-
-constexpr const char* footer = R"(
-The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds with 95 % intervals), comparisons.csv
-(ratios to the baseline, paired by seed), tidy.csv (an observation per line; data-dictionary.csv says what each is),
-report.html (reads offline), plots/ (each plot as .svg and its data as .csv), provenance.json, keys/ (the key log of each game) and cells/ (the reports of the processes).
-
-Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does not count; 4 no run counts;
-             5 results could not be written, or may not be replaced; 6 an --assert failed; 7 the table could not be
-             printed (the folder is complete); 8 a baseline that no cell has; 9 intervals are wider than --until-width
-             asks for after --seeds replications; 10 the folder of --from lacks a file, has one altered or is of another
-             version; 11 what --from repeats says something else; 12 a relevance expression that is none; 129 the terminal went
-             away; 130 interrupted (what was measured is kept).
-
-Example: rink compare gains --out gains --assert 'filter_recall[scheme=region] >= 0.99')";
-
-/// What an experiment may compare, each with its parameters.
-std::string schemes_and_stages() {
-  const auto lines = [](const char* title, const std::vector<std::string>& names) {
-    std::string text = title, line;
-    for (const std::string& name : names) {
-      const std::string usage = rink::im::usage_of(name);
-      if (line.size() + usage.size() > 110) text += line + "\n", line.clear();
-      line += "  " + usage;
-    }
-    return text + line + "\n";
-  };
-  return lines("\nSchemes, also put together with and, or, not and parentheses:\n",
-               rink::im::filter_names()) +
-         lines(
-             "\nStages, each behind any of them after with, as in \"aura and not sight with "
-             "hysteresis(margin=0.3)\" (docs/im.md):\n",
-             rink::im::stage_names());
-}
+using rink::game::complain, rink::game::is_hung_up, rink::game::is_interrupted;
 
 constexpr std::size_t files_besides_clients = 64;
-
-std::atomic<bool> is_interrupted = false, is_hung_up = false;
-
-void on_signal(int number) {
-  is_interrupted.store(true);
-  if (number == SIGHUP) is_hung_up.store(true);
-}
-
-void heed_signals() {
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that went away must not cost the results
-}
-
-struct Options {
-  std::string experiment;
-  std::string out, programs, from, trace;
-  bool may_replace = false, is_resumed = false, is_dry_run = false, keeps_evidence = false;
-  std::vector<std::string> assertions;
-  std::uint32_t seeds = 0;
-  double until_width = 0.0;  ///< a fraction; 0: run the seeds and be done
-  SaturateOptions saturate;
-};
 
 std::filesystem::path own_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
@@ -159,7 +84,7 @@ void expect_enough_files(const Experiment& experiment) {
 }
 
 /// All but the folder for the reports. Throws ExperimentError if a program is missing.
-RunnerSettings runner_settings(const Options& options, bool needs_peers) {
+RunnerSettings runner_settings(const CompareOptions& options, bool needs_peers) {
   RunnerSettings settings;
   const std::filesystem::path programs =
       options.programs.empty() ? own_folder() : std::filesystem::path(options.programs);
@@ -224,7 +149,7 @@ void set_seeds(Experiment& experiment, std::uint32_t count) {
 
 /// Replications are added one by one until every row's payload is known to within
 /// `options.until_width` of itself, or there are `options.seeds`.
-Outcome run_until_narrow(Experiment& experiment, const Options& options,
+Outcome run_until_narrow(Experiment& experiment, const CompareOptions& options,
                          const RunnerSettings& settings, ResultsDirectory& results,
                          const KeyLogWriter& write_keys, std::vector<RunRecord> kept,
                          std::vector<WideRow>& wide) {
@@ -244,7 +169,7 @@ Outcome run_until_narrow(Experiment& experiment, const Options& options,
   return outcome;
 }
 
-ExitStatus status_of(const Outcome& outcome, bool do_assertions_hold) {
+CompareStatus status_of(const Outcome& outcome, bool do_assertions_hold) {
   if (outcome.was_interrupted) return is_hung_up ? hung_up : interrupted;
   if (!outcome.output_failure.empty()) return output_failed;
   const auto valid = std::count_if(outcome.runs.begin(), outcome.runs.end(),
@@ -259,7 +184,7 @@ ExitStatus status_of(const Outcome& outcome, bool do_assertions_hold) {
 bool judge(const std::vector<Assertion>& assertions, const Experiment& experiment,
            const Outcome& outcome) {
   if (outcome.was_interrupted && !assertions.empty())
-    std::cerr << "rink-compare: interrupted, so no --assert was judged\n";
+    complain("interrupted, so no --assert was judged");
   if (outcome.was_interrupted || assertions.empty()) return true;
   const auto rows = summarise(outcome.runs, experiment.baseline());
   bool do_all_hold = true;
@@ -274,7 +199,7 @@ bool judge(const std::vector<Assertion>& assertions, const Experiment& experimen
 }
 
 /// The folder, and what of it is kept.
-Continuation opened_results(const Options& options, const Experiment& experiment,
+Continuation opened_results(const CompareOptions& options, const Experiment& experiment,
                             const JournalHead& head) {
   if (!options.is_resumed)
     return {ResultsDirectory(
@@ -288,7 +213,7 @@ Continuation opened_results(const Options& options, const Experiment& experiment
 }
 
 /// What is repeated must not be overwritten by its repetition.
-void expect_other_folder(const Options& options) {
+void expect_other_folder(const CompareOptions& options) {
   if (options.out.empty()) return;
   if (std::filesystem::weakly_canonical(options.out) ==
       std::filesystem::weakly_canonical(options.from))
@@ -296,7 +221,7 @@ void expect_other_folder(const Options& options) {
                           " is the folder of --from: expected another one for the repetition");
 }
 
-ExitStatus compare(const Options& options, const std::vector<std::string>& command_line) {
+CompareStatus compare(const CompareOptions& options, const std::vector<std::string>& command_line) {
   const std::string standard = options.saturate.is_wanted ? "saturate" : "default";
   Journal repeated;  // read before anything is written
   if (!options.from.empty()) {
@@ -381,23 +306,20 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
                 << cores_table(cores_ratios_of(outcome.runs)) << std::flush;
   }
   if (outcome.was_interrupted) {
-    std::cerr << "rink-compare: interrupted; kept " << outcome.runs.size()
-              << (options.saturate.is_wanted ? ""
-                                             : " of " + std::to_string(cells_of(experiment).size()))
-              << " runs\n";
+    complain("interrupted; kept ", outcome.runs.size(),
+             options.saturate.is_wanted ? "" : " of " + std::to_string(cells_of(experiment).size()),
+             " runs");
   }
-  if (!outcome.output_failure.empty())
-    std::cerr << "rink-compare: " << outcome.output_failure << "\n";
+  if (!outcome.output_failure.empty()) complain(outcome.output_failure);
   if (!outcome.runs.empty() && outcome.output_failure.empty())
     std::cout << "report: " << (results.path() / "report.html").string() << "\n" << std::flush;
   const bool do_assertions_hold = judge(assertions, experiment, outcome);
   if (!std::cout)
-    std::cerr << "rink-compare: the table could not be printed; it is in "
-              << (results.path() / "report.html").string() << "\n";
+    complain("the table could not be printed; it is in ",
+             (results.path() / "report.html").string());
   for (const WideRow& row : wide)
-    std::cerr << "rink-compare: --until-width: after " << row.runs << " replications " << row.words
-              << "\n";
-  ExitStatus status = status_of(outcome, do_assertions_hold);
+    complain("--until-width: after ", row.runs, " replications ", row.words);
+  CompareStatus status = status_of(outcome, do_assertions_hold);
   if (!options.from.empty() && !outcome.was_interrupted) {
     const Repetition repetition = repetition_of(repeated.runs, outcome.runs);
     std::cerr << commit_words(repeated, options.from);
@@ -408,131 +330,41 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
   return status == success && !wide.empty() ? width_not_reached : status;
 }
 
-ExitStatus trace(const std::filesystem::path& folder) {
+CompareStatus trace(const std::filesystem::path& folder) {
   const std::size_t written = rink::loadgen::write_traces(folder);
   (written > 0 ? std::cout : std::cerr) << "rink-compare: " << folder.string() << ": traces of "
                                         << written << " valid runs that left evidence\n";
   return written > 0 ? success : nothing_measured;
 }
 
-void add_saturate_options(CLI::App& app, SaturateOptions& options) {
-  CLI::Option* wanted = app.add_flag(
-      "--saturate", options.is_wanted,
-      "search the largest number of clients that holds a service level instead (docs/scaling.md)");
-  const auto add = [&app, wanted](const char* flag, auto& value, const char* meaning) {
-    return app.add_option(flag, value, meaning)->needs(wanted);
-  };
-  add("--on-time", options.level.on_time_fraction_min,
-      "with --saturate: least fraction of ticks on time")
-      ->check(rink::game::number_from(0.0, 1.0))
-      ->capture_default_str();
-  add("--age-ms", options.level.age_p99_ms_max,
-      "with --saturate: the 99th percentile of the update age stays below [ms]")
-      ->check(rink::game::number_from(0.001, 1e6))
-      ->capture_default_str();
-  add("--resolution", options.resolution,
-      "with --saturate: relative width of the bracket at the end")
-      ->check(rink::game::number_from(0.001, 10.0))
-      ->capture_default_str();
-  add("--most", options.most,
-      "with --saturate: never more clients than this (default: the experiment's largest number)")
-      ->check(rink::game::number_from(1, 100'000));
+template <class Error>
+bool is(const std::exception& error) {
+  return dynamic_cast<const Error*>(&error) != nullptr;
+}
+
+int status_after(const std::exception& error) {
+  if (is<BaselineError>(error)) return no_baseline;
+  if (is<RelevanceError>(error)) return no_relevance;
+  if (is<ExperimentError>(error)) return bad_usage;
+  if (is<ReportFolderError>(error)) return bad_report_folder;
+  return is<OutputError>(error) ? output_failed : nothing_measured;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  Options options;
-  CLI::App app{
+int main(int count, char** words) {
+  rink::game::speak_as("rink-compare");
+  CompareOptions options;
+  rink::game::Flags flags(
       "Runs every mode x scheme x policy x client count x seed of an experiment as a server and "
-      "its bots over loopback, and compares them."};
-  app.set_version_flag("--version", rink::game::version_line("rink-compare"));
-  app.add_option(
-      "EXPERIMENT", options.experiment,
-      "an experiment file (docs/experiments.md), or the name of an installed one: default, gains, "
-      "full, virtual, modes (with and without a server, in virtual time; over sockets: "
-      "modes_sockets) and others listed there");
-  app.add_option("--out", options.out,
-                 "folder for the results (default: report, or report-2, ... if taken)");
-  app.add_flag("--force", options.may_replace,
-               "replace results that are already there; with --resume: go on even if experiment or "
-               "program have changed");
-  CLI::Option* resume = app.add_flag("--resume", options.is_resumed,
-                                     "go on where an interrupted or killed run of the same "
-                                     "experiment stopped (in --out, or the last report)");
-  app.add_flag("--dry-run", options.is_dry_run,
-               "print the cells, their order and the time they take, and touch nothing")
-      ->excludes(resume);
-  app.add_option("--assert", options.assertions,
-                 "demand of the summary, e.g. 'update_age_ms_p99[scheme=region] < 100'; may be "
-                 "given again (docs/experiments.md)")
-      ->take_all()
-      ->allow_extra_args(false);
-  app.add_option("--from", options.from,
-                 "repeat the experiment of this report folder, which must be as it was written, "
-                 "and compare")
-      ->check(CLI::ExistingDirectory)
-      ->excludes(app.get_option("EXPERIMENT"))
-      ->excludes(resume);
-  app.add_option("--trace", options.trace,
-                 "write where everything truly was into this report folder, for "
-                 "docs/analysis/recompute.py (some 10 MB for each run of 100 clients)")
-      ->check(CLI::ExistingDirectory)
-      ->excludes(app.get_option("EXPERIMENT"))
-      ->excludes(app.get_option("--from"))
-      ->excludes(resume);
-  app.add_flag("--keep-evidence", options.keeps_evidence,
-               "keep the evidence of points of curves too, for docs/analysis/recompute.py; without "
-               "it, --from with it makes the same again");
-  app.add_option("--seeds", options.seeds,
-                 "replications of every cell: so many of the experiment's seeds, and the numbers "
-                 "after them; with --until-width at most so many")
-      ->check(rink::game::number_from(1, 10'000));
-  const auto take_width = [&options](const std::string& text) {
-    try {
-      options.until_width = width_in(text);
-    } catch (const ExperimentError& error) {
-      throw CLI::ValidationError(error.what());
-    }
-  };
-  app.add_option_function<std::string>(
-      "--until-width", take_width,
-      "replications until the 95 % interval of every row's payload is at most so wide, such as 5%: "
-      "from its middle to either end, of the mean (docs/experiments.md)");
-  app.add_option("--programs", options.programs,
-                 "folder of rink-serve, rink-bots and rink-peer (default: that of rink-compare)");
-  add_saturate_options(app, options.saturate);
-  for (const char* flag :
-       {"--resume", "--dry-run", "--assert", "--seeds", "--until-width", "--from"})
-    app.get_option("--saturate")->excludes(app.get_option(flag));
-  app.footer(schemes_and_stages() + footer);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? success : bad_usage;
-  }
-  if (options.until_width > 0.0 && options.seeds == 0) options.seeds = replications_max;
-  heed_signals();
-  try {
+      "its bots over loopback, and compares them.");
+  flags.version(rink::game::version_line("rink-compare"));
+  add_options(flags, options);
+  const auto run = [&]() -> int {
+    if (options.until_width > 0.0 && options.seeds == 0) options.seeds = replications_max;
     if (!options.trace.empty()) return trace(options.trace);
-    return compare(options, std::vector<std::string>(argv, argv + argc));
-  } catch (const rink::loadgen::BaselineError& error) {
-    std::cerr << "rink-compare: " << error.what() << "\n";
-    return no_baseline;
-  } catch (const rink::loadgen::RelevanceError& error) {
-    std::cerr << "rink-compare: " << error.what() << "\n";
-    return no_relevance;
-  } catch (const ExperimentError& error) {
-    std::cerr << "rink-compare: " << error.what() << "\n";
-    return bad_usage;
-  } catch (const ReportFolderError& error) {
-    std::cerr << "rink-compare: " << error.what() << "\n";
-    return bad_report_folder;
-  } catch (const OutputError& error) {
-    std::cerr << "rink-compare: " << error.what() << "\n";
-    return output_failed;
-  } catch (const std::exception& error) {
-    std::cerr << "rink-compare: " << error.what() << "\n";
-    return nothing_measured;
-  }
+    return compare(options, std::vector<std::string>(words, words + count));
+  };
+  return rink::game::run_command(flags, count, words,
+                                 {.run = run, .status_of = status_after, .bad_flags = bad_usage});
 }

@@ -1,8 +1,6 @@
 // rink duel: two bots who play hosted matches over TCP as people would, each with a client of its
 // own, and say what they saw and what it cost.
-#include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -12,14 +10,13 @@
 #include <thread>
 #include <vector>
 
-#include "game/control/seed_flag.h"
+#include "game/apps/command.h"
 #include "game/net/address.h"
 #include "game/net/client/network_match.h"
 #include "game/net/exit_status.h"
-#include "game/net/flags.h"
 #include "game/net/fom_file.h"
 #include "game/net/interrupt.h"
-#include "game/net/speak_as.h"
+#include "game/net/limits.h"
 #include "game/players/player.h"
 #include "game/replication/trajectory_codec.h"
 #include "game/version/version.h"
@@ -29,6 +26,7 @@
 namespace {
 
 using namespace rink;
+using game::now_s;
 
 struct Options {
   std::string connect = "127.0.0.1:4711", players = "chaser";
@@ -36,12 +34,6 @@ struct Options {
   std::uint64_t seed = 1;
   double duration_s = 0.0, frame_hz = 60.0;
 };
-
-double now_s() {
-  return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                        std::chrono::steady_clock::now().time_since_epoch())
-                                        .count());
-}
 
 /// One of the two, with what it received while matches were played.
 struct Rival {
@@ -103,7 +95,7 @@ game::ExitStatus play(const Options& options) {
     for (const auto& rival : rivals) rival->frame();
     for (const auto& rival : rivals) {
       if (rival->match.sight().phase != game::MatchPhase::lost) continue;
-      spdlog::error("{}", rival->match.sight().notice);
+      game::complain(rival->match.sight().notice);
       const auto refusal = rival->match.client().refusal();
       return refusal ? game::exit_status(*refusal) : game::ExitStatus::connection_lost;
     }
@@ -122,41 +114,35 @@ game::ExitStatus play(const Options& options) {
 
 }  // namespace
 
-int main(int count, char** values) {
+int main(int count, char** words) {
   game::speak_as("rink-duel");
-  CLI::App app(
+  game::Flags flags(
       "Two bots who play hosted matches over TCP as people would: on what their own clients show.");
-  app.set_version_flag("--version", game::version_line("rink-duel"));
+  flags.version(game::version_line("rink-duel"));
   Options options;
-  app.add_option("--connect", options.connect, "host, as ADDRESS:PORT")->capture_default_str();
-  app.add_option("--players", options.players, "who they are")
-      ->check(CLI::IsMember(game::player_kinds()))
-      ->capture_default_str();
-  app.add_option("--matches", options.matches, "to play, with a rematch between")
-      ->check(game::number_from(1, 1000))
-      ->capture_default_str();
-  app.add_option("--duration", options.duration_s,
-                 "seconds after which to leave; 0: when all matches are over")
-      ->check(game::number_from(0.0, game::seconds_max))
-      ->capture_default_str();
-  app.add_option("--frame-rate", options.frame_hz, "frames per second of each client")
-      ->check(game::number_from(10.0, 1000.0))
-      ->capture_default_str();
-  app.add_option("--seed", options.seed, "of what they do")
-      ->check(game::seed_number())
-      ->capture_default_str();
-  app.footer(std::string("Example: rink serve match & rink duel --matches 2\n\n") +
-             game::exit_status_help);
-  try {
-    app.parse(count, values);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
-  }
-  game::hear_interrupts();
-  try {
-    return static_cast<int>(play(options));
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    return static_cast<int>(game::ExitStatus::bad_input);
-  }
+  flags.option("--connect", options.connect, "host, as ADDRESS:PORT").shows_default();
+  flags.option("--players", options.players, "who they are")
+      .check(game::one_of(game::player_kinds()))
+      .shows_default();
+  flags.option("--matches", options.matches, "to play, with a rematch between")
+      .check(game::number_from(1, 1000))
+      .shows_default();
+  flags
+      .option("--duration", options.duration_s,
+              "seconds after which to leave; 0: when all matches are over")
+      .check(game::number_from(0.0, game::seconds_max))
+      .shows_default();
+  flags.option("--frame-rate", options.frame_hz, "frames per second of each client")
+      .check(game::number_from(10.0, 1000.0))
+      .shows_default();
+  flags.option("--seed", options.seed, "of what they do")
+      .check(game::seed_number())
+      .shows_default();
+  flags.footer(std::string("Example: rink serve match & rink duel --matches 2\n\n") +
+               game::exit_status_help);
+  return game::run_command(
+      flags, count, words,
+      {.run = [&] { return static_cast<int>(play(options)); },
+       .status_of =
+           [](const std::exception&) { return static_cast<int>(game::ExitStatus::bad_input); }});
 }

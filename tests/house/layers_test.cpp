@@ -61,6 +61,10 @@ const std::vector<Layer> layers{
     {"game/net",
      {"game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics",
       "rti", "rti/transport"}},
+    {"game/apps",
+     {"game/apps", "game/version", "game/view", "game/view/render", "game/match", "game/net/server",
+      "game/net/client", "game/net", "game/net/peer", "game/peer", "game/replication",
+      "game/control", "game/players", "game/model", "game/physics", "rti", "rti/transport", "im"}},
     {"game/view/render", {"game/view/render"}},
     {"game/view",
      {"game/view", "game/view/render", "game/match", "game/net/client", "game/net", "game/net/peer",
@@ -84,10 +88,26 @@ const std::vector<Layer> layers{
      {"loadgen/report", "loadgen/run", "loadgen/measure", "loadgen/experiment", "game/version",
       "game/model"}},
     {"loadgen/apps",
-     {"loadgen/experiment", "loadgen/run", "loadgen/measure", "loadgen/report", "loadgen/duel",
-      "game/players", "game/net/server", "game/net/client", "game/net", "game/net/peer",
-      "game/peer", "game/match", "game/replication", "game/control", "game/model", "game/physics",
-      "rti", "rti/transport"}},
+     {"loadgen/apps",
+      "game/apps",
+      "loadgen/experiment",
+      "loadgen/run",
+      "loadgen/measure",
+      "loadgen/report",
+      "loadgen/duel",
+      "game/players",
+      "game/net/server",
+      "game/net/client",
+      "game/net",
+      "game/net/peer",
+      "game/peer",
+      "game/match",
+      "game/replication",
+      "game/control",
+      "game/model",
+      "game/physics",
+      "rti",
+      "rti/transport"}},
 };
 
 /// Folders that a layer is divided into for whoever looks for a file; those of the RTI but for its
@@ -115,11 +135,12 @@ const Names thread_headers{"thread",    "future", "mutex",   "shared_mutex", "co
 const std::map<std::string, std::string> exceptions{{"im/matching/buffer.cpp", "sys/mman.h"},
                                                     {"game/physics/large_pages.h", "sys/mman.h"}};
 
-/// The load generator watches processes and instants, so it owns clocks as commands do. A transport
+/// The load generator watches processes and instants, so it owns clocks as commands do, and what
+/// commands have in common does. A transport
 /// measures how long its poll waits for its sockets.
 bool may_read_clocks(const SourceFile& source) {
-  return source.is_command() || source.is_in("loadgen") || source.is_in("bench") ||
-         source.is_in("tests") || source.is_in("rti/transport");
+  return source.is_command() || source.is_in("game/apps") || source.is_in("loadgen") ||
+         source.is_in("bench") || source.is_in("tests") || source.is_in("rti/transport");
 }
 
 /// Whether `line` names a clock, be it for an alias, or calls one that has no type.

@@ -19,7 +19,7 @@
 #include "game/replication/trajectory_codec.h"
 #include "loadgen/run/process.h"
 #include "rti/transport/federate_link.h"
-#include "rti/transport/tcp.h"
+#include "rti/transport/tcp/tcp.h"
 #include "tests/net/guest.h"
 #include "tests/places.h"
 #include "tests/reserved_port.h"

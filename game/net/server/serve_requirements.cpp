@@ -7,6 +7,7 @@
 #include "game/control/replay.h"
 #include "game/model/scene_file.h"
 #include "game/net/fom_file.h"
+#include "game/net/record_file.h"
 #include "game/net/server/serving.h"
 #include "game/replication/attributes.h"
 
@@ -61,14 +62,6 @@ void require_beginning(const ServeOptions& options) {
 }
 
 }  // namespace
-
-void host_by_default(const CLI::App& app, ServeOptions& options) {
-  if (options.hosted.empty()) return;
-  options.scene = options.hosted;
-  if (app.count("--policy") == 0) options.policy = "on-event";
-  if (app.count("--rate") == 0) options.rate_hz = 60.0;
-  if (app.count("--record") == 0) options.record = "matches";
-}
 
 rti::FederationFile follow_federation_file(ServeOptions& options) {
   if (options.federation_file.empty())

@@ -1,7 +1,6 @@
 // What the flags of rink serve ask for, completed and checked before anything is opened.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "game/model/scene.h"
@@ -10,9 +9,6 @@
 #include "rti/federation_file.h"
 
 namespace rink::game {
-
-/// What a host of matches does unless it is told otherwise.
-void host_by_default(const CLI::App& app, ServeOptions& options);
 
 /// The federation file of the options, or what stands for it where there is none; takes over where
 /// to listen, who may join and for how many to wait. Throws rti::FileError, or std::runtime_error

@@ -1,87 +1,17 @@
-// Flags to settings.
+// What is asked for to settings.
 #include "game/net/peer/interest/viewing_options.h"
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "game/net/flags.h"
 #include "game/net/peer/meeting/seating.h"
 #include "game/net/view.h"
 #include "im/filter.h"
 
 namespace rink::game {
 
-namespace {
-
-void add_evidence_options(CLI::App& app, ViewingOptions& options) {
-  CLI::Option* evidence =
-      app.add_option("--evidence", options.evidence,
-                     "file for what this peer sent, knew and when, and what its player saw "
-                     "(docs/metrics.md), as JSON lines; with --pace realtime and a first peer with "
-                     "--scheme --seated --unmirrored --balance 0");
-  app.add_option("--warm-up", options.warm_up_s,
-                 "with --evidence: simulated seconds before anything counts")
-      ->check(number_from(0.0, seconds_max))
-      ->needs(evidence)
-      ->capture_default_str();
-  app.add_option("--evidence-seed", options.evidence_seed,
-                 "with --evidence: of whose player it is taken and when; the same for all")
-      ->needs(evidence)
-      ->capture_default_str();
-}
-
-}  // namespace
-
 std::string objection_to(const std::string& scheme) {
   return im::complaint_about(scheme, {}).value_or("");
-}
-
-void add_viewing_options(CLI::App& app, ViewingOptions& options, Terms& terms, CLI::Option* join) {
-  InterestTerms& interest = terms.interest;
-  app.add_option("--scheme", interest.scheme,
-                 "peers tell each other where their players look, and what these see of others' "
-                 "bodies: the filter of each sender (docs/im.md), e.g. region; without this nobody "
-                 "is told anything; the first peer's to say")
-      ->check(objection_to)
-      ->excludes(join);
-  app.add_option("--policy", interest.policy,
-                 "with --scheme: on-event, trajectories when they change; or periodic, positions "
-                 "in every window; the first peer's to say")
-      ->check(CLI::IsMember({"on-event", "periodic"}))
-      ->excludes(join)
-      ->capture_default_str();
-  app.add_option("--cell-size", interest.cell_size,
-                 "with --scheme: side of its cells [m]; 0 lets it choose; the first peer's to say")
-      ->check(zero_or_number_from(cell_size_min, 1e6))
-      ->excludes(join)
-      ->capture_default_str();
-  app.add_option("--always", options.always,
-                 "with --scheme: kinds of bodies that the scheme always lets through: puck, bat, "
-                 "post; unless said otherwise posts, and the pucks of a match to a number of "
-                 "goals; the first peer's to say")
-      ->delimiter(',')
-      ->check(CLI::IsMember(relevant_kind_names))
-      ->excludes(join);
-  app.add_flag(
-         "--seated", terms.is_seated,
-         "each peer has for its player one of the first bats, the one in its zone, and zones are "
-         "cut around these bats; their keys are those that all know; the first peer's to say")
-      ->excludes(join);
-  app.add_option(
-         "--view", options.view_fraction,
-         "area of the own player's view as a fraction of the field's; 1 or more: everything")
-      ->check(number_from(1e-9, 1e6))
-      ->capture_default_str();
-  app.add_option("--view-area", options.view_area,
-                 "area of that view [m^2] instead; 0: as --view says")
-      ->check(number_from(0.0, view_area_max))
-      ->capture_default_str();
-  add_evidence_options(app, options);
-  app.add_option("--view-margin", options.view_margin,
-                 "how far the region that is told reaches beyond the view [m]; it is told anew "
-                 "when the bat has moved by half of that")
-      ->check(number_from(0.0, view_margin_max))
-      ->capture_default_str();
 }
 
 void require_viewing(const Terms& terms, const ViewingOptions& options, const SharedGame& game,

@@ -1,7 +1,6 @@
-// The flags of rink peer about what players see beyond what their peers have.
+// What rink peer is asked for about what players see beyond what their peers have.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -25,8 +24,6 @@ struct ViewingOptions {
 
 /// What is wrong with a scheme that a flag names, or nothing.
 std::string objection_to(const std::string& scheme);
-/// `join`: the flag beside which the first peer's cannot stand.
-void add_viewing_options(CLI::App& app, ViewingOptions& options, Terms& terms, CLI::Option* join);
 /// Throws std::invalid_argument for what the flags of a first peer cannot mean together.
 void require_viewing(const Terms& terms, const ViewingOptions& options, const SharedGame& game,
                      std::uint32_t bots);

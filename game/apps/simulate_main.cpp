@@ -1,20 +1,18 @@
 // rink simulate: physics and rules alone, no network and no clock but the one that times it.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <fstream>
 #include <iostream>
 
+#include "game/apps/command.h"
+#include "game/apps/simulate_report.h"
 #include "game/control/game.h"
 #include "game/control/key_log.h"
 #include "game/control/playing.h"
-#include "game/control/seed_flag.h"
 #include "game/control/simulate_progress.h"
-#include "game/control/simulate_report.h"
 #include "game/model/scene_file.h"
 #include "game/version/version.h"
 
@@ -84,10 +82,8 @@ struct Outputs {
 template <class Played>
 double play(Played& played, const game::Game& game, const Options& options, std::ofstream& events) {
   constexpr double stride_least_s = 0.05, stride_most_s = 0.2;
-  const auto start = std::chrono::steady_clock::now();
-  const auto passed_s = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
+  const double start_s = game::now_s();
+  const auto passed_s = [&] { return game::now_s() - start_s; };
   game::SimulateProgress progress(std::cerr, isatty(STDERR_FILENO) != 0, options.until);
   if (!options.events.empty()) played.record_events(true), game::write_events_heading(events);
   double stride = std::max(options.until / 1024.0, 1e-9), before_s = 0.0;
@@ -170,84 +166,86 @@ std::string allowed_players() { return "random, " + listed(game::player_kinds())
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int count, char** words) {
   Options options;
-  CLI::App app(
+  game::speak_as("rink simulate");
+  game::Flags flags(
       "Advances a scene without a network, exactly or in frames, and writes what became of it.",
       "rink simulate");
-  app.set_version_flag("--version", game::version_line("rink-simulate"));
-  app.add_option("scene", options.scene,
-                 "a scene file (docs/scenes.md) or the name of a preset, such as match or crowd")
-      ->required();
-  app.add_option("--until", options.until, "simulated time at which to stop [s]")
-      ->required()
-      ->check([](const std::string& text) -> std::string {
-        double until = 0.0;
-        if (!CLI::detail::lexical_cast(text, until) || !std::isfinite(until) || until < 0.0)
+  flags.version(game::version_line("rink-simulate"));
+  flags
+      .option("scene", options.scene,
+              "a scene file (docs/scenes.md) or the name of a preset, such as match or crowd")
+      .is_required();
+  flags.option("--until", options.until, "simulated time at which to stop [s]")
+      .is_required()
+      .check([](const std::string& text) -> std::string {
+        const std::optional<double> until = game::number_in(text);
+        if (!until || !std::isfinite(*until) || *until < 0.0)
           return text +
                  ": expected a finite time of 0 s or more, for time neither runs backwards nor for "
                  "ever";
-        if (until > until_max)
+        if (*until > until_max)
           return text +
                  ": expected at most 1e9 s, for beyond that a clock in doubles no longer tells an "
                  "impact from the next";
         return {};
       });
-  CLI::Option* keys =
-      app.add_option("--keys", options.keys,
-                     "a recorded key log to play (default: the scene's scripted keys only)");
-  app.add_option("--players", options.players,
-                 "who plays the bats, in turn, separated by commas: " + allowed_players() +
-                     "; seeded like the scene (default: nobody)")
-      ->delimiter(',')
-      ->excludes(keys)
-      ->check([](const std::string& name) {
+  const game::Flag keys =
+      flags.option("--keys", options.keys,
+                   "a recorded key log to play (default: the scene's scripted keys only)");
+  flags
+      .option("--players", options.players,
+              "who plays the bats, in turn, separated by commas: " + allowed_players() +
+                  "; seeded like the scene (default: nobody)")
+      .delimiter(',')
+      .excludes(keys)
+      .check([](const std::string& name) {
         return game::is_player_kind(name) ? std::string()
                                           : name + ": expected one of " + allowed_players();
       });
-  app.add_option("--record", options.record,
-                 "write the game to this key log: scene, keys and final hash; rink replay plays it "
-                 "again, and so do --keys and rink serve --keys");
-  app.add_option("--seed", options.seed,
-                 "seed of the scene's populations (default: the scene's own)")
-      ->check(game::seed_number());
-  app.add_option(
-         "--bats", options.bats,
-         "scale the crowd to so many bats at constant density, at most 100000 (default: as it is)")
-      ->check(CLI::Range(0u, 100'000u));
-  app.add_option("--engine", options.engine.engine,
-                 "what moves the bodies: " + listed(physics::engine_names()) +
-                     " (docs/physics.md, docs/paper-engine.md)")
-      ->capture_default_str();
-  CLI::Option* integrator =
-      app.add_option("--integrator", options.engine.integrator,
-                     "of the engines paper and naive: " + listed(physics::integrator_names()))
-          ->capture_default_str();
-  CLI::Option* dt = app.add_option("--dt", options.engine.dt,
-                                   "length of a frame of the engines paper and naive [s]")
-                        ->capture_default_str();
-  app.add_option("--states", options.states,
-                 "write every entity's final state to this CSV file: kind,id,x,y,vx,vy");
-  app.add_option("--events", options.events,
-                 "write every event to this CSV file: time,kind,body,other");
-  app.add_option("--summary", options.summary,
-                 "write counts, energies, momentum, overlap and hash to this JSON file (default: "
-                 "standard output)");
-  app.footer(
+  flags.option("--record", options.record,
+               "write the game to this key log: scene, keys and final hash; rink replay plays it "
+               "again, and so do --keys and rink serve --keys");
+  flags.option("--seed", options.seed, "seed of the scene's populations (default: the scene's own)")
+      .check(game::seed_number());
+  flags
+      .option(
+          "--bats", options.bats,
+          "scale the crowd to so many bats at constant density, at most 100000 (default: as it is)")
+      .check(game::whole_number_from(0, 100'000));
+  flags
+      .option("--engine", options.engine.engine,
+              "what moves the bodies: " + listed(physics::engine_names()) +
+                  " (docs/physics.md, docs/paper-engine.md)")
+      .shows_default();
+  flags
+      .option("--integrator", options.engine.integrator,
+              "of the engines paper and naive: " + listed(physics::integrator_names()))
+      .shows_default();
+  flags.option("--dt", options.engine.dt, "length of a frame of the engines paper and naive [s]")
+      .shows_default();
+  flags.option("--states", options.states,
+               "write every entity's final state to this CSV file: kind,id,x,y,vx,vy");
+  flags.option("--events", options.events,
+               "write every event to this CSV file: time,kind,body,other");
+  flags.option("--summary", options.summary,
+               "write counts, energies, momentum, overlap and hash to this JSON file (default: "
+               "standard output)");
+  flags.footer(
       "Example: rink simulate crowd --until 10 --states states.csv\nExample: rink simulate crowd "
       "--until 10 --engine paper --integrator rk4 --dt 0.004\nExample: rink simulate match "
       "--players chaser,random --until 120 --seed 3 --record match.keys\nExit status: 0 done, 2 "
       "bad scene, key log or flag.");
-  try {
-    app.parse(argc, argv);
-    options.has_integrator = integrator->count() > 0;
-    options.has_dt = dt->count() > 0;
-    require_engine(options);
-    simulate(options);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : bad_input;
-  } catch (const std::exception& error) {
-    std::cerr << "rink simulate: " << error.what() << '\n';
-    return bad_input;
-  }
+  return game::run_command(flags, count, words,
+                           {.run =
+                                [&] {
+                                  options.has_integrator = flags.is_given("--integrator");
+                                  options.has_dt = flags.is_given("--dt");
+                                  require_engine(options);
+                                  simulate(options);
+                                  return 0;
+                                },
+                            .status_of = [](const std::exception&) { return bad_input; },
+                            .hears_interrupts = false});
 }

@@ -1,5 +1,5 @@
 // The order of columns and keys, which scripts rely on.
-#include "game/control/simulate_report.h"
+#include "game/apps/simulate_report.h"
 
 #include <nlohmann/json.hpp>
 

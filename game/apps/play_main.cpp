@@ -1,7 +1,6 @@
 // rink play: the window, its clock, and the matches that the player wishes.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +10,8 @@
 #include <thread>
 #include <utility>
 
+#include "game/apps/command.h"
+#include "game/apps/play_flags.h"
 #include "game/control/match_records.h"
 #include "game/match/local_match.h"
 #include "game/match/replay_match.h"
@@ -22,7 +23,6 @@
 #include "game/version/version.h"
 #include "game/view/application.h"
 #include "game/view/host_process.h"
-#include "game/view/play_options.h"
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
 #include "game/view/script.h"
@@ -38,11 +38,9 @@ constexpr double offscreen_frame_s = 1.0 / 60.0,
                  shortest_frame_s =
                      1.0 / 250.0;  // the latter where the driver does not wait for the screen
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+using game::now_s;
 
-void tell(const std::string& trouble) { std::cerr << "rink play: " << trouble << '\n'; }
+void tell(const std::string& trouble) { game::complain(trouble); }
 
 std::string bot_kind(const std::string& strength) {
   return strength == "club" ? "chaser" : "chaser-" + strength;
@@ -350,48 +348,43 @@ void Process::close() {
 game::ExitStatus play(const view::PlayOptions& options) {
   const auto size = view::size_of(options.size);
   if (!size)
-    throw CLI::ValidationError(
-        "--size", options.size + " is not a size like 1280x720, from 320x240 to 8192x8192");
+    throw game::FlagError("--size",
+                          options.size + " is not a size like 1280x720, from 320x240 to 8192x8192");
   if (options.is_offscreen && options.script.empty() && options.screenshot.empty())
-    throw CLI::ValidationError(
-        "--offscreen", "nobody could see it or press a key; give a --script or a --screenshot");
+    throw game::FlagError("--offscreen",
+                          "nobody could see it or press a key; give a --script or a --screenshot");
   Process process(options);
   if (options.is_offscreen) process.run_offscreen(*size);
   else process.run_in_window(*size);
   return game::is_interrupted ? game::ExitStatus::interrupted : game::ExitStatus::ok;
 }
 
+int status_of(const std::exception& error) {
+  using game::ExitStatus;
+  if (dynamic_cast<const view::NoDisplay*>(&error) != nullptr ||
+      dynamic_cast<const view::GraphicsError*>(&error) != nullptr)
+    return static_cast<int>(ExitStatus::no_display);
+  return static_cast<int>(dynamic_cast<const view::ScriptError*>(&error) != nullptr
+                              ? ExitStatus::bad_input
+                              : ExitStatus::failed);
+}
+
 }  // namespace
 
-int main(int count, char** values) {
-  game::hear_interrupts();
-  CLI::App app("Play air hockey in a window. Without arguments it opens a menu.", "rink play");
-  app.set_version_flag("--version", game::version_line("rink-play"));
+int main(int count, char** words) {
+  game::speak_as("rink play");
+  game::Flags flags("Play air hockey in a window. Without arguments it opens a menu.", "rink play");
+  flags.version(game::version_line("rink-play"));
   view::PlayOptions options;
-  view::add_options(app, options);
-  app.footer(
-      std::string("Example: rink play --bot club\n"
-                  "Keys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, V "
-                  "splits the screen for two, + and - zoom and F follows from above, M mutes,\n"
-                  "F3 shows figures, F11 fills the screen.\n") +
+  view::add_options(flags, options);
+  flags.footer(
+      "Example: rink play --bot club\n"
+      "Keys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, V splits the "
+      "screen for two, + and - zoom and F follows from above, M mutes,\n"
+      "F3 shows figures, F11 fills the screen.\n"
       "Exit status: 0 done, 1 failed, 2 bad flag or file, 18 no display, 130 interrupted. A match "
       "that ends wrongly is told of in the menu and on standard error.");
-  try {
-    app.parse(count, values);
-    return static_cast<int>(play(options));
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
-  } catch (const view::NoDisplay& error) {
-    tell(error.what());
-    return static_cast<int>(game::ExitStatus::no_display);
-  } catch (const view::GraphicsError& error) {
-    tell(error.what());
-    return static_cast<int>(game::ExitStatus::no_display);
-  } catch (const view::ScriptError& error) {
-    tell(error.what());
-    return static_cast<int>(game::ExitStatus::bad_input);
-  } catch (const std::exception& error) {
-    tell(error.what());
-    return static_cast<int>(game::ExitStatus::failed);
-  }
+  return game::run_command(
+      flags, count, words,
+      {.run = [&] { return static_cast<int>(play(options)); }, .status_of = status_of});
 }

@@ -1,11 +1,11 @@
 // rink replay: plays a recorded game again and says whether it ends as it did.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 
+#include "game/apps/command.h"
 #include "game/control/replay.h"
 #include "game/version/version.h"
 
@@ -25,14 +25,12 @@ int replay(const std::string& file) {
   const game::KeyLog log = game::read_key_log(std::filesystem::path(file));
   game::require_complete(log, file);
   const game::Scene scene = game::recorded_scene(log, file);
-  const auto start = std::chrono::steady_clock::now();
+  const double start_s = game::now_s();
   const std::uint64_t hash = game::replay(log, scene);
-  const double wall_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double wall_s = game::now_s() - start_s;
   if (hash != *log.hash) {
-    std::cerr << "rink replay: " << file << ": after " << *log.until
-              << " s the game ends in the hash " << hash_text(hash) << ", but "
-              << hash_text(*log.hash) << " was recorded\n";
+    game::complain(file, ": after ", *log.until, " s the game ends in the hash ", hash_text(hash),
+                   ", but ", hash_text(*log.hash), " was recorded");
     return other_hash;
   }
   std::cout << "scene " << log.scene << ", seed " << log.seed << ", " << scene.bodies.bats.size()
@@ -43,28 +41,25 @@ int replay(const std::string& file) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int count, char** words) {
   std::string file;
-  CLI::App app(
+  game::speak_as("rink replay");
+  game::Flags flags(
       "Plays a recorded game again, without a network, and compares the hash in which it ends.",
       "rink replay");
-  app.set_version_flag("--version", game::version_line("rink-replay"));
-  app.add_option("file", file,
-                 "a key log with scene, keys, end and hash, as rink simulate --record and rink "
-                 "serve --record write it")
-      ->required();
-  app.footer(
+  flags.version(game::version_line("rink-replay"));
+  flags
+      .option("file", file,
+              "a key log with scene, keys, end and hash, as rink simulate --record and rink serve "
+              "--record write it")
+      .is_required();
+  flags.footer(
       "Example: rink simulate match --players chaser,random --until 120 --record match.keys && "
       "rink replay match.keys\n"
       "Exit status: 0 the same hash, 1 another hash, 2 a log that is wrong, altered or incomplete, "
       "or a bad flag.");
-  try {
-    app.parse(argc, argv);
-    return replay(file);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : bad_input;
-  } catch (const std::exception& error) {
-    std::cerr << "rink replay: " << error.what() << '\n';
-    return bad_input;
-  }
+  return game::run_command(flags, count, words,
+                           {.run = [&] { return replay(file); },
+                            .status_of = [](const std::exception&) { return bad_input; },
+                            .hears_interrupts = false});
 }

@@ -1,0 +1,59 @@
+// What a peer did, as its report says it, and the game that it shares.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "game/apps/command.h"
+#include "game/apps/peer_flags.h"
+#include "game/net/peer/shared_game.h"
+
+namespace rink::game {
+
+/// Of this process [s].
+double processor_s();
+
+SharedGame game_of(const PeerOptions& options);
+
+/// Goes last, where readers look for it.
+void add_hash(nlohmann::ordered_json& report, const PlayedPart& part);
+
+/// Of a part that was played among those who met, by whichever transport; without the hash.
+template <class Meeting>
+nlohmann::ordered_json report_of(const PlayedPart& part, const Meeting& meeting, std::uint32_t bots,
+                                 double playing_s) {
+  const peer::PeerCounters& counters = part.counters.peer;
+  return {{"peer", meeting.number()},
+          {"peers", part.members},
+          {"time", part.time},
+          {"windows", counters.windows},
+          {"repeats", counters.repeats},
+          {"owned", part.owned},
+          {"ghosts", part.ghosts},
+          {"mean_ghosts",
+           static_cast<double>(counters.ghost_windows) / static_cast<double>(counters.windows + 1)},
+          {"held_max", counters.held_max},
+          {"halo", part.halo},
+          {"own_events", counters.own_events},
+          {"ghost_events", counters.ghost_events},
+          {"hand_overs", counters.hand_overs},
+          {"bots", bots},
+          {"key_presses", part.presses},
+          {"arrival_bytes", counters.arrival_bytes},
+          {"claim_bytes", counters.claim_bytes},
+          {"verdict_bytes", counters.verdict_bytes},
+          {"result_bytes", part.result_bytes},
+          {"bytes_sent", meeting.bytes_sent()},
+          {"strangers_dismissed", meeting.dismissed()},
+          {"wall_s", playing_s},
+          {"cpu_s", processor_s()},
+          {"rss_bytes", resident_bytes()},
+          {"lost", part.lost},
+          {"recoveries", part.counters.recoveries},
+          {"shifts", part.counters.shifts},
+          {"mirror_bytes", part.counters.mirror_bytes},
+          {"recovery_bytes", part.counters.recovery_bytes},
+          {"entry_bytes", part.counters.entry_bytes}};
+}
+
+}  // namespace rink::game

@@ -1,0 +1,40 @@
+// The command line of rink play.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "game/apps/flags.h"
+#include "game/net/peer/playing_peer.h"
+#include "game/view/menu.h"
+#include "game/view/picture_of.h"
+
+namespace rink::view {
+
+struct PlayOptions {
+  bool is_two = false;
+  std::string bot, host, join, watch, replay, records;
+  std::string peer, peer_listen;
+  game::PlayingPeerSettings sharing;
+  std::string camera;
+  std::string size = "1280x720";
+  bool is_full_screen = false, is_muted = false, shows_figures = false;
+  std::string settings_file, key_file;
+  std::uint64_t seed = 1;
+  bool is_offscreen = false;
+  std::string script, screenshot;
+  double at_s = 0.0;
+};
+
+void add_options(game::Flags& flags, PlayOptions& options);
+
+/// What the command line wishes to play at once; nothing: the menu.
+std::optional<MatchWish> wish_of(const PlayOptions& options);
+
+std::optional<Viewpoint> viewpoint_of(const PlayOptions& options);
+
+/// Nothing unless `text` is two whole numbers like 1280x720, from 320x240 to 8192x8192.
+std::optional<WindowSize> size_of(const std::string& text);
+
+}  // namespace rink::view

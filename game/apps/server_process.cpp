@@ -1,0 +1,248 @@
+// The loop of a server, in real time or by turns.
+#include "game/apps/server_process.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "game/apps/command.h"
+#include "game/model/scene_file.h"
+#include "game/net/interrupt.h"
+#include "game/net/server/serve_requirements.h"
+#include "game/replication/names.h"
+
+namespace rink::game {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The due instant in stamps from before the start, when nothing is due yet.
+constexpr double not_started_s = 0.0;
+
+}  // namespace
+
+ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
+                             const ServedGame& played, const std::string& federation)
+    : options_(options),
+      begin_s_(played.begun ? played.begun->now() : 0.0),
+      sockets_(options.transport),
+      serving_(fom, played.scene,
+               {.federation = federation,
+                .policy = options.policy,
+                .threshold = options.threshold,
+                .sweep_ticks = options.sweep_ticks,
+                .tick_s = 1.0 / options.rate_hz,
+                .is_synchronous = options.pace == "synchronous",
+                .is_time_managed = options.is_time_managed,
+                .replay = played.replay,
+                .hosting = hosting_of(options),
+                .key_limit_per_s = options.key_limit_per_s,
+                .always_relevant = relevant_kinds_of(played.scene, options.always),
+                .begun = played.begun ? &*played.begun : nullptr},
+               federation_of(options, played.scene, federation,
+                             options.has_second_core ? &second_core_.emplace() : nullptr),
+               now_s, [this] { return simulated_now(); }),
+      staggered_(sockets_.get(), options.spread / options.rate_hz, now_s),
+      gate_(staggered_,
+            {.key_file = options.key_file,
+             .federation = federation,
+             .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}},
+            now_s),
+      server_(serving_.server()),
+      records_(options.record) {
+  serving_.host().add(gate_.transport());
+  if (!options.evidence.empty())
+    serving_.collect_evidence({.seed = options.seed,
+                               .clients = options.clients,
+                               .from_s = begin_s_ + options.warm_up_s,
+                               .until_s = begin_s_ + options.duration_s},
+                              options.rate_hz);
+}
+
+std::optional<Hosting> ServerProcess::hosting_of(const ServeOptions& options) {
+  if (options.hosted.empty()) return std::nullopt;
+  return Hosting{.times = {.countdown_s = options.countdown_s, .patience_s = options.absence_s},
+                 .scene_text = scene_text(options.scene)};
+}
+
+double ServerProcess::simulated_now() const {
+  return start_s_ == 0.0
+             ? begin_s_
+             : (options_.pace == "synchronous" ? server_.game().now()
+                                               : begin_s_ + std::max(0.0, now_s() - start_s_));
+}
+
+void ServerProcess::exchange_until(double until_s) {
+  do serving_.exchange(std::min(0.25, until_s - now_s()));
+  while (now_s() < until_s && !is_interrupted);
+}
+
+/// However long the players think, silence is noticed and the RTI is heard to live.
+void ServerProcess::await_turns() {
+  while (!is_interrupted && server_.trouble().empty() && !server_.may_step()) {
+    serving_.exchange(0.25);
+    serving_.host().advance_clock(now_s());
+  }
+}
+
+/// The clock of the RTI goes on whatever the players do: frozen while they made their way to the
+/// barrier, it let the server's own federate hear nothing for so long that it took the RTI for
+/// dead, and its next update was refused with "join first". With datagrams, which nothing holds
+/// back, crowds took that long.
+void ServerProcess::wait(double seconds) {
+  TickCosts uncounted;
+  serving_.exchange(seconds);
+  if (server_.is_joined() && server_.trouble().empty())
+    serving_.send(begin_s_, not_started_s, uncounted);
+  serving_.host().advance_clock(now_s());
+}
+
+bool ServerProcess::start() {
+  const double give_up_s = now_s() + options_.patience_s;
+  const auto may_wait = [&] {
+    return !is_interrupted && server_.trouble().empty() && now_s() <= give_up_s;
+  };
+  const auto are_all_there = [&] {
+    return server_.is_joined() && server_.player_count() >= options_.clients;
+  };
+  while (!are_all_there() && may_wait()) wait(0.02);
+  if (!are_all_there()) return false;
+  server_.call_to_start();
+  while (!server_.is_started() && may_wait()) wait(0.005);
+  return server_.is_started();
+}
+
+void ServerProcess::tick(std::uint64_t number, bool is_counted) {
+  const double period_s = 1.0 / options_.rate_hz,
+               elapsed_s = static_cast<double>(number) * period_s;
+  const double simulated_s =
+      options_.hosted.empty() ? begin_s_ + elapsed_s : server_.follow_match(elapsed_s);
+  const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + elapsed_s;
+  const TickCosts tick = serving_.tick(simulated_s, due_s);
+  keep_records();
+  report_flood();
+  if (!is_counted) return;
+  costs_.physics_s += tick.physics_s;
+  costs_.filter_s += tick.filter_s;
+  costs_.send_s += tick.send_s;
+  costs_.send_max_s = std::max(costs_.send_max_s, tick.send_s);
+  ++costs_.ticks;
+  if (now_s() <= due_s + period_s) ++costs_.ticks_on_time;
+}
+
+void ServerProcess::run() {
+  constexpr double lead_s = 0.1;  // so that the first tick is not late
+  start_s_ = now_s() + lead_s;
+  const std::uint64_t last =
+      options_.duration_s > 0.0
+          ? static_cast<std::uint64_t>(std::floor(options_.duration_s * options_.rate_hz + 1e-9))
+          : ~0ull;
+  bool is_measuring = false;
+  for (std::uint64_t number = 0; number <= last && !is_interrupted && server_.trouble().empty();
+       ++number) {
+    const double simulated_s = static_cast<double>(number) / options_.rate_hz;
+    if (options_.pace == "synchronous") await_turns();
+    else exchange_until(start_s_ + simulated_s);
+    if (is_interrupted || !server_.trouble().empty()) break;
+    if (!is_measuring && simulated_s >= options_.warm_up_s) {
+      is_measuring = true;
+      costs_.from_s = now_s();
+      staggered_.forget_bursts();
+      costs_.begin = counts_of(serving_, sockets_.totals());
+    }
+    // The last tick closes the span and is not in it: n ticks, and the n periods that they begin.
+    if (is_measuring && number == last) end_span();
+    tick(number, is_measuring && number < last);
+  }
+  if (is_measuring && !costs_.has_ended) end_span();
+}
+
+void ServerProcess::end_span() {
+  costs_.has_ended = true;
+  costs_.span_s = now_s() - costs_.from_s;
+  costs_.end = counts_of(serving_, sockets_.totals());
+}
+
+std::string ServerProcess::missing() const {
+  std::vector<std::string> absent = options_.members;
+  for (const rti::FederateReport& each : serving_.execution().report().federates)
+    std::erase(absent, each.name);
+  std::string names;
+  for (const std::string& each : absent) names += (names.empty() ? "; missing: " : ", ") + each;
+  return names;
+}
+
+void ServerProcess::end() {
+  const double give_up_s = now_s() + (is_interrupted ? 0.0 : 2.0);
+  while (server_.player_count() > 0 && now_s() < give_up_s) serving_.exchange(0.01);
+  if (options_.hosted.empty()) return;
+  server_.finish_record();
+  keep_records();
+}
+
+void ServerProcess::try_records() {
+  if (options_.hosted.empty()) return;
+  if (const auto trouble = records_.test())
+    complain(*trouble, "; matches are played without a record");
+}
+
+/// Once: who sends too much could fill the terminal as well.
+void ServerProcess::report_flood() {
+  const ServerCounters& counters = server_.counters();
+  if (counters.keys_over_limit == 0 || std::exchange(is_flood_reported_, true)) return;
+  warn("the player of ", bat_name(counters.player_over_limit), " sends more than ",
+       options_.key_limit_per_s, " key changes a second (--key-limit): what is more is not felt");
+}
+
+/// Players are told on their screens if there is none.
+void ServerProcess::keep_records() {
+  for (const KeyLog& log : server_.take_finished()) {
+    if (const auto trouble = records_.keep(log)) complain(*trouble, "; matches go on");
+    server_.set_unrecorded(records_.is_failing());
+  }
+}
+
+std::optional<ServerEvidence> ServerProcess::evidence(const ServedGame& played) const {
+  std::optional<ServerEvidence> evidence = serving_.evidence();
+  if (!evidence) return std::nullopt;
+  evidence->choice = played.choice;
+  evidence->state_file = options_.from_state;
+  evidence->state = played.state;
+  evidence->scheme = options_.scheme;
+  evidence->policy = options_.policy;
+  return evidence;
+}
+
+Json ServerProcess::report() const {
+  const double ticks = std::max<double>(1.0, static_cast<double>(costs_.ticks));
+  std::string why_invalid = server_.trouble();
+  if (is_interrupted) why_invalid = "interrupted";
+  if (why_invalid.empty() && costs_.ticks == 0) why_invalid = "no tick was measured";
+  Json report{{"mode", "client-server"},
+              {"scheme", options_.scheme},
+              {"policy", options_.policy},
+              {"threshold", options_.threshold},
+              {"clients", options_.clients},
+              {"seed", options_.seed},
+              {"tick_rate_hz", options_.rate_hz},
+              {"pace", options_.pace},
+              {"time_managed", options_.is_time_managed},
+              {"ticks", costs_.ticks},
+              {"ticks_on_time_fraction", static_cast<double>(costs_.ticks_on_time) / ticks},
+              {"physics_us_per_tick", 1e6 * costs_.physics_s / ticks},
+              {"filter_us_per_tick", 1e6 * costs_.filter_s / ticks},
+              {"send_us_per_tick", 1e6 * costs_.send_s / ticks},
+              {"send_us_max", 1e6 * costs_.send_max_s},
+              {"spread", options_.spread},
+              {"burst_bytes_max", staggered_.burst_bytes_max()},
+              {"server_rss_bytes", resident_bytes()},
+              {"evidence_bytes", serving_.evidence_bytes()},
+              {"measured_s", costs_.span_s},
+              {"valid", why_invalid.empty()},
+              {"why_invalid", why_invalid}};
+  report.update(counted_report(serving_, costs_.begin, costs_.end));
+  return report;
+}
+
+}  // namespace rink::game

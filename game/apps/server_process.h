@@ -1,0 +1,83 @@
+// rink serve while it runs: the clients' transport, the wall clock, and the loop that ticks.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "game/control/match_records.h"
+#include "game/net/evidence.h"
+#include "game/net/gate.h"
+#include "game/net/server/serve_game.h"
+#include "game/net/server/serve_options.h"
+#include "game/net/server/serve_report.h"
+#include "game/net/server/serving.h"
+#include "rti/second_core.h"
+#include "rti/transport/socket_transport.h"
+#include "rti/transport/staggered_transport.h"
+
+namespace rink::game {
+
+/// What the run cost, summed over the measured ticks.
+struct Costs {
+  std::uint64_t ticks = 0, ticks_on_time = 0;
+  double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, send_max_s = 0.0;
+  double from_s = 0.0,
+         span_s = 0.0;  ///< the measured span: when it began on the clock, and its length
+  bool has_ended = false;
+  ServingCounts begin, end;
+};
+
+/// The server process: the clients' transport, the wall clock, and the loop that ticks.
+class ServerProcess {
+ public:
+  ServerProcess(const ServeOptions& options, const rti::Fom& fom, const ServedGame& played,
+                const std::string& federation);
+
+  /// Says at once if matches cannot be recorded; they can be played all the same.
+  void try_records();
+  std::uint16_t listen() { return sockets_.listen(options_.address, options_.port); }
+
+  /// Waits for the players and the start barrier; false if they did not all come in time.
+  bool start();
+  void run();
+  /// Lets the clients take their leave.
+  void end();
+
+  const Server& server() const { return server_; }
+  /// Whom the federation file lists and who has not come, as a clause of a complaint; empty if
+  /// none.
+  std::string missing() const;
+  nlohmann::ordered_json report() const;
+  /// What the run was and what its filter decided, if `--evidence` asked for it.
+  std::optional<ServerEvidence> evidence(const ServedGame& played) const;
+  /// What the connections carried from first to last.
+  rti::TransportCounters totals() const { return sockets_.totals(); }
+
+ private:
+  static std::optional<Hosting> hosting_of(const ServeOptions& options);
+  double simulated_now() const;
+  void wait(double seconds);
+  void exchange_until(double until_s);
+  void await_turns();
+  void tick(std::uint64_t number, bool is_counted);
+  void end_span();
+  void keep_records();
+  void report_flood();
+
+  ServeOptions options_;
+  double begin_s_;  ///< simulated instant at which the game begins
+  rti::SocketTransport sockets_;
+  std::optional<rti::SecondCore> second_core_;
+  Serving serving_;
+  rti::StaggeredTransport staggered_;
+  Gate gate_;
+  Server& server_;
+  MatchRecords records_;
+  double start_s_ = 0.0;
+  bool is_flood_reported_ = false;
+  Costs costs_;
+};
+
+}  // namespace rink::game
