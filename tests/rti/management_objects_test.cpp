@@ -2,94 +2,17 @@
 // and when it changes, and nothing at all while nobody subscribes.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "rti/management/management_values.h"
 #include "tests/rti/bare.h"
-#include "tests/rti/errors.h"
 #include "tests/rti/rig.h"
+#include "tests/rti/warden.h"
 
 namespace rink::rti::testing {
 namespace {
-
-const ObjectClassHandle federate_class =
-    *harbour().object_class("HLAobjectRoot.HLAmanager.HLAfederate");
-const ObjectClassHandle federation_class =
-    *harbour().object_class("HLAobjectRoot.HLAmanager.HLAfederation");
-
-InteractionClassHandle manager_interaction(const std::string& name) {
-  return *harbour().interaction_class("HLAinteractionRoot.HLAmanager." + name);
-}
-
-/// Subscribes to all of the management object model, and reads what it hears.
-class Warden {
- public:
-  explicit Warden(Rig& rig) : rig_(rig), station_(rig.join("warden")) {
-    station_.ambassador.subscribe_object_class_attributes(federate_class,
-                                                          harbour().attributes(federate_class));
-    station_.ambassador.subscribe_object_class_attributes(federation_class,
-                                                          harbour().attributes(federation_class));
-    rig.settle();
-  }
-  Ambassador& ambassador() { return station_.ambassador; }
-  Recorder& heard() { return station_.heard; }
-  /// The object of the federate of that name; none if there is none.
-  ObjectHandle object_of(const std::string& name) const {
-    for (const auto& [object, known] : station_.heard.objects)
-      if (known.object_class == federate_class &&
-          text(ObjectHandle{object}, "HLAfederateName") == name)
-        return {object};
-    return {};
-  }
-  ObjectHandle federation() const {
-    for (const auto& [object, known] : station_.heard.objects)
-      if (known.object_class == federation_class) return {object};
-    return {};
-  }
-  std::int32_t count(const std::string& federate, const char* attribute) const {
-    return reader(object_of(federate), attribute).count();
-  }
-  double time(const std::string& federate, const char* attribute) const {
-    return reader(object_of(federate), attribute).time();
-  }
-  std::string text(ObjectHandle object, const char* attribute) const {
-    return std::string(reader(object, attribute).text());
-  }
-  ManagementReader reader(ObjectHandle object, const char* attribute) const {
-    static const std::vector<std::byte> nothing;
-    const auto known = station_.heard.objects.find(object.value);
-    if (known == station_.heard.objects.end()) return ManagementReader(nothing);
-    const auto value = known->second.values.find(
-        harbour().attribute(known->second.object_class, attribute)->value);
-    return ManagementReader(value == known->second.values.end() ? nothing : value->second);
-  }
-  /// Asks for the current values of all that it knows.
-  void ask() {
-    station_.ambassador.request_attribute_value_update(federate_class,
-                                                       harbour().attributes(federate_class));
-    rig_.settle();
-  }
-  void send(const std::string& name, const std::vector<std::byte>& parameters) {
-    station_.ambassador.publish_interaction_class(manager_interaction(name));
-    station_.ambassador.send_interaction(manager_interaction(name), parameters, {});
-    rig_.settle();
-  }
-
- private:
-  Rig& rig_;
-  Station& station_;
-};
-
-std::vector<std::byte> written(auto write) {
-  std::vector<std::byte> bytes;
-  write(ManagementWriter(bytes));
-  return bytes;
-}
-
-std::vector<std::byte> timing(FederateHandle federate, std::uint64_t period) {
-  return written([&](ManagementWriter to) { to.handle(federate.value), to.count(period); });
-}
 
 class ManagementObjects : public ::testing::TestWithParam<Carrier> {};
 
@@ -345,101 +268,6 @@ TEST(ManagementObjectModel, AutoProvideAsksOwnersWhenSomebodyDiscovers) {
   ambassador.register_object_instance(vessel);
   tick(), tick(), tick();
   EXPECT_EQ(owner.asked, 1);
-}
-
-TEST(ManagementObjectModel, IsTheRtisToSpeakOf) {
-  Rig rig(Carrier::in_process);
-  Warden warden(rig);
-  EXPECT_EQ(error_thrown_by([&] {
-              warden.ambassador().publish_object_class_attributes(federate_class, AttributeSet(1));
-            }),
-            HlaError::unauthorized);
-  EXPECT_EQ(error_thrown_by([&] {
-              warden.ambassador().publish_interaction_class(
-                  manager_interaction("HLAfederate.HLAreport.HLAreportObjectClassPublication"));
-            }),
-            HlaError::unauthorized);
-  EXPECT_EQ(error_thrown_by([&] { warden.ambassador().register_object_instance(federate_class); }),
-            HlaError::object_class_not_published);
-  EXPECT_EQ(error_thrown_by([&] {
-              warden.ambassador().attribute_ownership_acquisition(warden.object_of("warden"),
-                                                                  AttributeSet(1));
-            }),
-            HlaError::object_class_not_published);
-  warden.ambassador().query_attribute_ownership(warden.object_of("warden"), AttributeHandle{0});
-  rig.settle();
-  EXPECT_TRUE(warden.heard().lost.empty());
-}
-
-TEST(ManagementObjectModel, StrangersWhoForgeItAreDroppedAndNobodyElseNotices) {
-  const auto drop_of = [](auto message) {
-    Bare bare;
-    bare.execution.connect(1);
-    bare.execution.receive(1, frame_of(join_of("stranger")));
-    bare.tick();
-    bare.execution.receive(1,
-                           frame_of(PublishInteractionClassMessage{
-                               static_cast<std::uint16_t>(
-                                   manager_interaction("HLAfederate.HLAadjust.HLAsetTiming").value),
-                               1}));
-    bare.execution.receive(1, frame_of(message));
-    bare.tick();
-    EXPECT_TRUE(bare.witness.is_joined());
-    const auto& drops = bare.execution.counters().drops;
-    for (std::size_t i = 0; i < drops.size(); ++i)
-      if (drops[i] != 0) return std::string(to_string(static_cast<Violation>(i)));
-    return std::string("nothing");
-  };
-  const auto set_timing = [](Bytes parameters) {
-    return InteractionMessage{
-        static_cast<std::uint16_t>(manager_interaction("HLAfederate.HLAadjust.HLAsetTiming").value),
-        FederateHandle::none,
-        {},
-        parameters};
-  };
-  const std::vector<std::byte> good = timing({1}, 5), nobody = timing({99}, 5),
-                               backwards = timing({1}, 5), cut = values_of(1);
-  EXPECT_EQ(drop_of(PublishObjectClassMessage{static_cast<std::uint16_t>(federate_class.value), 1}),
-            "not owned");
-  EXPECT_EQ(drop_of(PublishInteractionClassMessage{
-                static_cast<std::uint16_t>(manager_interaction("HLAfederate.HLAreport").value), 1}),
-            "not owned");
-  EXPECT_EQ(drop_of(set_timing(good)), "nothing");
-  EXPECT_EQ(drop_of(set_timing(nobody)), "malformed");
-  EXPECT_EQ(drop_of(set_timing(cut)), "malformed");
-}
-
-TEST(ManagementObjectModel, NoFederatesModelRedefinesIt) {
-  const auto complaint = [](const std::string& xml) {
-    try {
-      Fom::parse(xml, "own.xml");
-    } catch (const FileError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
-  };
-  EXPECT_EQ(complaint("<objectModel><objects><objectClass><name>HLAobjectRoot</"
-                      "name>\n<objectClass><name>HLAmanager</name></objectClass></objectClass></"
-                      "objects></objectModel>"),
-            "own.xml:2: <objectClass> 'HLAmanager': names that begin with HLA are the standard's");
-  EXPECT_EQ(
-      complaint(
-          "<objectModel><objects/><interactions><interactionClass><name>HLAinteractionRoot</"
-          "name>\n<interactionClass><name>HLAmanager</name></interactionClass></interactionClass>"
-          "</interactions></objectModel>"),
-      "own.xml:2: <interactionClass> 'HLAmanager': names that begin with HLA are the standard's");
-}
-
-TEST(ManagementObjectModel, StandsBehindAModelsOwnClassesAndIsNoPartOfItsHash) {
-  EXPECT_FALSE(harbour().is_management(ferry));
-  EXPECT_TRUE(harbour().is_management(federate_class));
-  const Fom bare = Fom::parse(
-      "<objectModel><objects><objectClass><name>Root</name></objectClass></objects></objectModel>",
-      "bare.xml");
-  EXPECT_EQ(bare.object_class("Root"), ObjectClassHandle{0});
-  EXPECT_TRUE(bare.object_class("HLAobjectRoot.HLAmanager.HLAfederate"));
-  EXPECT_TRUE(
-      bare.interaction_class("HLAinteractionRoot.HLAmanager.HLAfederate.HLAadjust.HLAsetTiming"));
 }
 
 }  // namespace
