@@ -1,98 +1,23 @@
-// A rink of one bat and three pucks in which every figure of truth is known by arithmetic.
-#include "loadgen/measure/truth/truth.h"
+// The figures of truth of a tiny rink, each against its arithmetic.
+#include "tests/loadgen/run/tiny_rink.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
-#include "game/model/random_stream.h"
-#include "game/net/evidence.h"
-#include "game/net/evidence_lines.h"
-#include "game/net/peer/peer_evidence.h"
-#include "loadgen/measure/truth/classification.h"
-#include "loadgen/measure/truth/scope_history.h"
-#include "loadgen/measure/truth/stays.h"
-#include "tests/loadgen/measure/areas.h"
-#include "tests/temporary_folder.h"
+#include "game/control/game.h"
+#include "game/model/key.h"
+#include "game/net/scene_choice.h"
+#include "loadgen/measure/truth/truth.h"
 
 namespace rink::loadgen {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
-
-/// One bat at rest in the middle of a field without drag; three pucks: one at rest beside it, one
-/// that flies by, one far away.
-class TinyRink : public testing::Test {
- protected:
-  static constexpr double view_half_side = 1.0;
-  static constexpr std::uint32_t bat = 0, still = 1, flying = 2,
-                                 far = 3;  // bodies in the order of their making
-
-  void SetUp() override {
-    scene_file_ = (folder_ / "tiny.toml").string();
-    std::ofstream(scene_file_) << R"(
-[field]
-length = 20.0
-width = 20.0
-material = "ice"
-[materials]
-names = ["ice"]
-restitution = 1.0
-[drag]
-pucks = 0.0
-bats = 0.0
-[[bat]]
-position = [10.0, 10.0]
-half_extent = [0.1, 0.1]
-material = "ice"
-[[puck]]
-position = [10.5, 10.5]
-radius = 0.1
-material = "ice"
-[[puck]]
-position = [8.0, 9.5]
-velocity = [1.0, 0.0]
-radius = 0.1
-material = "ice"
-[[puck]]
-position = [2.0, 2.0]
-radius = 0.1
-material = "ice"
-)";
-    server_.choice.scene = scene_file_;
-    server_.clients = 1;
-    server_.rate_hz = 10.0;
-    server_.until_s = server_.end_s = 4.0;
-    for (std::uint32_t body = 0; body < 4; ++body) server_.objects.push_back({100 + body, body});
-    game::Game game(game::chosen_scene(server_.choice));
-    game.advance(server_.end_s);
-    server_.state_hash = game.hash();
-    bots_.clients = 1;
-    bots_.until_s = 4.0;
-    bots_.bots.push_back({100 + bat, {{-1.0, 100 + bat, true}, {-1.0, 100 + still, true}}});
-  }
-
-  void decide(double instant_s, const std::vector<std::uint32_t>& bodies) {
-    const std::size_t first = server_.in_scope.size();
-    for (const std::uint32_t body : bodies) server_.in_scope.push_back(100 + body);
-    server_.decisions.push_back({instant_s, 0, first, server_.in_scope.size()});
-  }
-  TruthFigures judged(const RelevanceArea& area = {RelevanceArea::Shape::square,
-                                                   view_half_side}) const {
-    return truth_of(server_, bots_, area);
-  }
-
-  test::TemporaryFolder folder_{"truth"};
-  std::string scene_file_;
-  game::ServerEvidence server_;
-  BotsEvidence bots_;
-};
 
 // The flying puck's box touches the square from x = 8.9 on, at 0.9 s, until x = 11.1, at 3.1 s.
 TEST_F(TinyRink, FilterDecisionsAreHeldAgainstWhereThingsWereWhenTheyWereInForce) {
@@ -314,117 +239,6 @@ TEST_F(TinyRink, ChurnIsThatOfTheSpanPerWatchedPlayerAndSecond) {
       << "at 1.5 and 2.5 s; what happens at the end is after it";
   bots_.bots.push_back({100 + far, {}});  // another player, at rest where nothing comes by
   EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 2.0 / 2.5 / 2.0);
-}
-
-TEST_F(TinyRink, AnotherGameThanTheServersIsRefused) {
-  server_.state_hash ^= 1;
-  EXPECT_THROW(judged(), DifferentGame);
-}
-
-TEST_F(TinyRink, EvidenceReadsBackAsItWasWritten) {
-  decide(0.5, {bat, still, far});
-  server_.keys = {
-      {.time = 0.1 + 0.2, .player = 0, .kind = game::InputKind::key_up, .key = game::Key::down}};
-  server_.ticks = {{0.1, 1e-6, 2e-6, 3.5e-6}};
-  server_.scheme = "grid";
-  const std::string file = (folder_ / "server.jsonl").string();
-  write_evidence(file, server_);
-  const game::ServerEvidence read = game::read_server_evidence(file);
-  EXPECT_EQ(read.choice, server_.choice);
-  EXPECT_EQ(read.keys, server_.keys);
-  EXPECT_EQ(read.in_scope, server_.in_scope);
-  EXPECT_EQ(read.scheme, "grid");
-  EXPECT_EQ(read.state_hash, server_.state_hash);
-  EXPECT_NEAR(read.ticks.at(0).send_s, 3.5e-6, 1e-15);
-
-  bots_.beliefs.push_back({.object = 7,
-                           .bytes = 8,
-                           .is_in_scope = true,
-                           .matched = {1.25, -2.5},
-                           .displayed = {1.5, -2.5}});
-  bots_.samples.push_back(
-      {.bot = 0, .displayed_s = 0.7, .matched_s = 0.6, .window_s = 0.05, .first = 0, .last = 1});
-  const std::string bots_file = (folder_ / "bots.jsonl").string();
-  write_evidence(bots_file, bots_);
-  const BotsEvidence bots = read_bots_evidence(bots_file);
-  ASSERT_EQ(bots.beliefs.size(), 1u);
-  EXPECT_EQ(bots.beliefs[0].displayed, Vector2(1.5, -2.5));
-  EXPECT_EQ(bots.bots.at(0).changes.size(), 2u);
-  EXPECT_EQ(bots.samples.at(0).matched_s, 0.6);
-}
-
-TEST_F(TinyRink, EvidenceOfAnotherVersionIsRefusedByBothNumbers) {
-  const auto words_of = [&](const char* key, const auto& read) {
-    const std::string file = (folder_ / "other.jsonl").string();
-    game::EvidenceWriter writer(file);
-    writer.line(nlohmann::ordered_json{{key, 3}});
-    writer.finish();
-    try {
-      read(file);
-    } catch (const game::EvidenceError& error) {
-      return std::string(error.what());
-    }
-    return std::string("(accepted)");
-  };
-  EXPECT_THAT(
-      words_of("rink-server-evidence", game::read_server_evidence),
-      HasSubstr("other.jsonl:1: expected a server's evidence of version 2, found version 3"));
-  EXPECT_THAT(words_of("rink-peer-evidence", game::read_peer_evidence),
-              HasSubstr("expected a peer's evidence of version 1, found version 3"));
-  EXPECT_THAT(words_of("rink-bots-evidence", read_bots_evidence),
-              HasSubstr("expected the bots' evidence of version 1, found version 3"));
-  EXPECT_THAT(words_of("rink-bots-evidence", game::read_server_evidence),
-              HasSubstr("expected a server's evidence of version 2, found something else"));
-}
-
-TEST_F(TinyRink, SpoiltEvidenceCostsTheFiguresOfTruthAndNothingElse) {
-  const std::string server_file = (folder_ / "server.jsonl").string(),
-                    bots_file = (folder_ / "bots.jsonl").string();
-  const auto judged_with = [&](auto&& spoil) {
-    write_evidence(server_file, server_);
-    write_evidence(bots_file, bots_);
-    std::ostringstream text;
-    text << std::ifstream(server_file).rdbuf();
-    const std::string spoilt = spoil(text.str());
-    std::ofstream(server_file) << spoilt;
-    RunRecord record;
-    record.valid = true;
-    record.down_bytes_per_client_per_s = 5.0;
-    record.cell.parameters.view_fraction = 0.01;
-    const Experiment experiment;
-    add_truth(record, experiment, server_file, bots_file);
-    EXPECT_EQ(record.down_bytes_per_client_per_s, 5.0);
-    return record;
-  };
-  const RunRecord sound = judged_with([](const std::string& text) { return text; });
-  EXPECT_TRUE(sound.valid && sound.truth.trouble.empty()) << sound.truth.trouble;
-  EXPECT_TRUE(sound.truth.interactions);
-  const auto trouble = [&](auto&& spoil) {
-    const RunRecord record = judged_with(spoil);
-    EXPECT_TRUE(record.valid);
-    EXPECT_FALSE(record.truth.interactions);
-    return record.truth.trouble;
-  };
-  EXPECT_THAT(trouble([](std::string text) { return text.substr(0, text.size() / 2); }),
-              HasSubstr("server.jsonl: truncated or altered"));
-  EXPECT_THAT(trouble([](std::string text) {
-                return text.replace(text.find("\"rate_hz\":10"), 12, "\"rate_hz\":11");
-              }),
-              HasSubstr("altered"));
-  EXPECT_THAT(trouble([](std::string) { return std::string(); }), HasSubstr("truncated"));
-  EXPECT_THAT(trouble([&](std::string text) {
-                std::filesystem::remove(bots_file);
-                return text;
-              }),
-              HasSubstr("bots.jsonl: cannot be read"));
-  bots_.is_complete = false;
-  EXPECT_THAT(trouble([](const std::string& text) { return text; }),
-              HasSubstr("bots.jsonl: more scopes changed than there was room for"));
-  bots_.is_complete = true;
-  server_.state_hash ^= 1;
-  const RunRecord other = judged_with([](std::string text) { return text; });
-  EXPECT_FALSE(other.valid);
-  EXPECT_THAT(other.why_invalid, HasSubstr("does not end in the server's state"));
 }
 
 }  // namespace
