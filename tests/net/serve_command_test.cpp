@@ -1,5 +1,5 @@
-// The commands rink-serve and rink-bots from their arguments to their exit status and last words,
-// as a careless user would start them.
+// The command rink-serve from its arguments to its exit status and last words, as a careless user
+// would start it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,16 +7,18 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "game/control/replay.h"
 #include "game/net/address.h"
 #include "game/net/fom_file.h"
 #include "game/net/server/serve_status.h"
 #include "game/replication/names.h"
-#include "game/replication/trajectory_codec.h"
 #include "loadgen/run/process.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/tcp/tcp.h"
@@ -273,56 +275,6 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
               HasSubstr("lists 2"));
 }
 
-TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
-  Process server(test::binary_folder() + "/bin/rink-serve",
-                 {"--scene", "match", "--port", "0", "--scheme", "grid"}, {});
-  const std::optional<std::string> place = place_of(server);
-  ASSERT_TRUE(place) << server.last_words();
-  Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place}, {});
-  for (int i = 0; i < 500 && !status.ending(); ++i) status.attend(10ms);
-  ASSERT_TRUE(status.ending());
-  EXPECT_EQ(status.ending()->exit_status, 0) << status.last_words();
-  EXPECT_THAT(status.line_after("federation rink: ").value_or(""),
-              testing::AllOf(HasSubstr("filter grid"), HasSubstr("1 federates"),
-                             HasSubstr("connections dropped: none")));
-  EXPECT_TRUE(status.line_after("server ")) << "the server's own federate has a line";
-  server.stop(5s);
-  const Ended nobody = run("rink-serve", {"--status", *place});
-  EXPECT_EQ(nobody.status, 11);
-  EXPECT_THAT(nobody.words,
-              testing::AllOf(HasSubstr("--status: " + *place + ": nobody listens there"),
-                             HasSubstr("refused")));
-}
-
-/// Somebody who listens and speaks something else, or nothing.
-struct Foreigner : rti::TransportListener {
-  rti::TcpTransport tcp;
-  std::uint16_t port = tcp.listen("127.0.0.1", 0);
-  bool hangs_up = false;
-  void on_open(rti::ConnectionId) override {}
-  void on_bytes(rti::ConnectionId connection, rti::Bytes) override {
-    if (hangs_up) tcp.close(connection);
-  }
-  void on_close(rti::ConnectionId, rti::CloseReason, const std::string&) override {}
-};
-
-TEST(ServeCommand, StatusTellsARefusalFromSomebodyWhoSpeaksAnotherProtocol) {
-  for (const bool hangs_up : {true, false}) {
-    Foreigner foreigner;
-    foreigner.hangs_up = hangs_up;
-    Process status(test::binary_folder() + "/bin/rink-serve",
-                   {"--status", "127.0.0.1:" + std::to_string(foreigner.port)}, {});
-    for (int i = 0; i < 1000 && !status.ending(); ++i)
-      status.attend(5ms), foreigner.tcp.poll(5ms, foreigner);
-    ASSERT_TRUE(status.ending());
-    EXPECT_EQ(status.ending()->exit_status, 11);
-    EXPECT_THAT(status.last_words(),
-                HasSubstr("does not speak version " + std::to_string(rti::protocol_version)));
-    EXPECT_THAT(status.last_words(),
-                HasSubstr(hangs_up ? "closed by peer" : "no answer within 3 s"));
-  }
-}
-
 TEST(ServeCommand, APlayerWhoNeverGetsReadyCostsTheServerNothingButThePatience) {
   Process server(test::binary_folder() + "/bin/rink-serve",
                  {"--scene", "match", "--clients", "1", "--patience", "7", "--port", "0"}, {});
@@ -348,65 +300,6 @@ TEST(ServeCommand, APlayerWhoNeverGetsReadyCostsTheServerNothingButThePatience) 
   EXPECT_EQ(server.ending()->exit_status, 17) << "players did not come";
   EXPECT_THAT(server.last_words(),
               HasSubstr("1 players came, but not all were ready to start within 7 s"));
-}
-
-/// What is printed later is what is true later: a federate who came in between is there.
-TEST(ServeCommand, StatusAsksAgainWhenToldTo) {
-  Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0"},
-                 {});
-  const std::optional<std::string> place = place_of(server);
-  ASSERT_TRUE(place) << server.last_words();
-  Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place, "--every", "0.05"},
-                 {});
-  for (int i = 0; i < 200 && !status.line_after("server "); ++i) status.attend(20ms);
-  EXPECT_TRUE(status.line_after("server ")) << status.last_words();
-  EXPECT_FALSE(status.line_after("Ada "));
-  Guest guest(*place, {.name = "Ada", .only_watches = true});
-  for (int i = 0; i < 400 && !status.line_after("Ada "); ++i) guest.exchange(), status.attend(5ms);
-  EXPECT_TRUE(status.line_after("Ada ")) << "it asked before Ada came, and again since then";
-  EXPECT_FALSE(status.ending()) << "it goes on until it is interrupted: " << status.last_words();
-  status.stop(5s);
-  EXPECT_EQ(status.ending()->exit_status, 0);
-}
-
-TEST(BotsCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
-  for (const char* flag :
-       {"--count", "--first", "--view", "--duration", "--warm-up", "--patience"}) {
-    for (const char* value : {"nan", "inf", "-1", "1e300", "4000000000", "x"}) {
-      const Ended ended = run("rink-bots", {flag, value});
-      EXPECT_EQ(ended.status, 2) << flag << ' ' << value;
-      EXPECT_THAT(ended.words, HasSubstr("is not a number from")) << flag << ' ' << value;
-    }
-  }
-}
-
-TEST(BotsCommand, BotsThatWantDatagramsOfAServerWithoutAreToldToLookAtItsTransport) {
-  Process server(test::binary_folder() + "/bin/rink-serve",
-                 {"--scene", "match", "--clients", "2", "--port", "0"}, {});
-  const std::optional<std::string> place = place_of(server);
-  ASSERT_TRUE(place) << server.last_words();
-  const Ended bots = run(
-      "rink-bots", {"--connect", *place, "--transport", "udp", "--count", "2", "--duration", "1"});
-  EXPECT_EQ(bots.status, 16);
-  EXPECT_THAT(bots.words, HasSubstr("does the server use another transport than udp?"));
-}
-
-TEST(BotsCommand, AServerThatIsKilledEndsThemAtOnceWithAStatusOfItsOwn) {
-  auto server = std::make_unique<Process>(
-      test::binary_folder() + "/bin/rink-serve",
-      std::vector<std::string>{"--scene", "match", "--clients", "2", "--port", "0"},
-      std::vector<int>{});
-  const std::optional<std::string> place = place_of(*server);
-  ASSERT_TRUE(place) << server->last_words();
-  Process bots(test::binary_folder() + "/bin/rink-bots",
-               {"--connect", *place, "--count", "2", "--duration", "60"}, {});
-  for (int i = 0; i < 50; ++i) bots.attend(20ms);
-  ASSERT_FALSE(bots.ending()) << bots.last_words();
-  server.reset();
-  for (int i = 0; i < 100 && !bots.ending(); ++i) bots.attend(20ms);
-  ASSERT_TRUE(bots.ending());
-  EXPECT_EQ(bots.ending()->exit_status, 16);
-  EXPECT_THAT(bots.last_words(), HasSubstr("lost: closed by peer"));
 }
 
 }  // namespace
