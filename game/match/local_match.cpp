@@ -76,7 +76,7 @@ void LocalMatch::rematch() {
 
 void LocalMatch::show() {
   const Game& game = playing_->game();
-  show_game(game, sight_);
+  game_sight_.show(game, sight_);
   sight_.phase = flow_.state().phase;
   sight_.remaining_s = std::max(0.0, flow_.state().until_s - now_s_);
   sight_.winner = flow_.state().winner;

@@ -73,6 +73,7 @@ class LocalMatch final : public MatchSource {
   double played_s_ = 0.0;  ///< simulated time of the present match; the game stops at multiples of
                            ///< key_grid, where hands press their keys
   MatchSight sight_;
+  GameSight game_sight_;
   NoiseDetector noises_;
   GoalWatch goals_;
 };

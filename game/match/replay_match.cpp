@@ -37,7 +37,7 @@ void ReplayMatch::advance(double now_s) {
   has_begun_ = true;
   now_s_ = now_s;
   replay_.seek(wanted_);
-  show_game(replay_.game(), sight_);
+  game_sight_.show(replay_.game(), sight_);
   sight_.phase = wanted_ == end() ? MatchPhase::over
                                   : MatchPhase::playing;  // one who stops it wants to look at it
   const Score& score = sight_.score;

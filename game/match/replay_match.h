@@ -42,6 +42,7 @@ class ReplayMatch final : public MatchSource {
   double now_s_ = 0.0, speed_ = 1.0;
   bool has_begun_ = false, is_paused_ = false, is_sought_ = false;
   MatchSight sight_;
+  GameSight game_sight_;
   NoiseDetector noises_;
   GoalWatch goals_;
 };

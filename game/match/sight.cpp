@@ -1,6 +1,9 @@
 // Things of a scene in their fixed order, and the memory of the last goal.
 #include "game/match/sight.h"
 
+#include <algorithm>
+#include <span>
+
 namespace rink::game {
 
 MatchSight sight_of(const Scene& scene) {
@@ -24,14 +27,42 @@ MatchSight sight_of(const Scene& scene) {
   return sight;
 }
 
-void show_game(const Game& game, MatchSight& sight) {
+namespace {
+
+/// Of pucks, those in play are shown, and once the match is over all.
+bool is_shown(const Game& game, const Entity& entity) {
+  return entity.kind != physics::BodyKind::puck || game.simulator().is_in_play(entity.id) ||
+         game.is_over();
+}
+
+}  // namespace
+
+void GameSight::show(const Game& game, MatchSight& sight) {
   sight.time = game.now();
   sight.score = game.score();
+  movers_.look(game.world());
+  const auto has_other_place = [&](physics::BodyId id) {
+    const bool is_there = game.is_there(id) && is_shown(game, game.entity(id));
+    return id.index >= place_of_.size() || is_there != (place_of_[id.index] != nowhere);
+  };
+  if (sight.things.size() != shown_ || game.is_over() != is_over_ ||
+      std::ranges::any_of(movers_.changed(), has_other_place))
+    return show_all(game, sight);
+  for (const std::span<const physics::BodyId> bodies : {movers_.changed(), movers_.moving()})
+    for (const physics::BodyId id : bodies) {
+      if (place_of_[id.index] == nowhere) continue;
+      Thing& thing = sight.things[place_of_[id.index]];
+      thing.position = game.position(id);
+      thing.velocity = game.velocity(id);
+    }
+}
+
+void GameSight::show_all(const Game& game, MatchSight& sight) {
   sight.things.clear();
+  place_of_.assign(game.world().body_count(), nowhere);
   for (const Entity& entity : game.entities()) {
-    if (entity.kind == physics::BodyKind::puck && !game.simulator().is_in_play(entity.id) &&
-        !game.is_over())
-      continue;
+    if (!is_shown(game, entity)) continue;
+    place_of_[entity.id.index] = static_cast<std::uint32_t>(sight.things.size());
     sight.things.push_back({.id = entity.id.index,
                             .kind = entity.kind,
                             .team = entity.team,
@@ -39,6 +70,8 @@ void show_game(const Game& game, MatchSight& sight) {
                             .velocity = game.velocity(entity.id),
                             .half_extent = entity.half_extent});
   }
+  shown_ = sight.things.size();
+  is_over_ = game.is_over();
 }
 
 void GoalWatch::look(MatchSight& sight, double now_s, double face_off_delay) {

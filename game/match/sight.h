@@ -1,7 +1,11 @@
 // The parts of a MatchSight that do not depend on where the match is played.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "game/match/match_source.h"
+#include "game/physics/movers.h"
 
 namespace rink::game {
 
@@ -9,8 +13,23 @@ namespace rink::game {
 /// in this order.
 MatchSight sight_of(const Scene& scene);
 
-/// Shows time, score and bodies of `game`; of pucks, those in play, and once the match is over all.
-void show_game(const Game& game, MatchSight& sight);
+/// Shows time, score and bodies of a game; of pucks, those in play, and once the match is over all.
+/// What rests where it was shown last costs nothing.
+class GameSight {
+ public:
+  /// `sight` must be the one of the last call, if any, but for its `things` if these were changed
+  /// in number.
+  void show(const Game& game, MatchSight& sight);
+
+ private:
+  static constexpr std::uint32_t nowhere = 0xffffffff;
+  void show_all(const Game& game, MatchSight& sight);
+
+  physics::Movers movers_;
+  std::vector<std::uint32_t> place_of_;  ///< by body: its place among the things that are shown
+  std::size_t shown_ = 0;
+  bool is_over_ = false;  ///< of the match that is shown
+};
 
 /// Follows who scored last and how long ago, until the puck is in play again.
 class GoalWatch {

@@ -35,6 +35,7 @@ Portion::Portion(const WorldSpec& spec, std::uint32_t body_count)
   e.builds_.assign(body_count, {1.0, 0.0, Vector2(0.0, 0.0), Vector2(0.0, 0.0), Half::both});
   e.laws_.assign(body_count, {Vector2(0.0, 0.0), Vector2::Constant(spec.puck_drag)});
   e.rhythms_.resize(body_count);
+  for (std::uint32_t body = 0; body < body_count; ++body) e.changes_.add(body);
   e.jams_.assign(body_count, 0);
   if (e.is_slowed())
     e.rest_times_.assign(body_count, infinity), e.slowing_.assign(body_count, Vector2(0.0, 0.0));
@@ -101,6 +102,7 @@ void Portion::write(std::uint32_t body, const BodyState& s) {
   b.inverse_mass = s.inverse_mass, b.kind = s.kind, b.material = s.material, b.mouth = s.mouth;
   b.flags = static_cast<std::uint8_t>(kept | s.flags);
   ++b.version;
+  e.changes_.note(body);
   e.builds_[body] = {s.mass, s.inverse_mass, s.half_extent, s.thrust, s.half};
   e.laws_[body] = {s.acceleration, s.drag};
   Engine::Rhythm& rhythm = e.rhythms_[body];

@@ -86,6 +86,11 @@ std::uint32_t BasicWorld<Real>::motion_version(BodyId body) const {
 }
 
 template <class Real>
+std::span<const BodyId> BasicWorld<Real>::changed(ChangeCursor& cursor) const {
+  return engine_->changes_.read(cursor, body_count());
+}
+
+template <class Real>
 BasicVector2<Real> BasicWorld<Real>::position(BodyId body) const {
   const BasicMotion<Real> m = motion(body);
   return is_in_play(body) ? m.at(engine_->now_).position : m.position;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "game/physics/body.h"
+#include "game/physics/change_log.h"
 #include "game/physics/counters.h"
 #include "game/physics/flight/motion.h"
 
@@ -79,6 +80,11 @@ class BasicWorld {
   BasicMotion<Real> motion(BodyId body) const;
   /// Grows by one or more whenever motion() changes.
   std::uint32_t motion_version(BodyId body) const;
+  /// Who moves on otherwise since `cursor` was read last: whose motion() changed, who was added,
+  /// removed or scored; in no order, and perhaps more than once. Everybody at the first reading,
+  /// and after a long time without one. Valid until anything else is asked of the world; readers do
+  /// not disturb each other, but they must share a thread.
+  std::span<const BodyId> changed(ChangeCursor& cursor) const;
 
   std::uint32_t body_count() const;  ///< bodies ever added; valid ids are below
   BodyKind kind(BodyId body) const;

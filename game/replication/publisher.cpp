@@ -1,12 +1,25 @@
 // Registers what came, deletes what went, and sends what moved, in that order.
 #include "game/replication/publisher.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "game/replication/names.h"
 #include "game/replication/trajectory.h"
+#include "rti/time/federate_clock.h"
 
 namespace rink::game {
+namespace {
+
+/// `felt`: see Publisher::publish.
+Input input_of(const Game& game, const Entity& entity, std::span<const std::uint32_t> felt) {
+  if (!entity.player) return {};
+  return {.count = *entity.player < felt.size() ? felt[*entity.player] : 0u,
+          .held = game.keys_held(*entity.player).bits()};
+}
+
+}  // namespace
+
 Publisher::Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy,
                      const Game& game, const RegionSweep& sweep)
     : model_(model),
@@ -30,25 +43,58 @@ Publisher::Publisher(const ObjectModel& model, rti::Ambassador& ambassador, Upda
 
 void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt,
                         const rti::Stamp& stamp) {
-  ++tick_;
   moved_.clear();
   registered_.clear();
   flights_.clear();
-  sweep_.look_at(game.world());
-  if (!game.spawned().empty()) retire_gone(game);
-  for (const Entity& entity : game.entities()) {
-    Input input;
-    if (entity.player)
-      input = {.count = *entity.player < felt.size() ? felt[*entity.player] : 0u,
-               .held = game.keys_held(*entity.player).bits()};
-    if (entity.id.index >= published_.size()) published_.resize(entity.id.index + 1);
-    if (published_[entity.id.index].object) update(game, entity, input, stamp);
-    else add(game, entity, input, stamp);
-    published_[entity.id.index].tick = tick_;
+  movers_.look(game.world());
+  sweep_.look_at(game.world(), movers_);
+  published_.resize(game.world().body_count());
+  const auto is_new = [&](EntityId id) {
+    return !published_[id.index].object && !game.world().is_removed(id);
+  };
+  if (std::ranges::any_of(movers_.changed(), is_new)) retire_gone(game);
+  gather(game, felt);
+  active_.clear();
+  std::size_t said = 0;
+  for (const EntityId id : looked_) {
+    Published& published = published_[id.index];
+    if (game.world().is_removed(id)) continue;
+    if (published.object) {
+      said += update(game, published, input_of(game, published.entity, felt), stamp) ? 1u : 0u;
+    } else if (game.is_there(id)) {
+      const Entity& entity = game.entity(id);
+      add(game, entity, input_of(game, entity, felt), stamp);
+      ++said;
+    }
   }
-  retire_absent();
+  counters_.entities_looked_at += looked_.size();
+  counters_.entities_skipped += game.entities().size() - said;
+  retire_gone(game);
   if (!moved_.empty()) ambassador_.commit_region_modifications(moved_);
   publish_score(game, stamp);
+}
+
+/// Whom this tick concerns: whose motion changed, who is to be looked at at each tick or by now,
+/// and whose keys were felt.
+void Publisher::gather(const Game& game, std::span<const std::uint32_t> felt) {
+  looked_.assign(active_.begin(), active_.end());
+  looked_.insert(looked_.end(), movers_.changed().begin(), movers_.changed().end());
+  for (; !wakes_.empty() && wakes_.front().time_s < game.now(); wakes_.pop_back()) {
+    Published& published = published_[wakes_.front().entity.index];
+    if (published.object && published.wake_s == wakes_.front().time_s) {
+      looked_.push_back(wakes_.front().entity);
+      published.wake_s = never;
+    }
+    std::pop_heap(wakes_.begin(), wakes_.end());
+  }
+  for (std::uint32_t player = 0; player < game.player_count(); ++player)
+    if (const auto bat = game.bat(player)) {
+      const Published& published = published_[bat->index];
+      if (published.object && input_of(game, published.entity, felt) != published.input)
+        looked_.push_back(*bat);
+    }
+  std::sort(looked_.begin(), looked_.end());
+  looked_.erase(std::unique(looked_.begin(), looked_.end()), looked_.end());
 }
 
 void Publisher::add(const Game& game, const Entity& entity, const Input& input,
@@ -59,10 +105,12 @@ void Publisher::add(const Game& game, const Entity& entity, const Input& input,
   if (published.object && keeps_order_)
     ambassador_.change_attribute_order_type(published.object, {model_.input, motion_},
                                             rti::Order::timestamp);
-  if (!published.object)
-    return;  // a federate's handles are used up by 262,144 registrations: this bat came too late to
-             // be seen, the others play on
+  if (!published.object) {  // the block of handles is used up; the RTI may give a further one
+    active_.push_back(entity.id);
+    return;
+  }
   registered_.push_back({published.object, entity});
+  published.entity = entity;
   published.region = ambassador_.create_region();
   published.position = rounded(game.position(entity.id));
   published.input = input;
@@ -81,6 +129,7 @@ void Publisher::add(const Game& game, const Entity& entity, const Input& input,
   policy_.write(game, entity, writer);
   ambassador_.update_attribute_values(published.object, {model_.shape, model_.input, motion_},
                                       encoded_, stamp);
+  schedule(game, published);
 }
 
 void Publisher::keep_order() {
@@ -145,49 +194,69 @@ bool Publisher::fly(const Game& game, const Entity& entity, Published& published
 }
 
 /// Motion if the policy says so, input if it changed, in one update.
-void Publisher::update(const Game& game, const Entity& entity, const Input& input,
+bool Publisher::update(const Game& game, Published& published, const Input& input,
                        const rti::Stamp& stamp) {
-  Published& published = published_[entity.id.index];
+  const Entity& entity = published.entity;
   follow(game, entity, published);
   const bool is_due = policy_.is_due(game, entity), has_felt = input != published.input;
-  if (!is_due && !has_felt) {
-    ++counters_.entities_skipped;
-    return;
+  if (is_due || has_felt) {
+    rti::AttributeSet sent;
+    encoded_.clear();
+    rti::Writer writer(encoded_);
+    if (has_felt) {
+      published.input = input;
+      sent.insert(model_.input);
+      exchange(writer, published.input);
+    }
+    if (is_due) {
+      sent.insert(motion_);
+      policy_.write(game, entity, writer);
+    }
+    counters_.motions_sent += is_due ? 1u : 0u;
+    counters_.inputs_sent += has_felt ? 1u : 0u;
+    tell(published.object, sent, encoded_, stamp);
   }
-  rti::AttributeSet sent;
-  encoded_.clear();
-  rti::Writer writer(encoded_);
-  if (has_felt) {
-    published.input = input;
-    sent.insert(model_.input);
-    exchange(writer, published.input);
+  schedule(game, published);
+  return is_due || has_felt;
+}
+
+/// Until when [s] `follow` has nothing to do for one whose motion goes on as it does.
+double Publisher::region_holds_until(const Game& game, const Published& published) const {
+  const EntityId id = published.entity.id;
+  if (sweep_.is_on()) return sweep_.holds_until(published.swept);
+  const bool is_fixed =
+      published.entity.kind == physics::BodyKind::post || !game.world().is_in_play(id);
+  const bool stays =
+      is_fixed || (hands_in_flights_ ? published.flown.has_value() : game.world().is_resting(id));
+  return stays ? never : game.now();
+}
+
+/// Sees to it that the entity is looked at when that may be needed.
+void Publisher::schedule(const Game& game, Published& published) {
+  const double quiet_until_s =
+      std::min(policy_.quiet_until(game, published.entity), region_holds_until(game, published));
+  if (quiet_until_s <= game.now()) {
+    active_.push_back(published.entity.id);
+  } else if (quiet_until_s < published.wake_s) {  // an earlier one looks in vain, and comes here
+    published.wake_s = quiet_until_s;
+    wakes_.push_back({quiet_until_s, published.entity.id});
+    std::push_heap(wakes_.begin(), wakes_.end());
   }
-  if (is_due) {
-    sent.insert(motion_);
-    policy_.write(game, entity, writer);
-  }
-  counters_.motions_sent += is_due ? 1u : 0u;
-  counters_.inputs_sent += has_felt ? 1u : 0u;
-  tell(published.object, sent, encoded_, stamp);
 }
 
 void Publisher::retire_all() {
-  ++tick_;
-  retire_absent();
-  published_.clear();
-}
-
-/// Deletes what was published once but is no longer in the game.
-void Publisher::retire_absent() {
   for (Published& published : published_)
-    if (published.object && published.tick != tick_) retire(published);
+    if (published.object) retire(published);
+  published_.clear();
+  active_.clear();
+  wakes_.clear();
 }
 
-/// Before anything is registered: a bat that left and came back within one tick has the name that
-/// it had.
+/// Deletes what was published once but is no longer in the game; where somebody came, before
+/// anything is registered: a bat that left and came back within one tick has the name that it had.
 void Publisher::retire_gone(const Game& game) {
-  for (std::uint32_t index = 0; index < published_.size(); ++index)
-    if (published_[index].object && !game.is_there(EntityId{index})) retire(published_[index]);
+  for (const EntityId id : movers_.changed())
+    if (published_[id.index].object && game.world().is_removed(id)) retire(published_[id.index]);
 }
 
 void Publisher::retire(Published& published) {

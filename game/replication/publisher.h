@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "game/control/game.h"
+#include "game/physics/movers.h"
 #include "game/replication/attributes.h"
 #include "game/replication/object_model.h"
 #include "game/replication/region_sweep.h"
@@ -19,10 +21,13 @@ namespace rink::game {
 /// What a publisher sent since it was made.
 struct PublisherCounters {
   std::uint64_t motions_sent = 0, inputs_sent = 0, regions_moved = 0, entities_skipped = 0;
+  std::uint64_t entities_looked_at = 0;  ///< policy or region were asked about
 };
 
 /// Registers a game's entities as RTI objects, each with its bounding box as update region, and
-/// keeps both up to date. Motion goes out when and as the policy says, the rest when it changes.
+/// keeps both up to date. Motion goes out when and as the policy says, the rest when it changes. An
+/// entity costs nothing at a tick at which neither its motion nor its keys changed and of which the
+/// policy and the region's keeper have said that they need not look at it.
 class Publisher {
  public:
   /// `ambassador` must have joined. Publishes the classes and registers the field and the score.
@@ -69,23 +74,35 @@ class Publisher {
   const PublisherCounters& counters() const { return counters_; }
 
  private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
   struct Published {
     rti::ObjectHandle object;
     rti::RegionHandle region;
+    Entity entity;
     Position position;  ///< that its region was last moved to
     Input input;
-    std::uint64_t tick = 0;              ///< of its last appearance in the game
+    double wake_s = never;               ///< the earliest of `wakes_` that is its own
     std::optional<std::uint32_t> flown;  ///< version of the motion whose flight was handed in
     RegionSweep::Swept swept;
   };
 
+  /// An entity that is to be looked at at the first tick after `time_s`.
+  struct Wake {
+    double time_s;
+    EntityId entity;
+    friend bool operator<(const Wake& a, const Wake& b) { return a.time_s > b.time_s; }
+  };
+
+  void gather(const Game& game, std::span<const std::uint32_t> felt);
   void add(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
-  void retire_absent();
   void retire_gone(const Game& game);
   void retire(Published& published);
   void follow(const Game& game, const Entity& entity, Published& published);
   bool fly(const Game& game, const Entity& entity, Published& published);
-  void update(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
+  /// True if anything was sent.
+  bool update(const Game& game, Published& published, const Input& input, const rti::Stamp& stamp);
+  double region_holds_until(const Game& game, const Published& published) const;
+  void schedule(const Game& game, Published& published);
   void tell(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
             const rti::Stamp& stamp);
   void publish_score(const Game& game, const rti::Stamp& stamp);
@@ -95,14 +112,16 @@ class Publisher {
   UpdatePolicy& policy_;
   const rti::AttributeHandle motion_;
   RegionSweep sweep_;
-  std::vector<Published> published_;  ///< by entity
+  physics::Movers movers_;
+  std::vector<Published> published_;       ///< by entity
+  std::vector<EntityId> active_, looked_;  ///< to be looked at at the next tick, and at this; by id
+  std::vector<Wake> wakes_;                ///< a heap, earliest first
   std::vector<Registered> registered_;
   std::vector<Flown> flights_;
   std::vector<rti::RegionBounds> moved_;
   std::vector<std::byte> encoded_;
   rti::ObjectHandle field_, score_;
   Goals goals_;
-  std::uint64_t tick_ = 0;
   bool keeps_order_ = false, hands_in_flights_ = false;
   PublisherCounters counters_;
 };

@@ -53,21 +53,15 @@ im::Region path_box(const physics::Motion& motion, double from, double until) {
   return {low[0], low[1], high[0], high[1]};
 }
 
-void RegionSweep::look_at(const physics::World& world) {
+void RegionSweep::look_at(const physics::World& world, const physics::Movers& movers) {
   if (!is_on()) return;
-  versions_.resize(world.body_count());
-  speeds_.resize(world.body_count(), -1.0);
+  speeds_.resize(world.body_count(), 0.0);
+  for (const physics::BodyId body : movers.changed())
+    speeds_[body.index] =
+        world.is_in_play(body) ? speed_bound(world.motion(body), tick_s_ * ticks_) : 0.0;
   fastest_ = 0.0;
-  for (std::uint32_t index = 0; index < world.body_count(); ++index) {
-    const physics::BodyId body{index};
-    const std::uint32_t version = world.motion_version(body);
-    if (speeds_[index] < 0.0 || version != versions_[index]) {
-      versions_[index] = version;
-      speeds_[index] =
-          world.is_in_play(body) ? speed_bound(world.motion(body), tick_s_ * ticks_) : 0.0;
-    }
-    fastest_ = std::max(fastest_, speeds_[index]);
-  }
+  for (const physics::BodyId body : movers.moving())
+    fastest_ = std::max(fastest_, speeds_[body.index]);
 }
 
 bool RegionSweep::still_holds(const physics::World& world, physics::BodyId body,
@@ -90,7 +84,7 @@ im::Region RegionSweep::region(const physics::World& world, physics::BodyId body
       tick_s_ *
           (ticks_ + 1e-6);  // a millionth of a tick, so that rounding does not cut the last one off
   const im::Region path = path_box(world.motion(body), now, swept.until_s);
-  const double own = body.index < speeds_.size() ? std::max(speeds_[body.index], 0.0) : fastest_,
+  const double own = body.index < speeds_.size() ? speeds_[body.index] : fastest_,
                growth = 2.0 * (own + fastest_) * tick_s_;
   return {path.low_x - half_extent.x() - growth, path.low_y - half_extent.y() - growth,
           path.high_x + half_extent.x() + growth, path.high_y + half_extent.y() + growth};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "game/physics/movers.h"
 #include "game/physics/world.h"
 #include "im/filter.h"
 
@@ -38,19 +39,21 @@ class RegionSweep {
   RegionSweep(std::uint32_t ticks, double tick_s) : ticks_(ticks), tick_s_(tick_s) {}
 
   bool is_on() const { return ticks_ > 0; }
-  /// To be called once a tick before all others: learns how fast the fastest body may be.
-  void look_at(const physics::World& world);
+  /// To be called once a tick before all others: learns how fast the fastest body may be from those
+  /// who move, who must have been looked at in this tick.
+  void look_at(const physics::World& world, const physics::Movers& movers);
   /// True if the region made for `body` covers the coming tick.
   bool still_holds(const physics::World& world, physics::BodyId body, const Swept& swept) const;
   /// A new region for `body` from world.now() on, noted in `swept`.
   im::Region region(const physics::World& world, physics::BodyId body, Swept& swept) const;
+  /// The instant from which on `swept` may hold no more though the body moves on as it did [s].
+  double holds_until(const Swept& swept) const { return swept.until_s - tick_s_ * (1.0 + 1e-6); }
 
  private:
   std::uint32_t ticks_ = 0;
   double tick_s_ = 0.0;
-  double fastest_ = 0.0;                 ///< m/s, no body is faster until something hits it
-  std::vector<std::uint32_t> versions_;  ///< by body, of the motion that `speeds_` belongs to
-  std::vector<double> speeds_;           ///< by body: bound of its speed on its present path [m/s]
+  double fastest_ = 0.0;        ///< m/s, no body is faster until something hits it
+  std::vector<double> speeds_;  ///< by body: bound of its speed on its present path [m/s]
 };
 
 }  // namespace rink::game

@@ -3,12 +3,20 @@
 #include "game/replication/update_policy.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "game/replication/attributes.h"
 #include "game/replication/trajectory.h"
 
 namespace rink::game {
 namespace {
+
+constexpr double forever = std::numeric_limits<double>::infinity();
+
+/// Neither in motion nor under thrust; a scored puck lies where it left play.
+bool stays(const Game& game, const Entity& entity) {
+  return !game.world().is_in_play(entity.id) || game.world().is_resting(entity.id);
+}
 
 class Periodic : public UpdatePolicy {
  public:
@@ -19,6 +27,9 @@ class Periodic : public UpdatePolicy {
   /// interest.
   bool is_due(const Game&, const Entity& entity) override {
     return entity.kind != physics::BodyKind::post;
+  }
+  double quiet_until(const Game& game, const Entity& entity) const override {
+    return entity.kind == physics::BodyKind::post ? forever : game.now();
   }
   void write(const Game& game, const Entity& entity, rti::Writer& value) override {
     Position position = rounded(game.position(entity.id));
@@ -44,6 +55,9 @@ class Snapshots : public UpdatePolicy {
   bool is_due(const Game& game, const Entity& entity) override {
     return entity.kind != physics::BodyKind::post &&
            snapshot_of(game.world(), entity.id) != told_[entity.id.index];
+  }
+  double quiet_until(const Game& game, const Entity& entity) const override {
+    return stays(game, entity) ? forever : game.now();
   }
   void write(const Game& game, const Entity& entity, rti::Writer& value) override {
     if (told_.size() <= entity.id.index) told_.resize(entity.id.index + 1);
@@ -74,6 +88,9 @@ class OnEvent : public UpdatePolicy {
     told.version = version;
     told.until_s = holds_until(game.world(), entity.id, told.trajectory);
     return told.until_s < game.now() + worthwhile_s;
+  }
+  double quiet_until(const Game&, const Entity& entity) const override {
+    return entity.kind == physics::BodyKind::post ? forever : told_[entity.id.index].until_s;
   }
 
   void write(const Game& game, const Entity& entity, rti::Writer& value) override {
@@ -119,6 +136,10 @@ class DeadReckoning : public UpdatePolicy {
                                        ? told.trajectory.position
                                        : told.law.at(std::max(game.now(), told.law.time)).position;
     return (shown - game.position(entity.id)).norm() > threshold_;
+  }
+  double quiet_until(const Game& game, const Entity& entity) const override {
+    return stays(game, entity) && told_[entity.id.index].trajectory.is_resting() ? forever
+                                                                                 : game.now();
   }
 
   void write(const Game& game, const Entity& entity, rti::Writer& value) override {

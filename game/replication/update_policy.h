@@ -1,5 +1,5 @@
 // When an entity's motion is sent, and as what. Each policy is one class; the publisher asks it
-// once for each entity and tick.
+// at each tick about whom the answer may have changed.
 #pragma once
 
 #include <memory>
@@ -21,6 +21,10 @@ class UpdatePolicy {
   virtual rti::AttributeHandle motion_attribute(const ObjectModel& model) const = 0;
   /// Asked of entities that were written before.
   virtual bool is_due(const Game& game, const Entity& entity) = 0;
+  /// Until when [s] the entity is not due, if its motion goes on as it does: infinity if that is
+  /// all that can change it, game.now() or less if it is to be asked about at the next tick. Asked
+  /// after `is_due` was false, and after `write`.
+  virtual double quiet_until(const Game& game, const Entity& entity) const = 0;
   /// Appends that attribute's value as of game.now(), which is sent: the first time for an entity
   /// that is new, later when it is due.
   virtual void write(const Game& game, const Entity& entity, rti::Writer& value) = 0;

@@ -30,15 +30,16 @@ TEST(ASight, LosesAPuckThatScoredUntilItsFaceOffButNotTheOneThatWon) {
   for (const std::uint32_t goals_to_win : {1u, 5u}) {
     Game game(last_goal(goals_to_win));
     MatchSight sight;
-    show_game(game, sight);
+    GameSight shown;
+    shown.show(game, sight);
     EXPECT_EQ(pucks_in(sight), 1);
     game.advance(0.5);
     ASSERT_EQ(game.score().right, 1u);
-    show_game(game, sight);
+    shown.show(game, sight);
     EXPECT_EQ(pucks_in(sight), goals_to_win == 1 ? 1 : 0);
     if (goals_to_win == 1) continue;
     game.advance(2.0);
-    show_game(game, sight);
+    shown.show(game, sight);
     EXPECT_EQ(pucks_in(sight), 1) << "it is back";
   }
 }

@@ -47,7 +47,9 @@ TEST(RegionSweep, HoldsWhoIsThrownByAnImpactRightAfterTheTick) {
                                 .radius = radius,
                                 .mass = 1e3});
     RegionSweep sweep(1, tick_s);
-    sweep.look_at(world);
+    physics::Movers movers;
+    movers.look(world);
+    sweep.look_at(world, movers);
     RegionSweep::Swept swept;
     const im::Region region = sweep.region(world, light, swept);
     world.advance(tick_s);
@@ -64,7 +66,9 @@ TEST(RegionSweep, HoldsForAsManyTicksAsItWasSweptAndForNoneAfterAnImpact) {
     const physics::BodyId puck =
         world.add(physics::PuckSpec{.position = {1.0, 1.0}, .velocity = {1.0, 0.0}, .radius = 0.1});
     RegionSweep sweep(ticks, tick_s);
-    sweep.look_at(world);
+    physics::Movers movers;
+    movers.look(world);
+    sweep.look_at(world, movers);
     RegionSweep::Swept swept;
     sweep.region(world, puck, swept);
     for (std::uint32_t tick = 0; tick <= ticks; ++tick) {
@@ -81,12 +85,14 @@ TEST(RegionSweep, WhatIsDecidedAtATickHoldsUntilTheNextWhateverIsHit) {
   constexpr double tick_s = 1.0 / 30.0;
   for (const std::uint32_t ticks : {1u, 4u}) {
     RegionSweep sweep(ticks, tick_s);
+    physics::Movers movers;
     std::vector<RegionSweep::Swept> swept(game.world().body_count());
     std::vector<im::Region> regions(game.world().body_count());
     std::uint64_t kept = 0, remade = 0;
     const double start = game.now();
     for (int tick = 0; tick < 60; ++tick) {
-      sweep.look_at(game.world());
+      movers.look(game.world());
+      sweep.look_at(game.world(), movers);
       std::vector<bool> was_in_play(
           game.world().body_count());  // a puck that is put back at a face-off appears, it does not
                                        // come by a path

@@ -160,6 +160,8 @@ class Server : public rti::FederateAmbassador {
 
   /// Every input applied so far, as stamped: a log that replays to the same state hash.
   const std::vector<InputEvent>& record() const { return record_; }
+  /// What was said of entities; it must have joined.
+  const PublisherCounters& published() const { return publisher_->counters(); }
   const ServerCounters& counters() const { return counters_; }
   const std::string& trouble() const {
     return trouble_;

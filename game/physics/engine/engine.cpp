@@ -70,6 +70,7 @@ BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vect
                      material,
                      0,
                      no_mouth});
+  changes_.add(body);
   builds_.push_back({mass, inverse_mass, half_extent, Vector2(0.0, 0.0), half});
   slots_.push_back(no_event);
   laws_.push_back({Vector2(0.0, 0.0), Vector2::Constant(own_drag(body))});
@@ -164,6 +165,7 @@ void BasicEngine<Real>::remove(std::uint32_t body) {
     queue_.set(body, infinity, body, body);
   }
   b.flags |= removed;
+  changes_.note(body);
   settle();
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "game/physics/cell_grid.h"
+#include "game/physics/change_log.h"
 #include "game/physics/engine/journal.h"
 #include "game/physics/engine/partner.h"
 #include "game/physics/events/event_schedule.h"
@@ -418,6 +419,7 @@ class BasicEngine {
   std::vector<Real> energies_;  // of the bodies in touched_, before what happens to them now
   bool records_events_ = false;
   std::vector<Event> events_;
+  ChangeLog changes_;
   BasicJournal<Real>* journal_ = nullptr;
 };
 using Engine = BasicEngine<double>;

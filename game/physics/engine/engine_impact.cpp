@@ -95,6 +95,7 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
     }
   }
   note(EventKind::puck_puck, time, low, high);
+  changes_.note(low), changes_.note(high);
   counters_.evaluations += (before_a.time < time) + (before_b.time < time);
   counters_.bodies_touched += 2;
   if (journal_ != nullptr) {

@@ -200,6 +200,7 @@ void BasicEngine<Real>::rebuild_from_state() {
   grid_.resize(count);
   queue_.resize(count);
   for (std::uint32_t body = 0; body < count; ++body) {
+    changes_.add(body);
     reach_ = std::max(reach_, reach_of(body));
     curved_count_ += (bodies_[body].flags & curved) != 0;
   }

@@ -9,6 +9,7 @@ void BasicEngine<Real>::touch(std::uint32_t body) {
   if ((b.flags & touched) != 0) return;
   b.flags |= touched;
   ++b.version;
+  changes_.note(body);
   ++counters_.bodies_touched;
   touched_.push_back(body);
   if (spec_.accounts_energy) energies_.push_back(energy_of(body));
