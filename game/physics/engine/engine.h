@@ -2,8 +2,8 @@
 // contacts and pressed clusters.
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -12,27 +12,18 @@
 
 #include "game/physics/cell_grid.h"
 #include "game/physics/change_log.h"
+#include "game/physics/engine/body_records.h"
+#include "game/physics/engine/contact.h"
 #include "game/physics/engine/journal.h"
 #include "game/physics/engine/partner.h"
+#include "game/physics/engine/tolerances.h"
 #include "game/physics/events/event_schedule.h"
 #include "game/physics/flight/impact_time.h"
-#include "game/physics/flight/straight_flight.h"
 #include "game/physics/large_pages.h"
 #include "game/physics/sum.h"
 #include "game/physics/world.h"
 
 namespace rink::physics {
-
-/// Impacts are looked at together if they come within this time of each other [s]; whether they are
-/// one is decided by their gaps.
-constexpr double instant = 1e-9;
-/// Bodies nearer than this take part in a hop [m].
-constexpr double cluster_gap = 2e-6;
-/// The least separation an impulse leaves, relative to the speeds: far above rounding, far below
-/// anything seen.
-template <class Real>
-constexpr Real separation_min = 1e-14 * fineness<Real>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// All state is in `Real`; specs are in double, whose values every wider scalar holds exactly.
 template <class Real>
@@ -88,50 +79,11 @@ class BasicEngine {
   static std::uint8_t held_along(int axis) { return axis == 0 ? held_x : held_y; }
   enum Mouth : std::uint8_t { no_mouth, left_mouth, right_mouth };
 
-  /// What an impact of two pucks reads and writes: one cache line.
-  struct alignas(64) Body : Flight<Real> {
-    Real inverse_mass;
-    std::uint32_t version;
-    BodyKind kind;
-    MaterialId material;
-    std::uint8_t flags;
-    std::uint8_t mouth;
-  };
-  struct Build {
-    Real mass, inverse_mass;
-    Vector2 half_extent;  // of the rectangle itself: 0 for discs
-    Vector2 thrust;
-    Half half;
-  };
-  struct Law {
-    Vector2 acceleration, drag;
-  };
-  /// How often something came at the last instant at which it did.
-  struct Tally {
-    Real instant = -1.0;
-    std::uint32_t count = 0;
-    /// Once more at `time`; answers how often now.
-    std::uint32_t add(Real time) {
-      count = instant == time ? count + 1 : 1;
-      instant = time;
-      return count;
-    }
-  };
-  /// How densely impacts follow each other; part of the physical history.
-  struct Rhythm {
-    Real window_start = -1.0, last_hop = -1.0;
-    std::uint32_t impacts = 0, hops = 0;
-    Tally repeats;   // impacts where bodies may start in overlap, attempts at rest of pucks that
-                     // friction slows
-    Tally meetings;  // impacts that are not simple ones, at instants within roundings of the clock
-  };
-  struct Slot {
-    Real impact_time, crossing_time;
-    Partner partner;
-    std::uint32_t partner_version;
-    CellGrid::Direction direction;  // of the crossing
-    bool is_tied;                   // another impact of the body comes within the instant
-  };
+  using Body = BasicBody<Real>;
+  using Build = BasicBuild<Real>;
+  using Law = BasicLaw<Real>;
+  using Rhythm = BasicRhythm<Real>;
+  using Slot = BasicSlot<Real>;
   static constexpr Slot no_event{std::numeric_limits<Real>::infinity(),
                                  std::numeric_limits<Real>::infinity(),
                                  partner::none,
@@ -139,24 +91,8 @@ class BasicEngine {
                                  CellGrid::left,
                                  false};
   using Hold = BasicHold<Real>;
-  struct Contact {
-    std::uint32_t body;
-    Partner partner;
-    Gap gap;  // normal from partner to body
-  };
-  static constexpr std::uint32_t fixed_place = 0xffffffff;
-  /// Two bodies that touch, or a body and a fixed part; `body` and `other` are places in joint_,
-  /// `fixed_place` for what cannot move.
-  struct Touch {
-    std::uint32_t body, other;
-    Partner partner;
-    Vector2 normal;
-    Real restitution;
-    Real wanted;      // least speed of separation afterwards [m/s]
-    Real impulse;     // of the problem at hand [kg m/s]
-    bool is_at_hand;  // the impact that called for the others
-    bool has_pushed;
-  };
+  using Contact = BasicContact<Real>;
+  using Touch = BasicTouch<Real>;
 
   // engine.cpp: bodies and the loop
   bool is_body(Partner p) const { return p < partner::field_parts; }
@@ -423,27 +359,5 @@ class BasicEngine {
   BasicJournal<Real>* journal_ = nullptr;
 };
 using Engine = BasicEngine<double>;
-
-/// Everybody that `body` may touch, in an order that depends on ids alone: bodies near it, walls,
-/// and whatever else of the field concerns it.
-template <class Real>
-template <class Visit>
-void BasicEngine<Real>::visit_partners(std::uint32_t body, Visit&& visit) {
-  near_.clear();
-  grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
-    if (other != body) near_.push_back(other);
-  });
-  std::sort(near_.begin(), near_.end());
-  for (const std::uint32_t other : near_) visit(other);
-  const bool is_in_mouth = bodies_[body].mouth != no_mouth;
-  for (Partner wall = partner::wall_left; wall <= partner::wall_top; ++wall)
-    if (!(is_in_mouth && wall <= partner::wall_right)) visit(wall);
-  if (spec_.field.bats_keep_to_half && bodies_[body].kind == BodyKind::bat &&
-      builds_[body].half != Half::both)
-    visit(partner::halfway);
-  if (spec_.field.goal_width > 0.0 && bodies_[body].kind == BodyKind::puck)
-    for (Partner edge = partner::edge_left_low; edge <= partner::edge_right_high; ++edge)
-      visit(edge);
-}
 
 }  // namespace rink::physics

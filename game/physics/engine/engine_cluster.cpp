@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "game/physics/engine/engine.h"
+#include "game/physics/engine/visit_partners.h"
 
 namespace rink::physics {
 

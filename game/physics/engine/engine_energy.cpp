@@ -2,6 +2,8 @@
 // impacts took out, from the closed forms.
 #include "game/physics/engine/engine.h"
 
+#include <algorithm>
+
 namespace rink::physics {
 
 /// Of its motion and spin at its last event [J].

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "game/physics/engine/engine.h"
+#include "game/physics/flight/straight_flight.h"
 
 namespace rink::physics {
 

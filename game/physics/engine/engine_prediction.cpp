@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "game/physics/flight/straight_flight.h"
+
 namespace rink::physics {
 
 /// Ties break by (time, lower id, higher id); parts of the field count as higher than every body.

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "game/physics/engine/engine.h"
+#include "game/physics/engine/visit_partners.h"
 #include "game/physics/flight/discs_near.h"
 
 namespace rink::physics {

@@ -1,0 +1,21 @@
+// Up to which times, gaps and speeds the engine takes contacts for one, or for parted.
+#pragma once
+
+#include <limits>
+
+#include "game/physics/body.h"
+
+namespace rink::physics {
+
+/// Impacts are looked at together if they come within this time of each other [s]; whether they are
+/// one is decided by their gaps.
+constexpr double instant = 1e-9;
+/// Bodies nearer than this take part in a hop [m].
+constexpr double cluster_gap = 2e-6;
+/// The least separation an impulse leaves, relative to the speeds: far above rounding, far below
+/// anything seen.
+template <class Real>
+constexpr Real separation_min = 1e-14 * fineness<Real>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace rink::physics
