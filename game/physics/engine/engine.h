@@ -204,17 +204,24 @@ class BasicEngine {
   void count_impact(std::uint32_t body, Partner partner, Real time);
   void note_impact(std::uint32_t body, Real time);
 
-  // engine_simultaneous.cpp
-  bool is_crowded(std::uint32_t body, Partner partner) const;
-  bool is_endless() const;
-  bool collide_together(const Contact& contact, Real time);
+  // engine_touching.cpp
   bool gather_touching(const Contact& contact, Real time);
   void look_at_touching(const Contact& contact, Real time);
   void note_looked_at();
   bool has_company(std::uint32_t body, Partner partner, Real time);
   void add_touch(std::uint32_t place, Partner partner, const Contact& at_hand, Real time);
   std::uint32_t place_in_joint(std::uint32_t body, Real time);
-  Real parting(const Touch& touch, const std::vector<Vector2>& velocities) const;
+
+  // engine_simultaneous.cpp
+  bool is_crowded(std::uint32_t body, Partner partner) const;
+  bool is_endless() const;
+  bool collide_together(const Contact& contact, Real time);
+  /// The speed at which the two sides part in a field of velocities: also the field's product,
+  /// weighed by the masses, with the one that an impulse of 1 causes.
+  Real parting(const Touch& touch, const std::vector<Vector2>& velocities) const {
+    const Vector2 there = touch.other == fixed_place ? Vector2(0.0, 0.0) : velocities[touch.other];
+    return touch.normal.dot(velocities[touch.body] - there);
+  }
   Real joint_product(const std::vector<Vector2>& a, const std::vector<Vector2>& b) const;
   Real joint_energy() const { return 0.5 * joint_product(joint_velocities_, joint_velocities_); }
   Real joint_speed() const;

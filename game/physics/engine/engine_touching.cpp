@@ -1,0 +1,139 @@
+// Who touches whom at the instant of an impact, directly or through others.
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+
+#include "game/physics/engine/engine.h"
+#include "game/physics/engine/visit_partners.h"
+#include "game/physics/flight/discs_near.h"
+
+namespace rink::physics {
+
+namespace {
+
+constexpr std::size_t joint_max = 512;  // bodies
+/// Gaps within so many roundings of an offset are none.
+constexpr double touch_roundings = 16.0;
+
+}  // namespace
+
+/// An impact that comes alone here would be joint if any of those who touch were hit at this
+/// instant, however far away, by somebody whom this world does not have. So it concerns all of
+/// them, and the journal says so; nothing else changes.
+template <class Real>
+void BasicEngine<Real>::look_at_touching(const Contact& c, Real time) {
+  if (is_rough() || is_hopeless_ || !has_company(c.body, c.partner, time)) return;
+  gather_touching(c, time);
+  note_looked_at();
+}
+
+template <class Real>
+void BasicEngine<Real>::note_looked_at() {
+  if (journal_ != nullptr)
+    journal_->looked_at.insert(journal_->looked_at.end(), joint_.begin(), joint_.end());
+}
+
+/// Whether a third body may touch one of the two: never missed, and hardly ever wrong.
+template <class Real>
+bool BasicEngine<Real>::has_company(std::uint32_t body, Partner p, Real time) {
+  candidates_.resize(grid_.collected_max());
+#if defined(__SSE2__)
+  // In a gas nobody does, and to count who is near at all, posts among them, takes a third of what
+  // it takes to ask who they are.
+  if constexpr (std::is_same_v<Real, double>) {
+    const auto is_alone = [&](std::uint32_t one, std::uint32_t two) {
+      const std::uint32_t count = grid_.collect(one, candidates_.data()),
+                          fillers = (0u - count) & 3u;
+      const Body &a = bodies_[one], &b = bodies_[two];
+      const double ahead_a = std::max(0.0, time - a.time), ahead_b = std::max(0.0, time - b.time),
+                   ax = a.x + a.vx * ahead_a, ay = a.y + a.vy * ahead_a;
+      const double x = b.x + b.vx * ahead_b - ax, y = b.y + b.vy * ahead_b - ay,
+                   touching = a.radius + b.radius + 0.5 * clear_of_touching;
+      return x * x + y * y <= touching * touching &&
+             count_near_in_fours(bodies_.data(), candidates_.data(), count, one, ax, ay, time,
+                                 a.radius + clear_of_touching) == 2 + fillers;
+    };
+    // Bats are on curves, always.
+    if (has_fours && curved_count_ == 0 && puck_drag_ == 0.0 && !is_fixed(p) && is_alone(body, p) &&
+        is_alone(p, body))
+      return false;
+  }
+#endif
+  const auto has_third = [&](std::uint32_t one, Partner two) {
+    const std::uint32_t count = grid_.collect(one, candidates_.data());
+    const Body& a = bodies_[one];
+    const bool is_straight =
+        (a.flags & curved) == 0 && a.kind == BodyKind::puck && puck_drag_ == 0.0;
+    const Real ahead = std::max<Real>(0.0, time - a.time), ax = a.x + a.vx * ahead,
+               ay = a.y + a.vy * ahead, least = a.radius + Real(clear_of_touching);
+    for (const std::uint32_t *other = candidates_.data(), *end = other + count; other != end;
+         ++other) {
+      const Body& b = bodies_[*other];
+      const bool is_pair_straight =
+          is_straight && (b.flags & curved) == 0 && b.kind == BodyKind::puck;
+      const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed - ax,
+                 y = b.y + b.vy * elapsed - ay, reach = b.radius + least;
+      if ((is_pair_straight && x * x + y * y > reach * reach) || *other == one || *other == two ||
+          is_fixed(*other))
+        continue;
+      if (is_pair_straight || contact(one, *other, time).gap.distance <= Real(clear_of_touching))
+        return true;
+    }
+    return false;
+  };
+  return has_third(body, p) || (!is_fixed(p) && has_third(p, body));
+}
+
+template <class Real>
+std::uint32_t BasicEngine<Real>::place_in_joint(std::uint32_t body, Real time) {
+  const auto found = std::find(joint_.begin(), joint_.end(), body);
+  if (found != joint_.end()) return static_cast<std::uint32_t>(found - joint_.begin());
+  joint_.push_back(body);
+  joint_velocities_.push_back(at(body, time).velocity);
+  return static_cast<std::uint32_t>(joint_.size() - 1);
+}
+
+template <class Real>
+void BasicEngine<Real>::add_touch(std::uint32_t place, Partner p, const Contact& at_hand,
+                                  Real time) {
+  const std::uint32_t body = joint_[place];
+  const Contact c = contact(body, p, time);
+  const bool is_at_hand = (body == at_hand.body && p == at_hand.partner) ||
+                          (p == at_hand.body && body == at_hand.partner);
+  const Real rounding =
+      tolerance_ + std::numeric_limits<Real>::epsilon() * time * joint_velocities_[place].norm();
+  if (!is_at_hand && c.gap.distance > touch_roundings * rounding) return;
+  std::uint32_t other = fixed_place;
+  if (!is_fixed(p)) {
+    if (joint_.size() >= joint_max && std::find(joint_.begin(), joint_.end(), p) == joint_.end())
+      return;
+    other = place_in_joint(p, time);
+    if (other < place) return;  // known from the other side
+  }
+  touches_.push_back(
+      {place, other, p, c.gap.normal, restitution(body, p), 0.0, 0.0, is_at_hand, false});
+}
+
+/// All bodies that touch those of `c`, directly or through others, in an order that depends on ids
+/// alone. False if no other contact among them closes now.
+template <class Real>
+bool BasicEngine<Real>::gather_touching(const Contact& c, Real time) {
+  joint_.clear();
+  joint_velocities_.clear();
+  touches_.clear();
+  place_in_joint(c.body, time);
+  if (!is_fixed(c.partner)) place_in_joint(c.partner, time);
+  for (std::uint32_t place = 0; place < joint_.size(); ++place)
+    visit_partners(joint_[place], [&](Partner p) { add_touch(place, p, c, time); });
+  // Slower than this, the time of an impact is too uncertain to tell whether it belongs to the
+  // instant.
+  const Real slowest = 2.0 * touch_roundings * tolerance_ / Real(instant);
+  return std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) {
+    return !touch.is_at_hand && -parting(touch, joint_velocities_) > slowest;
+  });
+}
+
+template class BasicEngine<double>;
+template class BasicEngine<long double>;
+
+}  // namespace rink::physics
