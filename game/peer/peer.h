@@ -179,21 +179,23 @@ class Peer {
   Vector2 extent_of(std::uint32_t body) const { return portion_.world().half_extent({body}); }
   Vector2 start_place(std::uint32_t body) const;
   Box reach_of(std::uint32_t body) const;
-  Box start_reach(std::uint32_t body) const;
   bool is_in_region(PeerNumber peer, const Box& box) const {
     return division_.is_near(peer, box, halos_[peer]);
   }
   void play_anew();
   void play_keys(double until);
-  bool knows(PeerNumber peer, std::uint32_t body) const;
-  void enter_bodies(const Arrivals& arrivals, PeerNumber from);
   void set_holds(std::vector<Hold> holds);
-  void complete_flown(Arrivals& arrivals, PeerNumber from);
   void correct_doubtful();
   void own_from_now(std::uint32_t body);
   void disown(std::uint32_t body);
   void settle(std::vector<std::uint32_t> candidates);
   void share_keys(double until);
+
+  // peer_arrivals.cpp
+  bool knows(PeerNumber peer, std::uint32_t body) const;
+  Box start_reach(std::uint32_t body) const;
+  void enter_bodies(const Arrivals& arrivals, PeerNumber from);
+  void complete_flown(Arrivals& arrivals, PeerNumber from);
 
   // peer_homes.cpp
   std::uint8_t home_of(const Vector2& place, std::uint8_t likely) const;
