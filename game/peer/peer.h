@@ -218,6 +218,8 @@ class Peer {
   std::span<const Step> steps_of(std::uint32_t body) const;
   physics::Motion motion_after(const Step& step) const;
   void lay_out_paths();
+
+  // peer_verdict.cpp
   double first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> claimed,
                           std::vector<PathFlight>& beyond) const;
   bool may_touch_own(const PathFlight& flight) const;

@@ -1,0 +1,17 @@
+// Doubles as floats that are certainly no greater, or no less: what is claimed holds what is meant.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace rink::peer {
+
+inline float rounded_down(double x) {
+  const auto nearest = static_cast<float>(x);
+  return static_cast<double>(nearest) <= x
+             ? nearest
+             : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+}
+inline float rounded_up(double x) { return -rounded_down(-x); }
+
+}  // namespace rink::peer
