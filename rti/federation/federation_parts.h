@@ -13,17 +13,17 @@
 #include "rti/buffering/datagram_batch.h"
 #include "rti/distribution/relevance.h"
 #include "rti/federation/datagram_way.h"
-#include "rti/federation/upward_way.h"
+#include "rti/federation/federation_connection.h"
+#include "rti/federation/joined_federate.h"
+#include "rti/federation/synchronization_point.h"
 #include "rti/federation_execution.h"
 #include "rti/federation_services.h"
 #include "rti/management/management_handles.h"
 #include "rti/objects/object_map.h"
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
-#include "rti/questions.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
-#include "rti/wire/object_block.h"
 #include "rti/wire/object_messages.h"
 #include "rti/wire/ownership_messages.h"
 
@@ -38,71 +38,9 @@ class FederationExecution::Parts {
         std::unique_ptr<im::Filter> filter);
   ~Parts();
 
-  /// A joined federate. Vectors by class are of fixed size.
-  struct Federate {
-    bool is_joined = false, is_watching = false;
-    ConnectionId connection = 0;
-    FederateHandle handle;
-    std::uint32_t block = 0;               ///< of its objects' handles
-    std::uint32_t objects_registered = 0;  ///< in that block
-    std::optional<std::uint32_t>
-        further_block{};                         ///< that it was given for when this one is used up
-    std::vector<std::uint32_t> former_blocks{};  ///< used up
-    std::size_t name_bytes = 0;                  ///< of their names
-    std::size_t looked_at = 0, said = 0;  ///< since the last flush: objects, for its requests for
-                                          ///< updates; bytes of interactions
-    std::string name, type;
-    std::vector<AttributeSet> published;             ///< by object class
-    std::vector<bool> published_interactions;        ///< by interaction class
-    std::vector<Listening> subscribed_interactions;  ///< likewise
-    std::vector<Subscription>
-        told_relevance;  ///< what it was told that others hear, by row of `Relevance`
-    std::unique_ptr<ObjectMap<AttributeSet>>
-        told_objects;  ///< likewise of objects, if it asked for it: those that others hear
-    std::vector<std::byte> control;  ///< messages that go out before this flush's updates
-    std::vector<std::byte> tail;     ///< and after them
-    ObjectBlockWriter tail_block;    ///< the block at the end of `tail`, if any
-    std::vector<std::pair<std::uint16_t, Transportation>>
-        changed_transportation;  ///< of interactions that it sends otherwise than the model says
-    ResignAction resign_action = ResignAction::cancel_then_delete_then_divest;
-    std::optional<Stamp> stamp;  ///< of the updates in the frame at hand, once it was said
-    Stamp newest;  ///< of its latest update: all that it says of its objects holds at least until
-                   ///< then
-    double last_said = 0.0;
-    double report_period = 0.0;  ///< of its HLAfederate object [s]; 0: none
-    double lookahead = 0.0;      ///< as it last asked for [s]
-    bool is_advancing = false;   ///< in logical time
-    std::uint64_t objects_deleted = 0, objects_removed = 0, objects_discovered = 0;
-    FederateCounts counts;              ///< what is counted as it happens; `report` adds the rest
-    std::uint32_t frames = 0;           ///< sent to it
-    bool has_stream_only = false;       ///< no datagrams, whatever its connection could carry
-    std::unique_ptr<DatagramWay> way;   ///< null until it has one
-    std::uint32_t frames_heard = 0;     ///< after the one that asked to join
-    std::unique_ptr<UpwardWay> upward;  ///< null until a datagram of its comes
-  };
-  enum class Phase : std::uint8_t { unknown, connected, joined };
-  struct Connection {
-    Phase phase = Phase::unknown;
-    std::uint32_t federate = 0;  ///< slot, once joined
-    bool has_spoken = false;     ///< since the last `advance_clock`
-    Questions questions;
-    double last_heard = 0.0;
-    FrameReader reader;
-  };
-  struct Farewell {
-    ConnectionId connection;
-    std::string why;
-    std::vector<std::byte> bytes;  ///< sent before the connection is dropped
-  };
-  struct SynchronizationPoint {
-    std::string label;
-    std::vector<std::byte> tag;
-    FederateHandle registrar;            ///< none once it has left
-    bool is_for_all = false;             ///< who joins before it is reached belongs to it
-    std::vector<std::uint32_t> members;  ///< slots of the federates in its set
-    std::vector<std::uint32_t> awaited;  ///< those of them that have not achieved it
-    std::vector<FederateHandle> failed;  ///< those who said that they could not
-  };
+  using Federate = JoinedFederate;
+  using Connection = FederationConnection;
+  using Phase = Connection::Phase;
   using Outcome = std::optional<Violation>;  ///< nothing: all is well
   static constexpr std::size_t synchronization_point_max =
       64;  ///< of one federate, not reached yet

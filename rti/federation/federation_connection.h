@@ -1,0 +1,31 @@
+// What a federation execution keeps of one connection, and of one that it is about to drop.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rti/questions.h"
+#include "rti/wire/bytes.h"
+#include "rti/wire/frame.h"
+
+namespace rink::rti {
+
+struct FederationConnection {
+  enum class Phase : std::uint8_t { unknown, connected, joined };
+  Phase phase = Phase::unknown;
+  std::uint32_t federate = 0;  ///< slot, once joined
+  bool has_spoken = false;     ///< since the last `advance_clock`
+  Questions questions;
+  double last_heard = 0.0;
+  FrameReader reader;
+};
+
+struct Farewell {
+  ConnectionId connection;
+  std::string why;
+  std::vector<std::byte> bytes;  ///< sent before the connection is dropped
+};
+
+}  // namespace rink::rti

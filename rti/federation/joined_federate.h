@@ -1,0 +1,69 @@
+// What a federation execution keeps of one federate, from its joining to its leaving.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rti/distribution/data_distribution.h"
+#include "rti/federate_ambassador.h"
+#include "rti/federation/datagram_way.h"
+#include "rti/federation/upward_way.h"
+#include "rti/fom/attribute_set.h"
+#include "rti/fom/fom.h"
+#include "rti/handles.h"
+#include "rti/management/federation_report.h"
+#include "rti/objects/object_map.h"
+#include "rti/ownership/holding.h"
+#include "rti/wire/bytes.h"
+#include "rti/wire/object_block.h"
+
+namespace rink::rti {
+
+/// Vectors by class are of fixed size.
+struct JoinedFederate {
+  bool is_joined = false, is_watching = false;
+  ConnectionId connection = 0;
+  FederateHandle handle;
+  std::uint32_t block = 0;                       ///< of its objects' handles
+  std::uint32_t objects_registered = 0;          ///< in that block
+  std::optional<std::uint32_t> further_block{};  ///< that it was given for when this one is used up
+  std::vector<std::uint32_t> former_blocks{};    ///< used up
+  std::size_t name_bytes = 0;                    ///< of their names
+  std::size_t looked_at = 0, said = 0;  ///< since the last flush: objects, for its requests for
+                                        ///< updates; bytes of interactions
+  std::string name, type;
+  std::vector<AttributeSet> published;             ///< by object class
+  std::vector<bool> published_interactions;        ///< by interaction class
+  std::vector<Listening> subscribed_interactions;  ///< likewise
+  std::vector<Subscription>
+      told_relevance;  ///< what it was told that others hear, by row of `Relevance`
+  std::unique_ptr<ObjectMap<AttributeSet>>
+      told_objects;  ///< likewise of objects, if it asked for it: those that others hear
+  std::vector<std::byte> control;  ///< messages that go out before this flush's updates
+  std::vector<std::byte> tail;     ///< and after them
+  ObjectBlockWriter tail_block;    ///< the block at the end of `tail`, if any
+  std::vector<std::pair<std::uint16_t, Transportation>>
+      changed_transportation;  ///< of interactions that it sends otherwise than the model says
+  ResignAction resign_action = ResignAction::cancel_then_delete_then_divest;
+  std::optional<Stamp> stamp;  ///< of the updates in the frame at hand, once it was said
+  Stamp newest;  ///< of its latest update: all that it says of its objects holds at least until
+                 ///< then
+  double last_said = 0.0;
+  double report_period = 0.0;  ///< of its HLAfederate object [s]; 0: none
+  double lookahead = 0.0;      ///< as it last asked for [s]
+  bool is_advancing = false;   ///< in logical time
+  std::uint64_t objects_deleted = 0, objects_removed = 0, objects_discovered = 0;
+  FederateCounts counts;              ///< what is counted as it happens; `report` adds the rest
+  std::uint32_t frames = 0;           ///< sent to it
+  bool has_stream_only = false;       ///< no datagrams, whatever its connection could carry
+  std::unique_ptr<DatagramWay> way;   ///< null until it has one
+  std::uint32_t frames_heard = 0;     ///< after the one that asked to join
+  std::unique_ptr<UpwardWay> upward;  ///< null until a datagram of its comes
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,23 @@
+// What a federation execution keeps of one synchronisation point.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rti/handles.h"
+
+namespace rink::rti {
+
+struct SynchronizationPoint {
+  std::string label;
+  std::vector<std::byte> tag;
+  FederateHandle registrar;            ///< none once it has left
+  bool is_for_all = false;             ///< who joins before it is reached belongs to it
+  std::vector<std::uint32_t> members;  ///< slots of the federates in its set
+  std::vector<std::uint32_t> awaited;  ///< those of them that have not achieved it
+  std::vector<FederateHandle> failed;  ///< those who said that they could not
+};
+
+}  // namespace rink::rti
