@@ -170,11 +170,13 @@ class Interest : public DataDistribution {
   bool never_waits(const DeclaredInterest& interest, ObjectSlot slot);
   void place_in_tier(DeclaredInterest& interest, ObjectSlot slot, bool is_new);
 
-  // Subscriptions and what follows from them (interest.cpp).
+  // Subscriptions (interest_subscriptions.cpp).
   Regional& regional(DeclaredInterest& interest, RegionSlot region);
-  Regional* find(DeclaredInterest& interest, im::Subscriber subscriber);
   void drop_regional(DeclaredInterest& interest, RegionSlot region);
   void expand(ClassInterest& interest) const;
+
+  // The scope that follows from them (interest.cpp).
+  Regional* find(DeclaredInterest& interest, im::Subscriber subscriber);
   bool overlaps(const Regional& regional, RegionSlot update);
   AttributeSet covered(const Regional& regional, ObjectSlot object, AttributeSet attributes);
   template <bool is_active_only = false>
