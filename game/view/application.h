@@ -66,8 +66,17 @@ class Application {
     bool is_dragging = false;
   };
 
+  // application.cpp
   void start(const MatchWish& wish);
   void do_wish(const MenuWish& wish);
+  void set_paused(bool is_wanted);
+  bool is_split() const;
+  Viewpoint viewpoint_of(std::uint32_t hand) const;
+  void draw_views(Interface& interface, Renderer* renderer, const Canvas& canvas, double now_s);
+  void follow_phase();
+  ViewChoice view(const MatchSight& sight, double now_s);
+
+  // application_input.cpp
   EventQueue::Pace pace() const;
   void hear_events(Interface& interface);
   void hear_key(KeyCode code, bool is_down);
@@ -77,16 +86,10 @@ class Application {
   void press(KeyCode code, const Bound& bound);
   void release(KeyCode code);
   void release_all();
-  void set_paused(bool is_wanted);
-  bool is_split() const;
   void set_split(bool is_wanted);
-  Viewpoint viewpoint_of(std::uint32_t hand) const;
   Sight seen() const;
   void drag(double across, double down);
   void click();
-  void draw_views(Interface& interface, Renderer* renderer, const Canvas& canvas, double now_s);
-  void follow_phase();
-  ViewChoice view(const MatchSight& sight, double now_s);
 
   Surroundings surroundings_;
   Settings settings_;

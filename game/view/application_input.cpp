@@ -1,0 +1,206 @@
+// Keys to the match, to the menu or to the camera, and what the mouse does to the view.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "game/match/replay_match.h"
+#include "game/view/application.h"
+#include "game/view/window/glfw.h"
+
+namespace rink::view {
+namespace {
+
+constexpr double click_reach = 8.0;  ///< pixels: so far the mouse may move in a click, and may miss
+
+}  // namespace
+
+EventQueue::Pace Application::pace() const {
+  if (menu_.screen() == Menu::Screen::none) return EventQueue::Pace::play;
+  return menu_.is_ready() ? EventQueue::Pace::menu : EventQueue::Pace::opening;
+}
+
+/// What this drawing is to see of what was done.
+void Application::hear_events(Interface& interface) {
+  using Kind = WindowEvent::Kind;
+  events_.begin_frame();
+  while (const std::optional<WindowEvent> event = events_.take(pace())) {
+    interface.hear(*event);
+    if (event->kind == Kind::close) wants_to_quit_ = true;
+    else if (event->kind == Kind::key) hear_key(event->key, event->is_down);
+    else if (event->kind == Kind::focus_lost) release_all();
+    else if (menu_.screen() == Menu::Screen::none) hear_mouse(*event);
+  }
+}
+
+void Application::hear_key(KeyCode code, bool is_down) {
+  if (!is_down) return release(code);
+  MenuWish wish;
+  if (menu_.take_key(code, settings_, wish)) return do_wish(wish);
+  if (code == GLFW_KEY_F11) {
+    settings_.is_full_screen = !settings_.is_full_screen;
+    return do_wish({MenuWish::Kind::full_screen, {}});
+  }
+  if (menu_.screen() != Menu::Screen::none) return;
+  if (const auto meaning = bound(settings_, code); meaning && match_->hand_count() > 0)
+    return press(code, *meaning);
+  hear_command(code);
+}
+
+void Application::set_split(bool is_wanted) {
+  if (match_->hand_count() != 2) return;
+  release_all();
+  settings_.is_split = is_wanted;
+  chosen_viewpoint_.reset();
+  do_wish({MenuWish::Kind::settings_changed, {}});
+}
+
+/// Keys that steer the window; those of the bats come first.
+bool Application::hear_command(KeyCode code) {
+  if (hear_replay(code)) return true;
+  switch (code) {
+    case GLFW_KEY_TAB:
+      ++interest_.chosen;
+      interest_.picked.reset();
+      return true;
+    case GLFW_KEY_I:
+      interest_.is_shown = !interest_.is_shown;
+      return true;
+    case GLFW_KEY_V:
+      set_split(!is_split());
+      return true;
+    case GLFW_KEY_ESCAPE:
+    case GLFW_KEY_P:
+      set_paused(true);
+      return true;
+    case GLFW_KEY_C:
+      release_all();
+      chosen_viewpoint_ = is_split()
+                              ? Viewpoint::side
+                              : static_cast<Viewpoint>((static_cast<int>(view_.viewpoint) + 1) % 4);
+      return true;
+    case GLFW_KEY_M:
+      settings_.is_muted = !settings_.is_muted;
+      do_wish({MenuWish::Kind::settings_changed, {}});
+      return true;
+    case GLFW_KEY_F:
+      follows_ = !follows_;
+      return true;
+    case GLFW_KEY_F3:
+      shows_figures_ = !shows_figures_;
+      return true;
+    case GLFW_KEY_EQUAL:
+    case GLFW_KEY_KP_ADD:
+      view_.zoom = std::min(40.0, view_.zoom * 1.25);
+      return true;
+    case GLFW_KEY_MINUS:
+    case GLFW_KEY_KP_SUBTRACT:
+      view_.zoom = std::max(1.0, view_.zoom / 1.25);
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// A recorded match: space stops it, left and right seek, up and down change its speed, home is its
+/// start.
+bool Application::hear_replay(KeyCode code) {
+  auto* replay = dynamic_cast<game::ReplayMatch*>(match_.get());
+  if (replay == nullptr) return false;
+  const double now = replay->sight().time;
+  switch (code) {
+    case GLFW_KEY_SPACE:
+      replay->pause(!replay->is_paused());
+      return true;
+    case GLFW_KEY_LEFT:
+      replay->seek(now - 5.0);
+      return true;
+    case GLFW_KEY_RIGHT:
+      replay->seek(now + 5.0);
+      return true;
+    case GLFW_KEY_UP:
+      replay->set_speed(std::min(8.0, 2.0 * replay->speed()));
+      return true;
+    case GLFW_KEY_DOWN:
+      replay->set_speed(std::max(1.0 / 16.0, 0.5 * replay->speed()));
+      return true;
+    case GLFW_KEY_HOME:
+      replay->rematch();
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Seen from above: the wheel zooms, dragging moves what is seen, a click asks of what is there.
+void Application::hear_mouse(const WindowEvent& event) {
+  using Kind = WindowEvent::Kind;
+  if (event.kind == Kind::scroll)
+    view_.zoom = std::clamp(view_.zoom * std::pow(1.15, event.y), 1.0, 40.0);
+  else if (event.kind == Kind::mouse_button && event.is_down)
+    mouse_.is_dragging = true, mouse_.dragged = 0.0;
+  else if (event.kind == Kind::mouse_button && std::exchange(mouse_.is_dragging, false) &&
+           mouse_.dragged < click_reach)
+    click();
+  else if (event.kind == Kind::mouse_move) {
+    if (mouse_.is_dragging) drag(event.x - mouse_.x, event.y - mouse_.y);
+    mouse_.x = event.x, mouse_.y = event.y;
+  }
+}
+
+/// The camera of the last frame.
+Sight Application::seen() const {
+  const double aspect = static_cast<double>(size_.width) / size_.height;
+  return {camera_of(match_->sight().field, view_, aspect), static_cast<float>(aspect)};
+}
+
+/// `across`, `down`: pixels.
+void Application::drag(double across, double down) {
+  mouse_.dragged += std::abs(across) + std::abs(down);
+  if (mouse_.dragged < click_reach) return;
+  const Sight sight = seen();
+  const physics::Field& field = match_->sight().field;
+  view_.centre.x() -=
+      2.0 * across / size_.width * static_cast<double>(sight.right().x()) / field.length;
+  view_.centre.y() += 2.0 * down / size_.height * static_cast<double>(sight.up().y()) / field.width;
+  view_.centre = view_.centre.cwiseMax(0.0).cwiseMin(1.0);
+  follows_ = false;
+}
+
+void Application::click() {
+  if (!match_->sight().interest || view_.viewpoint != Viewpoint::above) return;
+  const Sight sight = seen();
+  const Eigen::Vector2f at(static_cast<float>(2.0 * mouse_.x / size_.width - 1.0),
+                           static_cast<float>(1.0 - 2.0 * mouse_.y / size_.height));
+  const double pixel = 2.0 * static_cast<double>(sight.up().y()) / size_.height;
+  if (const auto thing =
+          thing_at(match_->sight(), sight.on_table(at).cast<double>(), click_reach * pixel))
+    interest_.picked = thing;
+}
+
+/// One who plays alone may use either set of keys; each key means what it looks like from where the
+/// player sees the table.
+void Application::press(KeyCode code, const Bound& meaning) {
+  const std::uint32_t hand = match_->hand_count() == 1 ? 0 : meaning.hand;
+  const game::Key key = seen_from(viewpoint_of(hand), meaning.key);
+  const bool was_down = std::ranges::any_of(
+      held_, [&](const HeldKey& held) { return held.hand == hand && held.key == key; });
+  held_.push_back({code, hand, key});
+  if (!was_down) match_->press(hand, key, true);
+}
+
+void Application::release(KeyCode code) {
+  const auto found = std::ranges::find(held_, code, &HeldKey::code);
+  if (found == held_.end()) return;
+  const HeldKey held = *found;
+  held_.erase(found);
+  const bool is_still_down = std::ranges::any_of(held_, [&](const HeldKey& other) {
+    return other.hand == held.hand && other.key == held.key;
+  });
+  if (!is_still_down) match_->press(held.hand, held.key, false);
+}
+
+void Application::release_all() {
+  while (!held_.empty()) release(held_.back().code);
+}
+
+}  // namespace rink::view
