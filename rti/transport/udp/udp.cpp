@@ -1,14 +1,10 @@
-// How a way for datagrams opens beside a TCP connection, and what goes over it.
+// TCP connections with ways for datagrams beside them, and what goes over both.
 #include "rti/transport/udp/udp.h"
 
 #include <poll.h>
-#include <sys/random.h>
 #include <sys/timerfd.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <asio.hpp>
-#include <cstring>
 #include <ctime>
 
 #include "rti/transport/udp/udp_core.h"
@@ -17,37 +13,8 @@ namespace rink::rti {
 
 namespace {
 
-constexpr std::uint32_t datagram_magic = 0x47444b52;  ///< "RKDG": no frame is that long
 constexpr std::uint64_t server_mark = 1ull << 32, timer_mark = server_mark + 1;
-constexpr int tries_max = 30;  ///< ten a second
 constexpr std::size_t datagram_events_per_poll = 1024;
-
-std::uint64_t secret() {
-  std::uint64_t key = 0;
-  while (key == 0)
-    if (::getrandom(&key, sizeof key, 0) != sizeof key) key = 0;
-  return key;
-}
-
-template <class Number>
-void put(std::byte*& at, Number number) {
-  std::memcpy(at, &number, sizeof number);
-  at += sizeof number;
-}
-template <class Number>
-Number get(Bytes bytes, std::size_t at) {
-  Number number{};
-  std::memcpy(&number, bytes.data() + at, sizeof number);
-  return number;
-}
-
-SocketAddress peer_of(int socket) {
-  SocketAddress address;
-  address.size = sizeof address.storage;
-  if (::getpeername(socket, reinterpret_cast<sockaddr*>(&address.storage), &address.size) != 0)
-    address.size = 0;
-  return address;
-}
 
 }  // namespace
 
@@ -142,49 +109,6 @@ void UdpTransport::Core::forward(ConnectionId connection, Bytes bytes) {
   listener_->on_bytes(connection, bytes);
 }
 
-/// Takes what is ours of the stream's beginning and returns the rest. What turns out to be nobody's
-/// greeting is forwarded.
-Bytes UdpTransport::Core::take_head(ConnectionId connection, Bytes bytes) {
-  Way& way = *find(connection);
-  const std::size_t wanted = way.role == Way::Role::client ? greeting_size : magic_size;
-  const std::size_t taken = std::min(bytes.size(), wanted - way.head_size);
-  std::copy_n(bytes.begin(), taken, way.head.begin() + static_cast<std::ptrdiff_t>(way.head_size));
-  way.head_size += taken;
-  bytes = bytes.subspan(taken);
-  const std::size_t comparable = std::min(way.head_size, magic_size);
-  if (std::memcmp(way.head.data(), &datagram_magic, comparable) != 0) {
-    const std::array<std::byte, greeting_size> head = way.head;
-    const std::size_t size = way.head_size;
-    way.role = Way::Role::none;
-    let_go(connection, way);
-    forward(connection, Bytes(head).first(size));
-    return find(connection) == nullptr ? Bytes() : bytes;
-  }
-  if (way.head_size < wanted) return {};
-  tallies_[connection].stream_received = wanted;
-  way.role == Way::Role::client ? open_socket(connection, way) : greet(connection, way);
-  return bytes;
-}
-
-void UdpTransport::Core::greet(ConnectionId connection, Way& way) {
-  way.role = Way::Role::server;
-  way.address = peer_of(tcp_.file(connection));
-  way.up_key = secret();
-  way.down_key = secret();
-  way.nonce = secret();
-  by_key_[way.up_key] = connection;
-  std::array<std::byte, greeting_size> greeting;
-  std::byte* at = greeting.data();
-  put(at, datagram_magic);
-  put(at, server_port_);
-  put(at, way.up_key);
-  put(at, way.down_key);
-  const Bytes bytes = greeting;
-  tallies_[connection].stream_sent = greeting_size;
-  tcp_.send(connection, std::span(&bytes, 1));
-  let_go(connection, way);
-}
-
 /// The greeting comes first of all, and whether there is one is known when the client has spoken.
 void UdpTransport::Core::send(ConnectionId connection, std::span<const Bytes> parts) {
   Way* way = find(connection);
@@ -209,66 +133,6 @@ void UdpTransport::Core::let_go(ConnectionId connection, Way& way) {
 void UdpTransport::Core::close(ConnectionId connection) {
   if (Way* way = find(connection)) let_go(connection, *way);
   tcp_.close(connection);
-}
-
-void UdpTransport::Core::open_socket(ConnectionId connection, Way& way) {
-  way.up_key = get<std::uint64_t>(way.head, magic_size + 2);
-  way.down_key = get<std::uint64_t>(way.head, magic_size + 10);
-  way.address = peer_of(tcp_.file(connection));
-  way.address.set_port(get<std::uint16_t>(way.head, magic_size));
-  way.file =
-      File(::socket(way.address.storage.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  // Connected, it hears of nobody but the server.
-  if (!way.file || ::connect(way.file.number(), way.address.get(), way.address.size) != 0) {
-    ++counters_.ways_failed;
-    return;
-  }
-  prepare_datagram_socket(way.file.number(), settings_.use_offload);
-  readiness_.watch(way.file.number(), connection, false);
-  way.state = Way::State::hello;
-  if (asking_.empty()) set_timer();
-  asking_.push_back(connection);
-  ask(way);
-}
-
-void UdpTransport::Core::set_timer() {
-  const itimerspec tenth{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = 100'000'000}};
-  timerfd_settime(timer_.number(), 0, &tenth, nullptr);
-}
-
-/// A client's question that has not been answered yet.
-void UdpTransport::Core::ask(const Way& way) {
-  if (way.state == Way::State::hello) tell(way, Kind::hello, way.up_key, 0, payload_max);
-  else tell(way, Kind::confirm, way.up_key, way.nonce, prefix_size + 8);
-}
-
-void UdpTransport::Core::ask_again() {
-  std::uint64_t expirations = 0;
-  if (::read(timer_.number(), &expirations, sizeof expirations) != sizeof expirations) return;
-  std::erase_if(asking_, [this](ConnectionId connection) {
-    Way* way = find(connection);
-    if (way == nullptr || way->state == Way::State::open || way->state == Way::State::closed)
-      return true;
-    if (++way->tries < tries_max) return ask(*way), false;
-    way->state = Way::State::closed;
-    ++counters_.ways_failed;
-    return true;
-  });
-  if (!asking_.empty()) set_timer();
-}
-
-void UdpTransport::Core::tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce,
-                              std::size_t size) {
-  std::array<std::byte, payload_max> bytes{};
-  std::byte* at = bytes.data();
-  put(at, key);
-  put(at, kind);
-  put(at, nonce);
-  const Datagram whole{Bytes(bytes).first(size), {}};
-  const bool is_client = way.role == Way::Role::client;
-  sender_.add(is_client ? way.file.number() : server_.number(), is_client ? nullptr : &way.address,
-              {}, std::span(&whole, 1));
-  sender_.push();
 }
 
 void UdpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -32,6 +34,7 @@ class UdpTransport::Core final : private TransportListener {
  private:
   /// What the first byte after a datagram's key says.
   enum class Kind : std::uint8_t { data, hello, welcome, confirm, open };
+  static constexpr std::uint32_t datagram_magic = 0x47444b52;  ///< "RKDG": no frame is that long
   static constexpr std::size_t payload_max = 1200, prefix_size = 9;
   static constexpr std::size_t magic_size = 4, greeting_size = magic_size + 2 + 8 + 8;
 
@@ -59,27 +62,42 @@ class UdpTransport::Core final : private TransportListener {
                   bytes_sent = 0, bytes_received = 0;
   };
 
+  template <class Number>
+  static void put(std::byte*& at, Number number) {
+    std::memcpy(at, &number, sizeof number);
+    at += sizeof number;
+  }
+  template <class Number>
+  static Number get(Bytes bytes, std::size_t at) {
+    Number number{};
+    std::memcpy(&number, bytes.data() + at, sizeof number);
+    return number;
+  }
+
   void on_open(ConnectionId connection) override;
   void on_bytes(ConnectionId connection, Bytes bytes) override;
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
 
+  // udp.cpp
   Way* find(ConnectionId connection) const {
     return connection < ways_.size() ? ways_[connection].get() : nullptr;
   }
   Way& add(ConnectionId connection);
-  Bytes take_head(ConnectionId connection, Bytes bytes);
   void let_go(ConnectionId connection, Way& way);
-  void greet(ConnectionId connection, Way& way);
-  void open_socket(ConnectionId connection, Way& way);
   void forward(ConnectionId connection, Bytes bytes);
   void take_what_came();
   void take_from_client(const SocketAddress& source, Bytes datagram);
   void take_from_server(ConnectionId connection, Way& way, Bytes datagram);
+  void take_data(ConnectionId connection, Bytes datagram);
+
+  // udp_opening.cpp
+  Bytes take_head(ConnectionId connection, Bytes bytes);
+  void greet(ConnectionId connection, Way& way);
+  void open_socket(ConnectionId connection, Way& way);
   void tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce, std::size_t size);
   void ask(const Way& way);
   void ask_again();
   void set_timer();
-  void take_data(ConnectionId connection, Bytes datagram);
 
   UdpSettings settings_;
   TcpTransport tcp_;
