@@ -8,6 +8,7 @@
 #include "rti/refusal_words.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
+#include "rti/wire/membership_messages.h"
 
 namespace rink::rti {
 

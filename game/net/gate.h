@@ -8,6 +8,7 @@
 #include "rti/transport/guarded_transport.h"
 #include "rti/transport/rate_limited_transport.h"
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/membership_messages.h"
 
 namespace rink::game {
 

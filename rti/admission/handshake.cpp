@@ -6,6 +6,7 @@
 
 #include "rti/wire/admission_messages.h"
 #include "rti/wire/frame.h"
+#include "rti/wire/membership_messages.h"
 
 namespace rink::rti {
 

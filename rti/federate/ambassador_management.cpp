@@ -5,6 +5,7 @@
 #include "rti/federate/ambassador_say.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
+#include "rti/wire/membership_messages.h"
 
 namespace rink::rti {
 

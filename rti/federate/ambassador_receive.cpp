@@ -6,6 +6,7 @@
 #include "rti/fom/fom_digest.h"
 #include "rti/wire/declaration_messages.h"
 #include "rti/wire/fom_messages.h"
+#include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/time_messages.h"
 #include "rti/wire/update_block.h"

@@ -9,6 +9,7 @@
 #include "rti/groups/member_lists.h"
 #include "rti/refusal_words.h"
 #include "rti/wire/fom_messages.h"
+#include "rti/wire/membership_messages.h"
 
 namespace rink::rti {
 

@@ -23,6 +23,7 @@
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/object_messages.h"
 #include "rti/wire/ownership_messages.h"

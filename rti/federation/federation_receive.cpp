@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rti/federation/federation_parts.h"
+#include "rti/wire/membership_messages.h"
 #include "rti/wire/update_block.h"
 
 namespace rink::rti {

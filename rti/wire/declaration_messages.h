@@ -1,10 +1,54 @@
-// The messages of declaration management: who hears what of a class or an object, and which values
-// are kept back since nobody does.
+// The messages of declaration management: what is published and subscribed, who hears what of a
+// class or an object, and which values are kept back since nobody does.
 #pragma once
 
+#include <cstdint>
+
+#include "rti/handles.h"
 #include "rti/wire/message.h"
 
 namespace rink::rti {
+
+/// An empty set withdraws.
+struct PublishObjectClassMessage {
+  static constexpr MessageKind kind = MessageKind::publish_object_class;
+  std::uint16_t object_class = 0;
+  std::uint32_t attributes = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, PublishObjectClassMessage& message) {
+  return stream.number(message.object_class) && stream.number(message.attributes);
+}
+
+/// An empty set withdraws; `region` is all ones for the default region.
+struct SubscribeObjectClassMessage {
+  static constexpr MessageKind kind = MessageKind::subscribe_object_class;
+  std::uint16_t object_class = 0;
+  std::uint32_t attributes = 0;
+  std::uint32_t region = RegionHandle::none;
+  std::uint8_t is_passive = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, SubscribeObjectClassMessage& message) {
+  return stream.number(message.object_class) && stream.number(message.attributes) &&
+         stream.number(message.region) && stream.range(message.is_passive, 1);
+}
+
+template <MessageKind k>
+struct InteractionClassMessage {
+  static constexpr MessageKind kind = k;
+  std::uint16_t interaction_class = 0;
+  std::uint8_t is_declared = 1;  ///< 0 withdraws; 2 subscribes passively
+};
+template <class Stream, MessageKind k>
+bool exchange(Stream& stream, InteractionClassMessage<k>& message) {
+  return stream.number(message.interaction_class) &&
+         stream.range(message.is_declared, k == MessageKind::subscribe_interaction_class ? 2 : 1);
+}
+using PublishInteractionClassMessage =
+    InteractionClassMessage<MessageKind::publish_interaction_class>;
+using SubscribeInteractionClassMessage =
+    InteractionClassMessage<MessageKind::subscribe_interaction_class>;
 
 /// Tells who publishes a class what others hear of it (docs/rti.md, "Nobody listens").
 struct ClassRelevanceMessage {

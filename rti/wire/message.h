@@ -1,4 +1,5 @@
-// Every message between a federate and the RTI; docs/wire.md specifies the same bytes in words.
+// The kinds of messages between a federate and the RTI, how each is written, and those that carry
+// objects, their values and interactions; docs/wire.md specifies the same bytes in words.
 #pragma once
 
 #include <bit>
@@ -12,7 +13,6 @@
 #include "rti/fom/attribute_set.h"
 #include "rti/handles.h"
 #include "rti/hla_error.h"
-#include "rti/membership.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/stream.h"
 
@@ -145,24 +145,6 @@ std::size_t measure(Message& message);
 template <class Message>
 void write(std::vector<std::byte>& bytes, Message& message);
 
-struct JoinMessage {
-  static constexpr MessageKind kind = MessageKind::join;
-  std::uint32_t magic = protocol_magic;
-  std::uint16_t version = protocol_version;
-  std::uint64_t fom_hash = 0;
-  std::string_view federation, name, type;
-};
-/// What follows the version belongs to that version: a reader stops there when it speaks another
-/// one.
-template <class Stream>
-bool exchange(Stream& stream, JoinMessage& message) {
-  if (!stream.number(message.magic) || !stream.number(message.version)) return false;
-  if (message.magic != protocol_magic) return false;
-  if (message.version != protocol_version) return true;
-  return stream.number(message.fom_hash) && stream.text(message.federation, text_max) &&
-         stream.text(message.name, text_max) && stream.text(message.type, text_max);
-}
-
 /// A message that is its kind and nothing else.
 template <MessageKind k>
 struct BareMessage {
@@ -172,50 +154,6 @@ template <class Stream, MessageKind k>
 bool exchange(Stream&, BareMessage<k>&) {
   return true;
 }
-using ResignMessage = BareMessage<MessageKind::resign>;
-using HeartbeatMessage = BareMessage<MessageKind::heartbeat>;
-using WatchFederatesMessage = BareMessage<MessageKind::watch_federates>;
-
-/// An empty set withdraws.
-struct PublishObjectClassMessage {
-  static constexpr MessageKind kind = MessageKind::publish_object_class;
-  std::uint16_t object_class = 0;
-  std::uint32_t attributes = 0;
-};
-template <class Stream>
-bool exchange(Stream& stream, PublishObjectClassMessage& message) {
-  return stream.number(message.object_class) && stream.number(message.attributes);
-}
-
-/// An empty set withdraws; `region` is all ones for the default region.
-struct SubscribeObjectClassMessage {
-  static constexpr MessageKind kind = MessageKind::subscribe_object_class;
-  std::uint16_t object_class = 0;
-  std::uint32_t attributes = 0;
-  std::uint32_t region = RegionHandle::none;
-  std::uint8_t is_passive = 0;
-};
-template <class Stream>
-bool exchange(Stream& stream, SubscribeObjectClassMessage& message) {
-  return stream.number(message.object_class) && stream.number(message.attributes) &&
-         stream.number(message.region) && stream.range(message.is_passive, 1);
-}
-
-template <MessageKind k>
-struct InteractionClassMessage {
-  static constexpr MessageKind kind = k;
-  std::uint16_t interaction_class = 0;
-  std::uint8_t is_declared = 1;  ///< 0 withdraws; 2 subscribes passively
-};
-template <class Stream, MessageKind k>
-bool exchange(Stream& stream, InteractionClassMessage<k>& message) {
-  return stream.number(message.interaction_class) &&
-         stream.range(message.is_declared, k == MessageKind::subscribe_interaction_class ? 2 : 1);
-}
-using PublishInteractionClassMessage =
-    InteractionClassMessage<MessageKind::publish_interaction_class>;
-using SubscribeInteractionClassMessage =
-    InteractionClassMessage<MessageKind::subscribe_interaction_class>;
 
 /// An object appears: registered by its owner, or discovered by others.
 template <MessageKind k>
@@ -316,110 +254,6 @@ bool exchange(Stream& stream, RegionBounds& record) {
          stream.finite(bounds.low_y) && stream.finite(bounds.high_x) &&
          stream.finite(bounds.high_y) && bounds.low_x <= bounds.high_x &&
          bounds.low_y <= bounds.high_y;
-}
-
-/// `records` are, `count` times, a region handle (u32) and its bounds: low x, low y, high x, high y
-/// (f64 each).
-struct ModifyRegionsMessage {
-  static constexpr MessageKind kind = MessageKind::modify_regions;
-  static constexpr std::size_t record_size = 4 + 4 * 8;
-  static constexpr std::size_t count_max = 1024;
-  std::uint16_t count = 0;
-  Bytes records;
-};
-template <class Stream>
-bool exchange(Stream& stream, ModifyRegionsMessage& message) {
-  return stream.range(message.count, ModifyRegionsMessage::count_max) &&
-         stream.rest(message.records, message.count * ModifyRegionsMessage::record_size);
-}
-
-struct AssociateRegionMessage {
-  static constexpr MessageKind kind = MessageKind::associate_region;
-  std::uint32_t object = 0;
-  std::uint32_t region = RegionHandle::none;
-};
-template <class Stream>
-bool exchange(Stream& stream, AssociateRegionMessage& message) {
-  return stream.number(message.object) && stream.number(message.region);
-}
-
-/// A region comes (its handle is free and at most one beyond the greatest ever used) or goes.
-template <MessageKind k>
-struct RegionMessage {
-  static constexpr MessageKind kind = k;
-  std::uint32_t region = 0;
-};
-template <class Stream, MessageKind k>
-bool exchange(Stream& stream, RegionMessage<k>& message) {
-  return stream.range(message.region, region_max - 1);
-}
-using CreateRegionMessage = RegionMessage<MessageKind::create_region>;
-using DeleteRegionMessage = RegionMessage<MessageKind::delete_region>;
-
-struct JoinedMessage {
-  static constexpr MessageKind kind = MessageKind::joined;
-  std::uint32_t federate = 0;
-  std::uint32_t object_block = 0;
-};
-template <class Stream>
-bool exchange(Stream& stream, JoinedMessage& message) {
-  return stream.number(message.federate) &&
-         stream.range(message.object_block, object_block_max - 1);
-}
-
-/// The block for the federate's objects once the present one is used up.
-struct FurtherBlockMessage {
-  static constexpr MessageKind kind = MessageKind::further_block;
-  std::uint32_t object_block = 0;
-};
-template <class Stream>
-bool exchange(Stream& stream, FurtherBlockMessage& message) {
-  return stream.range(message.object_block, object_block_max - 1);
-}
-
-/// The same in every version of the protocol, so that a refused stranger understands.
-struct RefusedMessage {
-  static constexpr MessageKind kind = MessageKind::refused;
-  std::uint8_t refusal = 0;
-  std::string_view why;
-};
-template <class Stream>
-bool exchange(Stream& stream, RefusedMessage& message) {
-  return stream.number(message.refusal) && stream.text(message.why, text_max);
-}
-
-/// The last message to a federate that is dropped: why. Its connection closes.
-struct ExpelledMessage {
-  static constexpr MessageKind kind = MessageKind::expelled;
-  std::string_view why;
-};
-template <class Stream>
-bool exchange(Stream& stream, ExpelledMessage& message) {
-  return stream.text(message.why, text_max);
-}
-
-struct FederateJoinedMessage {
-  static constexpr MessageKind kind = MessageKind::federate_joined;
-  std::uint32_t federate = 0;
-  std::string_view name, type;
-};
-template <class Stream>
-bool exchange(Stream& stream, FederateJoinedMessage& message) {
-  return stream.number(message.federate) && stream.text(message.name, text_max) &&
-         stream.text(message.type, text_max);
-}
-
-struct FederateResignedMessage {
-  static constexpr MessageKind kind = MessageKind::federate_resigned;
-  std::uint32_t federate = 0;
-  std::uint8_t reason = 0;
-  std::string_view name, type;
-};
-template <class Stream>
-bool exchange(Stream& stream, FederateResignedMessage& message) {
-  return stream.number(message.federate) &&
-         stream.range(message.reason, static_cast<std::uint64_t>(ResignReason::misbehaved)) &&
-         stream.text(message.name, text_max) && stream.text(message.type, text_max);
 }
 
 template <class Message>

@@ -1,12 +1,51 @@
-// Messages about regions over any dimensions, and about what is published and wanted within them.
+// Messages about regions, and about what is published and wanted within them.
 #pragma once
 
 #include <cstdint>
 
 #include "rti/distribution/data_distribution.h"
+#include "rti/handles.h"
 #include "rti/wire/message.h"
 
 namespace rink::rti {
+
+/// `records` are, `count` times, a region handle (u32) and its bounds: low x, low y, high x, high y
+/// (f64 each).
+struct ModifyRegionsMessage {
+  static constexpr MessageKind kind = MessageKind::modify_regions;
+  static constexpr std::size_t record_size = 4 + 4 * 8;
+  static constexpr std::size_t count_max = 1024;
+  std::uint16_t count = 0;
+  Bytes records;
+};
+template <class Stream>
+bool exchange(Stream& stream, ModifyRegionsMessage& message) {
+  return stream.range(message.count, ModifyRegionsMessage::count_max) &&
+         stream.rest(message.records, message.count * ModifyRegionsMessage::record_size);
+}
+
+struct AssociateRegionMessage {
+  static constexpr MessageKind kind = MessageKind::associate_region;
+  std::uint32_t object = 0;
+  std::uint32_t region = RegionHandle::none;
+};
+template <class Stream>
+bool exchange(Stream& stream, AssociateRegionMessage& message) {
+  return stream.number(message.object) && stream.number(message.region);
+}
+
+/// A region comes (its handle is free and at most one beyond the greatest ever used) or goes.
+template <MessageKind k>
+struct RegionMessage {
+  static constexpr MessageKind kind = k;
+  std::uint32_t region = 0;
+};
+template <class Stream, MessageKind k>
+bool exchange(Stream& stream, RegionMessage<k>& message) {
+  return stream.range(message.region, region_max - 1);
+}
+using CreateRegionMessage = RegionMessage<MessageKind::create_region>;
+using DeleteRegionMessage = RegionMessage<MessageKind::delete_region>;
 
 /// Most pairs or regions that one message names.
 inline constexpr std::size_t regions_per_message_max = 1024;

@@ -7,6 +7,7 @@
 #include "rti/federation_execution.h"
 #include "rti/wire/baseline_messages.h"
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/membership_messages.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/service_scene.h"
 #include "tests/rti/rig.h"

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "rti/wire/datagram.h"
+#include "rti/wire/membership_messages.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/suspicious_federate.h"
 #include "tests/rti/rig.h"

@@ -9,6 +9,7 @@
 
 #include "game/net/client/network_match.h"
 #include "rti/transport/tcp/tcp.h"
+#include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
 #include "tests/match/match_scene.h"
 

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "rti/wire/declaration_messages.h"
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
 #include "tests/rti/rig.h"
 

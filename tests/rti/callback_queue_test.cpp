@@ -8,6 +8,7 @@
 
 #include "rti/callbacks/callback_queue.h"
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/membership_messages.h"
 #include "tests/places.h"
 #include "tests/rti/rig.h"
 

@@ -5,8 +5,11 @@
 
 #include <random>
 
+#include "rti/wire/declaration_messages.h"
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
+#include "rti/wire/region_messages.h"
 #include "rti/wire/update_block.h"
 #include "tests/rti/bare.h"
 

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "rti/wire/declaration_messages.h"
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
 #include "tests/rti/bare.h"
 

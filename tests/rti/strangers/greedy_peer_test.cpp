@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <string>
 
+#include "rti/wire/declaration_messages.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
+#include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/region_messages.h"
 #include "rti/wire/update_block.h"

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "rti/wire/declaration_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/region_messages.h"
 #include "tests/rti/bare.h"

@@ -10,6 +10,7 @@
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/fom_messages.h"
 #include "rti/wire/management_messages.h"
+#include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/object_messages.h"
 #include "rti/wire/region_messages.h"
