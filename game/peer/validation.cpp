@@ -19,7 +19,7 @@ constexpr double acceleration_max = 1e6, drag_max = 1e6, spin_max = 1e12, force_
 /// s: so much later than its window an event may come by rounding; far more than it ever does. A
 /// contact that should have ended earlier ends when it is looked at, so there is no such bound
 /// below.
-constexpr double time_margin = 1e-6;
+constexpr double rounding_margin = 1e-6;
 
 bool is_within(double value, double most) { return std::abs(value) <= most; }  // no number is not
 bool is_within(const Vector2& v, double most) {
@@ -173,7 +173,7 @@ std::string Validator::fault_of(const Claims& message, double end) const {
   for (const Claims::Body& body : message.bodies)
     if (!is_body(body.number)) return named("claims body", body.number, "which does not exist");
   for (const ClaimedFlight& flight : message.flights)
-    if (!(flight.begin >= 0.0 && flight.begin <= end + time_margin) ||
+    if (!(flight.begin >= 0.0 && flight.begin <= end + rounding_margin) ||
         !(flight.low_x <= flight.high_x) || !(flight.low_y <= flight.high_y))
       return "claims a flight through no place or at no time";
   for (const Press& press : message.presses)

@@ -317,29 +317,29 @@ constexpr std::array of_tables{
     TableColumns{"discovery", of_discoveries},
 };
 
-struct Ending {
+struct NameEnding {
   std::string_view suffix, meaning;
   std::string_view unit{};  ///< empty: that of the field
 };
 
 /// What figures add to the field that they are a member of.
 constexpr std::array endings{
-    Ending{"", ""},
-    Ending{"_rms", "; root mean square over all samples"},
-    Ending{"_p50", "; median of the samples"},
-    Ending{"_p90", "; 90th percentile of the samples"},
-    Ending{"_p95", "; 95th percentile of the samples"},
-    Ending{"_p99", "; 99th percentile of the samples"},
-    Ending{"_p999", "; 99.9th percentile of the samples"},
-    Ending{"_max", "; maximum of the samples"},
-    Ending{"_replaced_samples", "; number of samples of pucks put back, left out", "1"},
-    Ending{"_replaced_rms", "; root mean square over those samples"}};
+    NameEnding{"", ""},
+    NameEnding{"_rms", "; root mean square over all samples"},
+    NameEnding{"_p50", "; median of the samples"},
+    NameEnding{"_p90", "; 90th percentile of the samples"},
+    NameEnding{"_p95", "; 95th percentile of the samples"},
+    NameEnding{"_p99", "; 99th percentile of the samples"},
+    NameEnding{"_p999", "; 99.9th percentile of the samples"},
+    NameEnding{"_max", "; maximum of the samples"},
+    NameEnding{"_replaced_samples", "; number of samples of pucks put back, left out", "1"},
+    NameEnding{"_replaced_rms", "; root mean square over those samples"}};
 
-const Ending* ending_of(const std::string& name, const Definition& definition) {
+const NameEnding* ending_of(const std::string& name, const Definition& definition) {
   const std::string_view field = definition.field;
   if (!name.starts_with(field)) return nullptr;
   const auto ending =
-      std::ranges::find(endings, std::string_view(name).substr(field.size()), &Ending::suffix);
+      std::ranges::find(endings, std::string_view(name).substr(field.size()), &NameEnding::suffix);
   return ending == endings.end() ? nullptr : &*ending;
 }
 

@@ -23,7 +23,7 @@ std::string relevance_of(std::span<const RunRecord> runs) {
   return all;
 }
 
-std::string agreement_text(std::span<const RunRecord> runs) {
+std::string agreement_paragraph(std::span<const RunRecord> runs) {
   const Agreement agreement = agreement_of(runs);
   if (agreement.games == 0)
     return "<p class=\"faint\">No two runs were given the same keys, so no state hashes can be "
@@ -151,7 +151,7 @@ std::string introduction_of(const Findings& findings, const std::vector<EqualErr
       "<p class=\"faint\">" + escaped(setting_text(findings.experiment, findings.runs)) + "</p>\n";
   if (!findings.relevance.empty())
     html += "<p class=\"faint\">Relevant to a player: " + escaped(findings.relevance) + ".</p>\n";
-  return html + agreement_text(findings.runs);
+  return html + agreement_paragraph(findings.runs);
 }
 
 }  // namespace

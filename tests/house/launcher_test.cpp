@@ -233,7 +233,7 @@ TEST_F(Launcher, PacksWhatItHasBuilt) {
 
 TEST_F(Launcher, RefusesAPresetThatThereIsNot) {
   EXPECT_EQ(run("test --preset fast"), 2);
-  EXPECT_THAT(said_, AllOf(HasSubstr("--preset is release, asan"), HasSubstr("not 'fast'")));
+  EXPECT_THAT(said_, AllOf(HasSubstr("--preset is release, dev, asan"), HasSubstr("not 'fast'")));
   EXPECT_EQ(run("test --preset"), 2);
   EXPECT_THAT(said_, HasSubstr("usage: ./rink test"));
   EXPECT_THAT(calls_, IsEmpty());

@@ -5,7 +5,7 @@
 namespace rink::house {
 namespace {
 
-constexpr std::size_t line_length_max = 100, file_length_max = 540;
+constexpr std::size_t line_length_max = 100, file_length_max = 400;
 
 std::vector<SourceFile> all_code() { return read_sources(code_folders, code_extensions); }
 

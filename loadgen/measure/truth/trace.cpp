@@ -7,7 +7,7 @@ namespace rink::loadgen {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int version = 1;
+constexpr int trace_version = 1;
 
 std::string name_of(physics::BodyKind kind) {
   return kind == physics::BodyKind::bat ? "bat" : kind == physics::BodyKind::puck ? "puck" : "post";
@@ -41,7 +41,7 @@ void TruthTrace::begin(const RelevanceArea& area, const Replay& replay) {
   for (const physics::BodyKind kind :
        {physics::BodyKind::puck, physics::BodyKind::bat, physics::BodyKind::post})
     if (area.always && area.always->has(kind)) always.push_back(name_of(kind));
-  writer_.line({{"rink-truth", version},
+  writer_.line({{"rink-truth", trace_version},
                 {"begin_s", replay.begin_s()},
                 {"shape", name_of(area.shape)},
                 {"reach", area.reach},

@@ -12,7 +12,7 @@ namespace rink::physics::test {
 namespace {
 
 // Powers of two, so that touching places are exact.
-constexpr double puck_radius = 0.03125, thickness = 0.0625, half_width = 0.25;
+constexpr double small_radius = 0.03125, thickness = 0.0625, half_width = 0.25;
 
 std::vector<Event> events_of_kind(const World& world, EventKind kind) {
   std::vector<Event> found;
@@ -32,12 +32,12 @@ struct BatAndPuck {
     world.record_events(true);
     Vector2 half_extent(half_width, half_width), centre(2.0, 2.0), offset(along_face, along_face);
     half_extent[axis] = thickness;
-    offset[axis] = thickness + puck_radius;
+    offset[axis] = thickness + small_radius;
     bat = world.add(BatSpec{
         .position = centre, .velocity = bat_velocity, .half_extent = half_extent, .mass = 3.0});
     puck = world.add(PuckSpec{.position = centre + offset,
                               .velocity = puck_velocity,
-                              .radius = puck_radius,
+                              .radius = small_radius,
                               .mass = puck_mass});
   }
 };
@@ -192,9 +192,9 @@ TEST(RestContact, EndsWhereThePuckReachesTheEndOfTheFace) {
 /// A bat pushes two pucks in line, which slide along its face, each at a speed of its own.
 World pushed_in_line(double near_across, double far_across) {
   BatAndPuck scene(rink_of(8, 8, 0.5), 0, 0.0, {0.0, 0.0}, {0.0, near_across});
-  scene.world.add(PuckSpec{.position = {2.0 + thickness + 3.0 * puck_radius, 2.0},
+  scene.world.add(PuckSpec{.position = {2.0 + thickness + 3.0 * small_radius, 2.0},
                            .velocity = {0.0, far_across},
-                           .radius = puck_radius,
+                           .radius = small_radius,
                            .mass = 0.5});
   scene.world.set_thrust(scene.bat, {6.0, 0.0});
   scene.world.advance(0.05);
@@ -221,16 +221,16 @@ TEST(RestContact, OfTwoPucksEndsAtTheHitThatMovesOneOfThemSideways) {
   world.record_events(true);
   const auto add_puck = [&](double x, double y, double vy) {
     return world.add(
-        PuckSpec{.position = {x, y}, .velocity = {0.0, vy}, .radius = puck_radius, .mass = 0.5});
+        PuckSpec{.position = {x, y}, .velocity = {0.0, vy}, .radius = small_radius, .mass = 0.5});
   };
-  const BodyId at_wall = add_puck(puck_radius, 2.0, 0.0);
-  const BodyId behind = add_puck(3.0 * puck_radius, 2.0, 0.0);
-  const BodyId bat = world.add(BatSpec{.position = {4.0 * puck_radius + thickness, 2.0},
+  const BodyId at_wall = add_puck(small_radius, 2.0, 0.0);
+  const BodyId behind = add_puck(3.0 * small_radius, 2.0, 0.0);
+  const BodyId bat = world.add(BatSpec{.position = {4.0 * small_radius + thickness, 2.0},
                                        .half_extent = {thickness, half_width},
                                        .mass = 3.0});
-  add_puck(puck_radius, 3.0, -1.0);
+  add_puck(small_radius, 3.0, -1.0);
   world.set_thrust(bat, {-6.0, 0.0});
-  const double hit = 1.0 - 2.0 * puck_radius;
+  const double hit = 1.0 - 2.0 * small_radius;
   world.advance(0.99 * hit);
   EXPECT_TRUE(world.is_held(behind));
   EXPECT_EQ(world.counters().releases, 0u);
