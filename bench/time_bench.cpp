@@ -13,6 +13,7 @@
 
 #include "rti/ambassador.h"
 #include "rti/federation_execution.h"
+#include "rti/time/federate_clock.h"
 #include "rti/transport/bundle.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"

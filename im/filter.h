@@ -1,4 +1,5 @@
-// The one interface of every interest-management scheme: regions in, changes of interest out.
+// The one interface of every interest-management scheme: regions (im/region.h) in, changes of
+// interest (im/change.h) out.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "im/change.h"
+#include "im/region.h"
+
 namespace rink::im {
-
-/// A closed axis-aligned rectangle, in metres (touching is overlap). `low` never exceeds `high`;
-/// both are finite.
-struct Region {
-  double low_x = 0.0, low_y = 0.0, high_x = 0.0, high_y = 0.0;
-  friend bool operator==(const Region&, const Region&) = default;
-};
-
-/// The smallest rectangle that holds both.
-constexpr Region hull_of(const Region& a, const Region& b) {
-  return {a.low_x < b.low_x ? a.low_x : b.low_x, a.low_y < b.low_y ? a.low_y : b.low_y,
-          a.high_x > b.high_x ? a.high_x : b.high_x, a.high_y > b.high_y ? a.high_y : b.high_y};
-}
-
-/// True if `region` is finite and not inverted, as every filter asserts of what it is given. For
-/// the edge, where regions come from strangers.
-bool is_valid(const Region& region);
 
 /// A direction; its length means nothing, and one of no length is no direction.
 struct Heading {
@@ -37,22 +24,6 @@ struct Heading {
 struct Disc {
   double x = 0.0, y = 0.0, radius = 0.0;
   friend bool operator==(const Disc&, const Disc&) = default;
-};
-
-/// Small dense numbers chosen by the caller; they may be used again after removal.
-using Entity = std::uint32_t;
-using Subscriber = std::uint32_t;
-
-enum class Transition : std::uint8_t { entered, left, tier_changed };
-
-/// `entity` became relevant (or stopped being relevant) to `subscriber`, or goes on being so at
-/// another rate.
-struct Change {
-  Subscriber subscriber;
-  Entity entity;
-  Transition transition;
-  std::uint8_t tier = 0;  ///< from 0, the nearest, where the stage `tiers` says so
-  friend auto operator<=>(const Change&, const Change&) = default;
 };
 
 class Worker;

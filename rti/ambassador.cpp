@@ -1,261 +1,330 @@
-// The services of the federate's side: each becomes a message at the end of `outgoing`.
-#include "rti/federate/ambassador_say.h"
+// Every service is one call of what stands behind.
+#include "rti/ambassador.h"
 
-#include <algorithm>
-#include <cassert>
-#include <cmath>
-#include <cstring>
-#include <utility>
-
-#include "rti/buffering/best_effort_outbox.h"
-#include "rti/wire/membership_messages.h"
-#include "rti/wire/message.h"
-#include "rti/wire/update_block.h"
+#include "rti/federate/ambassador_services.h"
 
 namespace rink::rti {
 
-void AmbassadorParts::require_parameters(Bytes parameters) {
-  if (parameters.size() > parameters_max)
-    throw RtiException(HlaError::rti_internal_error, "the parameters of an interaction have " +
-                                                         std::to_string(parameters.size()) +
-                                                         " bytes; allowed are at most " +
-                                                         std::to_string(parameters_max));
-}
-
-void AmbassadorParts::require_stamp(const Stamp& stamp) {
-  if (!std::isfinite(stamp.time))
-    throw RtiException(HlaError::invalid_logical_time,
-                       "a time stamp is a finite number of seconds");
-}
-
-AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
-                                 const Patience& patience, CallbackModel model)
-    : FomLookup(fom),
-      queue_(model == CallbackModel::evoked ? std::make_unique<CallbackQueue>(callbacks) : nullptr),
-      callbacks_(queue_ ? *queue_ : callbacks),
-      patience_(patience),
-      regions_(fom),
-      declared_(fom),
-      outgoing_(frame_max_to_rti),
-      arrivals_(fom) {}
+static_assert(Ambassador::waiting_callbacks_max == AmbassadorParts::waiting_callbacks_max);
 
 Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience,
                        CallbackModel model)
-    : AmbassadorParts(fom, callbacks, patience, model) {}
+    : services_(std::make_unique<AmbassadorServices>(fom, callbacks, patience, model)) {}
+Ambassador::~Ambassador() = default;
 
+void Ambassador::create_federation_execution(std::string_view federation) {
+  services_->create_federation_execution(federation);
+}
+void Ambassador::create_federation_execution(std::string_view federation, const Fom& model) {
+  services_->create_federation_execution(federation, model);
+}
+void Ambassador::destroy_federation_execution(std::string_view federation) {
+  services_->destroy_federation_execution(federation);
+}
+void Ambassador::list_federation_executions() { services_->list_federation_executions(); }
+void Ambassador::query_management() { services_->query_management(); }
+void Ambassador::join(std::string_view federation, std::string_view federate_name,
+                      std::string_view federate_type) {
+  services_->join(federation, federate_name, federate_type);
+}
+void Ambassador::resign() { services_->resign(); }
+bool Ambassador::is_joined() const { return services_->is_joined(); }
+FederateHandle Ambassador::federate() const { return services_->federate(); }
+void Ambassador::register_synchronization_point(std::string_view label, Bytes tag,
+                                                std::span<const FederateHandle> members) {
+  services_->register_synchronization_point(label, tag, members);
+}
+void Ambassador::synchronization_point_achieved(std::string_view label, bool is_success) {
+  services_->synchronization_point_achieved(label, is_success);
+}
+void Ambassador::watch_federates() { services_->watch_federates(); }
+void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class,
+                                                 AttributeSet attributes) {
+  services_->publish_object_class_attributes(object_class, attributes);
+}
+void Ambassador::unpublish_object_class(ObjectClassHandle object_class) {
+  services_->unpublish_object_class(object_class);
+}
+void Ambassador::subscribe_object_class_attributes(ObjectClassHandle object_class,
+                                                   AttributeSet attributes, RegionHandle region,
+                                                   bool is_active) {
+  services_->subscribe_object_class_attributes(object_class, attributes, region, is_active);
+}
+void Ambassador::unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region) {
+  services_->unsubscribe_object_class(object_class, region);
+}
+void Ambassador::publish_interaction_class(InteractionClassHandle interaction_class) {
+  services_->publish_interaction_class(interaction_class);
+}
+void Ambassador::unpublish_interaction_class(InteractionClassHandle interaction_class) {
+  services_->unpublish_interaction_class(interaction_class);
+}
+void Ambassador::subscribe_interaction_class(InteractionClassHandle interaction_class,
+                                             bool is_active) {
+  services_->subscribe_interaction_class(interaction_class, is_active);
+}
+void Ambassador::unsubscribe_interaction_class(InteractionClassHandle interaction_class) {
+  services_->unsubscribe_interaction_class(interaction_class);
+}
+void Ambassador::unconditional_attribute_ownership_divestiture(ObjectHandle object,
+                                                               AttributeSet attributes) {
+  services_->unconditional_attribute_ownership_divestiture(object, attributes);
+}
+void Ambassador::negotiated_attribute_ownership_divestiture(ObjectHandle object,
+                                                            AttributeSet attributes, Bytes tag) {
+  services_->negotiated_attribute_ownership_divestiture(object, attributes, tag);
+}
+void Ambassador::confirm_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag) {
+  services_->confirm_divestiture(object, attributes, tag);
+}
+void Ambassador::cancel_negotiated_attribute_ownership_divestiture(ObjectHandle object,
+                                                                   AttributeSet attributes) {
+  services_->cancel_negotiated_attribute_ownership_divestiture(object, attributes);
+}
+void Ambassador::attribute_ownership_release_denied(ObjectHandle object, AttributeSet attributes) {
+  services_->attribute_ownership_release_denied(object, attributes);
+}
+void Ambassador::attribute_ownership_divestiture_if_wanted(ObjectHandle object,
+                                                           AttributeSet attributes) {
+  services_->attribute_ownership_divestiture_if_wanted(object, attributes);
+}
+void Ambassador::attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes,
+                                                 Bytes tag) {
+  services_->attribute_ownership_acquisition(object, attributes, tag);
+}
+void Ambassador::attribute_ownership_acquisition_if_available(ObjectHandle object,
+                                                              AttributeSet attributes) {
+  services_->attribute_ownership_acquisition_if_available(object, attributes);
+}
+void Ambassador::cancel_attribute_ownership_acquisition(ObjectHandle object,
+                                                        AttributeSet attributes) {
+  services_->cancel_attribute_ownership_acquisition(object, attributes);
+}
+void Ambassador::query_attribute_ownership(ObjectHandle object, AttributeHandle attribute) {
+  services_->query_attribute_ownership(object, attribute);
+}
+bool Ambassador::is_attribute_owned_by_federate(ObjectHandle object, AttributeHandle attribute) {
+  return services_->is_attribute_owned_by_federate(object, attribute);
+}
+void Ambassador::set_automatic_resign_directive(ResignAction action) {
+  services_->set_automatic_resign_directive(action);
+}
+void Ambassador::resign(ResignAction action) { services_->resign(action); }
 ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class,
                                                   std::string_view name) {
-  if (phase_ != Phase::joined)
-    throw RtiException(HlaError::federate_not_execution_member, "join first");
-  if (object_class.value >= declared_.objects.size())
-    throw RtiException(HlaError::object_class_not_defined,
-                       "class " + std::to_string(object_class.value));
-  if (declared_.objects[object_class.value].published.is_empty())
-    throw RtiException(HlaError::object_class_not_published, "class " + fom_.at(object_class).name);
-  if (!name.empty()) {
-    require_name(name);
-    if (names_.find(name))
-      throw RtiException(HlaError::object_instance_name_in_use, "'" + std::string(name) + "'");
-  }
-  if (objects_registered_ == object_block && !further_block_) return {};
-  if (objects_registered_ == object_block) begin_further_block();
-  const ObjectHandle object{object_block_ * object_block + objects_registered_++};
-  own_.push_back({static_cast<std::uint16_t>(object_class.value), true});
-  names_.end_reservation(name);
-  names_.give(object, name);
-  say(RegisterObjectMessage{object.value, static_cast<std::uint16_t>(object_class.value), name});
-  return object;
+  return services_->register_object_instance(object_class, name);
 }
-
-bool AmbassadorParts::was_ours(ObjectHandle object) const {
-  return std::ranges::find(former_blocks_, object.value / object_block) != former_blocks_.end();
-}
-
-/// Memory follows what is left of the used block, not what it held.
-void AmbassadorParts::begin_further_block() {
-  for (std::uint32_t number = 0; number < own_.size(); ++number)
-    if (own_[number].object_class != KnownObject::unknown)
-      known_[ObjectHandle{object_block_ * object_block + number}] = own_[number];
-  own_.clear();
-  former_blocks_.push_back(object_block_);
-  object_block_ = *std::exchange(further_block_, std::nullopt);
-  objects_registered_ = 0;
-}
-
-bool AmbassadorParts::take_further_block(Reader& reader) {
-  FurtherBlockMessage message;
-  if (!exchange(reader, message) || further_block_ || message.object_block == object_block_)
-    return false;
-  further_block_ = message.object_block;
-  return true;
-}
-
 void Ambassador::delete_object_instance(ObjectHandle object) {
-  const KnownObject& known = known_or_throw(object, {});
-  if (!owned_of(object, known).contains(privilege_to_delete_object))
-    throw RtiException(HlaError::delete_privilege_not_held,
-                       "object " + std::to_string(object.value));
-  forget(object);
-  if (!is_ours(object) && !was_ours(object)) gone_.push_back({object});
-  say(DeleteObjectMessage{object.value});
+  services_->delete_object_instance(object);
 }
-
-void AmbassadorParts::begin_updates(ObjectClassHandle object_class, AttributeSet attributes,
-                                    const Stamp& stamp) {
-  declared_.note_sent(object_class, attributes, stamp);
-  if (!outgoing_.is_open() || stamped_frame_ != outgoing_.frame_count() || said_stamp_ != stamp)
-    say(StampMessage{stamp});
-  said_stamp_ = stamp;
-  stamped_frame_ = outgoing_.frame_count();
-  const UpdatesMessage header{static_cast<std::uint16_t>(object_class.value), attributes.bits};
-  say(header);
-  outgoing_.buffer().push_back(std::byte{0});
-  open_ = {true, object_class, attributes, stamp, 0};
+void Ambassador::local_delete_object_instance(ObjectHandle object) {
+  services_->local_delete_object_instance(object);
 }
-
-void AmbassadorParts::require_values(ObjectClassHandle object_class, AttributeSet attributes,
-                                     Bytes values) const {
-  if (!fom_.attributes(object_class).includes(attributes))
-    throw RtiException(HlaError::attribute_not_defined,
-                       "class " + fom_.at(object_class).name + " lacks an attribute of the update");
-  if (values.size() > values_max)
-    throw RtiException(HlaError::rti_internal_error,
-                       "the values of an update have " + std::to_string(values.size()) +
-                           " bytes; allowed are at most " + std::to_string(values_max));
-  if (fom_.values_fit(object_class, attributes, values)) return;
-  std::string names;
-  attributes.for_each([&](AttributeHandle each) {
-    names += (names.empty() ? "" : ", ") + fom_.at(object_class).attributes[each.value].name;
-  });
-  throw RtiException(HlaError::rti_internal_error, std::to_string(values.size()) +
-                                                       " bytes are not the values of " +
-                                                       fom_.at(object_class).name + "'s " + names);
+void Ambassador::reserve_object_instance_name(std::string_view name) {
+  services_->reserve_object_instance_name(name);
 }
-
+void Ambassador::reserve_multiple_object_instance_names(std::span<const std::string_view> names) {
+  services_->reserve_multiple_object_instance_names(names);
+}
+void Ambassador::release_object_instance_name(std::string_view name) {
+  services_->release_object_instance_name(name);
+}
+void Ambassador::release_multiple_object_instance_names(std::span<const std::string_view> names) {
+  services_->release_multiple_object_instance_names(names);
+}
+void Ambassador::request_attribute_value_update(ObjectClassHandle object_class,
+                                                AttributeSet attributes, Bytes tag) {
+  services_->request_attribute_value_update(object_class, attributes, tag);
+}
+void Ambassador::request_attribute_value_update(ObjectHandle object, AttributeSet attributes,
+                                                Bytes tag) {
+  services_->request_attribute_value_update(object, attributes, tag);
+}
+void Ambassador::request_attribute_transportation_type_change(ObjectHandle object,
+                                                              AttributeSet attributes,
+                                                              Transportation transportation) {
+  services_->request_attribute_transportation_type_change(object, attributes, transportation);
+}
+void Ambassador::query_attribute_transportation_type(ObjectHandle object,
+                                                     AttributeHandle attribute) {
+  services_->query_attribute_transportation_type(object, attribute);
+}
+void Ambassador::request_interaction_transportation_type_change(
+    InteractionClassHandle interaction_class, Transportation transportation) {
+  services_->request_interaction_transportation_type_change(interaction_class, transportation);
+}
+void Ambassador::query_interaction_transportation_type(FederateHandle federate,
+                                                       InteractionClassHandle interaction_class) {
+  services_->query_interaction_transportation_type(federate, interaction_class);
+}
 void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values,
                                          const Stamp& stamp) {
-  const KnownObject* known = find(object);
-  if (phase_ != Phase::joined || known == nullptr || !known->is_own)
-    check_update(object, attributes);
-  const ObjectClassHandle object_class{known->object_class};
-  require_values(object_class, attributes, values);
-  require_stamp(stamp);
-  if (known->is_own && !declared_.objects[object_class.value].published.includes(attributes))
-    throw RtiException(
-        HlaError::attribute_not_owned,
-        "object " + std::to_string(object.value) + ": an attribute of the update is not published");
-  if (attributes.is_empty()) return;
-  if (declared_.is_special(object_class, attributes) &&
-      spare(object, *known, attributes, values, stamp))
-    return;
-  if (is_coded(fom_.at(object_class), attributes)) {
-    coded_.clear();
-    encode(fom_.at(object_class), attributes, values, stamp.time, coded_);
-    values = coded_;
-  }
-  if (outbox_) attributes = say_best_effort(object, object_class, attributes, values, stamp);
-  if (!attributes.is_empty()) say_update(object, object_class, attributes, values, stamp);
+  services_->update_attribute_values(object, attributes, values, stamp);
 }
-
-void AmbassadorParts::say_update(ObjectHandle object, ObjectClassHandle object_class,
-                                 AttributeSet attributes, Bytes values, const Stamp& stamp) {
-  assert(values.size() <= values_max);
-  if (outbox_) before_stream(object, object_class, attributes);
-  // Stamp, header with two numbers of at most 5 bytes, step to the handle, end.
-  constexpr std::size_t header_size_max = StampMessage::size_max + 1 + 5 + 5, rest_max = 5 + 1;
-  if (!open_.is_open || open_.object_class != object_class || open_.attributes != attributes ||
-      open_.stamp != stamp || !outgoing_.has_room(rest_max + values.size())) {
-    if (!outgoing_.has_room(header_size_max + rest_max + values.size())) outgoing_.close_frame();
-    begin_updates(object_class, attributes, stamp);
-  }
-  std::vector<std::byte>& bytes = outgoing_.buffer();
-  bytes.pop_back();  // the zero that ends the block
-  std::uint64_t step = handle_step(open_.last_object, object.value);
-  Writer(bytes).varint(step);
-  open_.last_object = object.value;
-  bytes.insert(bytes.end(), values.begin(), values.end());
-  bytes.push_back(std::byte{0});
-  outgoing_.appended();
-  ++counters_.updates_sent;
-}
-
 void Ambassador::send_interaction(InteractionClassHandle interaction_class, Bytes parameters,
                                   const Stamp& stamp) {
-  send_directed_interaction(interaction_class, {}, parameters, stamp);
+  services_->send_interaction(interaction_class, parameters, stamp);
 }
-
 void Ambassador::send_directed_interaction(InteractionClassHandle interaction_class,
                                            FederateHandle receiver, Bytes parameters,
                                            const Stamp& stamp) {
-  require_published(interaction_class);
-  require_parameters(parameters);
-  require_stamp(stamp);
-  if (spares_interaction(interaction_class)) return;
-  say(InteractionMessage{static_cast<std::uint16_t>(interaction_class.value), receiver.value, stamp,
-                         parameters});
-  ++counters_.interactions_sent;
+  services_->send_directed_interaction(interaction_class, receiver, parameters, stamp);
 }
-
-void Ambassador::clear_outgoing() {
-  if (!outgoing_.bytes().empty()) has_said_ = true;
-  counters_.bytes_sent += outgoing_.bytes().size();
-  counters_.frames_sent = outgoing_.frame_count();
-  outgoing_.clear();
-  object_block_writer_.close();
-  open_.is_open = false;
+RegionHandle Ambassador::create_region() { return services_->create_region(); }
+RegionHandle Ambassador::create_region(DimensionSet dimensions) {
+  return services_->create_region(dimensions);
 }
-
-void Ambassador::advance_clock(double now) {
-  now_ = now;
-  if (!has_clock_) last_heard_ = last_said_ = now;
-  has_clock_ = true;
-  if (has_heard_) last_heard_ = now;
-  if (has_said_ || !outgoing_.bytes().empty()) last_said_ = now;
-  has_heard_ = has_said_ = false;
-  if (outbox_ && phase_ == Phase::joined) repair_best_effort();
-  if (!postponed_.empty()) release_postponed();
-  if (phase_ != Phase::joined && phase_ != Phase::joining) return;
-  if (receipts_.is_due() && now - receipts_due_since_ >= DatagramReceipts::longest_delay_s)
-    acknowledge_datagrams();
-  if (now - last_heard_ > patience_.lost_after_s)
-    return lose("the RTI has been silent for too long");
-  if (phase_ == Phase::joined && now - last_said_ >= patience_.heartbeat_s) {
-    say(HeartbeatMessage{});
-    last_said_ = now;
-  }
+void Ambassador::set_region(RegionHandle region, const im::Region& bounds) {
+  services_->set_region(region, bounds);
 }
-
-void AmbassadorParts::forget(ObjectHandle object) {
-  holdings_.erase(object);
-  regions_.forget(object);
-  declared_.spared.forget(object);
-  names_.forget(object);
-  made_reliable_.erase(object);
-  if (outbox_) outbox_->forget(object, AttributeSet(~0u));
-  if (is_ours(object)) own_[object.value % object_block] = {};
-  else known_.erase(object);
+void Ambassador::set_range_bounds(RegionHandle region, DimensionHandle dimension,
+                                  const Range& range) {
+  services_->set_range_bounds(region, dimension, range);
 }
-
-KnownObject* AmbassadorParts::find(ObjectHandle object) {
-  if (!is_ours(object)) {
-    KnownObject* known = known_.find(object);
-    return known != nullptr && known->object_class != KnownObject::unknown
-               ? known
-               : nullptr;  // else it is being deleted by us
-  }
-  const std::uint32_t number = object.value % object_block;
-  const bool is_known = number < own_.size() && own_[number].object_class != KnownObject::unknown;
-  return is_known ? &own_[number] : nullptr;
+Range Ambassador::get_range_bounds(RegionHandle region, DimensionHandle dimension) const {
+  return services_->get_range_bounds(region, dimension);
 }
-
+DimensionSet Ambassador::get_dimension_handle_set(RegionHandle region) const {
+  return services_->get_dimension_handle_set(region);
+}
+void Ambassador::commit_region_modifications(RegionHandle region) {
+  services_->commit_region_modifications(region);
+}
+void Ambassador::commit_region_modifications(std::span<const RegionHandle> regions) {
+  services_->commit_region_modifications(regions);
+}
+void Ambassador::commit_region_modifications(std::span<const RegionBounds> regions) {
+  services_->commit_region_modifications(regions);
+}
+void Ambassador::delete_region(RegionHandle region) { services_->delete_region(region); }
+void Ambassador::associate_regions_for_updates(ObjectHandle object, RegionHandle region) {
+  services_->associate_regions_for_updates(object, region);
+}
+void Ambassador::associate_regions_for_updates(ObjectHandle object,
+                                               std::span<const AttributeRegions> pairs) {
+  services_->associate_regions_for_updates(object, pairs);
+}
+void Ambassador::unassociate_regions_for_updates(ObjectHandle object,
+                                                 std::span<const AttributeRegions> pairs) {
+  services_->unassociate_regions_for_updates(object, pairs);
+}
+ObjectHandle Ambassador::register_object_instance_with_regions(
+    ObjectClassHandle object_class, std::span<const AttributeRegions> pairs,
+    std::string_view name) {
+  return services_->register_object_instance_with_regions(object_class, pairs, name);
+}
+void Ambassador::subscribe_object_class_attributes_with_regions(
+    ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_active) {
+  services_->subscribe_object_class_attributes_with_regions(object_class, pairs, is_active);
+}
+void Ambassador::unsubscribe_object_class_attributes_with_regions(
+    ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
+  services_->unsubscribe_object_class_attributes_with_regions(object_class, pairs);
+}
+void Ambassador::subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class,
+                                                          std::span<const RegionHandle> regions,
+                                                          bool is_active) {
+  services_->subscribe_interaction_class_with_regions(interaction_class, regions, is_active);
+}
+void Ambassador::unsubscribe_interaction_class_with_regions(
+    InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) {
+  services_->unsubscribe_interaction_class_with_regions(interaction_class, regions);
+}
+void Ambassador::send_interaction_with_regions(InteractionClassHandle interaction_class,
+                                               Bytes parameters,
+                                               std::span<const RegionHandle> regions,
+                                               const Stamp& stamp) {
+  services_->send_interaction_with_regions(interaction_class, parameters, regions, stamp);
+}
+void Ambassador::request_attribute_value_update_with_regions(
+    ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
+  services_->request_attribute_value_update_with_regions(object_class, pairs);
+}
+FederateHandle Ambassador::get_federate_handle(std::string_view name) const {
+  return services_->get_federate_handle(name);
+}
+const std::string& Ambassador::get_federate_name(FederateHandle federate) const {
+  return services_->get_federate_name(federate);
+}
+ObjectHandle Ambassador::get_object_instance_handle(std::string_view name) const {
+  return services_->get_object_instance_handle(name);
+}
+std::string Ambassador::get_object_instance_name(ObjectHandle object) const {
+  return services_->get_object_instance_name(object);
+}
+ObjectClassHandle Ambassador::get_known_object_class_handle(ObjectHandle object) const {
+  return services_->get_known_object_class_handle(object);
+}
+bool Ambassador::evoke_callback() { return services_->evoke_callback(); }
+bool Ambassador::evoke_multiple_callbacks(std::size_t count_max) {
+  return services_->evoke_multiple_callbacks(count_max);
+}
+void Ambassador::disable_callbacks() { services_->disable_callbacks(); }
+void Ambassador::enable_callbacks() { services_->enable_callbacks(); }
+void Ambassador::enable_time_regulation(double lookahead) {
+  services_->enable_time_regulation(lookahead);
+}
+void Ambassador::disable_time_regulation() { services_->disable_time_regulation(); }
+void Ambassador::enable_time_constrained() { services_->enable_time_constrained(); }
+void Ambassador::disable_time_constrained() { services_->disable_time_constrained(); }
+void Ambassador::time_advance_request(LogicalTime time) { services_->time_advance_request(time); }
+void Ambassador::time_advance_request_available(LogicalTime time) {
+  services_->time_advance_request_available(time);
+}
+void Ambassador::next_message_request(LogicalTime time) { services_->next_message_request(time); }
+void Ambassador::next_message_request_available(LogicalTime time) {
+  services_->next_message_request_available(time);
+}
+void Ambassador::flush_queue_request(LogicalTime time) { services_->flush_queue_request(time); }
+void Ambassador::modify_lookahead(double lookahead) { services_->modify_lookahead(lookahead); }
+void Ambassador::enable_asynchronous_delivery() { services_->enable_asynchronous_delivery(); }
+void Ambassador::disable_asynchronous_delivery() { services_->disable_asynchronous_delivery(); }
+LogicalTime Ambassador::query_logical_time() const { return services_->query_logical_time(); }
+double Ambassador::query_lookahead() const { return services_->query_lookahead(); }
+void Ambassador::query_time_bounds() { services_->query_time_bounds(); }
+const FederateClock& Ambassador::clock() const { return services_->clock(); }
+RetractionHandle Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes,
+                                                     Bytes values, LogicalTime time,
+                                                     std::uint64_t tag) {
+  return services_->update_attribute_values(object, attributes, values, time, tag);
+}
+RetractionHandle Ambassador::send_interaction(InteractionClassHandle interaction_class,
+                                              Bytes parameters, LogicalTime time,
+                                              std::uint64_t tag) {
+  return services_->send_interaction(interaction_class, parameters, time, tag);
+}
+RetractionHandle Ambassador::send_directed_interaction(InteractionClassHandle interaction_class,
+                                                       FederateHandle receiver, Bytes parameters,
+                                                       LogicalTime time, std::uint64_t tag) {
+  return services_->send_directed_interaction(interaction_class, receiver, parameters, time, tag);
+}
+RetractionHandle Ambassador::delete_object_instance(ObjectHandle object, LogicalTime time,
+                                                    std::uint64_t tag) {
+  return services_->delete_object_instance(object, time, tag);
+}
+void Ambassador::retract(const RetractionHandle& handle) { services_->retract(handle); }
+void Ambassador::change_attribute_order_type(ObjectHandle object, AttributeSet attributes,
+                                             Order order) {
+  services_->change_attribute_order_type(object, attributes, order);
+}
+void Ambassador::change_interaction_order_type(InteractionClassHandle interaction_class,
+                                               Order order) {
+  services_->change_interaction_order_type(interaction_class, order);
+}
+bool Ambassador::receive(Bytes bytes) { return services_->receive(bytes); }
+void Ambassador::receive_datagram(Bytes datagram) { services_->receive_datagram(datagram); }
+void Ambassador::expect_datagrams(std::size_t size_max) { services_->expect_datagrams(size_max); }
+std::span<const Datagram> Ambassador::outgoing_datagrams() {
+  return services_->outgoing_datagrams();
+}
+void Ambassador::clear_outgoing_datagrams() { services_->clear_outgoing_datagrams(); }
+Bytes Ambassador::outgoing() const { return services_->outgoing(); }
+void Ambassador::clear_outgoing() { services_->clear_outgoing(); }
+void Ambassador::advance_clock(double now) { services_->advance_clock(now); }
+void Ambassador::disconnected(std::string_view why) { services_->disconnected(why); }
+const AmbassadorCounters& Ambassador::counters() const { return services_->counters(); }
 std::size_t Ambassador::memory_bytes() const {
-  const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() +
-                              (queue_ ? queue_->memory_bytes() : 0);
-  return waiting + holdings_.memory_bytes() + own_.capacity() * sizeof own_[0] +
-         known_.memory_bytes() + names_.memory_bytes() + regions_.memory_bytes() +
-         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() +
-         keyframes_.memory_bytes() + arrivals_.memory_bytes() + declared_.memory_bytes() +
-         (outbox_ ? outbox_->memory_bytes() : 0);
+  return sizeof(AmbassadorServices) + services_->memory_bytes();
 }
 
 }  // namespace rink::rti

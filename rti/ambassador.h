@@ -1,22 +1,34 @@
-// A federate's side of the RTI: services in, bytes out; bytes in, callbacks out.
+// A federate's side of the RTI: services in, bytes out; bytes in, callbacks out. What they are
+// handed is in rti/types.h, callbacks are in rti/federate_ambassador.h, object models in
+// rti/fom/fom.h.
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "im/filter.h"
-#include "rti/advisory_switches.h"
-#include "rti/federate/ambassador_parts.h"
+#include "rti/ambassador_counters.h"
+#include "rti/federate_ambassador.h"
+#include "rti/hla_error.h"
+#include "rti/types.h"
 
 namespace rink::rti {
 
+class AmbassadorServices;
+class FederateClock;
+class Fom;
+
 /// One federate. No I/O, no clock, no thread: its owner carries `outgoing` to the RTI and what
-/// comes back to `receive`, and hands in the time. Services assert on the programmer's mistakes (an
-/// object of somebody else, an undeclared class).
-class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
+/// comes back to `receive`, and hands in the time. Services throw `RtiException` with the
+/// standard's name of what is wrong.
+class Ambassador {
  public:
+  /// Of callbacks that wait to be evoked, or of what they would be made of [bytes].
+  static constexpr std::size_t waiting_callbacks_max = 64u << 20;
+
   /// Both must outlive the ambassador.
   Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {},
              CallbackModel model = CallbackModel::immediate);
@@ -25,9 +37,7 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   /// `federation_execution_created`, `…_destroyed` and `report_federation_executions`. The new
   /// execution has this ambassador's object model, which the host must offer. Throw
   /// FederateAlreadyExecutionMember.
-  void create_federation_execution(std::string_view federation) {
-    create_federation_execution(federation, fom_);
-  }
+  void create_federation_execution(std::string_view federation);
   /// The same with another model that the host offers.
   void create_federation_execution(std::string_view federation, const Fom& model);
   void destroy_federation_execution(std::string_view federation);
@@ -41,8 +51,8 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   void join(std::string_view federation, std::string_view federate_name,
             std::string_view federate_type);
   void resign();
-  bool is_joined() const { return phase_ == Phase::joined; }
-  FederateHandle federate() const { return federate_; }
+  bool is_joined() const;
+  FederateHandle federate() const;
   /// `synchronization_point_registration_succeeded` or `…_failed` follows. Who is in `members` is
   /// told and must achieve it; an empty set is all who are joined, those included who join before
   /// it is reached. Who leaves is no longer waited for. Label at most 255 bytes, tag 1,024.
@@ -118,9 +128,7 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   /// IllegalName, NameSetWasEmpty; a release that is none throws ObjectInstanceNameNotReserved.
   void reserve_object_instance_name(std::string_view name);
   void reserve_multiple_object_instance_names(std::span<const std::string_view> names);
-  void release_object_instance_name(std::string_view name) {
-    release_multiple_object_instance_names(std::span(&name, 1));
-  }
+  void release_object_instance_name(std::string_view name);
   void release_multiple_object_instance_names(std::span<const std::string_view> names);
   /// Asks the owners for values: `provide_attribute_value_update`, with the tag of at most 1,024
   /// bytes.
@@ -218,25 +226,21 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   void disable_time_regulation();
   void enable_time_constrained();
   void disable_time_constrained();
-  void time_advance_request(LogicalTime time) { request_advance(AdvanceKind::time_advance, time); }
-  void time_advance_request_available(LogicalTime time) {
-    request_advance(AdvanceKind::time_advance_available, time);
-  }
-  void next_message_request(LogicalTime time) { request_advance(AdvanceKind::next_message, time); }
-  void next_message_request_available(LogicalTime time) {
-    request_advance(AdvanceKind::next_message_available, time);
-  }
-  void flush_queue_request(LogicalTime time) { request_advance(AdvanceKind::flush_queue, time); }
+  void time_advance_request(LogicalTime time);
+  void time_advance_request_available(LogicalTime time);
+  void next_message_request(LogicalTime time);
+  void next_message_request_available(LogicalTime time);
+  void flush_queue_request(LogicalTime time);
   void modify_lookahead(double lookahead);
   /// While granted, a constrained federate gets messages in receive order only if this is on; else
   /// they wait for its next request.
-  void enable_asynchronous_delivery() { clock_.ask_asynchronous(true); }
-  void disable_asynchronous_delivery() { clock_.ask_asynchronous(false); }
-  LogicalTime query_logical_time() const { return LogicalTime(clock_.time()); }
-  double query_lookahead() const { return clock_.lookahead(); }
+  void enable_asynchronous_delivery();
+  void disable_asynchronous_delivery();
+  LogicalTime query_logical_time() const;
+  double query_lookahead() const;
   /// Asks the RTI for GALT and LITS; `time_bounds` answers.
   void query_time_bounds();
-  const FederateClock& clock() const { return clock_; }
+  const FederateClock& clock() const;
   /// The same as the services without a time, but in time-stamp order where that is what the object
   /// model or `change_..._order_type` says and the federate regulates: only then is there a handle.
   /// What of an update goes in receive order goes at once, stamped with that time.
@@ -271,7 +275,7 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   std::span<const Datagram> outgoing_datagrams();
   void clear_outgoing_datagrams();
   /// What must go to the RTI, and that it has gone.
-  Bytes outgoing() const { return outgoing_.bytes(); }
+  Bytes outgoing() const;
   void clear_outgoing();
   /// `now` [s] never decreases; the origin is free. Says that we live when idle, notices a silent
   /// RTI.
@@ -279,12 +283,56 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   /// The connection is gone: `connection_lost` follows unless the federate resigned or was refused.
   void disconnected(std::string_view why);
 
-  const AmbassadorCounters& counters() const { return counters_; }
-  /// Of buffers and tables, the ambassador itself not counted.
+  const AmbassadorCounters& counters() const;
+  /// Of all that stands behind it.
   std::size_t memory_bytes() const;
 
+  /// Names and handles (clause 10), as the object model alone answers: by name they throw
+  /// NameNotFound, for handles of nothing ObjectClassNotDefined, AttributeNotDefined,
+  /// InteractionClassNotDefined, InteractionParameterNotDefined, InvalidDimensionHandle. Class
+  /// names may stand alone where that is unambiguous, and are given qualified.
+  const Fom& fom() const;
+
+  ObjectClassHandle get_object_class_handle(std::string_view name) const;
+  std::string get_object_class_name(ObjectClassHandle object_class) const;
+  AttributeHandle get_attribute_handle(ObjectClassHandle object_class, std::string_view name) const;
+  const std::string& get_attribute_name(ObjectClassHandle object_class,
+                                        AttributeHandle attribute) const;
+  InteractionClassHandle get_interaction_class_handle(std::string_view name) const;
+  std::string get_interaction_class_name(InteractionClassHandle interaction_class) const;
+  ParameterHandle get_parameter_handle(InteractionClassHandle interaction_class,
+                                       std::string_view name) const;
+  const std::string& get_parameter_name(InteractionClassHandle interaction_class,
+                                        ParameterHandle parameter) const;
+  /// "HLAreliable" and "HLAbestEffort".
+  static Transportation get_transportation_type(std::string_view name);
+  static std::string_view get_transportation_type_name(Transportation transportation);
+  /// "Receive" and "TimeStamp".
+  static Order get_order_type(std::string_view name);
+  static std::string_view get_order_name(Order order);
+  DimensionHandle get_dimension_handle(std::string_view name) const;
+  const std::string& get_dimension_name(DimensionHandle dimension) const;
+  std::optional<std::uint32_t> get_dimension_upper_bound(DimensionHandle dimension) const;
+  DimensionSet get_available_dimensions_for_class_attribute(ObjectClassHandle object_class,
+                                                            AttributeHandle attribute) const;
+  DimensionSet get_available_dimensions_for_interaction_class(
+      InteractionClassHandle interaction_class) const;
+
+  /// 10.27 to 10.34. All are on at first but that of attribute relevance; what is so already throws
+  /// ObjectClassRelevanceAdvisorySwitchIsOn and its kin.
+  void enable_object_class_relevance_advisory_switch();
+  void disable_object_class_relevance_advisory_switch();
+  void enable_attribute_relevance_advisory_switch();
+  void disable_attribute_relevance_advisory_switch();
+  void enable_attribute_scope_advisory_switch();
+  void disable_attribute_scope_advisory_switch();
+  void enable_interaction_relevance_advisory_switch();
+  void disable_interaction_relevance_advisory_switch();
+
+  ~Ambassador();
+
  private:
-  friend AdvisorySwitches<Ambassador>;
+  std::unique_ptr<AmbassadorServices> services_;
 };
 
 }  // namespace rink::rti

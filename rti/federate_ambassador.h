@@ -7,39 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "rti/fom/attribute_set.h"
-#include "rti/fom/fom.h"
-#include "rti/handles.h"
 #include "rti/hla_error.h"
 #include "rti/management/federation_report.h"
 #include "rti/membership.h"
-#include "rti/time/logical_time.h"
-#include "rti/wire/bytes.h"
+#include "rti/types.h"
 
 namespace rink::rti {
-
-/// When something was said. Carried once per run of equal stamps, not per update.
-struct Stamp {
-  double time = 0.0;      ///< logical time [s], the sender's
-  std::uint64_t tag = 0;  ///< the sender's user-supplied tag; the RTI only carries it
-  friend bool operator==(const Stamp&, const Stamp&) = default;
-};
-
-/// One federation execution of a host.
-struct FederationExecutionInformation {
-  std::string federation, model;  ///< its name and that of its object model
-  std::uint32_t federates = 0;    ///< joined now
-  friend bool operator==(const FederationExecutionInformation&,
-                         const FederationExecutionInformation&) = default;
-};
-
-/// What comes with a message that was sent in time-stamp order.
-struct TimedStamp {
-  Stamp stamp;
-  bool is_in_order = false;  ///< received in time-stamp order too; else its receiver was not
-                             ///< constrained, and it came as soon as it could
-  RetractionHandle handle;   ///< what `request_retraction` will name
-};
 
 /// All bodies are empty: override what matters. Views handed in are valid during the call.
 /// Callbacks may call any service of the ambassador except `receive`, `advance_clock` and

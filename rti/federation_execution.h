@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "im/filter.h"
-#include "rti/ambassador.h"
 #include "rti/baselines/baseline_counters.h"
 #include "rti/central_component.h"
+#include "rti/federate_ambassador.h"
 #include "rti/federation_services.h"
 #include "rti/fom/fom.h"
 #include "rti/management/federation_report.h"

@@ -1,6 +1,7 @@
 // Periodic state of a crowd through the RTI, in bytes and processor time: every double, quantised,
 // and as differences to acknowledged baselines. No transport.
 #include <benchmark/benchmark.h>
+#include <cstring>
 
 #include <chrono>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rti/buffering/said_lists.h"
-#include "rti/fom/attribute_set.h"
+#include "rti/types.h"
 #include "rti/wire/datagram.h"
 
 namespace rink::rti {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "rti/fom/attribute_set.h"
+#include "rti/types.h"
 #include "rti/wire/bytes.h"
 #include "rti/wire/update_block.h"
 

@@ -13,12 +13,6 @@
 
 namespace rink::rti {
 
-/// How a federate is told.
-enum class CallbackModel : std::uint8_t {
-  immediate,  ///< while bytes are received
-  evoked,     ///< when it calls `evoke_callback` or `evoke_multiple_callbacks`
-};
-
 /// Stands before a federate and writes down what it would have been told: the callback and a copy
 /// of its arguments, one after the other in one buffer, so nothing is allocated per callback once
 /// that has grown. Rejected: keeping the messages themselves and reading them late, for one message

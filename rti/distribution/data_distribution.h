@@ -11,18 +11,11 @@
 
 #include "im/filter.h"
 #include "rti/distribution/turns.h"
-#include "rti/fom/dimension_set.h"
 #include "rti/objects/bitmap.h"
 #include "rti/objects/object_table.h"
+#include "rti/types.h"
 
 namespace rink::rti {
-
-/// A closed stretch of one dimension: ranges that touch overlap. Finite, `low <= high`.
-struct Range {
-  double low = 0.0, high = 0.0;
-  bool overlaps(const Range& other) const { return low <= other.high && other.low <= high; }
-  friend bool operator==(const Range&, const Range&) = default;
-};
 
 /// What is to be done with a class's attributes and the regions that follow.
 enum class RegionAction : std::uint8_t { remove, add, request_update, add_passively };

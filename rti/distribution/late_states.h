@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "rti/fom/attribute_set.h"
 #include "rti/objects/bitmap.h"
+#include "rti/types.h"
 
 namespace rink::rti {
 

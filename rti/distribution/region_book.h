@@ -15,13 +15,6 @@
 
 namespace rink::rti {
 
-/// Attributes and the regions that they are published or wanted in: each attribute with each
-/// region.
-struct AttributeRegions {
-  AttributeSet attributes;
-  std::vector<RegionHandle> regions;
-};
-
 /// Every member but the bulk's throws `RtiException` before it changes anything: InvalidRegion for
 /// what is no region, RegionNotCreatedByThisFederate for another federate's. A handle holds a mark
 /// of its federate's name beside the number that the wire carries; two federates have equal marks

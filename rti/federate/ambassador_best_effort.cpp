@@ -8,7 +8,7 @@ namespace rink::rti {
 
 AmbassadorParts::~AmbassadorParts() = default;
 
-void Ambassador::expect_datagrams(std::size_t size_max) {
+void AmbassadorServices::expect_datagrams(std::size_t size_max) {
   has_datagrams_ |= size_max > 0;
   if (!outbox_ && size_max >= BestEffortOutbox::size_min && arrivals_.has_best_effort()) {
     // Who publishes no such attribute, as most of a crowd, needs none.
@@ -118,7 +118,7 @@ void AmbassadorParts::repair_best_effort() {
   }
 }
 
-std::span<const Datagram> Ambassador::outgoing_datagrams() {
+std::span<const Datagram> AmbassadorServices::outgoing_datagrams() {
   datagrams_.clear();
   if (!acknowledgement_.empty()) datagrams_.push_back({acknowledgement_, {}});
   if (!outbox_) return datagrams_;
@@ -127,7 +127,7 @@ std::span<const Datagram> Ambassador::outgoing_datagrams() {
   return datagrams_;
 }
 
-void Ambassador::clear_outgoing_datagrams() {
+void AmbassadorServices::clear_outgoing_datagrams() {
   for (const Datagram& each : datagrams_) counters_.bytes_sent += each.head.size();
   counters_.datagrams_sent += datagrams_.size();
   datagrams_.clear();

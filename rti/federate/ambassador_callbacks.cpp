@@ -1,11 +1,11 @@
 // When a federate is told: at once, when it asks, or when it allows it again.
-#include "rti/ambassador.h"
+#include "rti/federate/ambassador_services.h"
 
 namespace rink::rti {
 
-bool Ambassador::evoke_callback() { return evoke_multiple_callbacks(1); }
+bool AmbassadorServices::evoke_callback() { return evoke_multiple_callbacks(1); }
 
-bool Ambassador::evoke_multiple_callbacks(std::size_t count_max) {
+bool AmbassadorServices::evoke_multiple_callbacks(std::size_t count_max) {
   if (!queue_) return false;
   if (queue_->is_delivering())
     throw RtiException(HlaError::call_not_allowed_from_within_callback,
@@ -25,12 +25,12 @@ bool AmbassadorParts::hold(Bytes bytes) {
 }
 
 /// While bytes wait unread, nobody would tell that somebody listens.
-void Ambassador::disable_callbacks() {
+void AmbassadorServices::disable_callbacks() {
   are_callbacks_enabled_ = false;
   if (!may_spare()) release_spared(ObjectClassHandle{}, AttributeSet(~0u));
 }
 
-void Ambassador::enable_callbacks() {
+void AmbassadorServices::enable_callbacks() {
   are_callbacks_enabled_ = true;
   if (queue_) return;
   const std::vector<std::byte> held = std::move(held_);

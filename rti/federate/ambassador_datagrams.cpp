@@ -3,8 +3,8 @@
 #include <bit>
 #include <utility>
 
-#include "rti/ambassador.h"
 #include "rti/buffering/best_effort_outbox.h"
+#include "rti/federate/ambassador_services.h"
 #include "rti/wire/datagram.h"
 #include "rti/wire/update_block.h"
 
@@ -15,7 +15,7 @@ constexpr std::size_t held_max =
     256;  ///< datagrams that wait for their frames; more are lost, and come again
 }
 
-void Ambassador::receive_datagram(Bytes datagram) {
+void AmbassadorServices::receive_datagram(Bytes datagram) {
   if (phase_ != Phase::joined) return;
   has_heard_ = has_datagrams_ = true;
   counters_.bytes_received += datagram.size();

@@ -10,8 +10,8 @@
 
 namespace rink::rti {
 
-void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class,
-                                                 AttributeSet attributes) {
+void AmbassadorServices::publish_object_class_attributes(ObjectClassHandle object_class,
+                                                         AttributeSet attributes) {
   require_class(object_class, attributes);
   if (fom_.is_management(object_class))
     throw RtiException(HlaError::unauthorized,
@@ -29,13 +29,13 @@ void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class,
   say(PublishObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits});
 }
 
-void Ambassador::unpublish_object_class(ObjectClassHandle object_class) {
+void AmbassadorServices::unpublish_object_class(ObjectClassHandle object_class) {
   publish_object_class_attributes(object_class, {});
 }
 
-void Ambassador::subscribe_object_class_attributes(ObjectClassHandle object_class,
-                                                   AttributeSet attributes, RegionHandle region,
-                                                   bool is_active) {
+void AmbassadorServices::subscribe_object_class_attributes(ObjectClassHandle object_class,
+                                                           AttributeSet attributes,
+                                                           RegionHandle region, bool is_active) {
   require_class(object_class, attributes);
   const std::uint32_t number = region ? regions_.check(region) : RegionHandle::none;
   if (region) regions_.replace_subscription(object_class, attributes, region);
@@ -43,14 +43,15 @@ void Ambassador::subscribe_object_class_attributes(ObjectClassHandle object_clas
                                   number, static_cast<std::uint8_t>(!is_active)});
 }
 
-void Ambassador::unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region) {
+void AmbassadorServices::unsubscribe_object_class(ObjectClassHandle object_class,
+                                                  RegionHandle region) {
   subscribe_object_class_attributes(object_class, {}, region);
 }
 
-void Ambassador::publish_interaction_class(InteractionClassHandle interaction_class) {
+void AmbassadorServices::publish_interaction_class(InteractionClassHandle interaction_class) {
   declare_publication(interaction_class, true);
 }
-void Ambassador::unpublish_interaction_class(InteractionClassHandle interaction_class) {
+void AmbassadorServices::unpublish_interaction_class(InteractionClassHandle interaction_class) {
   declare_publication(interaction_class, false);
 }
 
@@ -67,11 +68,11 @@ void AmbassadorParts::declare_publication(InteractionClassHandle interaction_cla
                                      static_cast<std::uint8_t>(is_published)});
 }
 
-void Ambassador::subscribe_interaction_class(InteractionClassHandle interaction_class,
-                                             bool is_active) {
+void AmbassadorServices::subscribe_interaction_class(InteractionClassHandle interaction_class,
+                                                     bool is_active) {
   declare_subscription(interaction_class, is_active ? Listening::active : Listening::passive);
 }
-void Ambassador::unsubscribe_interaction_class(InteractionClassHandle interaction_class) {
+void AmbassadorServices::unsubscribe_interaction_class(InteractionClassHandle interaction_class) {
   declare_subscription(interaction_class, Listening::none);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rti/federate/ambassador_say.h"
+#include "rti/federate/ambassador_services.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
 #include "rti/wire/membership_messages.h"
@@ -39,27 +40,28 @@ void AmbassadorParts::ask(Message message) {
   outgoing_.close_frame();
 }
 
-void Ambassador::create_federation_execution(std::string_view federation, const Fom& model) {
+void AmbassadorServices::create_federation_execution(std::string_view federation,
+                                                     const Fom& model) {
   require_text(federation, text_max, "the federation execution's name");
   if (federation.empty())
     throw RtiException(HlaError::illegal_name, "a federation execution needs a name");
   ask(CreateFederationExecutionMessage{federation, model.hash()});
 }
 
-void Ambassador::destroy_federation_execution(std::string_view federation) {
+void AmbassadorServices::destroy_federation_execution(std::string_view federation) {
   require_text(federation, text_max, "the federation execution's name");
   ask(DestroyFederationExecutionMessage{federation});
 }
 
-void Ambassador::list_federation_executions() { ask(ListFederationExecutionsMessage{}); }
+void AmbassadorServices::list_federation_executions() { ask(ListFederationExecutionsMessage{}); }
 
-void Ambassador::query_management() {
+void AmbassadorServices::query_management() {
   if (phase_ == Phase::idle) ask(QueryManagementMessage{});
   else say(QueryManagementMessage{});
 }
 
-void Ambassador::join(std::string_view federation, std::string_view federate_name,
-                      std::string_view federate_type) {
+void AmbassadorServices::join(std::string_view federation, std::string_view federate_name,
+                              std::string_view federate_type) {
   if (phase_ != Phase::idle)
     throw RtiException(HlaError::federate_already_execution_member, "an ambassador joins once");
   require_text(federation, text_max, "the federation execution's name");
@@ -79,15 +81,15 @@ void Ambassador::join(std::string_view federation, std::string_view federate_nam
   frames_to_join_ = outgoing_.frame_count();
 }
 
-void Ambassador::resign() {
+void AmbassadorServices::resign() {
   if (phase_ == Phase::joining || phase_ == Phase::joined) say(ResignMessage{});
   phase_ = Phase::ended;
 }
 
-void Ambassador::watch_federates() { say(WatchFederatesMessage{}); }
+void AmbassadorServices::watch_federates() { say(WatchFederatesMessage{}); }
 
-void Ambassador::register_synchronization_point(std::string_view label, Bytes tag,
-                                                std::span<const FederateHandle> members) {
+void AmbassadorServices::register_synchronization_point(std::string_view label, Bytes tag,
+                                                        std::span<const FederateHandle> members) {
   require_text(label, text_max, "the synchronisation point's label");
   if (tag.size() > synchronization_tag_max)
     throw RtiException(HlaError::rti_internal_error,
@@ -98,7 +100,7 @@ void Ambassador::register_synchronization_point(std::string_view label, Bytes ta
   say(RegisterSynchronizationPointMessage{label, tag, list_of(members)});
 }
 
-void Ambassador::synchronization_point_achieved(std::string_view label, bool is_success) {
+void AmbassadorServices::synchronization_point_achieved(std::string_view label, bool is_success) {
   if (phase_ != Phase::joined) refuse_stranger();
   if (std::erase(announced_points_, label) == 0)
     throw RtiException(
@@ -182,21 +184,21 @@ bool AmbassadorParts::take_report(Reader& reader, MessageKind kind) {
   return true;
 }
 
-FederateHandle Ambassador::get_federate_handle(std::string_view name) const {
+FederateHandle AmbassadorServices::get_federate_handle(std::string_view name) const {
   for (const auto& [federate, each] : federates_)
     if (federate && each == name) return federate;
   throw RtiException(HlaError::name_not_found, "no federate is called '" + std::string(name) + "'");
 }
 
-const std::string& Ambassador::get_federate_name(FederateHandle federate) const {
+const std::string& AmbassadorServices::get_federate_name(FederateHandle federate) const {
   for (const auto& [each, name] : federates_)
     if (federate && each == federate) return name;
   throw RtiException(HlaError::name_not_found,
                      "no federate of handle " + std::to_string(federate.value) + " is known");
 }
 
-ObjectClassHandle Ambassador::get_known_object_class_handle(ObjectHandle object) const {
-  const KnownObject* known = const_cast<Ambassador*>(this)->find(object);
+ObjectClassHandle AmbassadorServices::get_known_object_class_handle(ObjectHandle object) const {
+  const KnownObject* known = const_cast<AmbassadorServices*>(this)->find(object);
   if (known == nullptr)
     throw RtiException(HlaError::object_instance_not_known,
                        "object " + std::to_string(object.value));

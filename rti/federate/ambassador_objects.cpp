@@ -1,6 +1,7 @@
 // Object management at the federate's side beyond updates (IEEE 1516.1-2010, clause 6): names,
 // local deletion, requests for updates, transportation.
 #include "rti/federate/ambassador_say.h"
+#include "rti/federate/ambassador_services.h"
 #include "rti/wire/object_messages.h"
 
 namespace rink::rti {
@@ -36,17 +37,19 @@ void AmbassadorParts::ask_names(std::uint8_t word, std::span<const std::string_v
   say(InstanceNamesMessage{word, texts});
 }
 
-void Ambassador::reserve_object_instance_name(std::string_view name) {
+void AmbassadorServices::reserve_object_instance_name(std::string_view name) {
   ask_names(static_cast<std::uint8_t>(NameRequest::reserve), std::span(&name, 1));
   names_.reserve(name);
 }
 
-void Ambassador::reserve_multiple_object_instance_names(std::span<const std::string_view> names) {
+void AmbassadorServices::reserve_multiple_object_instance_names(
+    std::span<const std::string_view> names) {
   ask_names(static_cast<std::uint8_t>(NameRequest::reserve_set), names);
   for (const std::string_view name : names) names_.reserve(name);
 }
 
-void Ambassador::release_multiple_object_instance_names(std::span<const std::string_view> names) {
+void AmbassadorServices::release_multiple_object_instance_names(
+    std::span<const std::string_view> names) {
   for (const std::string_view name : names)
     if (!names_.is_reserved(name))
       throw RtiException(HlaError::object_instance_name_not_reserved,
@@ -82,21 +85,21 @@ bool AmbassadorParts::take_names(Reader& reader) {
   return true;
 }
 
-ObjectHandle Ambassador::get_object_instance_handle(std::string_view name) const {
+ObjectHandle AmbassadorServices::get_object_instance_handle(std::string_view name) const {
   const std::optional<ObjectHandle> object = names_.find(name);
-  if (!object || const_cast<Ambassador*>(this)->find(*object) == nullptr)
+  if (!object || const_cast<AmbassadorServices*>(this)->find(*object) == nullptr)
     throw RtiException(HlaError::object_instance_not_known,
                        "no object is called '" + std::string(name) + "'");
   return *object;
 }
 
-std::string Ambassador::get_object_instance_name(ObjectHandle object) const {
-  if (const_cast<Ambassador*>(this)->find(object) == nullptr)
+std::string AmbassadorServices::get_object_instance_name(ObjectHandle object) const {
+  if (const_cast<AmbassadorServices*>(this)->find(object) == nullptr)
     throw RtiException(HlaError::object_instance_not_known, name_of(object));
   return names_.name_of(object);
 }
 
-void Ambassador::local_delete_object_instance(ObjectHandle object) {
+void AmbassadorServices::local_delete_object_instance(ObjectHandle object) {
   const KnownObject& known = known_or_throw(object, {});
   if (!owned_of(object, known).is_empty())
     throw RtiException(HlaError::federate_owns_attributes,
@@ -111,23 +114,22 @@ void Ambassador::local_delete_object_instance(ObjectHandle object) {
   say(LocalDeleteMessage{object.value});
 }
 
-void Ambassador::request_attribute_value_update(ObjectClassHandle object_class,
-                                                AttributeSet attributes, Bytes tag) {
+void AmbassadorServices::request_attribute_value_update(ObjectClassHandle object_class,
+                                                        AttributeSet attributes, Bytes tag) {
   require_class(object_class, attributes);
   require_tag(tag);
   say(RequestUpdateMessage{1, object_class.value, attributes.bits, tag});
 }
 
-void Ambassador::request_attribute_value_update(ObjectHandle object, AttributeSet attributes,
-                                                Bytes tag) {
+void AmbassadorServices::request_attribute_value_update(ObjectHandle object,
+                                                        AttributeSet attributes, Bytes tag) {
   known_or_throw(object, attributes);
   require_tag(tag);
   say(RequestUpdateMessage{0, object.value, attributes.bits, tag});
 }
 
-void Ambassador::request_attribute_transportation_type_change(ObjectHandle object,
-                                                              AttributeSet attributes,
-                                                              Transportation transportation) {
+void AmbassadorServices::request_attribute_transportation_type_change(
+    ObjectHandle object, AttributeSet attributes, Transportation transportation) {
   require_owned(object, attributes);
   if (transportation == Transportation::reliable) {  // at once, for that promises more
     release_best_effort(object, attributes);
@@ -138,22 +140,22 @@ void Ambassador::request_attribute_transportation_type_change(ObjectHandle objec
                                   static_cast<std::uint8_t>(transportation)});
 }
 
-void Ambassador::query_attribute_transportation_type(ObjectHandle object,
-                                                     AttributeHandle attribute) {
+void AmbassadorServices::query_attribute_transportation_type(ObjectHandle object,
+                                                             AttributeHandle attribute) {
   const KnownObject& known = known_or_throw(object, AttributeSet{attribute});
   require_class(ObjectClassHandle{known.object_class}, AttributeSet{attribute});
   say(QueryTransportationMessage{0, object.value, attribute.value});
 }
 
-void Ambassador::request_interaction_transportation_type_change(
+void AmbassadorServices::request_interaction_transportation_type_change(
     InteractionClassHandle interaction_class, Transportation transportation) {
   require_published(interaction_class);
   say(ChangeTransportationMessage{1, interaction_class.value, 0,
                                   static_cast<std::uint8_t>(transportation)});
 }
 
-void Ambassador::query_interaction_transportation_type(FederateHandle federate,
-                                                       InteractionClassHandle interaction_class) {
+void AmbassadorServices::query_interaction_transportation_type(
+    FederateHandle federate, InteractionClassHandle interaction_class) {
   require_class(interaction_class);
   say(QueryTransportationMessage{1, interaction_class.value, federate.value});
 }

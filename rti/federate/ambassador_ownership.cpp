@@ -115,14 +115,15 @@ void AmbassadorParts::give_up(OwnershipRequest request, ObjectHandle object,
   settle_holding(object, known);
 }
 
-void Ambassador::unconditional_attribute_ownership_divestiture(ObjectHandle object,
-                                                               AttributeSet attributes) {
+void AmbassadorServices::unconditional_attribute_ownership_divestiture(ObjectHandle object,
+                                                                       AttributeSet attributes) {
   require_owned(object, attributes);
   give_up(OwnershipRequest::divest, object, attributes, {});
 }
 
-void Ambassador::negotiated_attribute_ownership_divestiture(ObjectHandle object,
-                                                            AttributeSet attributes, Bytes tag) {
+void AmbassadorServices::negotiated_attribute_ownership_divestiture(ObjectHandle object,
+                                                                    AttributeSet attributes,
+                                                                    Bytes tag) {
   const AttributeSet offered = require_owned(object, attributes);
   require((offered & attributes).is_empty(), HlaError::attribute_already_being_divested, object,
           "an attribute is offered once");
@@ -133,7 +134,8 @@ void Ambassador::negotiated_attribute_ownership_divestiture(ObjectHandle object,
   settle_holding(object, known);
 }
 
-void Ambassador::confirm_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag) {
+void AmbassadorServices::confirm_divestiture(ObjectHandle object, AttributeSet attributes,
+                                             Bytes tag) {
   const AttributeSet offered = require_owned(object, attributes);
   require(offered.includes(attributes), HlaError::attribute_divestiture_was_not_requested, object,
           "only what is offered can be confirmed");
@@ -143,19 +145,20 @@ void Ambassador::confirm_divestiture(ObjectHandle object, AttributeSet attribute
   give_up(OwnershipRequest::confirm, object, attributes, tag);
 }
 
-void Ambassador::attribute_ownership_release_denied(ObjectHandle object, AttributeSet attributes) {
+void AmbassadorServices::attribute_ownership_release_denied(ObjectHandle object,
+                                                            AttributeSet attributes) {
   require_owned(object, attributes);
   ask_ownership(OwnershipRequest::deny_release, object, attributes, {});
 }
 
-void Ambassador::attribute_ownership_divestiture_if_wanted(ObjectHandle object,
-                                                           AttributeSet attributes) {
+void AmbassadorServices::attribute_ownership_divestiture_if_wanted(ObjectHandle object,
+                                                                   AttributeSet attributes) {
   require_owned(object, attributes);
   give_up(OwnershipRequest::give_if_wanted, object, attributes, {});
 }
 
-void Ambassador::cancel_negotiated_attribute_ownership_divestiture(ObjectHandle object,
-                                                                   AttributeSet attributes) {
+void AmbassadorServices::cancel_negotiated_attribute_ownership_divestiture(
+    ObjectHandle object, AttributeSet attributes) {
   const AttributeSet offered = require_owned(object, attributes);
   require(offered.includes(attributes), HlaError::attribute_divestiture_was_not_requested, object,
           "only an offer can be withdrawn");
@@ -181,8 +184,8 @@ AttributeSet AmbassadorParts::require_acquirable(ObjectHandle object, AttributeS
   return holding ? holding->pending() : AttributeSet();
 }
 
-void Ambassador::attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes,
-                                                 Bytes tag) {
+void AmbassadorServices::attribute_ownership_acquisition(ObjectHandle object,
+                                                         AttributeSet attributes, Bytes tag) {
   require_acquirable(object, attributes);
   const Holding* before = holdings_.find(object);
   const AttributeSet asked =
@@ -194,8 +197,8 @@ void Ambassador::attribute_ownership_acquisition(ObjectHandle object, AttributeS
   holding.acquiring_if_available = holding.acquiring_if_available.without(asked);
 }
 
-void Ambassador::attribute_ownership_acquisition_if_available(ObjectHandle object,
-                                                              AttributeSet attributes) {
+void AmbassadorServices::attribute_ownership_acquisition_if_available(ObjectHandle object,
+                                                                      AttributeSet attributes) {
   const AttributeSet pending = require_acquirable(object, attributes);
   require((pending & attributes).is_empty(), HlaError::attribute_already_being_acquired, object,
           "its acquisition is under way");
@@ -205,8 +208,8 @@ void Ambassador::attribute_ownership_acquisition_if_available(ObjectHandle objec
   holding.acquiring_if_available = holding.acquiring_if_available | attributes;
 }
 
-void Ambassador::cancel_attribute_ownership_acquisition(ObjectHandle object,
-                                                        AttributeSet attributes) {
+void AmbassadorServices::cancel_attribute_ownership_acquisition(ObjectHandle object,
+                                                                AttributeSet attributes) {
   const KnownObject& known = known_or_throw(object, attributes);
   require((owned_of(object, known) & attributes).is_empty(), HlaError::attribute_already_owned,
           object, "what is owned is no longer being acquired");
@@ -216,16 +219,17 @@ void Ambassador::cancel_attribute_ownership_acquisition(ObjectHandle object,
   ask_ownership(OwnershipRequest::cancel_acquisition, object, attributes, {});
 }
 
-void Ambassador::query_attribute_ownership(ObjectHandle object, AttributeHandle attribute) {
+void AmbassadorServices::query_attribute_ownership(ObjectHandle object, AttributeHandle attribute) {
   known_or_throw(object, AttributeSet{attribute});
   say(QueryOwnershipMessage{object.value, static_cast<std::uint8_t>(attribute.value)});
 }
 
-bool Ambassador::is_attribute_owned_by_federate(ObjectHandle object, AttributeHandle attribute) {
+bool AmbassadorServices::is_attribute_owned_by_federate(ObjectHandle object,
+                                                        AttributeHandle attribute) {
   return owned_of(object, known_or_throw(object, AttributeSet{attribute})).contains(attribute);
 }
 
-void Ambassador::set_automatic_resign_directive(ResignAction action) {
+void AmbassadorServices::set_automatic_resign_directive(ResignAction action) {
   if (phase_ != Phase::joined)
     throw RtiException(HlaError::federate_not_execution_member, "join first");
   say_directive(action);
@@ -239,7 +243,7 @@ void AmbassadorParts::say_directive(ResignAction action) {
   say(ResignDirectiveMessage{static_cast<std::uint8_t>(action)});
 }
 
-void Ambassador::resign(ResignAction action) {
+void AmbassadorServices::resign(ResignAction action) {
   if (phase_ != Phase::joined)
     throw RtiException(HlaError::federate_not_execution_member, "join first");
   const bool cancels = action == ResignAction::cancel_pending_ownership_acquisitions ||

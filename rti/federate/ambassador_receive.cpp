@@ -13,7 +13,7 @@
 
 namespace rink::rti {
 
-bool Ambassador::receive(Bytes bytes) {
+bool AmbassadorServices::receive(Bytes bytes) {
   if (phase_ == Phase::ended) return true;
   has_heard_ = true;
   counters_.bytes_received += bytes.size();
@@ -31,7 +31,7 @@ bool AmbassadorParts::take_bytes(Bytes bytes) {
                            (lose("too many callbacks wait to be evoked"), false));
 }
 
-void Ambassador::disconnected(std::string_view why) { lose(why); }
+void AmbassadorServices::disconnected(std::string_view why) { lose(why); }
 
 void AmbassadorParts::lose(std::string_view why) {
   if (phase_ == Phase::ended || (phase_ == Phase::idle && !has_asked_)) return;

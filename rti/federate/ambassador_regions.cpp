@@ -25,13 +25,13 @@ void AmbassadorParts::for_each_message(std::span<const AttributeRegions> pairs, 
   if (count > 0) tell(count);
 }
 
-RegionHandle Ambassador::create_region() {
+RegionHandle AmbassadorServices::create_region() {
   const RegionHandle region = regions_.create({});
   if (region) say(CreateRegionMessage{regions_.number(region)});
   return region;
 }
 
-RegionHandle Ambassador::create_region(DimensionSet dimensions) {
+RegionHandle AmbassadorServices::create_region(DimensionSet dimensions) {
   if (dimensions.is_empty())
     throw RtiException(HlaError::invalid_dimension_handle, "a region needs a dimension");
   dimensions.for_each([this](DimensionHandle each) { check(each); });
@@ -40,25 +40,25 @@ RegionHandle Ambassador::create_region(DimensionSet dimensions) {
   return region;
 }
 
-void Ambassador::set_region(RegionHandle region, const im::Region& bounds) {
+void AmbassadorServices::set_region(RegionHandle region, const im::Region& bounds) {
   regions_.set_plane(region, bounds);
 }
-void Ambassador::set_range_bounds(RegionHandle region, DimensionHandle dimension,
-                                  const Range& range) {
+void AmbassadorServices::set_range_bounds(RegionHandle region, DimensionHandle dimension,
+                                          const Range& range) {
   regions_.set_range(region, dimension, range);
 }
-Range Ambassador::get_range_bounds(RegionHandle region, DimensionHandle dimension) const {
+Range AmbassadorServices::get_range_bounds(RegionHandle region, DimensionHandle dimension) const {
   return regions_.range(region, dimension);
 }
-DimensionSet Ambassador::get_dimension_handle_set(RegionHandle region) const {
+DimensionSet AmbassadorServices::get_dimension_handle_set(RegionHandle region) const {
   return regions_.dimensions(region);
 }
 
-void Ambassador::commit_region_modifications(RegionHandle region) {
+void AmbassadorServices::commit_region_modifications(RegionHandle region) {
   commit_region_modifications(std::span(&region, 1));
 }
 
-void Ambassador::commit_region_modifications(std::span<const RegionHandle> regions) {
+void AmbassadorServices::commit_region_modifications(std::span<const RegionHandle> regions) {
   for (const RegionHandle region : regions)
     if (!regions_.is_planar(region))
       regions_.closed_ranges(region, ranges_);  // all are checked before any is said
@@ -77,7 +77,7 @@ void Ambassador::commit_region_modifications(std::span<const RegionHandle> regio
   }
 }
 
-void Ambassador::commit_region_modifications(std::span<const RegionBounds> regions) {
+void AmbassadorServices::commit_region_modifications(std::span<const RegionBounds> regions) {
   while (!regions.empty()) {
     const auto chunk = regions.first(std::min(regions.size(), ModifyRegionsMessage::count_max));
     regions = regions.subspan(chunk.size());
@@ -93,7 +93,7 @@ void Ambassador::commit_region_modifications(std::span<const RegionBounds> regio
   }
 }
 
-void Ambassador::delete_region(RegionHandle region) {
+void AmbassadorServices::delete_region(RegionHandle region) {
   const std::uint32_t number = regions_.check(region);
   regions_.remove(region, [this](ObjectHandle object) {
     return find(object) != nullptr && !owned_of(object, *find(object)).is_empty();
@@ -101,19 +101,19 @@ void Ambassador::delete_region(RegionHandle region) {
   say(DeleteRegionMessage{number});
 }
 
-void Ambassador::associate_regions_for_updates(ObjectHandle object, RegionHandle region) {
+void AmbassadorServices::associate_regions_for_updates(ObjectHandle object, RegionHandle region) {
   own_class(object);
   const std::uint32_t number = region ? regions_.check(region) : RegionHandle::none;
   regions_.associate(object, region);
   say(AssociateRegionMessage{object.value, number});
 }
 
-void Ambassador::associate_regions_for_updates(ObjectHandle object,
-                                               std::span<const AttributeRegions> pairs) {
+void AmbassadorServices::associate_regions_for_updates(ObjectHandle object,
+                                                       std::span<const AttributeRegions> pairs) {
   associate_regions(object, pairs, true);
 }
-void Ambassador::unassociate_regions_for_updates(ObjectHandle object,
-                                                 std::span<const AttributeRegions> pairs) {
+void AmbassadorServices::unassociate_regions_for_updates(ObjectHandle object,
+                                                         std::span<const AttributeRegions> pairs) {
   associate_regions(object, pairs, false);
 }
 
@@ -129,7 +129,7 @@ void AmbassadorParts::associate_regions(ObjectHandle object,
   });
 }
 
-ObjectHandle Ambassador::register_object_instance_with_regions(
+ObjectHandle AmbassadorServices::register_object_instance_with_regions(
     ObjectClassHandle object_class, std::span<const AttributeRegions> pairs,
     std::string_view name) {
   check(object_class, pairs);
@@ -138,12 +138,12 @@ ObjectHandle Ambassador::register_object_instance_with_regions(
   return object;
 }
 
-void Ambassador::subscribe_object_class_attributes_with_regions(
+void AmbassadorServices::subscribe_object_class_attributes_with_regions(
     ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_active) {
   subscribe_with_regions(object_class, pairs,
                          is_active ? RegionAction::add : RegionAction::add_passively);
 }
-void Ambassador::unsubscribe_object_class_attributes_with_regions(
+void AmbassadorServices::unsubscribe_object_class_attributes_with_regions(
     ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
   subscribe_with_regions(object_class, pairs, RegionAction::remove);
 }
@@ -158,7 +158,7 @@ void AmbassadorParts::subscribe_with_regions(ObjectClassHandle object_class,
   say_regional_class(object_class, pairs, action);
 }
 
-void Ambassador::request_attribute_value_update_with_regions(
+void AmbassadorServices::request_attribute_value_update_with_regions(
     ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
   check(object_class, pairs);
   say_regional_class(object_class, pairs, RegionAction::request_update);
@@ -184,13 +184,13 @@ void AmbassadorParts::say_regional_class(ObjectClassHandle object_class,
   });
 }
 
-void Ambassador::subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class,
-                                                          std::span<const RegionHandle> regions,
-                                                          bool is_active) {
+void AmbassadorServices::subscribe_interaction_class_with_regions(
+    InteractionClassHandle interaction_class, std::span<const RegionHandle> regions,
+    bool is_active) {
   subscribe_with_regions(interaction_class, regions,
                          is_active ? Listening::active : Listening::passive);
 }
-void Ambassador::unsubscribe_interaction_class_with_regions(
+void AmbassadorServices::unsubscribe_interaction_class_with_regions(
     InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) {
   subscribe_with_regions(interaction_class, regions, Listening::none);
 }
@@ -207,10 +207,10 @@ void AmbassadorParts::subscribe_with_regions(InteractionClassHandle interaction_
                                  static_cast<std::uint16_t>(regions.size()), region_records_});
 }
 
-void Ambassador::send_interaction_with_regions(InteractionClassHandle interaction_class,
-                                               Bytes parameters,
-                                               std::span<const RegionHandle> regions,
-                                               const Stamp& stamp) {
+void AmbassadorServices::send_interaction_with_regions(InteractionClassHandle interaction_class,
+                                                       Bytes parameters,
+                                                       std::span<const RegionHandle> regions,
+                                                       const Stamp& stamp) {
   check(interaction_class, regions);
   require_published(interaction_class);
   require_parameters(parameters);

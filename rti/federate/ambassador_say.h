@@ -5,7 +5,7 @@
 #include <cassert>
 #include <string>
 
-#include "rti/ambassador.h"
+#include "rti/federate/ambassador_services.h"
 
 namespace rink::rti {
 

@@ -17,27 +17,27 @@ constexpr std::size_t postponed_max = 64u << 20;
 
 }  // namespace
 
-void Ambassador::enable_time_regulation(double lookahead) {
+void AmbassadorServices::enable_time_regulation(double lookahead) {
   clock_.ask_regulation(lookahead);
   release_best_effort();
   is_timed_ = true;
   say(EnableTimeRegulationMessage{lookahead});
 }
 
-void Ambassador::disable_time_regulation() {
+void AmbassadorServices::disable_time_regulation() {
   clock_.ask_no_regulation();
   deletions_.clear();
   say(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::disable_regulation)});
 }
 
-void Ambassador::enable_time_constrained() {
+void AmbassadorServices::enable_time_constrained() {
   clock_.ask_constrained();
   release_best_effort();
   is_timed_ = true;
   say(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::enable_constrained)});
 }
 
-void Ambassador::disable_time_constrained() {
+void AmbassadorServices::disable_time_constrained() {
   clock_.ask_no_constrained();
   say(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::disable_constrained)});
 }
@@ -47,12 +47,12 @@ void AmbassadorParts::request_advance(AdvanceKind kind, LogicalTime time) {
   say(AdvanceRequestMessage{static_cast<std::uint8_t>(kind), time.value});
 }
 
-void Ambassador::modify_lookahead(double lookahead) {
+void AmbassadorServices::modify_lookahead(double lookahead) {
   clock_.ask_lookahead(lookahead);
   say(ModifyLookaheadMessage{lookahead});
 }
 
-void Ambassador::query_time_bounds() { say(QueryTimeBoundsMessage{}); }
+void AmbassadorServices::query_time_bounds() { say(QueryTimeBoundsMessage{}); }
 
 AttributeSet AmbassadorParts::timestamped(ObjectHandle object,
                                           ObjectClassHandle object_class) const {
@@ -75,9 +75,9 @@ RetractionHandle AmbassadorParts::say_timed(LogicalTime time, std::uint64_t tag,
   return {federate_, message.number, time.value};
 }
 
-RetractionHandle Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes,
-                                                     Bytes values, LogicalTime time,
-                                                     std::uint64_t tag) {
+RetractionHandle AmbassadorServices::update_attribute_values(ObjectHandle object,
+                                                             AttributeSet attributes, Bytes values,
+                                                             LogicalTime time, std::uint64_t tag) {
   const KnownObject* known = find(object);
   if (known == nullptr)
     throw RtiException(HlaError::object_instance_not_known,
@@ -117,15 +117,15 @@ RetractionHandle Ambassador::update_attribute_values(ObjectHandle object, Attrib
   return say_timed(time, tag, content_);
 }
 
-RetractionHandle Ambassador::send_interaction(InteractionClassHandle interaction_class,
-                                              Bytes parameters, LogicalTime time,
-                                              std::uint64_t tag) {
+RetractionHandle AmbassadorServices::send_interaction(InteractionClassHandle interaction_class,
+                                                      Bytes parameters, LogicalTime time,
+                                                      std::uint64_t tag) {
   return send_directed_interaction(interaction_class, {}, parameters, time, tag);
 }
 
-RetractionHandle Ambassador::send_directed_interaction(InteractionClassHandle interaction_class,
-                                                       FederateHandle receiver, Bytes parameters,
-                                                       LogicalTime time, std::uint64_t tag) {
+RetractionHandle AmbassadorServices::send_directed_interaction(
+    InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters,
+    LogicalTime time, std::uint64_t tag) {
   if (interaction_class.value >= fom_.interaction_classes().size())
     throw RtiException(HlaError::interaction_class_not_defined,
                        std::to_string(interaction_class.value));
@@ -145,8 +145,8 @@ RetractionHandle Ambassador::send_directed_interaction(InteractionClassHandle in
   return handle;
 }
 
-RetractionHandle Ambassador::delete_object_instance(ObjectHandle object, LogicalTime time,
-                                                    std::uint64_t tag) {
+RetractionHandle AmbassadorServices::delete_object_instance(ObjectHandle object, LogicalTime time,
+                                                            std::uint64_t tag) {
   if (!clock_.is_regulating()) {
     delete_object_instance(object);
     return {};
@@ -169,7 +169,7 @@ RetractionHandle Ambassador::delete_object_instance(ObjectHandle object, Logical
   return handle;
 }
 
-void Ambassador::retract(const RetractionHandle& handle) {
+void AmbassadorServices::retract(const RetractionHandle& handle) {
   clock_.ask_retraction(handle, federate_);
   say(RetractMessage{handle.number});
   const auto deletion = std::ranges::find(deletions_, handle.number, &TimedDeletion::number);
@@ -179,8 +179,8 @@ void Ambassador::retract(const RetractionHandle& handle) {
   deletions_.erase(deletion);
 }
 
-void Ambassador::change_attribute_order_type(ObjectHandle object, AttributeSet attributes,
-                                             Order order) {
+void AmbassadorServices::change_attribute_order_type(ObjectHandle object, AttributeSet attributes,
+                                                     Order order) {
   const KnownObject* known = find(object);
   if (known == nullptr)
     throw RtiException(HlaError::object_instance_not_known,
@@ -197,8 +197,8 @@ void Ambassador::change_attribute_order_type(ObjectHandle object, AttributeSet a
                                      : AttributeSet(before.bits & ~attributes.bits);
 }
 
-void Ambassador::change_interaction_order_type(InteractionClassHandle interaction_class,
-                                               Order order) {
+void AmbassadorServices::change_interaction_order_type(InteractionClassHandle interaction_class,
+                                                       Order order) {
   if (interaction_class.value >= fom_.interaction_classes().size())
     throw RtiException(HlaError::interaction_class_not_defined,
                        std::to_string(interaction_class.value));

@@ -13,12 +13,12 @@
 #include "rti/federate_ambassador.h"
 #include "rti/federation/datagram_way.h"
 #include "rti/federation/upward_way.h"
-#include "rti/fom/attribute_set.h"
 #include "rti/fom/fom.h"
 #include "rti/handles.h"
 #include "rti/management/federation_report.h"
 #include "rti/objects/object_map.h"
 #include "rti/ownership/holding.h"
+#include "rti/types.h"
 #include "rti/wire/bytes.h"
 #include "rti/wire/object_block.h"
 

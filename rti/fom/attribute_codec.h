@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "rti/fom/attribute_set.h"
+#include "rti/types.h"
 #include "rti/wire/bytes.h"
 
 namespace rink::rti {

@@ -11,16 +11,14 @@
 #include <string_view>
 #include <vector>
 
-#include "rti/fom/attribute_codec.h"
-#include "rti/fom/attribute_set.h"
-#include "rti/fom/dimension_set.h"
 #include "rti/fom/fom_switches.h"
-#include "rti/fom/quantised_codec.h"
-#include "rti/handles.h"
 #include "rti/hla_error.h"
-#include "rti/wire/bytes.h"
+#include "rti/types.h"
 
 namespace rink::rti {
+
+class AttributeCodec;
+class QuantisedCodec;
 
 /// A FOM or federation file that can't be used; `what` names file, line, element or key, and what
 /// is allowed.
@@ -44,9 +42,6 @@ struct FomModule {
 };
 /// Throws `FileError`.
 FomModule read_fom_module(const std::string& path);
-
-enum class Transportation : std::uint8_t { reliable, best_effort };
-enum class Order : std::uint8_t { receive, timestamp };
 
 struct Attribute {
   std::string name;

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "rti/fom/attribute_codec.h"
+#include "rti/fom/quantised_codec.h"
+
 namespace rink::rti {
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "rti/ownership/holding.h"
+#include "rti/types.h"
 
 namespace rink::rti {
 

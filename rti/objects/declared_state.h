@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "rti/advisory_switches.h"
 #include "rti/distribution/data_distribution.h"
+#include "rti/federate/advisory_switches.h"
 #include "rti/objects/spared_values.h"
+#include "rti/ownership/holding.h"
 
 namespace rink::rti {
 

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "rti/fom/attribute_codec.h"
 #include "rti/wire/message.h"
 
 namespace rink::rti {

@@ -3,20 +3,10 @@
 
 #include <cstdint>
 
-#include "rti/fom/attribute_set.h"
+#include "rti/types.h"
 
 namespace rink::rti {
 
-/// What becomes of what a federate owns when it leaves (IEEE 1516.1-2010, 4.10 and 10.4); the
-/// numbers are those on the wire.
-enum class ResignAction : std::uint8_t {
-  unconditionally_divest_attributes,
-  delete_objects,  ///< those whose deletion it may order
-  cancel_pending_ownership_acquisitions,
-  delete_objects_then_divest,
-  cancel_then_delete_then_divest,  ///< the default, also for a federate that is lost
-  no_action,
-};
 /// True if what a federate owns whole ends with it.
 constexpr bool deletes(ResignAction action) {
   return action == ResignAction::delete_objects ||

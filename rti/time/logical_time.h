@@ -3,22 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstdint>
 #include <limits>
 
-#include "rti/handles.h"
+#include "rti/types.h"
 
 namespace rink::rti {
 
-/// An instant of logical time [s], of its own type so that a time-stamped service can't be taken
-/// for the one that only carries a stamp. From 0 to below the greatest double: every instant has
-/// one just above it.
-struct LogicalTime {
-  double value;
-  explicit LogicalTime(double seconds) : value(seconds) {}
-  friend auto operator<=>(const LogicalTime&, const LogicalTime&) = default;
-};
 /// What HLA calls infinity: no message can come any more, or nobody sets a bound.
 inline constexpr double time_unbounded = std::numeric_limits<double>::infinity();
 inline bool is_valid_time(double time) {
@@ -57,15 +48,5 @@ inline double earliest_stamp(double time, double lookahead, AdvanceKind kind) {
   const double sum = time + lookahead;
   return is_complete(kind) ? std::max(sum, just_after(time)) : sum;
 }
-
-/// Names a message that was sent in time-stamp order, to its sender and to those who receive it.
-/// Empty if it went in receive order.
-struct RetractionHandle {
-  FederateHandle sender;
-  std::uint64_t number = 0;  ///< the sender's count
-  double time = 0.0;         ///< the message's time stamp
-  explicit operator bool() const { return static_cast<bool>(sender); }
-  friend bool operator==(const RetractionHandle&, const RetractionHandle&) = default;
-};
 
 }  // namespace rink::rti

@@ -8,11 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "im/filter.h"
 #include "rti/federate_ambassador.h"
-#include "rti/fom/attribute_set.h"
 #include "rti/handles.h"
 #include "rti/hla_error.h"
+#include "rti/types.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/stream.h"
 
@@ -20,17 +19,6 @@ namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
 inline constexpr std::uint16_t protocol_version = 8;
-inline constexpr std::size_t text_max = 255;  ///< longest name or label [bytes]
-inline constexpr std::size_t parameters_max =
-    32 * 1024;  ///< longest parameters of one interaction [bytes]
-inline constexpr std::size_t values_max =
-    32 * 1024;  ///< longest values of one update as they travel [bytes]
-inline constexpr std::uint32_t region_max = 1u << 18;  ///< regions of one federate
-/// An object handle is the block that the RTI gave its owner, times `object_block`, plus the
-/// owner's own count. A federate that has used half of its block is given a further one, so that
-/// only what it has at once is limited.
-inline constexpr std::uint32_t object_block = 1u << 18;
-inline constexpr std::uint32_t object_block_max = 1u << 14;
 
 /// The first byte of each message.
 enum class MessageKind : std::uint8_t {
@@ -240,20 +228,6 @@ bool exchange(Stream& stream, InteractionMessage& message) {
   return stream.number(message.interaction_class) && stream.number(message.federate) &&
          exchange(stream, message.stamp) &&
          stream.template bytes<std::uint16_t>(message.parameters, parameters_max);
-}
-
-/// A region and the bounds that it shall have.
-struct RegionBounds {
-  RegionHandle region;
-  im::Region bounds;  ///< over the dimensions X and Y [m]
-};
-template <class Stream>
-bool exchange(Stream& stream, RegionBounds& record) {
-  im::Region& bounds = record.bounds;
-  return stream.number(record.region.value) && stream.finite(bounds.low_x) &&
-         stream.finite(bounds.low_y) && stream.finite(bounds.high_x) &&
-         stream.finite(bounds.high_y) && bounds.low_x <= bounds.high_x &&
-         bounds.low_y <= bounds.high_y;
 }
 
 template <class Message>

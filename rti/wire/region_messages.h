@@ -3,11 +3,21 @@
 
 #include <cstdint>
 
+#include "im/filter.h"
 #include "rti/distribution/data_distribution.h"
 #include "rti/handles.h"
 #include "rti/wire/message.h"
 
 namespace rink::rti {
+
+template <class Stream>
+bool exchange(Stream& stream, RegionBounds& record) {
+  im::Region& bounds = record.bounds;
+  return stream.number(record.region.value) && stream.finite(bounds.low_x) &&
+         stream.finite(bounds.low_y) && stream.finite(bounds.high_x) &&
+         stream.finite(bounds.high_y) && bounds.low_x <= bounds.high_x &&
+         bounds.low_y <= bounds.high_y;
+}
 
 /// `records` are, `count` times, a region handle (u32) and its bounds: low x, low y, high x, high y
 /// (f64 each).

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "rti/federation_execution.h"
+#include "rti/fom/quantised_codec.h"
 #include "rti/wire/baseline_messages.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/membership_messages.h"

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "rti/wire/datagram.h"
+#include "rti/wire/frame.h"
 #include "rti/wire/membership_messages.h"
+#include "rti/wire/message.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/suspicious_federate.h"
 #include "tests/rti/rig.h"

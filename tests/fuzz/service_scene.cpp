@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "rti/time/federate_clock.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/message_shapes.h"
 #include "tests/rti/rig.h"

@@ -1,4 +1,6 @@
 // The house style as far as a program can judge it.
+#include <map>
+
 #include "tests/house/source_tree.h"
 #include "tests/places.h"
 
@@ -6,6 +8,8 @@ namespace rink::house {
 namespace {
 
 constexpr std::size_t line_length_max = 100, file_length_max = 400;
+/// About 25 are as many as a reader takes in.
+constexpr std::size_t folder_size_max = 30;
 
 std::vector<SourceFile> all_code() { return read_sources(code_folders, code_extensions); }
 
@@ -70,6 +74,13 @@ TEST(Style, FilesStayReadable) {
       report(source, i, "holds a tab; indentation is two spaces");
     if (line.ends_with(' ') || line.ends_with('\r')) report(source, i, "ends in white space");
   });
+}
+
+TEST(Style, FoldersHoldWhatAReaderTakesIn) {
+  std::map<std::string, std::size_t> sizes;
+  for (const SourceFile& source : all_code())
+    ++sizes[source.path.substr(0, source.path.find_last_of('/'))];
+  for (const auto& [folder, size] : sizes) EXPECT_LE(size, folder_size_max) << folder;
 }
 
 TEST(Style, LinesFitTheScreen) {

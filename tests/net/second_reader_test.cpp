@@ -18,6 +18,7 @@
 #include "rti/ambassador.h"
 #include "rti/federation_execution.h"
 #include "rti/fom/fom_digest.h"
+#include "rti/wire/message.h"
 #include "tests/places.h"
 #include "tests/rti/python.h"
 #include "tests/temporary_folder.h"

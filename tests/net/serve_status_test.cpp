@@ -9,6 +9,7 @@
 
 #include "loadgen/run/process.h"
 #include "rti/transport/tcp/tcp.h"
+#include "rti/wire/message.h"
 #include "tests/net/guest.h"
 #include "tests/places.h"
 

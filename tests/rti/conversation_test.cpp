@@ -4,6 +4,9 @@
 
 #include "tests/rti/rig.h"
 
+#include "rti/wire/frame.h"
+#include "rti/wire/message.h"
+
 namespace rink::rti::testing {
 namespace {
 

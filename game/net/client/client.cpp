@@ -8,6 +8,7 @@
 #include "game/net/interest_codec.h"
 #include "game/net/view.h"
 #include "game/replication/names.h"
+#include "rti/time/federate_clock.h"
 
 namespace rink::game {
 

@@ -6,6 +6,7 @@
 
 #include "game/net/client/client.h"
 #include "game/net/tick_grid.h"
+#include "rti/time/federate_clock.h"
 
 namespace rink::game {
 namespace {

@@ -2,6 +2,7 @@
 // has been said that belongs before a tick.
 #include "game/net/server/server.h"
 #include "game/net/tick_grid.h"
+#include "rti/time/federate_clock.h"
 
 namespace rink::game {
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "rti/fom/quantised_codec.h"
 #include "tests/rti/rig.h"
 #include "tests/rti/scenes/fjord.h"
 #include "tests/rti/seeded.h"

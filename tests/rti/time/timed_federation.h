@@ -12,6 +12,8 @@
 
 #include "tests/rti/rig.h"
 
+#include "rti/time/federate_clock.h"
+
 namespace rink::rti::testing {
 
 /// The name of the error that `service` throws, "" if it throws none.

@@ -7,6 +7,8 @@
 
 #include "rti/admission/handshake.h"
 #include "rti/transport/guarded_transport.h"
+#include "rti/wire/frame.h"
+#include "rti/wire/message.h"
 #include "tests/rti/rig.h"
 #include "tests/rti/seeded.h"
 #include "tests/temporary_folder.h"

@@ -2,6 +2,8 @@
 // is heard is the quantised truth.
 #include <gtest/gtest.h>
 
+#include "rti/baselines/keyframe_memory.h"
+#include "rti/fom/quantised_codec.h"
 #include "rti/wire/baseline_messages.h"
 #include "tests/rti/scenes/fjord_traffic.h"
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "rti/federation_file.h"
+#include "rti/fom/quantised_codec.h"
 #include "tests/places.h"
 #include "tests/rti/rig.h"
 

@@ -8,6 +8,8 @@
 
 #include "tests/rti/scenes/fjord_traffic.h"
 
+#include "rti/fom/quantised_codec.h"
+
 namespace rink::rti::testing {
 namespace {
 

@@ -11,6 +11,8 @@
 #include <sstream>
 #include <string>
 
+#include "rti/objects/name_book.h"
+#include "rti/wire/message.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {

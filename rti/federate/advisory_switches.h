@@ -1,17 +1,9 @@
 // The services by which a federate says which advisories it wants to be told.
 #pragma once
 
-#include <cstdint>
+#include "rti/types.h"
 
 namespace rink::rti {
-
-/// The advisories of IEEE 1516.1-2010 that a federate may switch.
-enum class Advisory : std::uint8_t {
-  object_class_relevance,
-  attribute_relevance,
-  attribute_scope,
-  interaction_relevance
-};
 
 /// 10.27 to 10.34. All are on at first but that of attribute relevance; what is so already throws
 /// ObjectClassRelevanceAdvisorySwitchIsOn and its kin. A base of `Switched`, which has

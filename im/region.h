@@ -1,0 +1,23 @@
+// Rectangles: where entities are, and what subscribers want to see.
+#pragma once
+
+namespace rink::im {
+
+/// A closed axis-aligned rectangle, in metres (touching is overlap). `low` never exceeds `high`;
+/// both are finite.
+struct Region {
+  double low_x = 0.0, low_y = 0.0, high_x = 0.0, high_y = 0.0;
+  friend bool operator==(const Region&, const Region&) = default;
+};
+
+/// The smallest rectangle that holds both.
+constexpr Region hull_of(const Region& a, const Region& b) {
+  return {a.low_x < b.low_x ? a.low_x : b.low_x, a.low_y < b.low_y ? a.low_y : b.low_y,
+          a.high_x > b.high_x ? a.high_x : b.high_x, a.high_y > b.high_y ? a.high_y : b.high_y};
+}
+
+/// True if `region` is finite and not inverted, as every filter asserts of what it is given. For
+/// the edge, where regions come from strangers.
+bool is_valid(const Region& region);
+
+}  // namespace rink::im

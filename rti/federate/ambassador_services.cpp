@@ -1,0 +1,261 @@
+// The services of the federate's side: each becomes a message at the end of `outgoing`.
+#include "rti/federate/ambassador_say.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "rti/buffering/best_effort_outbox.h"
+#include "rti/wire/membership_messages.h"
+#include "rti/wire/message.h"
+#include "rti/wire/update_block.h"
+
+namespace rink::rti {
+
+void AmbassadorParts::require_parameters(Bytes parameters) {
+  if (parameters.size() > parameters_max)
+    throw RtiException(HlaError::rti_internal_error, "the parameters of an interaction have " +
+                                                         std::to_string(parameters.size()) +
+                                                         " bytes; allowed are at most " +
+                                                         std::to_string(parameters_max));
+}
+
+void AmbassadorParts::require_stamp(const Stamp& stamp) {
+  if (!std::isfinite(stamp.time))
+    throw RtiException(HlaError::invalid_logical_time,
+                       "a time stamp is a finite number of seconds");
+}
+
+AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
+                                 const Patience& patience, CallbackModel model)
+    : FomLookup(fom),
+      queue_(model == CallbackModel::evoked ? std::make_unique<CallbackQueue>(callbacks) : nullptr),
+      callbacks_(queue_ ? *queue_ : callbacks),
+      patience_(patience),
+      regions_(fom),
+      declared_(fom),
+      outgoing_(frame_max_to_rti),
+      arrivals_(fom) {}
+
+AmbassadorServices::AmbassadorServices(const Fom& fom, FederateAmbassador& callbacks,
+                                       const Patience& patience, CallbackModel model)
+    : AmbassadorParts(fom, callbacks, patience, model) {}
+
+ObjectHandle AmbassadorServices::register_object_instance(ObjectClassHandle object_class,
+                                                          std::string_view name) {
+  if (phase_ != Phase::joined)
+    throw RtiException(HlaError::federate_not_execution_member, "join first");
+  if (object_class.value >= declared_.objects.size())
+    throw RtiException(HlaError::object_class_not_defined,
+                       "class " + std::to_string(object_class.value));
+  if (declared_.objects[object_class.value].published.is_empty())
+    throw RtiException(HlaError::object_class_not_published, "class " + fom_.at(object_class).name);
+  if (!name.empty()) {
+    require_name(name);
+    if (names_.find(name))
+      throw RtiException(HlaError::object_instance_name_in_use, "'" + std::string(name) + "'");
+  }
+  if (objects_registered_ == object_block && !further_block_) return {};
+  if (objects_registered_ == object_block) begin_further_block();
+  const ObjectHandle object{object_block_ * object_block + objects_registered_++};
+  own_.push_back({static_cast<std::uint16_t>(object_class.value), true});
+  names_.end_reservation(name);
+  names_.give(object, name);
+  say(RegisterObjectMessage{object.value, static_cast<std::uint16_t>(object_class.value), name});
+  return object;
+}
+
+bool AmbassadorParts::was_ours(ObjectHandle object) const {
+  return std::ranges::find(former_blocks_, object.value / object_block) != former_blocks_.end();
+}
+
+/// Memory follows what is left of the used block, not what it held.
+void AmbassadorParts::begin_further_block() {
+  for (std::uint32_t number = 0; number < own_.size(); ++number)
+    if (own_[number].object_class != KnownObject::unknown)
+      known_[ObjectHandle{object_block_ * object_block + number}] = own_[number];
+  own_.clear();
+  former_blocks_.push_back(object_block_);
+  object_block_ = *std::exchange(further_block_, std::nullopt);
+  objects_registered_ = 0;
+}
+
+bool AmbassadorParts::take_further_block(Reader& reader) {
+  FurtherBlockMessage message;
+  if (!exchange(reader, message) || further_block_ || message.object_block == object_block_)
+    return false;
+  further_block_ = message.object_block;
+  return true;
+}
+
+void AmbassadorServices::delete_object_instance(ObjectHandle object) {
+  const KnownObject& known = known_or_throw(object, {});
+  if (!owned_of(object, known).contains(privilege_to_delete_object))
+    throw RtiException(HlaError::delete_privilege_not_held,
+                       "object " + std::to_string(object.value));
+  forget(object);
+  if (!is_ours(object) && !was_ours(object)) gone_.push_back({object});
+  say(DeleteObjectMessage{object.value});
+}
+
+void AmbassadorParts::begin_updates(ObjectClassHandle object_class, AttributeSet attributes,
+                                    const Stamp& stamp) {
+  declared_.note_sent(object_class, attributes, stamp);
+  if (!outgoing_.is_open() || stamped_frame_ != outgoing_.frame_count() || said_stamp_ != stamp)
+    say(StampMessage{stamp});
+  said_stamp_ = stamp;
+  stamped_frame_ = outgoing_.frame_count();
+  const UpdatesMessage header{static_cast<std::uint16_t>(object_class.value), attributes.bits};
+  say(header);
+  outgoing_.buffer().push_back(std::byte{0});
+  open_ = {true, object_class, attributes, stamp, 0};
+}
+
+void AmbassadorParts::require_values(ObjectClassHandle object_class, AttributeSet attributes,
+                                     Bytes values) const {
+  if (!fom_.attributes(object_class).includes(attributes))
+    throw RtiException(HlaError::attribute_not_defined,
+                       "class " + fom_.at(object_class).name + " lacks an attribute of the update");
+  if (values.size() > values_max)
+    throw RtiException(HlaError::rti_internal_error,
+                       "the values of an update have " + std::to_string(values.size()) +
+                           " bytes; allowed are at most " + std::to_string(values_max));
+  if (fom_.values_fit(object_class, attributes, values)) return;
+  std::string names;
+  attributes.for_each([&](AttributeHandle each) {
+    names += (names.empty() ? "" : ", ") + fom_.at(object_class).attributes[each.value].name;
+  });
+  throw RtiException(HlaError::rti_internal_error, std::to_string(values.size()) +
+                                                       " bytes are not the values of " +
+                                                       fom_.at(object_class).name + "'s " + names);
+}
+
+void AmbassadorServices::update_attribute_values(ObjectHandle object, AttributeSet attributes,
+                                                 Bytes values, const Stamp& stamp) {
+  const KnownObject* known = find(object);
+  if (phase_ != Phase::joined || known == nullptr || !known->is_own)
+    check_update(object, attributes);
+  const ObjectClassHandle object_class{known->object_class};
+  require_values(object_class, attributes, values);
+  require_stamp(stamp);
+  if (known->is_own && !declared_.objects[object_class.value].published.includes(attributes))
+    throw RtiException(
+        HlaError::attribute_not_owned,
+        "object " + std::to_string(object.value) + ": an attribute of the update is not published");
+  if (attributes.is_empty()) return;
+  if (declared_.is_special(object_class, attributes) &&
+      spare(object, *known, attributes, values, stamp))
+    return;
+  if (is_coded(fom_.at(object_class), attributes)) {
+    coded_.clear();
+    encode(fom_.at(object_class), attributes, values, stamp.time, coded_);
+    values = coded_;
+  }
+  if (outbox_) attributes = say_best_effort(object, object_class, attributes, values, stamp);
+  if (!attributes.is_empty()) say_update(object, object_class, attributes, values, stamp);
+}
+
+void AmbassadorParts::say_update(ObjectHandle object, ObjectClassHandle object_class,
+                                 AttributeSet attributes, Bytes values, const Stamp& stamp) {
+  assert(values.size() <= values_max);
+  if (outbox_) before_stream(object, object_class, attributes);
+  // Stamp, header with two numbers of at most 5 bytes, step to the handle, end.
+  constexpr std::size_t header_size_max = StampMessage::size_max + 1 + 5 + 5, rest_max = 5 + 1;
+  if (!open_.is_open || open_.object_class != object_class || open_.attributes != attributes ||
+      open_.stamp != stamp || !outgoing_.has_room(rest_max + values.size())) {
+    if (!outgoing_.has_room(header_size_max + rest_max + values.size())) outgoing_.close_frame();
+    begin_updates(object_class, attributes, stamp);
+  }
+  std::vector<std::byte>& bytes = outgoing_.buffer();
+  bytes.pop_back();  // the zero that ends the block
+  std::uint64_t step = handle_step(open_.last_object, object.value);
+  Writer(bytes).varint(step);
+  open_.last_object = object.value;
+  bytes.insert(bytes.end(), values.begin(), values.end());
+  bytes.push_back(std::byte{0});
+  outgoing_.appended();
+  ++counters_.updates_sent;
+}
+
+void AmbassadorServices::send_interaction(InteractionClassHandle interaction_class,
+                                          Bytes parameters, const Stamp& stamp) {
+  send_directed_interaction(interaction_class, {}, parameters, stamp);
+}
+
+void AmbassadorServices::send_directed_interaction(InteractionClassHandle interaction_class,
+                                                   FederateHandle receiver, Bytes parameters,
+                                                   const Stamp& stamp) {
+  require_published(interaction_class);
+  require_parameters(parameters);
+  require_stamp(stamp);
+  if (spares_interaction(interaction_class)) return;
+  say(InteractionMessage{static_cast<std::uint16_t>(interaction_class.value), receiver.value, stamp,
+                         parameters});
+  ++counters_.interactions_sent;
+}
+
+void AmbassadorServices::clear_outgoing() {
+  if (!outgoing_.bytes().empty()) has_said_ = true;
+  counters_.bytes_sent += outgoing_.bytes().size();
+  counters_.frames_sent = outgoing_.frame_count();
+  outgoing_.clear();
+  object_block_writer_.close();
+  open_.is_open = false;
+}
+
+void AmbassadorServices::advance_clock(double now) {
+  now_ = now;
+  if (!has_clock_) last_heard_ = last_said_ = now;
+  has_clock_ = true;
+  if (has_heard_) last_heard_ = now;
+  if (has_said_ || !outgoing_.bytes().empty()) last_said_ = now;
+  has_heard_ = has_said_ = false;
+  if (outbox_ && phase_ == Phase::joined) repair_best_effort();
+  if (!postponed_.empty()) release_postponed();
+  if (phase_ != Phase::joined && phase_ != Phase::joining) return;
+  if (receipts_.is_due() && now - receipts_due_since_ >= DatagramReceipts::longest_delay_s)
+    acknowledge_datagrams();
+  if (now - last_heard_ > patience_.lost_after_s)
+    return lose("the RTI has been silent for too long");
+  if (phase_ == Phase::joined && now - last_said_ >= patience_.heartbeat_s) {
+    say(HeartbeatMessage{});
+    last_said_ = now;
+  }
+}
+
+void AmbassadorParts::forget(ObjectHandle object) {
+  holdings_.erase(object);
+  regions_.forget(object);
+  declared_.spared.forget(object);
+  names_.forget(object);
+  made_reliable_.erase(object);
+  if (outbox_) outbox_->forget(object, AttributeSet(~0u));
+  if (is_ours(object)) own_[object.value % object_block] = {};
+  else known_.erase(object);
+}
+
+KnownObject* AmbassadorParts::find(ObjectHandle object) {
+  if (!is_ours(object)) {
+    KnownObject* known = known_.find(object);
+    return known != nullptr && known->object_class != KnownObject::unknown
+               ? known
+               : nullptr;  // else it is being deleted by us
+  }
+  const std::uint32_t number = object.value % object_block;
+  const bool is_known = number < own_.size() && own_[number].object_class != KnownObject::unknown;
+  return is_known ? &own_[number] : nullptr;
+}
+
+std::size_t AmbassadorServices::memory_bytes() const {
+  const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() +
+                              (queue_ ? queue_->memory_bytes() : 0);
+  return waiting + holdings_.memory_bytes() + own_.capacity() * sizeof own_[0] +
+         known_.memory_bytes() + names_.memory_bytes() + regions_.memory_bytes() +
+         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() +
+         keyframes_.memory_bytes() + arrivals_.memory_bytes() + declared_.memory_bytes() +
+         (outbox_ ? outbox_->memory_bytes() : 0);
+}
+
+}  // namespace rink::rti
