@@ -16,7 +16,8 @@ namespace rink::accuracy {
 struct Standing {
   std::string run_ms;  ///< "12.3", "< 0.4" if its longest step is better already, "> 300" if no
                        ///< step got there, "-" if it has no point
-  std::string ratio;   ///< likewise; "-" without the exact engine beside it
+  std::string
+      ratio;  ///< run time relative to the exact engine, in the same forms; "-" if that was not run
   std::optional<double> least_ratio{};  ///< the ratio is this, or more where is_bound
   bool is_bound = false;                ///< no step got there: the ratio is at least this
 };

@@ -38,8 +38,8 @@ void add_viewing_options(Flags& flags, ViewingOptions& options, Terms& terms, co
   flags
       .option("--scheme", interest.scheme,
               "peers tell each other where their players look, and what these see of others' "
-              "bodies: the filter of each sender (docs/im.md), e.g. region; without this nobody "
-              "is told anything; the first peer's to say")
+              "bodies: the filter of each sender (docs/im.md), e.g. region; without it, peers "
+              "send no updates to each other; only the first peer may give it")
       .check(objection_to)
       .excludes(join);
   flags
@@ -82,8 +82,8 @@ void add_viewing_options(Flags& flags, ViewingOptions& options, Terms& terms, co
   add_evidence_options(flags, options);
   flags
       .option("--view-margin", options.view_margin,
-              "how far the region that is told reaches beyond the view [m]; it is told anew "
-              "when the bat has moved by half of that")
+              "margin around the view in the subscription region sent to other peers [m]; the "
+              "region is sent again when the bat has moved by half the margin")
       .check(number_from(0.0, view_margin_max))
       .shows_default();
 }
@@ -140,7 +140,9 @@ void add_options(Flags& flags, PeerOptions& options) {
               "so many bats on the scene's own field; 0: as it is")
       .check(whole_number_from(0, bats_max))
       .shows_default();
-  flags.option("--puck-count", options.puck_count, "likewise pucks")
+  flags
+      .option("--puck-count", options.puck_count,
+              "so many pucks on the scene's own field; 0: as it is")
       .check(whole_number_from(0, pucks_max))
       .shows_default();
   flags

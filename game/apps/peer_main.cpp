@@ -115,7 +115,7 @@ ExitStatus report(const PeerOptions& options, const SharedGame& shared, const Me
   return part.has_left ? ExitStatus::interrupted : is_told ? ExitStatus::ok : ExitStatus::failed;
 }
 
-/// From the first word to the last; whoever is connected is told why it ends early. Throws
+/// From the first word to the last; a connected peer learns why it ends early. Throws
 /// peer::SentAway of a newcomer that may ask again.
 ExitStatus share(const PeerOptions& options, const Terms& terms, SharedGame& shared,
                  Meeting& meeting) {
@@ -181,7 +181,7 @@ ExitStatus run(const PeerOptions& options) {
   place.port = sockets.listen(place.address, place.port);
   std::printf("listening on %s\n", place.text().c_str());
   std::fflush(stdout);
-  const auto number_that_nobody_guesses = [] {
+  const auto unpredictable_number = [] {
     std::random_device device;
     const std::uint64_t upper = device();
     return upper << 32 | device();
@@ -190,12 +190,12 @@ ExitStatus run(const PeerOptions& options) {
     const Guest self{.place = place,
                      .bat_count = options.bots,
                      .puck_count = Crowd::pucks_wanted(shared.scene(), options.players),
-                     .token = number_that_nobody_guesses()};
+                     .token = unpredictable_number()};
     Meeting meeting(sockets,
                     {.self = self,
                      .bats = shared.bat_count(),
                      .luggage = shared.luggage(),
-                     .session = number_that_nobody_guesses(),
+                     .session = unpredictable_number(),
                      .patience_s = options.patience_s},
                     now_s);
     try {

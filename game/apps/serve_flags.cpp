@@ -113,7 +113,7 @@ void add_options(Flags& flags, ServeOptions& options) {
   flags
       .option("--threshold", options.threshold,
               "under dead-reckoning and dead-reckoning-drag: how far clients may be off before "
-              "they are told anew [m]")
+              "a new update is sent [m]")
       .check(number_from(1e-4, 10.0))
       .shows_default();
   flags.option("--rate", options.rate_hz, "ticks per second")
