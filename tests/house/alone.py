@@ -23,7 +23,7 @@ arguments.add_argument("--only", type=re.compile, default=re.compile(""), metava
 options = arguments.parse_args()
 
 if options.configure:
-    subprocess.run([options.cmake, "-G", "Ninja", "-S", options.root, "-B", options.work, "-DRINK_UNITY=OFF", "-DCMAKE_BUILD_TYPE=None",
+    subprocess.run([options.cmake, "-G", "Ninja", "-S", options.root, "-B", options.work, "-DRINK_UNITY=OFF", "-DRINK_PRECOMPILED=OFF", "-DCMAKE_BUILD_TYPE=None",
                     f"-DCMAKE_CXX_COMPILER={options.compiler}", "-DCMAKE_CXX_FLAGS="], check=True, stdout=subprocess.DEVNULL)
     subprocess.run([options.cmake, "--build", options.work, "--target", "build-facts"], check=True, stdout=subprocess.DEVNULL)
     sys.exit()

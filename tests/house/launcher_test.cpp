@@ -196,17 +196,17 @@ TEST_F(Launcher, LeavesToTheProgramOfThePageWhatItBuilds) {
 TEST_F(Launcher, RunsTheThreadedTestsUnderTheThreadSanitizer) {
   const std::string runs = "python3 ./tests/run_ctest.py ./build-tsan";
   run("test --preset tsan");
-  EXPECT_THAT(calls_, ElementsAre("cmake --preset tsan", "ninja -C ./build-tsan threaded-tests",
+  EXPECT_THAT(calls_, ElementsAre("cmake --preset tsan", "ninja -C ./build-tsan test-threaded",
                                   runs + " -L threaded"));
   run("test --preset tsan -R Udp");
   EXPECT_THAT(calls_, ElementsAre("ninja -C ./build-tsan all", runs + " -LE long -R Udp"));
 }
 
 TEST_F(Launcher, RunsThreeAreasWithTheFlagsOfTheBenchmarks) {
-  const std::string runs = "python3 ./tests/run_ctest.py ./build-ndebug";
+  const std::string runs = "python3 ./tests/run_ctest.py ./build-bench";
   run("test --preset ndebug");
-  EXPECT_THAT(calls_, ElementsAre("cmake --preset ndebug",
-                                  "ninja -C ./build-ndebug test-physics test-im test-rti",
+  EXPECT_THAT(calls_, ElementsAre("cmake --preset bench",
+                                  "ninja -C ./build-bench test-physics test-im test-rti",
                                   runs + " -LE long -R ^(physics|im|rti)/"));
 }
 
