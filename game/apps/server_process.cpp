@@ -8,6 +8,7 @@
 
 #include "game/apps/command.h"
 #include "game/model/scene_file.h"
+#include "game/net/gate.h"
 #include "game/net/interrupt.h"
 #include "game/net/server/serve_requirements.h"
 #include "game/replication/names.h"
@@ -43,15 +44,16 @@ ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
                federation_of(options, played.scene, federation,
                              options.has_second_core ? &second_core_.emplace() : nullptr),
                now_s, [this] { return simulated_now(); }),
-      staggered_(sockets_.get(), options.spread / options.rate_hz, now_s),
-      gate_(staggered_,
-            {.key_file = options.key_file,
-             .federation = federation,
-             .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}},
-            now_s),
+      clients_(sockets_.get()),
+      stagger_(clients_.add<rti::Stagger>(options.spread / options.rate_hz, now_s)),
       server_(serving_.server()),
       records_(options.record) {
-  serving_.host().add(gate_.transport());
+  add_gate(clients_,
+           {.key_file = options.key_file,
+            .federation = federation,
+            .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}},
+           now_s);
+  serving_.host().add(clients_);
   if (!options.evidence.empty())
     serving_.collect_evidence({.seed = options.seed,
                                .clients = options.clients,
@@ -148,7 +150,7 @@ void ServerProcess::run() {
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
       costs_.from_s = now_s();
-      staggered_.forget_bursts();
+      stagger_.forget_bursts();
       costs_.begin = counts_of(serving_, sockets_.totals());
     }
     // The last tick closes the span and is not in it: n ticks, and the n periods that they begin.
@@ -235,7 +237,7 @@ Json ServerProcess::report() const {
               {"send_us_per_tick", 1e6 * costs_.send_s / ticks},
               {"send_us_max", 1e6 * costs_.send_max_s},
               {"spread", options_.spread},
-              {"burst_bytes_max", staggered_.burst_bytes_max()},
+              {"burst_bytes_max", stagger_.burst_bytes_max()},
               {"server_rss_bytes", resident_bytes()},
               {"evidence_bytes", serving_.evidence_bytes()},
               {"measured_s", costs_.span_s},

@@ -8,14 +8,13 @@
 
 #include "game/control/match_records.h"
 #include "game/net/evidence.h"
-#include "game/net/gate.h"
 #include "game/net/server/serve_game.h"
 #include "game/net/server/serve_options.h"
 #include "game/net/server/serve_report.h"
 #include "game/net/server/serving.h"
 #include "rti/second_core.h"
 #include "rti/transport/socket_transport.h"
-#include "rti/transport/staggered_transport.h"
+#include "rti/transport/staged/stagger.h"
 
 namespace rink::game {
 
@@ -71,8 +70,8 @@ class ServerProcess {
   rti::SocketTransport sockets_;
   std::optional<rti::SecondCore> second_core_;
   Serving serving_;
-  rti::StaggeredTransport staggered_;
-  Gate gate_;
+  rti::StagedTransport clients_;
+  rti::Stagger& stagger_;
   Server& server_;
   MatchRecords records_;
   double start_s_ = 0.0;

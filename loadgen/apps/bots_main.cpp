@@ -247,11 +247,12 @@ game::ExitStatus play(const Options& options) {
                                            .warm_up_s = options.start_s + options.warm_up_s,
                                            .duration_s = options.start_s + options.duration_s,
                                            .players = players_of(options)};
-  game::Gate gate(
-      transport.get(),
+  rti::StagedTransport gate(transport.get());
+  game::add_gate(
+      gate,
       {.key_file = options.key_file, .role = rti::Role::federate, .federation = file.federation},
       now_s);
-  loadgen::BotCrowd crowd(fom, gate.transport(), settings, options.count, plan, now_s);
+  loadgen::BotCrowd crowd(fom, gate, settings, options.count, plan, now_s);
   if (!options.evidence.empty()) crowd.collect_evidence(options.seed);
   const double histogram_ns = histogram_ns_per_record();
   crowd.connect([&](std::uint32_t) { return transport.connect(address, port); });

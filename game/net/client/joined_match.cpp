@@ -3,6 +3,7 @@
 
 #include "game/net/address.h"
 #include "game/net/fom_file.h"
+#include "game/net/gate.h"
 #include "game/replication/trajectory_codec.h"
 
 namespace rink::game {
@@ -11,10 +12,14 @@ JoinedMatch::JoinedMatch(const std::string& place, const NetworkMatchSettings& s
                          const std::string& key_file)
     : fom_(load_rink_fom(fom_file())),
       model_(fom_),
-      gate_(transport_,
-            {.key_file = key_file, .role = rti::Role::federate, .federation = settings.federation},
-            [this] { return now_s_; }),
-      match_(fom_, model_, gate_.transport(), connect(transport_, place), settings) {}
+      gate_(transport_),
+      match_(fom_, model_,
+             add_gate(gate_,
+                      {.key_file = key_file,
+                       .role = rti::Role::federate,
+                       .federation = settings.federation},
+                      [this] { return now_s_; }),
+             connect(transport_, place), settings) {}
 
 JoinedMatch::~JoinedMatch() { match_.leave(now_s_); }
 

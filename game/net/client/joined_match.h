@@ -6,9 +6,9 @@
 
 #include "game/match/match_source.h"
 #include "game/net/client/network_match.h"
-#include "game/net/gate.h"
 #include "game/replication/object_model.h"
 #include "rti/fom/fom.h"
+#include "rti/transport/staged/staged_transport.h"
 #include "rti/transport/tcp/tcp.h"
 
 namespace rink::game {
@@ -40,7 +40,7 @@ class JoinedMatch final : public MatchSource {
   ObjectModel model_;
   rti::TcpTransport transport_;
   double now_s_ = 0.0;
-  Gate gate_;
+  rti::StagedTransport gate_;
   NetworkMatch match_;
 };
 

@@ -75,20 +75,20 @@ StatusAnswer ask_status(const StatusQuestion& question, const std::function<doub
   Asker asker;
   rti::Ambassador ambassador(no_model, asker);
   rti::SocketTransport socket(question.transport);
-  Gate gate(socket.get(),
-            {.key_file = question.key_file,
-             .role = rti::Role::federate,
-             .federation = question.federation},
-            now_s);
-  rti::FederateLink link(ambassador, gate.transport(),
-                         socket.connect(question.address, question.port));
+  rti::StagedTransport gate(socket.get());
+  add_gate(gate,
+           {.key_file = question.key_file,
+            .role = rti::Role::federate,
+            .federation = question.federation},
+           now_s);
+  rti::FederateLink link(ambassador, gate, socket.connect(question.address, question.port));
   rti::FederateLinks links;
   links.add(link);
   ambassador.query_management();
   const double give_up_s = now_s() + patience_s;
   while (!asker.reports && asker.loss.empty() && !link.is_finished() && now_s() < give_up_s) {
     links.flush(now_s());
-    gate.transport().poll(std::chrono::milliseconds(20), links);
+    gate.poll(std::chrono::milliseconds(20), links);
   }
   if (asker.reports) return {std::move(asker.reports), ""};
   if (link.is_finished() && link.close_reason() == rti::CloseReason::refused)

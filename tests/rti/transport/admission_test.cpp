@@ -6,7 +6,7 @@
 #include <random>
 
 #include "rti/admission/handshake.h"
-#include "rti/transport/guarded_transport.h"
+#include "rti/transport/staged/guard.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/message.h"
 #include "tests/rti/rig.h"
@@ -210,13 +210,14 @@ class Gate {
         carrier == Carrier::tcp ? static_cast<Transport&>(server_tcp_) : server_local_;
     Transport& client =
         carrier == Carrier::tcp ? static_cast<Transport&>(client_tcp_) : client_local_;
-    if (rtis != nullptr) guard_.emplace(server, *rtis, GuardSettings{}, [this] { return now; });
-    if (federates != nullptr)
-      client_guard_.emplace(client, *federates, GuardSettings{.role = Role::federate},
-                            [this] { return now; });
-    host_.add(guard_ ? *guard_ : server);
     server_ = &server;
-    client_ = client_guard_ ? static_cast<Transport*>(&*client_guard_) : &client;
+    host_.add(at_rti_.emplace(server));
+    if (rtis != nullptr)
+      guard_ = &at_rti_->add<Guard>(*rtis, GuardSettings{}, [this] { return now; });
+    client_ = &at_federate_.emplace(client);
+    if (federates != nullptr)
+      at_federate_->add<Guard>(*federates, GuardSettings{.role = Role::federate},
+                               [this] { return now; });
     if (carrier == Carrier::in_process) server_local_.listen("rti");
     const ConnectionId id =
         carrier == Carrier::tcp
@@ -249,7 +250,8 @@ class Gate {
   InProcessNetwork network_;
   InProcessEndpoint server_local_{network_}, client_local_{network_};
   TcpTransport server_tcp_, client_tcp_;
-  std::optional<GuardedTransport> guard_, client_guard_;
+  std::optional<StagedTransport> at_rti_, at_federate_;
+  Guard* guard_ = nullptr;
   Transport *server_ = nullptr, *client_ = nullptr;
   std::optional<FederateLink> link_;
   FederateLinks links_;

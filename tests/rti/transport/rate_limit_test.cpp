@@ -4,7 +4,7 @@
 #include <random>
 
 #include "rti/admission/token_bucket.h"
-#include "rti/transport/rate_limited_transport.h"
+#include "rti/transport/staged/rate_limiter.h"
 #include "tests/rti/rig.h"
 #include "tests/rti/transport/scripted_transport.h"
 
@@ -37,7 +37,8 @@ struct ByteCount final : TransportListener {
 };
 
 struct LimitedLine {
-  explicit LimitedLine(const RateLimit& limit) : limited(server, limit, [this] { return now; }) {
+  explicit LimitedLine(const RateLimit& limit)
+      : limiter(limited.add<RateLimiter>(limit, [this] { return now; })) {
     server.listen("rti");
     id = client.connect("rti");
     hear();
@@ -50,7 +51,8 @@ struct LimitedLine {
   double now = 0.0;
   InProcessNetwork network;
   InProcessEndpoint server{network}, client{network};
-  RateLimitedTransport limited;
+  StagedTransport limited{server};
+  RateLimiter& limiter;
   ByteCount here, there;
   ConnectionId id = 0;
 };
@@ -81,7 +83,7 @@ TEST(RateLimit, WhoSendsMoreBytesThanAllowedIsClosedAndNamed) {
   EXPECT_STREQ(to_string(line.here.reason), "sent faster than allowed");
   EXPECT_EQ(line.there.closed, 1);
   EXPECT_EQ(line.here.bytes, 20'000u) << "what is too much is not passed on";
-  EXPECT_EQ(line.limited.closed(), 1u);
+  EXPECT_EQ(line.limiter.closed(), 1u);
 }
 
 TEST(RateLimit, WhoExceedsItIsSentTheLastWordsFirst) {
@@ -118,7 +120,7 @@ TEST(RateLimit, FramesCountHoweverTheyAreCut) {
 /// Bytes and datagrams as a script says, behind a limit.
 struct LimitedScript {
   explicit LimitedScript(const RateLimit& limit, ConnectionId connections = 1)
-      : limited(inner, limit, [this] { return now; }) {
+      : limiter(limited.add<RateLimiter>(limit, [this] { return now; })) {
     for (ConnectionId id = 0; id < connections; ++id) inner.opens(id);
     hear();
   }
@@ -137,7 +139,8 @@ struct LimitedScript {
   };
   double now = 0.0;
   ScriptedTransport inner;
-  RateLimitedTransport limited;
+  StagedTransport limited{inner};
+  RateLimiter& limiter;
   Ear ear;
 };
 
@@ -157,7 +160,7 @@ TEST(RateLimit, DatagramsCountAsTheirBytesBesideThoseOfTheStream) {
       << "what is too much is not passed on, nor what follows it";
   EXPECT_EQ(script.ear.bytes[0], 400u);
   EXPECT_EQ(script.ear.closed.at(0), CloseReason::too_fast);
-  EXPECT_EQ(script.limited.closed(), 1u);
+  EXPECT_EQ(script.limiter.closed(), 1u);
   EXPECT_EQ(script.inner.closed, std::vector{ConnectionId{0}}) << "once";
 }
 

@@ -9,7 +9,8 @@
 #include "rti/transport/in_process.h"
 #include "rti/transport/modelled/virtual_network.h"
 #include "rti/transport/shared_memory/shared_memory.h"
-#include "rti/transport/staggered_transport.h"
+#include "rti/transport/staged/rate_limiter.h"
+#include "rti/transport/staged/stagger.h"
 #include "rti/transport/tcp/tcp.h"
 #include "rti/transport/udp/udp.h"
 #include "tests/rti/transport/sample_transport.h"
@@ -158,22 +159,46 @@ class BundleKit final : public AboveTcpKit<BundledTransport> {
   std::optional<ConnectionId> trunk_;
 };
 
-/// TCP whose server staggers what it sends.
-class StaggeredKit final : public AboveTcpKit<StaggeredTransport> {
+double steady_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// TCP with stages at its server, and none at its client.
+class StagedKit : public AboveTcpKit<StagedTransport> {
  public:
-  StaggeredKit() { restart_server(); }
-  Transport& client() override { return client_tcp_; }
+  Transport& client() override { return client_; }
   ConnectionId connect() override { return connect_at(port_); }
+
+ protected:
+  virtual void add_stages(StagedTransport& above) = 0;
 
  private:
   ConnectionId connect_at(std::uint16_t port) override {
     return client_tcp_.connect("127.0.0.1", port);
   }
-  void set_up(std::optional<StaggeredTransport>& above, TcpTransport& below) override {
-    above.emplace(below, 0.002, [] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-          .count();
-    });
+  void set_up(std::optional<StagedTransport>& above, TcpTransport& below) override {
+    add_stages(above.emplace(below));
+  }
+  StagedTransport client_{client_tcp_};
+};
+
+class StaggeredKit final : public StagedKit {
+ public:
+  StaggeredKit() { restart_server(); }
+
+ private:
+  void add_stages(StagedTransport& above) override { above.add<Stagger>(0.002, steady_s); }
+};
+
+/// Staggered as well, so that stages meet. What it sends is no frames, whose rate is not limited.
+class LimitedKit final : public StagedKit {
+ public:
+  LimitedKit() { restart_server(); }
+
+ private:
+  void add_stages(StagedTransport& above) override {
+    above.add<Stagger>(0.002, steady_s);
+    above.add<RateLimiter>(RateLimit{.bytes_per_s = 1e12}, steady_s);
   }
 };
 
@@ -249,6 +274,7 @@ std::vector<KitChoice> transport_kits() {
           choice<SharedMemoryKit>("shared_memory"),
           choice<BundleKit>("bundle"),
           choice<StaggeredKit>("staggered"),
+          choice<LimitedKit>("limited"),
           choice<SampleKit>("sample")};
 }
 

@@ -2,13 +2,12 @@
 // key.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "rti/admission/handshake.h"
-#include "rti/transport/transport.h"
+#include "rti/transport/staged/staged_transport.h"
 
 namespace rink::rti {
 
@@ -19,40 +18,34 @@ struct GuardSettings {
       3.0;  ///< for a stranger to prove itself; it costs a file and less than 2 kB meanwhile
 };
 
-/// Any transport behind a handshake for each of its connections (rti/admission/handshake.h). The
-/// listener hears of a connection once both ends have proven themselves; a stranger who doesn't is
-/// closed, is never heard of at the RTI's end, and closes with `failed` and a reason at the
-/// federate's. Afterwards bytes pass as they are.
-class GuardedTransport final : public Transport {
+/// Holds a handshake on each connection (rti/admission/handshake.h). The user hears of a connection
+/// once both ends have proven themselves; a stranger who doesn't is closed, is never heard of at
+/// the RTI's end, and closes with `failed` and a reason at the federate's. Afterwards bytes pass as
+/// they are, and datagrams too. What a federate sends before the proof waits for it.
+class Guard final : public TransportStage {
  public:
-  using Clock = std::function<double()>;  ///< [s]
-  /// `inner` and `key` must outlive it.
-  GuardedTransport(Transport& inner, const SharedKey& key, GuardSettings settings, Clock now_s);
+  Guard(const SharedKey& key, GuardSettings settings, Clock now_s);
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
-  /// What is sent before the proof waits for it.
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
-  void close(ConnectionId connection) override { inner_.close(connection); }
-  std::size_t queued_bytes(ConnectionId connection) const override {
-    return inner_.queued_bytes(connection);
-  }
-  TransportCounters counters(ConnectionId connection) const override {
-    return inner_.counters(connection);
-  }
-  /// Datagrams pass, both ways, once both ends are proven.
   std::size_t datagram_max(ConnectionId connection) const override {
-    return is_known(connection) ? inner_.datagram_max(connection) : 0;
+    return is_known(connection) ? TransportStage::datagram_max(connection) : 0;
   }
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override {
-    if (is_known(connection)) inner_.send_datagrams(connection, datagrams);
+    if (is_known(connection)) TransportStage::send_datagrams(connection, datagrams);
   }
-  void push() override { inner_.push(); }
 
   /// Strangers closed so far.
   std::uint64_t refused() const { return refused_; }
 
  private:
-  class Relay;
+  void on_open(ConnectionId connection) override;
+  void on_bytes(ConnectionId connection, Bytes bytes) override;
+  void on_datagram(ConnectionId connection, Bytes datagram) override {
+    if (is_known(connection)) TransportStage::on_datagram(connection, datagram);
+  }
+  void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
+
   struct Stranger {
     ConnectionId connection;
     double since;
@@ -68,10 +61,9 @@ class GuardedTransport final : public Transport {
   void forget(ConnectionId connection);
   void speak(Stranger& stranger);
   void refuse(Stranger& stranger);
-  void hear(ConnectionId connection, Bytes bytes, TransportListener& listener);
+  void admit(ConnectionId connection);
 
-  Transport& inner_;
-  const SharedKey& key_;
+  SharedKey key_;
   GuardSettings settings_;
   Clock now_s_;
   std::vector<std::unique_ptr<Stranger>> strangers_;

@@ -1,12 +1,12 @@
 // Holds writes until their slot's time has come.
-#include "rti/transport/staggered_transport.h"
+#include "rti/transport/staged/stagger.h"
 
 #include <algorithm>
 #include <cstring>
 
 namespace rink::rti {
 
-void StaggeredTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+void Stagger::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
   const double now = now_s_();
   release(now);
   if (slots_taken_ > 0) {
@@ -16,16 +16,19 @@ void StaggeredTransport::poll(std::chrono::nanoseconds longest_wait, TransportLi
     longest_wait =
         std::min(longest_wait, std::chrono::nanoseconds(static_cast<std::int64_t>(wait_s * 1e9)));
   }
-  inner_.poll(longest_wait, listener);
+  poll_unheard(longest_wait, listener);
   if (slots_taken_ > 0) release(now_s_());
 }
 
-void StaggeredTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
+void Stagger::send(ConnectionId connection, std::span<const Bytes> parts) {
   std::size_t size = 0;
   for (const Bytes part : parts) size += part.size();
   if (size == 0) return;
   const double now = now_s_();
-  if (window_s_ <= 0.0) return give(connection, parts, size, now);
+  if (window_s_ <= 0.0) {
+    measure(size, now);
+    return TransportStage::send(connection, parts);
+  }
   if (connection >= waiting_.size())
     waiting_.resize(connection + 1), joined_writes_.resize(connection + 1);
   std::vector<std::byte>& waiting = waiting_[connection];
@@ -46,7 +49,7 @@ void StaggeredTransport::send(ConnectionId connection, std::span<const Bytes> pa
   }
 }
 
-void StaggeredTransport::release(double now) {
+void Stagger::release(double now) {
   bool has_given = false;
   for (std::size_t slot = 0; slot < slot_count && slots_taken_ > 0 && due_s(slot) <= now; ++slot) {
     if (slots_[slot].empty()) continue;
@@ -55,46 +58,40 @@ void StaggeredTransport::release(double now) {
     --slots_taken_;
     has_given = true;
   }
-  if (has_given) inner_.push();
+  if (has_given) TransportStage::push();
 }
 
-void StaggeredTransport::give_waiting(ConnectionId connection, double now) {
+void Stagger::give_waiting(ConnectionId connection, double now) {
   const Bytes bytes = waiting_[connection];
   if (bytes.empty()) return;  // closed since
-  give(connection, std::span(&bytes, 1), bytes.size(), now);
+  measure(bytes.size(), now);
+  TransportStage::send(connection, std::span(&bytes, 1));
   waiting_[connection].clear();
 }
 
-void StaggeredTransport::give(ConnectionId connection, std::span<const Bytes> parts,
-                              std::size_t size, double now) {
+void Stagger::measure(std::size_t size, double now) {
   if (now - burst_begun_s_ >= burst_s) {
     burst_begun_s_ = now;
     burst_bytes_ = 0;
   }
   burst_bytes_ += size;
   burst_bytes_max_ = std::max(burst_bytes_max_, burst_bytes_);
-  inner_.send(connection, parts);
 }
 
-void StaggeredTransport::close(ConnectionId connection) {
+void Stagger::close(ConnectionId connection) {
   if (connection < waiting_.size()) give_waiting(connection, now_s_());
-  inner_.close(connection);
+  TransportStage::close(connection);
 }
 
-TransportCounters StaggeredTransport::counters(ConnectionId connection) const {
-  TransportCounters counters = inner_.counters(connection);
+TransportCounters Stagger::counters(ConnectionId connection) const {
+  TransportCounters counters = TransportStage::counters(connection);
   if (connection < joined_writes_.size()) counters.writes += joined_writes_[connection];
   return counters;
 }
 
-std::size_t StaggeredTransport::queued_bytes(ConnectionId connection) const {
-  return inner_.queued_bytes(connection) +
-         (connection < waiting_.size() ? waiting_[connection].size() : 0);
-}
-
-void StaggeredTransport::push() {
+void Stagger::push() {
   if (slots_taken_ > 0) release(now_s_());
-  inner_.push();
+  TransportStage::push();
 }
 
 }  // namespace rink::rti

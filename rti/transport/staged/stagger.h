@@ -3,48 +3,42 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
-#include "rti/transport/transport.h"
+#include "rti/transport/staged/staged_transport.h"
 
 namespace rink::rti {
 
-/// A transport around a transport that lets each connection's bytes go at a phase of its own: what
-/// is sent at once leaves in `slot_count` groups over `window_s`, in order within each connection.
-/// A burst of a tick's writes fills the queues of switches and receivers and keeps the sender from
-/// hearing its clients; the price is a copy of each write, and up to the window of latency, always
-/// the same for a connection. Datagrams are not held.
-class StaggeredTransport final : public Transport {
+/// Lets each connection's bytes go at a phase of its own: what is sent at once leaves in
+/// `slot_count` groups over `window_s`, in order within each connection. A burst of a tick's writes
+/// fills the queues of switches and receivers and keeps the sender from hearing its clients; the
+/// price is a copy of each write, and up to the window of latency, always the same for a
+/// connection. Datagrams are not held.
+class Stagger final : public TransportStage {
  public:
-  using Clock = std::function<double()>;  ///< [s], never decreases
   static constexpr std::size_t slot_count = 16;
   static constexpr double burst_s = 1e-3;
 
-  /// `inner` must outlive it. With a window of 0 everything goes at once, and is only measured.
-  StaggeredTransport(Transport& inner, double window_s, Clock now_s)
-      : inner_(inner), window_s_(window_s), now_s_(std::move(now_s)) {}
+  /// With a window of 0 everything goes at once, and is only measured.
+  Stagger(double window_s, Clock now_s) : window_s_(window_s), now_s_(std::move(now_s)) {}
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
-  std::size_t queued_bytes(ConnectionId connection) const override;
+  std::size_t queued_bytes(ConnectionId connection) const override {
+    return TransportStage::queued_bytes(connection) +
+           (connection < waiting_.size() ? waiting_[connection].size() : 0);
+  }
   /// Writes are those asked for; fewer leave where one waits for its phase and more is sent
   /// meanwhile.
   TransportCounters counters(ConnectionId connection) const override;
-  std::size_t datagram_max(ConnectionId connection) const override {
-    return inner_.datagram_max(connection);
-  }
-  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override {
-    inner_.send_datagrams(connection, datagrams);
-  }
   void push() override;
 
   /// Starts to measure anew.
   void forget_bursts() { burst_bytes_ = burst_bytes_max_ = 0; }
-  /// The most bytes that were given to the inner transport within a millisecond; milliseconds
-  /// follow each other from the first write after a pause.
+  /// The most bytes that were given to what is below within a millisecond; milliseconds follow each
+  /// other from the first write after a pause.
   std::size_t burst_bytes_max() const { return burst_bytes_max_; }
 
  private:
@@ -52,10 +46,9 @@ class StaggeredTransport final : public Transport {
     return begun_s_ + window_s_ * static_cast<double>(slot) / slot_count;
   }
   void release(double now);
-  void give(ConnectionId connection, std::span<const Bytes> parts, std::size_t size, double now);
+  void measure(std::size_t size, double now);
   void give_waiting(ConnectionId connection, double now);
 
-  Transport& inner_;
   double window_s_;
   Clock now_s_;
   std::vector<std::vector<std::byte>> waiting_;  ///< by connection

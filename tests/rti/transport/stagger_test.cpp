@@ -1,5 +1,5 @@
 // A tick's writes spread over its window: who goes when, in which order, and how dense.
-#include "rti/transport/staggered_transport.h"
+#include "rti/transport/staged/stagger.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,8 @@ class Staggered : public ::testing::Test {
  protected:
   static constexpr std::size_t client_count = 32, size = 100;
   void send_all(double window_s) {
-    transport.emplace(server, window_s, [this] { return now_s; });
+    transport.emplace(server);
+    stagger = &transport->add<Stagger>(window_s, [this] { return now_s; });
     server.listen("here");
     for (std::size_t i = 0; i < client_count; ++i) clients.connect("here");
     transport->poll({}, at_server);
@@ -44,25 +45,26 @@ class Staggered : public ::testing::Test {
   double now_s = 0.0;
   InProcessNetwork network;
   InProcessEndpoint server{network}, clients{network};
-  std::optional<StaggeredTransport> transport;
+  std::optional<StagedTransport> transport;
+  Stagger* stagger = nullptr;
   Hearer at_server, at_clients;
 };
 
 TEST_F(Staggered, LeavesInEqualGroupsOverTheWindow) {
   send_all(0.032);
   ASSERT_EQ(at_server.opened, static_cast<int>(client_count));
-  for (std::size_t slot = 0; slot < StaggeredTransport::slot_count; ++slot) {
-    now_s = 0.032 * static_cast<double>(slot) / StaggeredTransport::slot_count + 1e-6;
+  for (std::size_t slot = 0; slot < Stagger::slot_count; ++slot) {
+    now_s = 0.032 * static_cast<double>(slot) / Stagger::slot_count + 1e-6;
     transport->poll({}, at_server);
     EXPECT_EQ(arrived(), 2 * (slot + 1));
   }
-  EXPECT_EQ(transport->burst_bytes_max(), 2 * size);
+  EXPECT_EQ(stagger->burst_bytes_max(), 2 * size);
 }
 
 TEST_F(Staggered, WithoutAWindowAllGoesAtOnce) {
   send_all(0.0);
   EXPECT_EQ(arrived(), client_count);
-  EXPECT_EQ(transport->burst_bytes_max(), client_count * size);
+  EXPECT_EQ(stagger->burst_bytes_max(), client_count * size);
 }
 
 TEST_F(Staggered, WhatWaitsIsCountedKeepsItsOrderAndGoesBeforeAClose) {

@@ -1,0 +1,111 @@
+// Strangers and what becomes of them.
+#include "rti/transport/staged/guard.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rink::rti {
+
+Guard::Guard(const SharedKey& key, GuardSettings settings, Clock now_s)
+    : key_(key), settings_(std::move(settings)), now_s_(std::move(now_s)) {}
+
+Guard::Stranger* Guard::find(ConnectionId connection) {
+  if (is_known(connection)) return nullptr;
+  for (const auto& each : strangers_)
+    if (each->connection == connection) return each.get();
+  return nullptr;
+}
+
+Guard::Stranger& Guard::meet(ConnectionId connection) {
+  if (Stranger* stranger = find(connection)) return *stranger;
+  strangers_.push_back(std::make_unique<Stranger>(
+      Stranger{connection,
+               now_s_(),
+               Handshake(key_, settings_.role, settings_.federation, draw_nonce()),
+               {}}));
+  return *strangers_.back();
+}
+
+void Guard::forget(ConnectionId connection) {
+  std::erase_if(strangers_,
+                [connection](const auto& each) { return each->connection == connection; });
+}
+
+void Guard::speak(Stranger& stranger) {
+  const Bytes said = stranger.handshake.outgoing();
+  if (!said.empty()) TransportStage::send(stranger.connection, std::span(&said, 1));
+  stranger.handshake.clear_outgoing();
+}
+
+void Guard::refuse(Stranger& stranger) {
+  if (stranger.is_refused) return;
+  stranger.is_refused = true;
+  ++refused_;
+  close(stranger.connection);
+}
+
+void Guard::admit(ConnectionId connection) {
+  const std::vector<std::byte> pending = std::move(find(connection)->pending);
+  forget(connection);
+  if (connection >= is_known_.size()) is_known_.resize(connection + 1);
+  is_known_[connection] = true;
+  if (const Bytes waiting = pending; !waiting.empty())
+    TransportStage::send(connection, std::span(&waiting, 1));
+  TransportStage::on_open(connection);
+}
+
+void Guard::on_open(ConnectionId connection) {
+  Stranger& stranger = meet(connection);
+  stranger.is_open = true;
+  speak(stranger);
+}
+
+void Guard::on_bytes(ConnectionId connection, Bytes bytes) {
+  Stranger* stranger = find(connection);
+  if (stranger == nullptr) return TransportStage::on_bytes(connection, bytes);
+  if (stranger->is_refused) return;
+  const Handshake::State state = stranger->handshake.receive(bytes);
+  speak(*stranger);
+  if (state == Handshake::State::failed) refuse(*stranger);
+  if (state != Handshake::State::proven) return;
+  admit(connection);
+  if (!bytes.empty()) TransportStage::on_bytes(connection, bytes);
+}
+
+void Guard::on_close(ConnectionId connection, CloseReason reason, const std::string& detail) {
+  const Stranger* stranger = find(connection);
+  if (stranger == nullptr) return TransportStage::on_close(connection, reason, detail);
+  const std::string why = stranger->handshake.why();
+  const bool was_open = stranger->is_open, was_refused = stranger->is_refused;
+  forget(connection);
+  if (settings_.role == Role::rti) return;
+  if (!was_open) return TransportStage::on_close(connection, reason, detail);
+  if (was_refused) return TransportStage::on_close(connection, CloseReason::failed, why);
+  TransportStage::on_close(
+      connection, reason,
+      reason == CloseReason::closed_by_us
+          ? detail
+          : "closed before it proved that it has our key: does it ask for one?");
+}
+
+void Guard::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+  if (!strangers_.empty()) {
+    const double now = now_s_();
+    for (const auto& each : strangers_)
+      if (each->is_open && now - each->since > settings_.patience_s) refuse(*each);
+    longest_wait = std::min<std::chrono::nanoseconds>(
+        longest_wait,
+        std::chrono::milliseconds(100));  // or a silent stranger would outstay a long wait
+  }
+  TransportStage::poll(longest_wait, listener);
+}
+
+void Guard::send(ConnectionId connection, std::span<const Bytes> parts) {
+  if (is_known(connection)) return TransportStage::send(connection, parts);
+  if (settings_.role == Role::rti) return;  // nobody knows it
+  Stranger& stranger = meet(connection);
+  for (const Bytes part : parts)
+    stranger.pending.insert(stranger.pending.end(), part.begin(), part.end());
+}
+
+}  // namespace rink::rti
