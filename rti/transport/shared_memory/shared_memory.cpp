@@ -17,8 +17,6 @@
 #include <new>
 #include <thread>
 
-#include "rti/transport/shared_memory/shared_memory_core.h"
-
 namespace rink::rti {
 
 namespace {
@@ -72,13 +70,14 @@ Mapping::~Mapping() {
   if (data_ != nullptr) ::munmap(data_, size_);
 }
 
-SharedMemoryTransport::Core::Core(const SharedMemorySettings& settings) : settings_(settings) {
+SharedMemoryTransport::SharedMemoryTransport(const SharedMemorySettings& settings)
+    : settings_(settings) {
   assert(std::has_single_bit(settings.ring_size) && settings.ring_size >= ring_min &&
          settings.ring_size <= ring_max);
   if (std::thread::hardware_concurrency() < 2) settings_.spin = {};  // who would write meanwhile?
 }
 
-void SharedMemoryTransport::Core::listen(const std::string& name) {
+void SharedMemoryTransport::listen(const std::string& name) {
   File file(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const auto [address, size] = address_of(name);
   if (::bind(file.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
@@ -95,7 +94,7 @@ void SharedMemoryTransport::Core::listen(const std::string& name) {
   if (!spare_) spare_ = File(::open("/dev/null", O_RDONLY | O_CLOEXEC));
 }
 
-ConnectionId SharedMemoryTransport::Core::connect(const std::string& name) {
+ConnectionId SharedMemoryTransport::connect(const std::string& name) {
   const auto [address, size] = address_of(name);
   const ConnectionId connection = add(File(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)));
   Peer& peer = *peers_[connection];
@@ -115,7 +114,7 @@ ConnectionId SharedMemoryTransport::Core::connect(const std::string& name) {
   return connection;
 }
 
-ConnectionId SharedMemoryTransport::Core::add(File socket) {
+ConnectionId SharedMemoryTransport::add(File socket) {
   peers_.push_back(std::make_unique<Peer>());
   peers_.back()->socket = std::move(socket);
   counters_.emplace_back();
@@ -123,7 +122,7 @@ ConnectionId SharedMemoryTransport::Core::add(File socket) {
   return static_cast<ConnectionId>(peers_.size() - 1);
 }
 
-void SharedMemoryTransport::Core::accept(std::size_t listening) {
+void SharedMemoryTransport::accept(std::size_t listening) {
   for (;;) {
     File file(
         ::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
@@ -139,7 +138,7 @@ void SharedMemoryTransport::Core::accept(std::size_t listening) {
 
 /// Out of files: the one kept for this lets whoever waits in and out again. Otherwise its waiting
 /// would wake us at once and for ever.
-bool SharedMemoryTransport::Core::turn_away(std::size_t listening) {
+bool SharedMemoryTransport::turn_away(std::size_t listening) {
   if (!spare_) return false;
   spare_.close();
   const bool is_away =
@@ -150,7 +149,7 @@ bool SharedMemoryTransport::Core::turn_away(std::size_t listening) {
 
 /// The server makes the memory and seals its size, so that neither end can be made to touch what is
 /// not there.
-bool SharedMemoryTransport::Core::offer_memory(ConnectionId connection) {
+bool SharedMemoryTransport::offer_memory(ConnectionId connection) {
   File file(::memfd_create("rink", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   const std::size_t size = segment_size(settings_.ring_size);
   if (!file || ::ftruncate(file.number(), static_cast<off_t>(size)) != 0) return false;
@@ -180,7 +179,7 @@ bool SharedMemoryTransport::Core::offer_memory(ConnectionId connection) {
   return true;
 }
 
-void SharedMemoryTransport::Core::take_memory(ConnectionId connection) {
+void SharedMemoryTransport::take_memory(ConnectionId connection) {
   Greeting greeting;
   iovec vector{&greeting, sizeof greeting};
   FileControl control{};
@@ -219,8 +218,8 @@ void SharedMemoryTransport::Core::take_memory(ConnectionId connection) {
   opened(connection, std::move(memory), greeting.ring_size, false);
 }
 
-void SharedMemoryTransport::Core::opened(ConnectionId connection, Mapping memory,
-                                         std::size_t ring_size, bool is_server) {
+void SharedMemoryTransport::opened(ConnectionId connection, Mapping memory, std::size_t ring_size,
+                                   bool is_server) {
   Peer& peer = *peers_[connection];
   auto* states = reinterpret_cast<SharedRingState*>(memory.data());
   std::byte* bytes = memory.data() + head_size;
@@ -235,27 +234,27 @@ void SharedMemoryTransport::Core::opened(ConnectionId connection, Mapping memory
   drain(connection);  // sent before it was open
 }
 
-void SharedMemoryTransport::Core::end(ConnectionId connection, CloseReason reason,
-                                      const std::string& detail) {
+void SharedMemoryTransport::end(ConnectionId connection, CloseReason reason,
+                                const std::string& detail) {
   peers_[connection].reset();
   std::erase(open_, connection);
   news_.push_back({connection, reason, detail});
 }
 
-void SharedMemoryTransport::Core::close(ConnectionId connection) {
+void SharedMemoryTransport::close(ConnectionId connection) {
   if (find(connection) == nullptr) return;
   drain(connection);
   if (find(connection) != nullptr) end(connection, CloseReason::closed_by_us, "closed by us");
 }
 
 /// To a few milliseconds, for a fifth of what the exact time costs in each round trip.
-std::int64_t SharedMemoryTransport::Core::now_ns() {
+std::int64_t SharedMemoryTransport::now_ns() {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
   return 1'000'000'000 * static_cast<std::int64_t>(now.tv_sec) + now.tv_nsec;
 }
 
-TransportCounters SharedMemoryTransport::Core::counters(ConnectionId connection) const {
+TransportCounters SharedMemoryTransport::counters(ConnectionId connection) const {
   if (connection >= counters_.size()) return {};
   TransportCounters counters = counters_[connection];
   counters.acknowledgements_sent = acknowledgements_[connection].count(now_ns());
@@ -264,7 +263,7 @@ TransportCounters SharedMemoryTransport::Core::counters(ConnectionId connection)
   return counters;
 }
 
-TransportCounters SharedMemoryTransport::Core::totals() const {
+TransportCounters SharedMemoryTransport::totals() const {
   TransportCounters sum;
   for (ConnectionId connection = 0; connection < counters_.size(); ++connection) {
     const TransportCounters one = counters(connection);
@@ -277,30 +276,5 @@ TransportCounters SharedMemoryTransport::Core::totals() const {
   }
   return sum;
 }
-
-SharedMemoryTransport::SharedMemoryTransport(const SharedMemorySettings& settings)
-    : core_(std::make_unique<Core>(settings)) {}
-SharedMemoryTransport::~SharedMemoryTransport() = default;
-void SharedMemoryTransport::listen(const std::string& name) { core_->listen(name); }
-ConnectionId SharedMemoryTransport::connect(const std::string& name) {
-  return core_->connect(name);
-}
-void SharedMemoryTransport::poll(std::chrono::nanoseconds longest_wait,
-                                 TransportListener& listener) {
-  core_->poll(longest_wait, listener);
-}
-void SharedMemoryTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
-  core_->send(connection, parts);
-}
-void SharedMemoryTransport::close(ConnectionId connection) { core_->close(connection); }
-std::size_t SharedMemoryTransport::queued_bytes(ConnectionId connection) const {
-  return core_->counters(connection).queued_bytes;
-}
-TransportCounters SharedMemoryTransport::counters(ConnectionId connection) const {
-  return core_->counters(connection);
-}
-TransportCounters SharedMemoryTransport::totals() const { return core_->totals(); }
-std::uint64_t SharedMemoryTransport::sleeps() const { return core_->sleeps; }
-std::uint64_t SharedMemoryTransport::wakes() const { return core_->wakes; }
 
 }  // namespace rink::rti

@@ -5,7 +5,7 @@
 #include <array>
 #include <cerrno>
 
-#include "rti/transport/shared_memory/shared_memory_core.h"
+#include "rti/transport/shared_memory/shared_memory.h"
 
 namespace rink::rti {
 
@@ -17,8 +17,8 @@ constexpr const char* impossible = "its positions in shared memory are impossibl
 
 }  // namespace
 
-void SharedMemoryTransport::Core::poll(std::chrono::nanoseconds longest_wait,
-                                       TransportListener& listener) {
+void SharedMemoryTransport::poll(std::chrono::nanoseconds longest_wait,
+                                 TransportListener& listener) {
   listener_ = &listener;
   const std::uint64_t before = told_;
   // A busy connection costs no system call; who comes and goes is noticed all the same.
@@ -30,7 +30,7 @@ void SharedMemoryTransport::Core::poll(std::chrono::nanoseconds longest_wait,
   listener_ = nullptr;
 }
 
-void SharedMemoryTransport::Core::spin_and_sleep(std::chrono::nanoseconds longest_wait) {
+void SharedMemoryTransport::spin_and_sleep(std::chrono::nanoseconds longest_wait) {
   // Told in looks instead of time: a look costs about 10 ns for each connection.
   const std::int64_t looks =
       settings_.spin.count() / static_cast<std::int64_t>(10 * (open_.size() + 1));
@@ -43,7 +43,7 @@ void SharedMemoryTransport::Core::spin_and_sleep(std::chrono::nanoseconds longes
     for (const ConnectionId connection : open_) peers_[connection]->in.set_sleeping(true);
     // Whoever writes from now on sees that we sleep; whoever wrote before is seen by this look.
     if (!has_something()) {
-      ++sleeps;
+      ++sleeps_;
       readiness_.ask(longest_wait, {});
     }
     for (const ConnectionId connection : open_) peers_[connection]->in.set_sleeping(false);
@@ -53,7 +53,7 @@ void SharedMemoryTransport::Core::spin_and_sleep(std::chrono::nanoseconds longes
   look_at_rings();
 }
 
-bool SharedMemoryTransport::Core::has_something() const {
+bool SharedMemoryTransport::has_something() const {
   if (!news_.empty()) return true;
   return std::ranges::any_of(open_, [this](ConnectionId connection) {
     const Peer& peer = *peers_[connection];
@@ -61,7 +61,7 @@ bool SharedMemoryTransport::Core::has_something() const {
   });
 }
 
-void SharedMemoryTransport::Core::take_events() {
+void SharedMemoryTransport::take_events() {
   readiness_.ask({}, {});
   while (const auto event = readiness_.next()) {
     if (event->number >= listener_mark)
@@ -71,7 +71,7 @@ void SharedMemoryTransport::Core::take_events() {
 }
 
 /// The socket brings the memory first, then nothing but wake-ups and its end.
-void SharedMemoryTransport::Core::take_socket(ConnectionId connection) {
+void SharedMemoryTransport::take_socket(ConnectionId connection) {
   Peer* peer = find(connection);
   if (peer == nullptr) return;
   if (!peer->is_open) return take_memory(connection);
@@ -85,7 +85,7 @@ void SharedMemoryTransport::Core::take_socket(ConnectionId connection) {
   if (find(connection) != nullptr) end(connection, CloseReason::closed_by_peer, "closed by peer");
 }
 
-void SharedMemoryTransport::Core::report() {
+void SharedMemoryTransport::report() {
   for (std::vector<News> telling; !news_.empty(); telling.clear()) {
     telling.swap(news_);
     for (const News& each : telling) {
@@ -96,7 +96,7 @@ void SharedMemoryTransport::Core::report() {
   }
 }
 
-void SharedMemoryTransport::Core::look_at_rings() {
+void SharedMemoryTransport::look_at_rings() {
   // Callbacks may close connections, which leaves this list.
   for (std::size_t i = 0; i < open_.size();) {
     const ConnectionId connection = open_[i];
@@ -106,7 +106,7 @@ void SharedMemoryTransport::Core::look_at_rings() {
   }
 }
 
-void SharedMemoryTransport::Core::read(ConnectionId connection) {
+void SharedMemoryTransport::read(ConnectionId connection) {
   Peer& peer = *peers_[connection];
   const std::optional<std::size_t> waiting = peer.in.waiting();
   if (!waiting) return end(connection, CloseReason::failed, impossible);
@@ -119,16 +119,16 @@ void SharedMemoryTransport::Core::read(ConnectionId connection) {
   listener_->on_bytes(connection, Bytes(buffer_).first(*waiting));
 }
 
-void SharedMemoryTransport::Core::wake(const Peer& peer) {
+void SharedMemoryTransport::wake(const Peer& peer) {
   const std::byte anything{1};
-  ++wakes;
+  ++wakes_;
   // If it has no room for one more, the peer is about to be woken anyway.
   [[maybe_unused]] const ssize_t sent =
       ::send(peer.socket.number(), &anything, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
 /// Puts what fits and returns how much that was.
-std::size_t SharedMemoryTransport::Core::put(ConnectionId connection, Bytes bytes) {
+std::size_t SharedMemoryTransport::put(ConnectionId connection, Bytes bytes) {
   Peer& peer = *peers_[connection];
   const std::optional<std::size_t> room = peer.out.room();
   if (!room) {
@@ -141,7 +141,7 @@ std::size_t SharedMemoryTransport::Core::put(ConnectionId connection, Bytes byte
   return size;
 }
 
-void SharedMemoryTransport::Core::send(ConnectionId connection, std::span<const Bytes> parts) {
+void SharedMemoryTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
   Peer* peer = find(connection);
   std::size_t size = 0;
   for (const Bytes part : parts) size += part.size();
@@ -168,7 +168,7 @@ void SharedMemoryTransport::Core::send(ConnectionId connection, std::span<const 
         "did not read: more than " + std::to_string(settings_.queue_max) + " bytes waited");
 }
 
-void SharedMemoryTransport::Core::drain(ConnectionId connection) {
+void SharedMemoryTransport::drain(ConnectionId connection) {
   Peer* peer = find(connection);
   if (peer == nullptr || !peer->is_open || peer->queue_from == peer->queue.size()) return;
   const std::size_t taken = put(connection, Bytes(peer->queue).subspan(peer->queue_from));

@@ -1,4 +1,6 @@
 // TCP connections: how they come about, wait and end.
+#include "rti/transport/tcp/tcp.h"
+
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/resource.h>
@@ -7,10 +9,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <asio.hpp>
 #include <cerrno>
 
 #include "rti/transport/tcp/kernel_counters.h"
-#include "rti/transport/tcp/tcp_core.h"
 
 namespace rink::rti {
 
@@ -59,16 +61,7 @@ std::string place(const std::string& address, std::uint16_t port) {
          std::to_string(port);
 }
 
-}  // namespace
-
-TcpTransport::Core::Core(const TcpSettings& settings)
-    : settings_(settings),
-      pause_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)),
-      read_buffer_(settings.read_buffer) {
-  readiness_.watch(pause_.number(), pause_mark, false);
-}
-
-tcp::endpoint TcpTransport::Core::resolve(const std::string& address, std::uint16_t port) {
+tcp::endpoint resolve(const std::string& address, std::uint16_t port) {
   asio::error_code error;
   asio::io_context context;
   tcp::resolver resolver(context);
@@ -77,7 +70,16 @@ tcp::endpoint TcpTransport::Core::resolve(const std::string& address, std::uint1
   return found.begin()->endpoint();
 }
 
-std::uint16_t TcpTransport::Core::listen(const std::string& address, std::uint16_t port) {
+}  // namespace
+
+TcpTransport::TcpTransport(const TcpSettings& settings)
+    : settings_(settings),
+      pause_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)),
+      read_buffer_(settings.read_buffer) {
+  readiness_.watch(pause_.number(), pause_mark, false);
+}
+
+std::uint16_t TcpTransport::listen(const std::string& address, std::uint16_t port) {
   const tcp::endpoint endpoint = resolve(address, port);
   asio::io_context context;
   tcp::acceptor acceptor(context);
@@ -96,7 +98,7 @@ std::uint16_t TcpTransport::Core::listen(const std::string& address, std::uint16
   return bound;
 }
 
-ConnectionId TcpTransport::Core::connect(const std::string& address, std::uint16_t port) {
+ConnectionId TcpTransport::connect(const std::string& address, std::uint16_t port) {
   const tcp::endpoint endpoint = resolve(address, port);
   File file(::socket(endpoint.protocol().family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC,
                      IPPROTO_TCP));
@@ -113,18 +115,18 @@ ConnectionId TcpTransport::Core::connect(const std::string& address, std::uint16
   // Watched only from here on: a socket that nobody has connected yet would be told as ended.
   if (result < 0 && error.value() != EINPROGRESS && error.value() != EISCONN &&
       error.value() != EALREADY)
-    end(peer, close_reason_of(error), "can't connect to " + peer.place + ": " + error.message());
+    end(peer, reason_of(error.value()), "can't connect to " + peer.place + ": " + error.message());
   else readiness_.watch(peer.file.number(), peer.id, true);
   return peer.id;
 }
 
-TcpTransport::Core::Peer& TcpTransport::Core::add(File file) {
+TcpTransport::Peer& TcpTransport::add(File file) {
   peers_.push_back(std::make_unique<Peer>(static_cast<ConnectionId>(peers_.size())));
   peers_.back()->file = std::move(file);
   return *peers_.back();
 }
 
-void TcpTransport::Core::accept(std::size_t listening) {
+void TcpTransport::accept(std::size_t listening) {
   for (std::size_t accepted = 0; accepted < accepted_per_event; ++accepted) {
     File file(
         ::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
@@ -136,7 +138,7 @@ void TcpTransport::Core::accept(std::size_t listening) {
   }
 }
 
-void TcpTransport::Core::accept_later() {
+void TcpTransport::accept_later() {
   // The waiting connection would wake us at once and for ever: raise the limit, or let somebody
   // leave first.
   rlimit limit{};
@@ -151,26 +153,26 @@ void TcpTransport::Core::accept_later() {
   timerfd_settime(pause_.number(), 0, &pause, nullptr);
 }
 
-void TcpTransport::Core::accept_again() {
+void TcpTransport::accept_again() {
   std::uint64_t expirations = 0;
   if (::read(pause_.number(), &expirations, sizeof expirations) != sizeof expirations) return;
   for (std::size_t i = 0; i < listening_.size(); ++i)
     readiness_.change(listening_[i].number(), listener_mark + i, true, false);
 }
 
-void TcpTransport::Core::finish_connecting(Peer& peer) {
+void TcpTransport::finish_connecting(Peer& peer) {
   int failure = 0;
   socklen_t size = sizeof failure;
   ::getsockopt(peer.file.number(), SOL_SOCKET, SO_ERROR, &failure, &size);
   const asio::error_code error(failure, asio::system_category());
   if (error)
-    return end(peer, close_reason_of(error),
+    return end(peer, reason_of(error.value()),
                "can't connect to " + peer.place + ": " + error.message());
   readiness_.change(peer.file.number(), peer.id, true, false);
   opened(peer);
 }
 
-void TcpTransport::Core::opened(Peer& peer) {
+void TcpTransport::opened(Peer& peer) {
   const int yes = 1;
   ::setsockopt(peer.file.number(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   ::setsockopt(peer.file.number(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_max, sizeof unsent_max);
@@ -182,7 +184,7 @@ void TcpTransport::Core::opened(Peer& peer) {
   listener_->on_open(id);
 }
 
-void TcpTransport::Core::end(Peer& peer, CloseReason reason, const std::string& detail) {
+void TcpTransport::end(Peer& peer, CloseReason reason, const std::string& detail) {
   peer.counters = counters(peer.id);
   peer.counters.queued_bytes = 0;
   if (peer.is_open) --open_count_;
@@ -197,7 +199,7 @@ void TcpTransport::Core::end(Peer& peer, CloseReason reason, const std::string& 
   ended_.push_back({peer.id, reason, detail});
 }
 
-void TcpTransport::Core::report_closed() {
+void TcpTransport::report_closed() {
   while (!ended_.empty()) {
     reporting_.swap(ended_);
     for (const Closed& each : reporting_) {
@@ -211,7 +213,7 @@ void TcpTransport::Core::report_closed() {
   }
 }
 
-void TcpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
   listener_ = &listener;
   if (read_only_peer(longest_wait)) {
     report_closed();
@@ -227,7 +229,7 @@ void TcpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportLi
 
 /// Who spins with one connection asks that, not the kernel's list of what is ready: one system call
 /// less in every round trip. True if there is no more to ask.
-bool TcpTransport::Core::read_only_peer(std::chrono::nanoseconds longest_wait) {
+bool TcpTransport::read_only_peer(std::chrono::nanoseconds longest_wait) {
   using Clock = std::chrono::steady_clock;
   constexpr std::uint32_t reads_per_look = 32;  // so that who comes besides is let in
   const auto spin = std::min(settings_.spin, longest_wait);
@@ -246,7 +248,7 @@ bool TcpTransport::Core::read_only_peer(std::chrono::nanoseconds longest_wait) {
   return longest_wait.count() <= 0;
 }
 
-void TcpTransport::Core::take_what_came() {
+void TcpTransport::take_what_came() {
   // A peer that sends without pause must not keep us from returning: a joined one at 250 MB/s cost
   // a server three ticks in four. What is left waits in the kernel, and the next poll begins with
   // the peers that this one did not reach.
@@ -260,7 +262,7 @@ void TcpTransport::Core::take_what_came() {
   report_closed();
 }
 
-void TcpTransport::Core::take(const Readiness::Event& event) {
+void TcpTransport::take(const Readiness::Event& event) {
   if (event.number == pause_mark) return accept_again();
   if (event.number >= listener_mark)
     return accept(static_cast<std::size_t>(event.number - listener_mark));
@@ -272,7 +274,7 @@ void TcpTransport::Core::take(const Readiness::Event& event) {
   if (event.is_readable && !peer->is_leaving) read(*peer);
 }
 
-TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {
+TransportCounters TcpTransport::counters(ConnectionId connection) const {
   const Peer* peer = find(connection);
   if (peer == nullptr) {
     const auto last = std::ranges::find(last_counters_, connection,
@@ -293,39 +295,14 @@ TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {
   return counters;
 }
 
-TcpTransport::TcpTransport(const TcpSettings& settings) : core_(std::make_unique<Core>(settings)) {}
-TcpTransport::~TcpTransport() = default;
-std::uint16_t TcpTransport::listen(const std::string& address, std::uint16_t port) {
-  return core_->listen(address, port);
-}
-ConnectionId TcpTransport::connect(const std::string& address, std::uint16_t port) {
-  return core_->connect(address, port);
-}
-void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
-  core_->poll(longest_wait, listener);
-}
-void TcpTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
-  core_->send(connection, parts);
-}
-void TcpTransport::close(ConnectionId connection) { core_->close(connection); }
-TransportCounters TcpTransport::Core::totals() const {
+TransportCounters TcpTransport::totals() const {
   TransportCounters sum = closed_;
   for (const auto& peer : peers_)
     if (peer) add_to(sum, counters(peer->id));
   return sum;
 }
 
-std::size_t TcpTransport::queued_bytes(ConnectionId connection) const {
-  return core_->queued_bytes(connection);
-}
-TransportCounters TcpTransport::counters(ConnectionId connection) const {
-  return core_->counters(connection);
-}
-TransportCounters TcpTransport::totals() const { return core_->totals(); }
-
-int TcpTransport::wait_file() const { return core_->wait_file(); }
-int TcpTransport::file(ConnectionId connection) const { return core_->file(connection); }
-int TcpTransport::Core::file(ConnectionId connection) const {
+int TcpTransport::file(ConnectionId connection) const {
   const Peer* peer = find(connection);
   return peer != nullptr && peer->is_open && !peer->is_leaving ? peer->file.number() : -1;
 }

@@ -3,9 +3,13 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "rti/transport/readiness.h"
 #include "rti/transport/transport.h"
 
 namespace rink::rti {
@@ -27,7 +31,6 @@ struct TcpSettings {
 class TcpTransport final : public Transport {
  public:
   explicit TcpTransport(const TcpSettings& settings = {});
-  ~TcpTransport() override;
   TcpTransport(const TcpTransport&) = delete;
   TcpTransport& operator=(const TcpTransport&) = delete;
 
@@ -50,12 +53,65 @@ class TcpTransport final : public Transport {
 
   /// For a transport on top of this one: a file that can be read when a poll has something to tell,
   /// and that of an open connection's socket, -1 for others.
-  int wait_file() const;
+  int wait_file() const { return readiness_.file(); }
   int file(ConnectionId connection) const;
 
  private:
-  class Core;
-  std::unique_ptr<Core> core_;
+  struct Peer {
+    explicit Peer(ConnectionId id) : id(id) {}
+    File file;
+    ConnectionId id;
+    std::string place;             ///< whom we connect to
+    bool is_open = false;          ///< connected; may be sent to
+    bool is_leaving = false;       ///< its end is in `ended_`, waiting to be reported
+    bool is_writing = false;       ///< waits for room in the kernel's buffer
+    std::vector<std::byte> queue;  ///< from `queue_from` on: accepted, not yet taken
+    std::size_t queue_from = 0;
+    TransportCounters counters;
+  };
+  struct Closed {
+    ConnectionId connection;
+    CloseReason reason;
+    std::string detail;
+  };
+  /// What an error of the operating system, a value of errno, says of the peer.
+  static CloseReason reason_of(int error);
+  Peer* find(ConnectionId connection) const {
+    return connection < peers_.size() ? peers_[connection].get() : nullptr;
+  }
+  Peer& add(File file);
+  void take(const Readiness::Event& event);
+  void accept(std::size_t listening);
+  void accept_later();
+  void accept_again();
+  void finish_connecting(Peer& peer);
+  void opened(Peer& peer);
+  void read(Peer& peer);
+  void await_room(Peer& peer);
+  void drain(Peer& peer);
+  std::size_t write(Peer& peer, std::span<const Bytes> parts, bool& is_broken);
+  void end(Peer& peer, CloseReason reason, const std::string& detail);
+  void report_closed();
+  void take_what_came();
+  bool read_only_peer(std::chrono::nanoseconds longest_wait);
+
+  TcpSettings settings_;
+  Readiness readiness_;
+  std::vector<File> listening_;
+  File pause_;  ///< a timer that ends the time in which nobody is accepted
+  std::vector<std::unique_ptr<Peer>> peers_;  ///< by connection; null once closed
+  std::deque<std::pair<ConnectionId, TransportCounters>>
+      last_counters_;  ///< of those that closed last
+  TransportCounters closed_{.kernel_bytes_sent = 0,
+                            .kernel_bytes_received = 0,
+                            .kernel_segments_sent = 0};  ///< sum over all closed ones
+  std::vector<Closed> ended_, reporting_;
+  std::vector<std::byte> read_buffer_;
+  TransportListener* listener_ = nullptr;  ///< while polling
+  std::size_t open_count_ = 0;
+  ConnectionId newest_open_ = 0;
+  std::uint32_t reads_ = 0;        ///< of an only peer, without being told that there is something
+  std::uint64_t bytes_taken_ = 0;  ///< received by all connections
 };
 
 /// Makes sure that this process may open `needed` files, raising the soft limit if the hard one

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <system_error>
 
-#include "rti/transport/tcp/tcp_core.h"
+#include "rti/transport/tcp/tcp.h"
 
 namespace rink::rti {
 
@@ -20,29 +21,26 @@ constexpr std::size_t part_max = 256;  ///< of one write; more are taken in turn
 
 }  // namespace
 
-CloseReason close_reason_of(const asio::error_code& error) {
-  if (error == asio::error::eof || error == asio::error::connection_reset ||
-      error == asio::error::broken_pipe)
-    return CloseReason::closed_by_peer;
-  if (error == asio::error::connection_refused) return CloseReason::refused;
-  return CloseReason::failed;
+CloseReason TcpTransport::reason_of(int error) {
+  if (error == ECONNRESET || error == EPIPE) return CloseReason::closed_by_peer;
+  return error == ECONNREFUSED ? CloseReason::refused : CloseReason::failed;
 }
 
-void TcpTransport::Core::read(Peer& peer) {
+void TcpTransport::read(Peer& peer) {
   const ssize_t size =
       ::recv(peer.file.number(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT);
   if (size == 0) return end(peer, CloseReason::closed_by_peer, "closed by peer");
   if (size < 0) {
     if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return;
-    const asio::error_code error(errno, asio::system_category());
-    return end(peer, close_reason_of(error), error.message());
+    const int error = errno;
+    return end(peer, reason_of(error), std::generic_category().message(error));
   }
   peer.counters.bytes_received += static_cast<std::uint64_t>(size);
   bytes_taken_ += static_cast<std::uint64_t>(size);
   listener_->on_bytes(peer.id, Bytes(read_buffer_).first(static_cast<std::size_t>(size)));
 }
 
-std::size_t TcpTransport::Core::write(Peer& peer, std::span<const Bytes> parts, bool& is_broken) {
+std::size_t TcpTransport::write(Peer& peer, std::span<const Bytes> parts, bool& is_broken) {
   std::array<iovec, part_max> vectors;
   std::size_t taken = 0;
   while (!parts.empty()) {
@@ -73,7 +71,7 @@ std::size_t TcpTransport::Core::write(Peer& peer, std::span<const Bytes> parts, 
   return taken;
 }
 
-void TcpTransport::Core::send(ConnectionId connection, std::span<const Bytes> parts) {
+void TcpTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
   Peer* peer = find(connection);
   if (peer == nullptr || peer->is_leaving) return;
   std::size_t size = 0;
@@ -100,13 +98,13 @@ void TcpTransport::Core::send(ConnectionId connection, std::span<const Bytes> pa
   if (peer->is_open) await_room(*peer);
 }
 
-void TcpTransport::Core::await_room(Peer& peer) {
+void TcpTransport::await_room(Peer& peer) {
   if (peer.is_writing) return;
   peer.is_writing = true;
   readiness_.change(peer.file.number(), peer.id, true, true);
 }
 
-void TcpTransport::Core::drain(Peer& peer) {
+void TcpTransport::drain(Peer& peer) {
   const Bytes waiting = Bytes(peer.queue).subspan(peer.queue_from);
   bool is_broken = false;
   peer.queue_from += write(peer, std::span(&waiting, 1), is_broken);
@@ -127,12 +125,12 @@ void TcpTransport::Core::drain(Peer& peer) {
   readiness_.change(peer.file.number(), peer.id, true, false);
 }
 
-std::size_t TcpTransport::Core::queued_bytes(ConnectionId connection) const {
+std::size_t TcpTransport::queued_bytes(ConnectionId connection) const {
   const Peer* peer = find(connection);
   return peer == nullptr ? 0 : peer->queue.size() - peer->queue_from;
 }
 
-void TcpTransport::Core::close(ConnectionId connection) {
+void TcpTransport::close(ConnectionId connection) {
   Peer* peer = find(connection);
   if (peer == nullptr || peer->is_leaving) return;
   if (peer->is_open && peer->queue_from < peer->queue.size()) {

@@ -7,8 +7,6 @@
 #include <asio.hpp>
 #include <ctime>
 
-#include "rti/transport/udp/udp_core.h"
-
 namespace rink::rti {
 
 namespace {
@@ -18,7 +16,7 @@ constexpr std::size_t datagram_events_per_poll = 1024;
 
 }  // namespace
 
-UdpTransport::Core::Core(const UdpSettings& settings)
+UdpTransport::UdpTransport(const UdpSettings& settings)
     : settings_(settings),
       tcp_(settings.tcp),
       timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)),
@@ -26,7 +24,7 @@ UdpTransport::Core::Core(const UdpSettings& settings)
   readiness_.watch(timer_.number(), timer_mark, false);
 }
 
-std::uint16_t UdpTransport::Core::listen(const std::string& address, std::uint16_t port) {
+std::uint16_t UdpTransport::listen(const std::string& address, std::uint16_t port) {
   const std::uint16_t bound = tcp_.listen(address, port);
   if (server_) return bound;
   asio::io_context context;
@@ -53,7 +51,7 @@ std::uint16_t UdpTransport::Core::listen(const std::string& address, std::uint16
   return bound;
 }
 
-ConnectionId UdpTransport::Core::connect(const std::string& address, std::uint16_t port) {
+ConnectionId UdpTransport::connect(const std::string& address, std::uint16_t port) {
   const ConnectionId connection = tcp_.connect(address, port);
   add(connection).role = Way::Role::client;
   tallies_[connection].stream_sent = magic_size;
@@ -62,7 +60,7 @@ ConnectionId UdpTransport::Core::connect(const std::string& address, std::uint16
   return connection;
 }
 
-UdpTransport::Core::Way& UdpTransport::Core::add(ConnectionId connection) {
+UdpTransport::Way& UdpTransport::add(ConnectionId connection) {
   if (connection >= ways_.size()) {
     ways_.resize(connection + 1);
     tallies_.resize(connection + 1);
@@ -71,14 +69,14 @@ UdpTransport::Core::Way& UdpTransport::Core::add(ConnectionId connection) {
   return *ways_[connection];
 }
 
-void UdpTransport::Core::on_open(ConnectionId connection) {
+void UdpTransport::on_open(ConnectionId connection) {
   has_told_ = true;
   if (find(connection) == nullptr) add(connection);
   listener_->on_open(connection);
 }
 
-void UdpTransport::Core::on_close(ConnectionId connection, CloseReason reason,
-                                  const std::string& detail) {
+void UdpTransport::on_close(ConnectionId connection, CloseReason reason,
+                            const std::string& detail) {
   has_told_ = true;
   push();  // what waits names the address that goes now
   const Way* way = find(connection);
@@ -95,7 +93,7 @@ void UdpTransport::Core::on_close(ConnectionId connection, CloseReason reason,
                                      : detail);
 }
 
-void UdpTransport::Core::on_bytes(ConnectionId connection, Bytes bytes) {
+void UdpTransport::on_bytes(ConnectionId connection, Bytes bytes) {
   const Way* way = find(connection);
   const bool is_at_head =
       way != nullptr && (way->role == Way::Role::undecided ||
@@ -104,13 +102,13 @@ void UdpTransport::Core::on_bytes(ConnectionId connection, Bytes bytes) {
   if (!bytes.empty()) forward(connection, bytes);
 }
 
-void UdpTransport::Core::forward(ConnectionId connection, Bytes bytes) {
+void UdpTransport::forward(ConnectionId connection, Bytes bytes) {
   has_told_ = true;
   listener_->on_bytes(connection, bytes);
 }
 
 /// The greeting comes first of all, and whether there is one is known when the client has spoken.
-void UdpTransport::Core::send(ConnectionId connection, std::span<const Bytes> parts) {
+void UdpTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
   Way* way = find(connection);
   if (way == nullptr || way->role != Way::Role::undecided) return tcp_.send(connection, parts);
   std::vector<std::byte>& held = way->held.emplace_back();
@@ -121,7 +119,7 @@ void UdpTransport::Core::send(ConnectionId connection, std::span<const Bytes> pa
   let_go(connection, *way);
 }
 
-void UdpTransport::Core::let_go(ConnectionId connection, Way& way) {
+void UdpTransport::let_go(ConnectionId connection, Way& way) {
   for (const std::vector<std::byte>& each : way.held) {
     const Bytes bytes = each;
     tcp_.send(connection, std::span(&bytes, 1));
@@ -130,12 +128,12 @@ void UdpTransport::Core::let_go(ConnectionId connection, Way& way) {
   way.held_bytes = 0;
 }
 
-void UdpTransport::Core::close(ConnectionId connection) {
+void UdpTransport::close(ConnectionId connection) {
   if (Way* way = find(connection)) let_go(connection, *way);
   tcp_.close(connection);
 }
 
-void UdpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+void UdpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
   push();
   listener_ = &listener;
   has_told_ = false;
@@ -153,7 +151,7 @@ void UdpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportLi
 }
 
 /// The stream first: datagrams speak of objects that it tells of.
-void UdpTransport::Core::take_what_came() {
+void UdpTransport::take_what_came() {
   tcp_.poll({}, *this);
   readiness_.ask({}, {});
   for (std::size_t taken = 0; taken < datagram_events_per_poll; ++taken) {
@@ -178,7 +176,7 @@ void UdpTransport::Core::take_what_came() {
   }
 }
 
-void UdpTransport::Core::take_from_client(const SocketAddress& source, Bytes datagram) {
+void UdpTransport::take_from_client(const SocketAddress& source, Bytes datagram) {
   const auto known =
       datagram.size() < prefix_size ? by_key_.end() : by_key_.find(get<std::uint64_t>(datagram, 0));
   Way* way = known == by_key_.end() ? nullptr : find(known->second);
@@ -208,7 +206,7 @@ void UdpTransport::Core::take_from_client(const SocketAddress& source, Bytes dat
   ++counters_.stranger_datagrams;
 }
 
-void UdpTransport::Core::take_from_server(ConnectionId connection, Way& way, Bytes datagram) {
+void UdpTransport::take_from_server(ConnectionId connection, Way& way, Bytes datagram) {
   if (datagram.size() < prefix_size || get<std::uint64_t>(datagram, 0) != way.down_key) {
     ++counters_.stranger_datagrams;
     return;
@@ -229,7 +227,7 @@ void UdpTransport::Core::take_from_server(ConnectionId connection, Way& way, Byt
   if (kind == Kind::data) take_data(connection, datagram);
 }
 
-void UdpTransport::Core::take_data(ConnectionId connection, Bytes datagram) {
+void UdpTransport::take_data(ConnectionId connection, Bytes datagram) {
   const Bytes payload = datagram.subspan(prefix_size);
   ++tallies_[connection].datagrams_received;
   tallies_[connection].bytes_received += payload.size();
@@ -237,7 +235,7 @@ void UdpTransport::Core::take_data(ConnectionId connection, Bytes datagram) {
   listener_->on_datagram(connection, payload);
 }
 
-std::size_t UdpTransport::Core::datagram_max(ConnectionId connection) const {
+std::size_t UdpTransport::datagram_max(ConnectionId connection) const {
   const Way* way = find(connection);
   if (way == nullptr) return 0;
   // A client expects datagrams as soon as it has proven its address; those that it sends before it
@@ -247,8 +245,7 @@ std::size_t UdpTransport::Core::datagram_max(ConnectionId connection) const {
   return is_open ? payload_max - prefix_size : 0;
 }
 
-void UdpTransport::Core::send_datagrams(ConnectionId connection,
-                                        std::span<const Datagram> datagrams) {
+void UdpTransport::send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) {
   if (datagram_max(connection) == 0) return;
   const Way& way = *find(connection);
   const bool is_client = way.role == Way::Role::client;

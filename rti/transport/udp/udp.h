@@ -2,11 +2,16 @@
 // inject or be flooded (docs/wire.md, "UDP beside TCP").
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 #include "rti/transport/tcp/tcp.h"
+#include "rti/transport/udp/datagram_socket.h"
 
 namespace rink::rti {
 
@@ -29,10 +34,9 @@ struct UdpCounters {
 /// A TcpTransport whose connections have, after a round trip or two, a way for datagrams. Where UDP
 /// does not get through, the stream carries on alone. Clients of a plain TcpTransport may connect
 /// to it; a client of this one needs a server of this one.
-class UdpTransport final : public Transport {
+class UdpTransport final : public Transport, private TransportListener {
  public:
   explicit UdpTransport(const UdpSettings& settings = {});
-  ~UdpTransport() override;
   UdpTransport(const UdpTransport&) = delete;
   UdpTransport& operator=(const UdpTransport&) = delete;
 
@@ -47,15 +51,96 @@ class UdpTransport final : public Transport {
   TransportCounters counters(ConnectionId connection) const override;
   std::size_t datagram_max(ConnectionId connection) const override;
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override;
-  void push() override;
+  void push() override { sender_.push(); }
 
   /// Sum over all connections that ever were.
   TransportCounters totals() const;
   UdpCounters udp_counters() const;
 
  private:
-  class Core;
-  std::unique_ptr<Core> core_;
+  /// What the first byte after a datagram's key says.
+  enum class Kind : std::uint8_t { data, hello, welcome, confirm, open };
+  static constexpr std::uint32_t datagram_magic = 0x47444b52;  ///< "RKDG": no frame is that long
+  static constexpr std::size_t payload_max = 1200, prefix_size = 9;
+  static constexpr std::size_t magic_size = 4, greeting_size = magic_size + 2 + 8 + 8;
+
+  /// One connection's datagrams. Of a server's, `undecided` until the client has asked for
+  /// datagrams, which is the first thing that it says.
+  struct Way {
+    enum class Role : std::uint8_t { undecided, none, server, client };
+    enum class State : std::uint8_t { closed, hello, confirm, open };
+    Role role = Role::undecided;
+    State state = State::closed;
+    int tries = 0;
+    std::array<std::byte, greeting_size> head{};  ///< of the stream, as far as it has come
+    std::size_t head_size = 0;
+    std::uint64_t up_key = 0, down_key = 0, nonce = 0;
+    SocketAddress address;  ///< the other end's
+    std::vector<std::vector<std::byte>>
+        held;  ///< writes of a server that must not come before its greeting
+    std::size_t held_bytes = 0;
+    File file;  ///< a client's own socket, connected
+  };
+  /// What the greeting adds to the stream, which is nobody's payload, and the datagrams of one
+  /// connection.
+  struct Tally {
+    std::uint64_t stream_sent = 0, stream_received = 0, datagrams_sent = 0, datagrams_received = 0,
+                  bytes_sent = 0, bytes_received = 0;
+  };
+
+  template <class Number>
+  static void put(std::byte*& at, Number number) {
+    std::memcpy(at, &number, sizeof number);
+    at += sizeof number;
+  }
+  template <class Number>
+  static Number get(Bytes bytes, std::size_t at) {
+    Number number{};
+    std::memcpy(&number, bytes.data() + at, sizeof number);
+    return number;
+  }
+
+  void on_open(ConnectionId connection) override;
+  void on_bytes(ConnectionId connection, Bytes bytes) override;
+  void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
+
+  // udp.cpp
+  Way* find(ConnectionId connection) const {
+    return connection < ways_.size() ? ways_[connection].get() : nullptr;
+  }
+  Way& add(ConnectionId connection);
+  void let_go(ConnectionId connection, Way& way);
+  void forward(ConnectionId connection, Bytes bytes);
+  void take_what_came();
+  void take_from_client(const SocketAddress& source, Bytes datagram);
+  void take_from_server(ConnectionId connection, Way& way, Bytes datagram);
+  void take_data(ConnectionId connection, Bytes datagram);
+
+  // udp_opening.cpp
+  Bytes take_head(ConnectionId connection, Bytes bytes);
+  void greet(ConnectionId connection, Way& way);
+  void open_socket(ConnectionId connection, Way& way);
+  void tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce, std::size_t size);
+  void ask(const Way& way);
+  void ask_again();
+  void set_timer();
+
+  UdpSettings settings_;
+  TcpTransport tcp_;
+  Readiness readiness_;
+  File timer_;
+  File server_;  ///< the socket of all that connect to us
+  std::uint16_t server_port_ = 0;
+  std::vector<std::unique_ptr<Way>> ways_;  ///< by connection; null once closed
+  std::vector<Tally> tallies_;              ///< by connection
+  std::unordered_map<std::uint64_t, ConnectionId>
+      by_key_;                        ///< by what clients' datagrams begin with
+  std::vector<ConnectionId> asking_;  ///< clients' ways that are not open yet
+  DatagramSender sender_;
+  DatagramReader reader_;
+  UdpCounters counters_;
+  TransportListener* listener_ = nullptr;  ///< while polling
+  bool has_told_ = false;
 };
 
 }  // namespace rink::rti

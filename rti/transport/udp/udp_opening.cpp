@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "rti/transport/udp/udp_core.h"
+#include "rti/transport/udp/udp.h"
 
 namespace rink::rti {
 
@@ -34,7 +34,7 @@ SocketAddress peer_of(int socket) {
 
 /// Takes what is ours of the stream's beginning and returns the rest. What turns out to be nobody's
 /// greeting is forwarded.
-Bytes UdpTransport::Core::take_head(ConnectionId connection, Bytes bytes) {
+Bytes UdpTransport::take_head(ConnectionId connection, Bytes bytes) {
   Way& way = *find(connection);
   const std::size_t wanted = way.role == Way::Role::client ? greeting_size : magic_size;
   const std::size_t taken = std::min(bytes.size(), wanted - way.head_size);
@@ -56,7 +56,7 @@ Bytes UdpTransport::Core::take_head(ConnectionId connection, Bytes bytes) {
   return bytes;
 }
 
-void UdpTransport::Core::greet(ConnectionId connection, Way& way) {
+void UdpTransport::greet(ConnectionId connection, Way& way) {
   way.role = Way::Role::server;
   way.address = peer_of(tcp_.file(connection));
   way.up_key = secret();
@@ -75,7 +75,7 @@ void UdpTransport::Core::greet(ConnectionId connection, Way& way) {
   let_go(connection, way);
 }
 
-void UdpTransport::Core::open_socket(ConnectionId connection, Way& way) {
+void UdpTransport::open_socket(ConnectionId connection, Way& way) {
   way.up_key = get<std::uint64_t>(way.head, magic_size + 2);
   way.down_key = get<std::uint64_t>(way.head, magic_size + 10);
   way.address = peer_of(tcp_.file(connection));
@@ -95,18 +95,18 @@ void UdpTransport::Core::open_socket(ConnectionId connection, Way& way) {
   ask(way);
 }
 
-void UdpTransport::Core::set_timer() {
+void UdpTransport::set_timer() {
   const itimerspec tenth{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = 100'000'000}};
   timerfd_settime(timer_.number(), 0, &tenth, nullptr);
 }
 
 /// A client's question that has not been answered yet.
-void UdpTransport::Core::ask(const Way& way) {
+void UdpTransport::ask(const Way& way) {
   if (way.state == Way::State::hello) tell(way, Kind::hello, way.up_key, 0, payload_max);
   else tell(way, Kind::confirm, way.up_key, way.nonce, prefix_size + 8);
 }
 
-void UdpTransport::Core::ask_again() {
+void UdpTransport::ask_again() {
   std::uint64_t expirations = 0;
   if (::read(timer_.number(), &expirations, sizeof expirations) != sizeof expirations) return;
   std::erase_if(asking_, [this](ConnectionId connection) {
@@ -121,8 +121,8 @@ void UdpTransport::Core::ask_again() {
   if (!asking_.empty()) set_timer();
 }
 
-void UdpTransport::Core::tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce,
-                              std::size_t size) {
+void UdpTransport::tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce,
+                        std::size_t size) {
   std::array<std::byte, payload_max> bytes{};
   std::byte* at = bytes.data();
   put(at, key);
