@@ -1,6 +1,8 @@
 // Gathers, seals and repairs.
 #include "rti/buffering/best_effort_outbox.h"
 
+#include "rti/fom/coded_values.h"
+
 namespace rink::rti {
 
 BestEffortOutbox::BestEffortOutbox(const Fom& fom) : fom_(fom) {

@@ -5,6 +5,7 @@
 
 #include "rti/buffering/best_effort_outbox.h"
 #include "rti/federate/ambassador_services.h"
+#include "rti/fom/coded_values.h"
 #include "rti/wire/datagram.h"
 #include "rti/wire/update_block.h"
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rti/buffering/best_effort_outbox.h"
+#include "rti/fom/coded_values.h"
 #include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/update_block.h"

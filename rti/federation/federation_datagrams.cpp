@@ -4,6 +4,7 @@
 
 #include "rti/buffering/run_scope.h"
 #include "rti/federation/federation_parts.h"
+#include "rti/fom/coded_values.h"
 #include "rti/wire/update_block.h"
 
 namespace rink::rti {

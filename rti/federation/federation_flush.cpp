@@ -5,6 +5,7 @@
 
 #include "rti/buffering/run_scope.h"
 #include "rti/federation/federation_parts.h"
+#include "rti/fom/coded_values.h"
 #include "rti/wire/membership_messages.h"
 #include "rti/wire/update_block.h"
 #include "rti/wire/updates_block.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rti/federation/federation_time.h"
+#include "rti/fom/coded_values.h"
 #include "rti/wire/update_block.h"
 
 namespace rink::rti {

@@ -2,6 +2,7 @@
 #include "rti/fom/fom.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "rti/fom/attribute_codec.h"
 #include "rti/fom/quantised_codec.h"
@@ -46,6 +47,17 @@ bool inherits(const std::vector<Class>& classes, Handle<Tag> handle, Handle<Tag>
 }
 
 }  // namespace
+
+std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) {
+  if (attribute.size)
+    return *attribute.size <= values.size() ? std::optional<std::size_t>(*attribute.size)
+                                            : std::nullopt;
+  std::uint32_t length = 0;
+  if (values.size() < sizeof length) return std::nullopt;
+  std::memcpy(&length, values.data(), sizeof length);
+  if (length > values.size() - sizeof length) return std::nullopt;
+  return sizeof length + length;
+}
 
 void Fom::use_codec(std::string_view data_type, std::shared_ptr<const AttributeCodec> codec) {
   bool is_used = false;

@@ -6,42 +6,18 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "rti/fom/fom_module.h"
 #include "rti/fom/fom_switches.h"
-#include "rti/hla_error.h"
 #include "rti/types.h"
 
 namespace rink::rti {
 
 class AttributeCodec;
 class QuantisedCodec;
-
-/// A FOM or federation file that can't be used; `what` names file, line, element or key, and what
-/// is allowed.
-class FileError : public std::runtime_error {
- public:
-  explicit FileError(const std::string& what, HlaError error = HlaError::error_reading_fdd)
-      : std::runtime_error(what), error_(error) {}
-  /// CouldNotOpenFDD, ErrorReadingFDD, or InconsistentFDD for modules that contradict each other.
-  HlaError error() const { return error_; }
-
- private:
-  HlaError error_;
-};
-
-/// The text of one OMT XML module. `source` stands for the file's name in errors; only the
-/// standard's own may define names that begin with HLA.
-struct FomModule {
-  std::string xml;
-  std::string source;
-  bool is_standard = false;
-};
-/// Throws `FileError`.
-FomModule read_fom_module(const std::string& path);
 
 struct Attribute {
   std::string name;
@@ -55,6 +31,9 @@ struct Attribute {
       baselines;  ///< not null: periodic state, which travels as differences to acknowledged
                   ///< baselines (rti/baselines)
 };
+/// Bytes of the uncoded value that starts `values` (its length word included if its size varies),
+/// or nothing if it isn't all there.
+std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values);
 
 struct Parameter {
   std::string name;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "rti/fom/fom.h"
+#include "rti/fom/fom_module.h"
 
 namespace rink::rti {
 

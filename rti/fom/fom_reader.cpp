@@ -1,10 +1,8 @@
 // Reads IEEE 1516.2 OMT XML modules into one model; every complaint names file, line and element.
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <pugixml.hpp>
-#include <sstream>
 
 #include "rti/fom/data_types.h"
 #include "rti/fom/fom.h"
@@ -326,15 +324,6 @@ Fom Fom::parse(std::span<const FomModule> modules) {
 Fom Fom::parse(std::string_view xml, const std::string& source) {
   const FomModule module{std::string(xml), source};
   return parse(std::span(&module, 1));
-}
-
-FomModule read_fom_module(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
-    throw FileError(path + ": can't be read; expected an OMT XML file",
-                    HlaError::could_not_open_fdd);
-  return {text.str(), path};
 }
 
 Fom Fom::load(const std::string& path) { return load(std::span(&path, 1)); }

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstring>
 
-#include "rti/fom/attribute_codec.h"
+#include "rti/fom/coded_values.h"
 #include "rti/wire/message.h"
 
 namespace rink::rti {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rti/fom/attribute_codec.h"
+#include "rti/fom/coded_values.h"
 #include "rti/wire/message.h"
 #include "rti/wire/stream.h"
 

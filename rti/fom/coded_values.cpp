@@ -1,9 +1,7 @@
-// Walks through sets of attributes, each coded in its own way.
+// Walks through sets of attributes.
+#include "rti/fom/coded_values.h"
+
 #include "rti/fom/attribute_codec.h"
-
-#include <cstring>
-
-#include "rti/fom/fom.h"
 
 namespace rink::rti {
 
@@ -26,17 +24,6 @@ std::optional<std::size_t> one_coded_size(const Attribute& attribute, Bytes code
 }
 
 }  // namespace
-
-std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) {
-  if (attribute.size)
-    return *attribute.size <= values.size() ? std::optional<std::size_t>(*attribute.size)
-                                            : std::nullopt;
-  std::uint32_t length = 0;
-  if (values.size() < sizeof length) return std::nullopt;
-  std::memcpy(&length, values.data(), sizeof length);
-  if (length > values.size() - sizeof length) return std::nullopt;
-  return sizeof length + length;
-}
 
 bool is_coded(const ObjectClass& object_class, AttributeSet set) {
   return !for_each(object_class, set, [](const Attribute& attribute, std::uint32_t) {
