@@ -2,6 +2,7 @@
 // acknowledged.
 #include "rti/baselines/delta_bits.h"
 #include "rti/federate/ambassador_say.h"
+#include "rti/federate/ambassador_services.h"
 #include "rti/wire/baseline_messages.h"
 
 namespace rink::rti {

@@ -2,6 +2,7 @@
 // way, and never out of order with what goes by the stream.
 #include "rti/buffering/best_effort_outbox.h"
 #include "rti/federate/ambassador_say.h"
+#include "rti/federate/ambassador_services.h"
 #include "rti/fom/coded_values.h"
 #include "rti/wire/datagram.h"
 

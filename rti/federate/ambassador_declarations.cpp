@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "rti/federate/ambassador_say.h"
+#include "rti/federate/ambassador_services.h"
 #include "rti/fom/coded_values.h"
 #include "rti/wire/declaration_messages.h"
 #include "rti/wire/update_block.h"

@@ -1,6 +1,7 @@
 // Ownership management at the federate's side: its own part of each object's ownership, judged
 // before anything is sent.
 #include "rti/federate/ambassador_say.h"
+#include "rti/federate/ambassador_services.h"
 #include "rti/wire/object_block.h"
 #include "rti/wire/ownership_messages.h"
 

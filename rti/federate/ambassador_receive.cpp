@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "rti/federate/ambassador_say.h"
+#include "rti/federate/ambassador_services.h"
 #include "rti/fom/coded_values.h"
 #include "rti/fom/fom_digest.h"
 #include "rti/wire/declaration_messages.h"

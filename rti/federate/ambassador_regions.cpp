@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "rti/federate/ambassador_say.h"
+#include "rti/federate/ambassador_services.h"
 #include "rti/wire/region_messages.h"
 
 namespace rink::rti {

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <string>
 
-#include "rti/federate/ambassador_services.h"
+#include "rti/federate/ambassador_parts.h"
 
 namespace rink::rti {
 

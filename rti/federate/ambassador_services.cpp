@@ -1,5 +1,5 @@
 // The services of the federate's side: each becomes a message at the end of `outgoing`.
-#include "rti/federate/ambassador_say.h"
+#include "rti/federate/ambassador_services.h"
 
 #include <algorithm>
 #include <cassert>
@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rti/buffering/best_effort_outbox.h"
+#include "rti/federate/ambassador_say.h"
 #include "rti/fom/coded_values.h"
 #include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "rti/federate/ambassador_say.h"
+#include "rti/federate/ambassador_services.h"
 #include "rti/fom/coded_values.h"
 #include "rti/hla_error.h"
 #include "rti/wire/time_messages.h"

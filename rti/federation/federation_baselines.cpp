@@ -50,7 +50,7 @@ class Wanted {
 
 }  // namespace
 
-void FederationExecution::Parts::gather_periodic(std::size_t index, std::uint32_t slot) {
+void FederationParts::gather_periodic(std::size_t index, std::uint32_t slot) {
   const UpdateRun& run = runs_[index];
   const Wanted wanted(run, interest_.of(slot));
   const DeltaBlock& block = baselines_.block(run, index, slot);
@@ -72,8 +72,8 @@ void FederationExecution::Parts::gather_periodic(std::size_t index, std::uint32_
 }
 
 /// The records in the federate's interest, bit by bit; those whose baseline it lacks are absolute.
-void FederationExecution::Parts::cut_periodic(const UpdateRun& run, const DeltaBlock& block,
-                                              std::uint32_t slot) {
+void FederationParts::cut_periodic(const UpdateRun& run, const DeltaBlock& block,
+                                   std::uint32_t slot) {
   say(scratch_, DeltasMessage{run.object_class});
   BitWriter bits(scratch_);
   DeltaHeader header = block.header;
@@ -95,23 +95,22 @@ void FederationExecution::Parts::cut_periodic(const UpdateRun& run, const DeltaB
   count_periodic(records, differences);
 }
 
-void FederationExecution::Parts::count_periodic(std::size_t records, std::size_t differences) {
+void FederationParts::count_periodic(std::size_t records, std::size_t differences) {
   counters_.updates_sent += records;
   baselines_.counters().differences_sent += differences;
   baselines_.counters().absolutes_sent += records - differences;
 }
 
 /// Says once in a frame that what follows is to be kept.
-void FederationExecution::Parts::begin_keyframe(const Stamp& stamp) {
+void FederationParts::begin_keyframe(const Stamp& stamp) {
   if (is_keyframe_begun_) return;
   is_keyframe_begun_ = true;
   write_stamp(stamp);
   say(scratch_, BeginKeyframeMessage{*baselines_.keyframe()});
 }
 
-FederationExecution::Parts::Outcome FederationExecution::Parts::take_keyframe(std::uint32_t slot,
-                                                                              MessageKind kind,
-                                                                              Reader& reader) {
+FederationParts::Outcome FederationParts::take_keyframe(std::uint32_t slot, MessageKind kind,
+                                                        Reader& reader) {
   AcknowledgeKeyframeMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (kind == MessageKind::acknowledge_keyframe) baselines_.acknowledge(slot, message.number);

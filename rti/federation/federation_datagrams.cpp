@@ -23,16 +23,15 @@ void cut_values(const ObjectClass& object_class, AttributeSet set, AttributeSet 
 
 }  // namespace
 
-void FederationExecution::Parts::list_best_effort() {
+void FederationParts::list_best_effort() {
   for (const ObjectClass& each : fom_.object_classes()) {
     best_effort_.push_back(best_effort_attributes(each));
     has_best_effort_ |= !best_effort_.back().is_empty();
   }
 }
 
-void FederationExecution::Parts::append_apart(std::uint32_t slot, ObjectSlot object,
-                                              AttributeSet attributes, const Stamp& stamp,
-                                              Bytes values) {
+void FederationParts::append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
+                                   const Stamp& stamp, Bytes values) {
   const AttributeSet best_effort = attributes & by_datagram(object),
                      reliable(attributes.bits & ~best_effort.bits);
   if (best_effort.is_empty() || reliable.is_empty())
@@ -46,7 +45,7 @@ void FederationExecution::Parts::append_apart(std::uint32_t slot, ObjectSlot obj
 }
 
 /// Where nothing is best-effort this is one comparison per federate and flush.
-void FederationExecution::Parts::begin_datagrams(Federate& federate, Outlet& outlet) {
+void FederationParts::begin_datagrams(Federate& federate, Outlet& outlet) {
   way_ = nullptr;
   if (!has_best_effort_) return;
   const std::size_t size_max =
@@ -75,7 +74,7 @@ void FederationExecution::Parts::begin_datagrams(Federate& federate, Outlet& out
   batch_.begin(datagram_size_max_);
 }
 
-void FederationExecution::Parts::probe(Federate& federate, Outlet& outlet) {
+void FederationParts::probe(Federate& federate, Outlet& outlet) {
   std::vector<std::byte> bytes;
   DatagramHead head{federate.way->ledger.note(now_), federate.frames};
   Writer writer(bytes);
@@ -88,7 +87,7 @@ void FederationExecution::Parts::probe(Federate& federate, Outlet& outlet) {
 }
 
 /// What was lost goes out as it is now, by datagram again or, after a fallback, by the stream.
-void FederationExecution::Parts::write_due_states(std::uint32_t slot) {
+void FederationParts::write_due_states(std::uint32_t slot) {
   DatagramWay& way = *federates_[slot].way;
   const FederateInterest& interest = interest_.of(slot);
   for (const DatagramLedger::Lost& each : way.due) {
@@ -113,8 +112,7 @@ void FederationExecution::Parts::write_due_states(std::uint32_t slot) {
   way.due.clear();
 }
 
-bool FederationExecution::Parts::gather_datagrams(std::size_t index,
-                                                  const FederateInterest& interest) {
+bool FederationParts::gather_datagrams(std::size_t index, const FederateInterest& interest) {
   const UpdateRun& run = runs_[index];
   if (!best_effort_[run.object_class].includes(run.attributes)) return false;
   const CutRun& cut = batch_.cut(index, run, datagram_size_max_);
@@ -147,7 +145,7 @@ bool FederationExecution::Parts::gather_datagrams(std::size_t index,
   return true;
 }
 
-void FederationExecution::Parts::send_datagrams(Federate& federate, Outlet& outlet) {
+void FederationParts::send_datagrams(Federate& federate, Outlet& outlet) {
   if (way_ == nullptr || batch_.is_empty()) return;
   const std::span<const Datagram> datagrams = batch_.finish(federate.frames, way_->ledger, now_);
   std::size_t size = 0;

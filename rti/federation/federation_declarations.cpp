@@ -9,15 +9,14 @@ namespace rink::rti {
 
 using Outcome = std::optional<Violation>;
 
-Outcome FederationExecution::Parts::take_declaration(std::uint32_t slot, MessageKind kind,
-                                                     Reader& reader) {
+Outcome FederationParts::take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader) {
   if (kind == MessageKind::publish_object_class) return publish_object_class(slot, reader);
   if (kind == MessageKind::subscribe_object_class) return subscribe_object_class(slot, reader);
   if (kind == MessageKind::advisory_switch) return switch_advisory(slot, reader);
   return declare_interaction(slot, kind, reader);
 }
 
-Outcome FederationExecution::Parts::publish_object_class(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::publish_object_class(std::uint32_t slot, Reader& reader) {
   PublishObjectClassMessage message;
   Federate& federate = federates_[slot];
   if (!exchange(reader, message)) return Violation::malformed;
@@ -33,7 +32,7 @@ Outcome FederationExecution::Parts::publish_object_class(std::uint32_t slot, Rea
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::subscribe_object_class(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::subscribe_object_class(std::uint32_t slot, Reader& reader) {
   SubscribeObjectClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
@@ -48,8 +47,7 @@ Outcome FederationExecution::Parts::subscribe_object_class(std::uint32_t slot, R
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::declare_interaction(std::uint32_t slot, MessageKind kind,
-                                                        Reader& reader) {
+Outcome FederationParts::declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader) {
   SubscribeInteractionClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.interaction_class >= fom_.interaction_classes().size())
@@ -70,7 +68,7 @@ Outcome FederationExecution::Parts::declare_interaction(std::uint32_t slot, Mess
 }
 
 /// Those who subscribe to a class or a superclass, in whatever region, belong to its group.
-void FederationExecution::Parts::join_groups(std::uint32_t slot) {
+void FederationParts::join_groups(std::uint32_t slot) {
   for (std::uint32_t i = 0; i < fom_.interaction_classes().size(); ++i) {
     if (listening(slot, static_cast<std::uint16_t>(i)) != Listening::none) groups_->join(i, slot);
     else groups_->leave(i, slot);
@@ -79,8 +77,7 @@ void FederationExecution::Parts::join_groups(std::uint32_t slot) {
 }
 
 /// How it subscribes to the class or a superclass, with and without regions.
-Listening FederationExecution::Parts::listening(std::uint32_t slot,
-                                                std::uint16_t interaction_class) const {
+Listening FederationParts::listening(std::uint32_t slot, std::uint16_t interaction_class) const {
   Listening found = interest_.subscribes_interaction(slot, interaction_class);
   for (InteractionClassHandle each{interaction_class}; each && found != Listening::active;
        each = fom_.at(each).parent)
@@ -90,8 +87,7 @@ Listening FederationExecution::Parts::listening(std::uint32_t slot,
   return found;
 }
 
-bool FederationExecution::Parts::hears_everywhere(std::uint32_t slot,
-                                                  std::uint16_t interaction_class) const {
+bool FederationParts::hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const {
   for (InteractionClassHandle each{interaction_class}; each; each = fom_.at(each).parent)
     if (federates_[slot].subscribed_interactions[each.value] != Listening::none) return true;
   return false;
@@ -99,7 +95,7 @@ bool FederationExecution::Parts::hears_everywhere(std::uint32_t slot,
 
 /// Takes what it subscribes now into account, and tells publishers who are concerned, at once:
 /// whatever a subscriber says next reaches them after that.
-void FederationExecution::Parts::subscribed(std::uint32_t slot) {
+void FederationParts::subscribed(std::uint32_t slot) {
   const std::size_t object_classes = fom_.object_classes().size();
   for (std::size_t row = 0; row < relevance_.row_count(); ++row) {
     const auto number =
@@ -113,7 +109,7 @@ void FederationExecution::Parts::subscribed(std::uint32_t slot) {
   manage_subscriptions(slot);
 }
 
-void FederationExecution::Parts::manage_subscriptions(std::uint32_t slot) {
+void FederationParts::manage_subscriptions(std::uint32_t slot) {
   if (!management_objects_ && ManagementObjects::is_heard(*this))
     management_objects_ = std::make_unique<ManagementObjects>(*this);
   if (management_objects_) management_objects_->subscribed(slot);
@@ -121,7 +117,7 @@ void FederationExecution::Parts::manage_subscriptions(std::uint32_t slot) {
 
 /// What others than `slot` hear of a row. The RTI itself hears what the management object model
 /// lets federates ask of it.
-Subscription FederationExecution::Parts::others_hear(std::uint32_t slot, std::size_t row) const {
+Subscription FederationParts::others_hear(std::uint32_t slot, std::size_t row) const {
   const std::size_t object_classes = fom_.object_classes().size();
   if (row >= object_classes &&
       fom_.is_for_rti(InteractionClassHandle{static_cast<std::uint32_t>(row - object_classes)}))
@@ -129,7 +125,7 @@ Subscription FederationExecution::Parts::others_hear(std::uint32_t slot, std::si
   return relevance_.of_others(slot, row);
 }
 
-void FederationExecution::Parts::tell_publishers(std::size_t row) {
+void FederationParts::tell_publishers(std::size_t row) {
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot) {
     const Federate& federate = federates_[slot];
     if (federate.is_joined && publishes(slot, row) &&
@@ -138,13 +134,13 @@ void FederationExecution::Parts::tell_publishers(std::size_t row) {
   }
 }
 
-bool FederationExecution::Parts::publishes(std::uint32_t slot, std::size_t row) const {
+bool FederationParts::publishes(std::uint32_t slot, std::size_t row) const {
   const std::size_t object_classes = fom_.object_classes().size();
   return row < object_classes ? !federates_[slot].published[row].is_empty()
                               : federates_[slot].published_interactions[row - object_classes];
 }
 
-void FederationExecution::Parts::tell_relevance(std::uint32_t slot, std::size_t row) {
+void FederationParts::tell_relevance(std::uint32_t slot, std::size_t row) {
   if (!publishes(slot, row)) return;
   const std::size_t object_classes = fom_.object_classes().size();
   const bool is_interaction = row >= object_classes;
@@ -155,7 +151,7 @@ void FederationExecution::Parts::tell_relevance(std::uint32_t slot, std::size_t 
 }
 
 /// Its sender keeps newer values back, for nobody heard them when it heard from us last.
-Outcome FederationExecution::Parts::take_spare_update(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::take_spare_update(std::uint32_t slot, Reader& reader) {
   SpareUpdateMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
@@ -169,7 +165,7 @@ Outcome FederationExecution::Parts::take_spare_update(std::uint32_t slot, Reader
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::switch_advisory(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::switch_advisory(std::uint32_t slot, Reader& reader) {
   AdvisorySwitchMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   auto& told = federates_[slot].told_objects;
@@ -182,7 +178,7 @@ Outcome FederationExecution::Parts::switch_advisory(std::uint32_t slot, Reader& 
 
 /// Tells owners who asked for it which of their attributes are in the scope of an active subscriber
 /// now. Nothing is kept or done where nobody asked.
-void FederationExecution::Parts::tell_object_relevance() {
+void FederationParts::tell_object_relevance() {
   std::vector<ObjectSlot>& touched = interest_.touched();
   if (touched.empty()) return;
   interest_.watch_scope(std::ranges::any_of(

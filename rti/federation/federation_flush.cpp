@@ -23,7 +23,7 @@ void fetch(const Value& value) {
 
 }  // namespace
 
-void FederationExecution::Parts::flush(Outlet& outlet) {
+void FederationParts::flush(Outlet& outlet) {
   send_answers(outlet);
   settle_update_requests();
   runs_ = buffering_->seal();
@@ -47,7 +47,7 @@ void FederationExecution::Parts::flush(Outlet& outlet) {
 
 /// What a flush needs of a federate has left the cache since the last one if there are many: what
 /// the next ones need is fetched meanwhile, in the order in which one leads to the other.
-void FederationExecution::Parts::look_ahead(std::uint32_t slot) {
+void FederationParts::look_ahead(std::uint32_t slot) {
   if (slot + 3 < federates_.size()) fetch(federates_[slot + 3]);
   if (slot + 2 < federates_.size() && federates_[slot + 2].is_joined) {
     fetch(interest_.of(slot + 2));
@@ -60,7 +60,7 @@ void FederationExecution::Parts::look_ahead(std::uint32_t slot) {
   }
 }
 
-void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outlet) {
+void FederationParts::flush_federate(std::uint32_t slot, Outlet& outlet) {
   Federate& federate = federates_[slot];
   scratch_.resize(frame_header_size);
   scratch_taken_ = 0;
@@ -113,7 +113,7 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   send_pieces(federate, outlet);
 }
 
-void FederationExecution::Parts::write_stamp(const Stamp& stamp) {
+void FederationParts::write_stamp(const Stamp& stamp) {
   if (frame_stamp_ == stamp) return;
   frame_stamp_ = stamp;
   say(scratch_, StampMessage{stamp});
@@ -121,7 +121,7 @@ void FederationExecution::Parts::write_stamp(const Stamp& stamp) {
 
 /// Who comes into a large world would be closed for a queue that no reader empties in one tick:
 /// what does not fit is told by the next flushes.
-std::size_t FederationExecution::Parts::entry_room(std::uint32_t slot, const Outlet& outlet) const {
+std::size_t FederationParts::entry_room(std::uint32_t slot, const Outlet& outlet) const {
   const FederateInterest& interest = interest_.of(slot);
   if (interest.events.empty() && !interest.has_fresh && !interest.has_unannounced) return 0;
   return settings_.entry_bytes_per_flush_max -
@@ -130,7 +130,7 @@ std::size_t FederationExecution::Parts::entry_room(std::uint32_t slot, const Out
 }
 
 /// Up to `end` bytes in `scratch_`.
-void FederationExecution::Parts::write_scope_events(std::uint32_t slot, std::size_t end) {
+void FederationParts::write_scope_events(std::uint32_t slot, std::size_t end) {
   FederateInterest& interest = interest_.of(slot);
   const std::size_t before = scratch_.size();
   const auto is_too_late = [&](ObjectSlot object) {
@@ -169,7 +169,7 @@ void FederationExecution::Parts::write_scope_events(std::uint32_t slot, std::siz
   counters_.scope_bytes_sent += scratch_.size() - before;
 }
 
-void FederationExecution::Parts::announce(std::uint32_t slot, ObjectSlot at) {
+void FederationParts::announce(std::uint32_t slot, ObjectSlot at) {
   FederateInterest& interest = interest_.of(slot);
   const Object& object = objects_[at];
   if (!interest.known.contains(at)) {
@@ -186,7 +186,7 @@ void FederationExecution::Parts::announce(std::uint32_t slot, ObjectSlot at) {
 
 /// A message in time-stamp order is about to speak of it: it is announced, and its state told,
 /// before all else that this flush says.
-void FederationExecution::Parts::press(std::uint32_t slot, ObjectSlot object) {
+void FederationParts::press(std::uint32_t slot, ObjectSlot object) {
   FederateInterest& interest = interest_.of(slot);
   std::vector<std::byte>& control = federates_[slot].control;
   scratch_.swap(control);
@@ -200,7 +200,7 @@ void FederationExecution::Parts::press(std::uint32_t slot, ObjectSlot object) {
 
 /// Up to `end` bytes in `scratch_`. Their stamp is their owner's newest, not that of the update
 /// which said it: what they are was not changed until then.
-void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::size_t end) {
+void FederationParts::write_fresh_states(std::uint32_t slot, std::size_t end) {
   FederateInterest& interest = interest_.of(slot);
   if (!interest.has_fresh) return;
   bool is_whole = !interest.has_unannounced;
@@ -239,14 +239,14 @@ void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::siz
   counters_.entry_bytes_sent += scratch_.size() - before;
 }
 
-bool FederationExecution::Parts::holds_back(std::uint32_t slot, const Outlet& outlet) {
+bool FederationParts::holds_back(std::uint32_t slot, const Outlet& outlet) {
   if (runs_.empty() && !interest_.of(slot).has_fresh) return false;
   return buffering_->holds_back(slot, outlet.waiting_bytes(federates_[slot].connection));
 }
 
 /// What it would have heard of becomes due whole, as if it had come into scope: the newest state,
 /// once, however many updates there were.
-void FederationExecution::Parts::hold_back(std::uint32_t slot) {
+void FederationParts::hold_back(std::uint32_t slot) {
   FederateInterest& interest = interest_.of(slot);
   for (const UpdateRun& run : runs_) {
     if (run.owner == slot ||
@@ -261,7 +261,7 @@ void FederationExecution::Parts::hold_back(std::uint32_t slot) {
   }
 }
 
-void FederationExecution::Parts::gather_runs(std::uint32_t slot) {
+void FederationParts::gather_runs(std::uint32_t slot) {
   const FederateInterest& interest = interest_.of(slot);
   const std::size_t before = scratch_.size();
   for (const UpdateRun& run : runs_) {
@@ -290,8 +290,7 @@ void FederationExecution::Parts::gather_runs(std::uint32_t slot) {
   counters_.update_bytes_sent += scratch_.size() - before;
 }
 
-void FederationExecution::Parts::gather_run(const UpdateRun& run,
-                                            const FederateInterest& interest) {
+void FederationParts::gather_run(const UpdateRun& run, const FederateInterest& interest) {
   std::optional<RecordWriter> writer;
   for_each_record(run, interest, [&](std::size_t index) {
     if (!writer) {
@@ -304,8 +303,7 @@ void FederationExecution::Parts::gather_run(const UpdateRun& run,
   });
 }
 
-void FederationExecution::Parts::gather_cut_run(const UpdateRun& run,
-                                                const FederateInterest& interest) {
+void FederationParts::gather_cut_run(const UpdateRun& run, const FederateInterest& interest) {
   const ObjectClass& object_class = fom_.at(ObjectClassHandle{run.object_class});
   std::optional<UpdatesBlock> block;
   for_each_record(run, interest, [&](std::size_t index) {
@@ -326,12 +324,12 @@ void FederationExecution::Parts::gather_cut_run(const UpdateRun& run,
   });
 }
 
-void FederationExecution::Parts::take_scratch() {
+void FederationParts::take_scratch() {
   if (scratch_.size() > scratch_taken_) pieces_.push_back({{}, scratch_taken_, scratch_.size()});
   scratch_taken_ = scratch_.size();
 }
 
-void FederationExecution::Parts::add_shared(Bytes bytes) {
+void FederationParts::add_shared(Bytes bytes) {
   // A short block is cheaper copied than gathered, and a write takes only so many parts.
   constexpr std::size_t copied_max = 512, piece_max = 64;
   if (bytes.size() <= copied_max || pieces_.size() >= piece_max) {
@@ -343,7 +341,7 @@ void FederationExecution::Parts::add_shared(Bytes bytes) {
   counters_.update_bytes_sent += bytes.size();
 }
 
-void FederationExecution::Parts::send_pieces(Federate& federate, Outlet& outlet) {
+void FederationParts::send_pieces(Federate& federate, Outlet& outlet) {
   take_scratch();
   gathered_.clear();
   std::size_t size = 0;

@@ -8,7 +8,7 @@ namespace rink::rti {
 
 using Outcome = std::optional<Violation>;
 
-Outcome FederationExecution::Parts::register_point(Reader& reader, std::uint32_t slot) {
+Outcome FederationParts::register_point(Reader& reader, std::uint32_t slot) {
   RegisterSynchronizationPointMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   SynchronizationPoint point;
@@ -26,7 +26,7 @@ Outcome FederationExecution::Parts::register_point(Reader& reader, std::uint32_t
   return std::nullopt;
 }
 
-std::optional<SynchronizationFailure> FederationExecution::Parts::find_members(
+std::optional<SynchronizationFailure> FederationParts::find_members(
     const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const {
   std::size_t own = 0;
   for (const SynchronizationPoint& other : points_) {
@@ -50,11 +50,11 @@ std::optional<SynchronizationFailure> FederationExecution::Parts::find_members(
   return std::nullopt;
 }
 
-void FederationExecution::Parts::announce(const SynchronizationPoint& point, std::uint32_t slot) {
+void FederationParts::announce(const SynchronizationPoint& point, std::uint32_t slot) {
   say(federates_[slot].control, AnnounceSynchronizationPointMessage{point.label, point.tag});
 }
 
-Outcome FederationExecution::Parts::achieve_point(Reader& reader, std::uint32_t slot) {
+Outcome FederationParts::achieve_point(Reader& reader, std::uint32_t slot) {
   SynchronizationPointAchievedMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const auto point =
@@ -68,7 +68,7 @@ Outcome FederationExecution::Parts::achieve_point(Reader& reader, std::uint32_t 
   return std::nullopt;
 }
 
-void FederationExecution::Parts::join_points(std::uint32_t slot) {
+void FederationParts::join_points(std::uint32_t slot) {
   for (SynchronizationPoint& point : points_) {
     if (!point.is_for_all) continue;
     point.members.push_back(slot);
@@ -77,7 +77,7 @@ void FederationExecution::Parts::join_points(std::uint32_t slot) {
   }
 }
 
-void FederationExecution::Parts::leave_points(std::uint32_t slot) {
+void FederationParts::leave_points(std::uint32_t slot) {
   // Points outlive who registered them, but not so many that joining, registering and leaving over
   // and over grows for ever.
   auto left = std::ranges::count_if(
@@ -98,7 +98,7 @@ void FederationExecution::Parts::leave_points(std::uint32_t slot) {
   complete_points();
 }
 
-void FederationExecution::Parts::complete_points() {
+void FederationParts::complete_points() {
   for (const SynchronizationPoint& point : points_)
     if (point.awaited.empty())
       for (const std::uint32_t member : point.members)
@@ -108,19 +108,19 @@ void FederationExecution::Parts::complete_points() {
 }
 
 template <class Message>
-void FederationExecution::Parts::answer(ConnectionId connection, Message message) {
+void FederationParts::answer(ConnectionId connection, Message message) {
   if (answers_.empty() || answers_.back().connection != connection)
     answers_.push_back({connection, {}, {}});
   const std::vector<std::byte> frame = framed(message);
   answers_.back().bytes.insert(answers_.back().bytes.end(), frame.begin(), frame.end());
 }
 
-void FederationExecution::Parts::query_management(ConnectionId connection) {
+void FederationParts::query_management(ConnectionId connection) {
   if (!std::exchange(connections_[connection].questions.wants_report, true))
     management_queries_.push_back(connection);
 }
 
-void FederationExecution::Parts::send_answers(Outlet& outlet) {
+void FederationParts::send_answers(Outlet& outlet) {
   for (const Farewell& each : answers_) {
     const Bytes bytes = each.bytes;
     outlet.send(each.connection, std::span(&bytes, 1));
@@ -132,8 +132,8 @@ void FederationExecution::Parts::send_answers(Outlet& outlet) {
 }
 
 /// A host of one execution makes no others and keeps the one it has.
-Outcome FederationExecution::Parts::answer_stranger(ConnectionId connection, MessageKind kind,
-                                                    Reader& reader) {
+Outcome FederationParts::answer_stranger(ConnectionId connection, MessageKind kind,
+                                         Reader& reader) {
   CreateFederationExecutionMessage creation;
   DestroyFederationExecutionMessage destruction;
   Questions& questions = connections_[connection].questions;

@@ -13,8 +13,7 @@ constexpr std::size_t label_bytes_max = 30'000;
 }  // namespace
 
 /// An interaction whose receiver is the RTI itself; others may listen too.
-Outcome FederationExecution::Parts::take_management(std::uint32_t slot,
-                                                    const InteractionMessage& message) {
+Outcome FederationParts::take_management(std::uint32_t slot, const InteractionMessage& message) {
   const InteractionClassHandle asked{message.interaction_class};
   ManagementReader reader(message.parameters);
   if (asked == management_.set_switches) {
@@ -44,8 +43,8 @@ Outcome FederationExecution::Parts::take_management(std::uint32_t slot,
 
 /// To all who subscribe to the report; its bytes count as said by who asked for it, so that asking
 /// can't fill the queues of those who listen.
-void FederationExecution::Parts::report_to_all(std::uint32_t asking, InteractionClassHandle report,
-                                               Bytes parameters) {
+void FederationParts::report_to_all(std::uint32_t asking, InteractionClassHandle report,
+                                    Bytes parameters) {
   const std::span<const std::uint32_t> receivers = groups_->receivers(report.value, no_federate);
   InteractionMessage message{
       static_cast<std::uint16_t>(report.value), FederateHandle::none, {}, parameters};
@@ -61,9 +60,8 @@ void FederationExecution::Parts::report_to_all(std::uint32_t asking, Interaction
 /// One report for each class of which `set_of(class)` names attributes; one of no class if there is
 /// none.
 template <class SetOf, class Write>
-void FederationExecution::Parts::report_classes(std::uint32_t asking, std::uint32_t about,
-                                                InteractionClassHandle report, SetOf set_of,
-                                                Write write) {
+void FederationParts::report_classes(std::uint32_t asking, std::uint32_t about,
+                                     InteractionClassHandle report, SetOf set_of, Write write) {
   std::vector<std::uint32_t> classes;
   for (std::uint32_t i = 0; i < fom_.object_classes().size(); ++i)
     if (!set_of(i).is_empty()) classes.push_back(i);
@@ -84,9 +82,8 @@ void FederationExecution::Parts::report_classes(std::uint32_t asking, std::uint3
 }
 
 template <class IsNamed>
-void FederationExecution::Parts::report_interactions(std::uint32_t asking, std::uint32_t about,
-                                                     InteractionClassHandle report,
-                                                     IsNamed is_named) {
+void FederationParts::report_interactions(std::uint32_t asking, std::uint32_t about,
+                                          InteractionClassHandle report, IsNamed is_named) {
   std::vector<std::uint32_t> classes;
   for (std::uint32_t i = 0; i < fom_.interaction_classes().size(); ++i)
     if (is_named(i)) classes.push_back(i);
@@ -97,7 +94,7 @@ void FederationExecution::Parts::report_interactions(std::uint32_t asking, std::
   report_to_all(asking, report, parameters);
 }
 
-void FederationExecution::Parts::report_publications(std::uint32_t asking, std::uint32_t about) {
+void FederationParts::report_publications(std::uint32_t asking, std::uint32_t about) {
   const Federate& federate = federates_[about];
   report_classes(
       asking, about, management_.report_object_publication,
@@ -108,7 +105,7 @@ void FederationExecution::Parts::report_publications(std::uint32_t asking, std::
 }
 
 /// What it hears of each class, by that or a superclass, in whatever region.
-void FederationExecution::Parts::report_subscriptions(std::uint32_t asking, std::uint32_t about) {
+void FederationParts::report_subscriptions(std::uint32_t asking, std::uint32_t about) {
   const auto heard = [&](std::uint32_t i) {
     return i < fom_.object_classes().size()
                ? interest_.subscribed_anywhere(about, static_cast<std::uint16_t>(i))
@@ -126,7 +123,7 @@ void FederationExecution::Parts::report_subscriptions(std::uint32_t asking, std:
                       });
 }
 
-void FederationExecution::Parts::report_points(std::uint32_t asking) {
+void FederationParts::report_points(std::uint32_t asking) {
   std::vector<std::byte> labels, parameters;
   for (const SynchronizationPoint& each : points_)
     if (labels.size() + each.label.size() <= label_bytes_max)

@@ -11,14 +11,14 @@
 
 namespace rink::rti {
 
-bool FederationExecution::Parts::ManagementObjects::is_heard(const Parts& parts) {
+bool FederationParts::ManagementObjects::is_heard(const FederationParts& parts) {
   const auto heard = [&parts](ObjectClassHandle each) {
     return each && !parts.relevance_.of_others(no_federate, each.value).heard.is_empty();
   };
   return heard(parts.management_.federation) || heard(parts.management_.federate);
 }
 
-FederationExecution::Parts::ManagementObjects::ManagementObjects(Parts& parts)
+FederationParts::ManagementObjects::ManagementObjects(FederationParts& parts)
     : parts_(parts),
       federation_class_(parts.management_.federation),
       federate_class_(parts.management_.federate),
@@ -27,17 +27,17 @@ FederationExecution::Parts::ManagementObjects::ManagementObjects(Parts& parts)
   parts_.federates_[slot_].block = parts_.take_block();
 }
 
-bool FederationExecution::Parts::ManagementObjects::owns(ObjectSlot object) const {
+bool FederationParts::ManagementObjects::owns(ObjectSlot object) const {
   return parts_.objects_[object].owner == slot_;
 }
 
-FederationExecution::Parts::ManagementObjects::Told&
-FederationExecution::Parts::ManagementObjects::told_of(std::uint32_t slot) {
+FederationParts::ManagementObjects::Told& FederationParts::ManagementObjects::told_of(
+    std::uint32_t slot) {
   if (slot >= federates_.size()) federates_.resize(slot + 1);
   return federates_[slot];
 }
 
-void FederationExecution::Parts::ManagementObjects::subscribed(std::uint32_t slot) {
+void FederationParts::ManagementObjects::subscribed(std::uint32_t slot) {
   const bool was_heard = std::exchange(is_heard_, is_heard(parts_));
   if (is_heard_ && !was_heard) begin();
   if (!is_heard_ && was_heard) end();
@@ -51,19 +51,18 @@ void FederationExecution::Parts::ManagementObjects::subscribed(std::uint32_t slo
   for (Told& each : federates_) each.is_due = static_cast<bool>(each.object);
 }
 
-void FederationExecution::Parts::ManagementObjects::begin() {
+void FederationParts::ManagementObjects::begin() {
   add(federation_, federation_class_);
   for (std::uint32_t slot = 0; slot < parts_.federates_.size(); ++slot)
     if (parts_.federates_[slot].is_joined) add(told_of(slot), federate_class_);
 }
 
-void FederationExecution::Parts::ManagementObjects::end() {
+void FederationParts::ManagementObjects::end() {
   remove(federation_);
   for (Told& each : federates_) remove(each);
 }
 
-void FederationExecution::Parts::ManagementObjects::add(Told& told,
-                                                        ObjectClassHandle object_class) {
+void FederationParts::ManagementObjects::add(Told& told, ObjectClassHandle object_class) {
   Federate& self = parts_.federates_[slot_];
   if (self.objects_registered ==
       object_block) {  // those who come and go have used up all handles of the block
@@ -80,26 +79,25 @@ void FederationExecution::Parts::ManagementObjects::add(Told& told,
     slots_[told.object.value] = static_cast<std::uint32_t>(&told - federates_.data());
 }
 
-void FederationExecution::Parts::ManagementObjects::remove(Told& told) {
+void FederationParts::ManagementObjects::remove(Told& told) {
   if (told.object) parts_.delete_object(parts_.objects_.find(told.object));
   slots_.erase(told.object.value);
   told = {};
 }
 
-void FederationExecution::Parts::ManagementObjects::joined(std::uint32_t slot) {
+void FederationParts::ManagementObjects::joined(std::uint32_t slot) {
   if (!is_heard_) return;
   add(told_of(slot), federate_class_);
   federation_.is_due = true;
 }
 
-void FederationExecution::Parts::ManagementObjects::left(std::uint32_t slot) {
+void FederationParts::ManagementObjects::left(std::uint32_t slot) {
   if (!is_heard_) return;
   remove(told_of(slot));
   federation_.is_due = true;
 }
 
-void FederationExecution::Parts::ManagementObjects::ask(ObjectSlot object,
-                                                        AttributeSet attributes) {
+void FederationParts::ManagementObjects::ask(ObjectSlot object, AttributeSet attributes) {
   const auto slot = slots_.find(parts_.objects_[object].handle.value);
   Told& told = slot == slots_.end() ? federation_ : federates_[slot->second];
   if (told.object != parts_.objects_[object].handle) return;
@@ -108,7 +106,7 @@ void FederationExecution::Parts::ManagementObjects::ask(ObjectSlot object,
                 parts_.fom_.attributes(ObjectClassHandle{parts_.objects_[object].object_class}));
 }
 
-void FederationExecution::Parts::ManagementObjects::tell() {
+void FederationParts::ManagementObjects::tell() {
   if (!is_heard_) return;
   has_counted_ = false;
   if (federation_.is_due || !federation_.asked.is_empty()) tell_federation();
@@ -123,13 +121,13 @@ void FederationExecution::Parts::ManagementObjects::tell() {
   }
 }
 
-unsigned FederationExecution::Parts::ManagementObjects::state_of(std::uint32_t slot) const {
+unsigned FederationParts::ManagementObjects::state_of(std::uint32_t slot) const {
   if (!parts_.time_) return 0;
   const TimeManagement& management = parts_.time_->management();
   return (management.is_constrained(slot) ? 1u : 0u) | (management.is_regulating(slot) ? 2u : 0u);
 }
 
-void FederationExecution::Parts::ManagementObjects::begin_values(ObjectClassHandle object_class) {
+void FederationParts::ManagementObjects::begin_values(ObjectClassHandle object_class) {
   values_.clear();
   const ObjectClassHandle manager = parts_.fom_.at(object_class).parent;
   ends_.assign(parts_.fom_.at(manager).attributes.size(),
@@ -137,13 +135,13 @@ void FederationExecution::Parts::ManagementObjects::begin_values(ObjectClassHand
 }
 
 template <class Write>
-void FederationExecution::Parts::ManagementObjects::value(Write write) {
+void FederationParts::ManagementObjects::value(Write write) {
   write(ManagementWriter(values_));
   ends_.push_back(values_.size());
 }
 
 /// In the order of the class's attributes (management_classes.cpp).
-void FederationExecution::Parts::ManagementObjects::tell_federation() {
+void FederationParts::ManagementObjects::tell_federation() {
   std::vector<std::uint32_t> joined;
   for (const Federate& each : parts_.federates_)
     if (each.is_joined) joined.push_back(each.handle.value);
@@ -158,7 +156,7 @@ void FederationExecution::Parts::ManagementObjects::tell_federation() {
   update(federation_);
 }
 
-void FederationExecution::Parts::ManagementObjects::tell_federate(std::uint32_t slot, Told& told) {
+void FederationParts::ManagementObjects::tell_federate(std::uint32_t slot, Told& told) {
   if (!std::exchange(has_counted_, true)) deletable_ = parts_.count_deletable();
   const Federate& federate = parts_.federates_[slot];
   told.state = state_of(slot);
@@ -191,7 +189,7 @@ void FederationExecution::Parts::ManagementObjects::tell_federate(std::uint32_t 
   update(told);
 }
 
-void FederationExecution::Parts::ManagementObjects::update(Told& told) {
+void FederationParts::ManagementObjects::update(Told& told) {
   const ObjectSlot slot = parts_.objects_.find(told.object);
   const Object& object = parts_.objects_[slot];
   changed_.clear();

@@ -12,9 +12,9 @@ namespace rink::rti {
 /// while nobody does, there is no object and nothing is worked out. It has a slot among the
 /// federates, as the owner of objects, but has not joined: it is sent nothing, and nobody counts
 /// it.
-class FederationExecution::Parts::ManagementObjects {
+class FederationParts::ManagementObjects {
  public:
-  explicit ManagementObjects(Parts& parts);
+  explicit ManagementObjects(FederationParts& parts);
 
   /// Somebody's subscriptions changed: to whom it now hears anything, everything is up to date at
   /// the next flush.
@@ -33,7 +33,7 @@ class FederationExecution::Parts::ManagementObjects {
   void ask(ObjectSlot object, AttributeSet attributes);
   /// Once per flush, before it.
   void tell();
-  static bool is_heard(const Parts& parts);
+  static bool is_heard(const FederationParts& parts);
 
  private:
   /// One object of ours.
@@ -59,7 +59,7 @@ class FederationExecution::Parts::ManagementObjects {
   template <class Write>
   void value(Write write);
 
-  Parts& parts_;
+  FederationParts& parts_;
   ObjectClassHandle federation_class_, federate_class_;
   std::uint32_t slot_;
   bool is_heard_ = false;

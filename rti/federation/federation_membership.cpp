@@ -36,9 +36,9 @@ std::unique_ptr<Buffering> buffering_of(const FederationServices& services) {
 
 }  // namespace
 
-FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& settings,
-                                  const FederationServices& services,
-                                  std::unique_ptr<im::Filter> filter)
+FederationParts::FederationParts(const Fom& fom, const FederationSettings& settings,
+                                 const FederationServices& services,
+                                 std::unique_ptr<im::Filter> filter)
     : fom_(fom),
       settings_(settings),
       make_time_management_(services.time_management),
@@ -55,14 +55,14 @@ FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& sett
   list_best_effort();
 }
 
-void FederationExecution::Parts::connect(ConnectionId connection) {
+void FederationParts::connect(ConnectionId connection) {
   if (connection >= connections_.size()) connections_.resize(connection + 1);
   connections_[connection] = {};
   connections_[connection].phase = Phase::connected;
   connections_[connection].last_heard = now_;
 }
 
-void FederationExecution::Parts::disconnect(ConnectionId connection, std::string_view) {
+void FederationParts::disconnect(ConnectionId connection, std::string_view) {
   if (connection >= connections_.size()) return;
   if (connections_[connection].phase == Phase::joined)
     remove_federate(connections_[connection].federate, ResignReason::lost);
@@ -72,7 +72,7 @@ void FederationExecution::Parts::disconnect(ConnectionId connection, std::string
                   [connection](const Farewell& each) { return each.connection == connection; });
 }
 
-void FederationExecution::Parts::advance_clock(double now) {
+void FederationParts::advance_clock(double now) {
   now_ = now;
   for (ConnectionId id = 0; id < connections_.size(); ++id) {
     Connection& connection = connections_[id];
@@ -84,8 +84,8 @@ void FederationExecution::Parts::advance_clock(double now) {
   }
 }
 
-void FederationExecution::Parts::expel(ConnectionId connection, Violation violation,
-                                       ResignReason reason, std::string_view why) {
+void FederationParts::expel(ConnectionId connection, Violation violation, ResignReason reason,
+                            std::string_view why) {
   ++counters_.drops[static_cast<std::size_t>(violation)];
   // A stranger who breaks a rule gets no answer: it may be another program altogether.
   const bool was_joined = connections_[connection].phase == Phase::joined;
@@ -95,8 +95,7 @@ void FederationExecution::Parts::expel(ConnectionId connection, Violation violat
                         was_joined ? framed(ExpelledMessage{why}) : std::vector<std::byte>()});
 }
 
-FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionId connection,
-                                                                     Reader& reader) {
+FederationParts::Outcome FederationParts::join(ConnectionId connection, Reader& reader) {
   JoinMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.version != protocol_version)
@@ -121,8 +120,7 @@ FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionI
   return std::nullopt;
 }
 
-void FederationExecution::Parts::refuse(ConnectionId connection, Refusal refusal,
-                                        const std::string& why) {
+void FederationParts::refuse(ConnectionId connection, Refusal refusal, const std::string& why) {
   expel(connection, Violation::refused, ResignReason::misbehaved, why);
   std::vector<std::byte>& bytes = farewells_.back().bytes;
   if (refusal == Refusal::wrong_fom) bytes = framed_digest();
@@ -133,7 +131,7 @@ void FederationExecution::Parts::refuse(ConnectionId connection, Refusal refusal
 
 /// The federate finds out from the digest where its own model differs; nothing of a model too large
 /// for one.
-std::vector<std::byte> FederationExecution::Parts::framed_digest() const {
+std::vector<std::byte> FederationParts::framed_digest() const {
   const std::vector<FomDigestEntry> entries = digest(fom_);
   if (entries.size() > FomDigestMessage::count_max) return {};
   return framed(FomDigestMessage{static_cast<std::uint16_t>(entries.size()),
@@ -141,8 +139,7 @@ std::vector<std::byte> FederationExecution::Parts::framed_digest() const {
 }
 
 /// Nothing if it has left, or there was none of that handle.
-std::optional<std::uint32_t> FederationExecution::Parts::joined_slot(
-    FederateHandle federate) const {
+std::optional<std::uint32_t> FederationParts::joined_slot(FederateHandle federate) const {
   if (federate.value >= slot_of_handle_.size()) return std::nullopt;
   const std::uint32_t slot = slot_of_handle_[federate.value];
   return slot < federates_.size() && federates_[slot].is_joined &&
@@ -151,7 +148,7 @@ std::optional<std::uint32_t> FederationExecution::Parts::joined_slot(
              : std::nullopt;
 }
 
-std::uint32_t FederationExecution::Parts::take_federate_slot() {
+std::uint32_t FederationParts::take_federate_slot() {
   if (free_federates_.empty()) {
     federates_.emplace_back();
     return static_cast<std::uint32_t>(federates_.size() - 1);
@@ -161,14 +158,14 @@ std::uint32_t FederationExecution::Parts::take_federate_slot() {
   return slot;
 }
 
-std::uint32_t FederationExecution::Parts::take_block() {
+std::uint32_t FederationParts::take_block() {
   if (free_blocks_.empty()) return next_block_++;
   const std::uint32_t block = free_blocks_.back();
   free_blocks_.pop_back();
   return block;
 }
 
-void FederationExecution::Parts::admit(ConnectionId connection, const JoinMessage& message) {
+void FederationParts::admit(ConnectionId connection, const JoinMessage& message) {
   const std::uint32_t slot = take_federate_slot();
   Federate& federate = federates_[slot] = {};
   federate.is_joined = true;
@@ -199,7 +196,7 @@ void FederationExecution::Parts::admit(ConnectionId connection, const JoinMessag
   if (management_objects_) management_objects_->joined(slot);
 }
 
-void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReason reason) {
+void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
   Federate& federate = federates_[slot];
   leave_objects(slot);
   interest_.remove_federate(slot);
@@ -228,7 +225,7 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
   free_federates_.push_back(slot);
 }
 
-FederationExecution::Parts::Outcome FederationExecution::Parts::watch(Federate& federate) {
+FederationParts::Outcome FederationParts::watch(Federate& federate) {
   if (federate.is_watching) return std::nullopt;
   federate.is_watching = true;
   for (const Federate& other : federates_)

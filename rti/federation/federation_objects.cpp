@@ -15,8 +15,7 @@ std::string as_text(Bytes bytes) {
 }
 }  // namespace
 
-Outcome FederationExecution::Parts::take_object_request(std::uint32_t slot, MessageKind kind,
-                                                        Reader& reader) {
+Outcome FederationParts::take_object_request(std::uint32_t slot, MessageKind kind, Reader& reader) {
   switch (kind) {
     case MessageKind::instance_names:
       return take_names(slot, reader);
@@ -32,7 +31,7 @@ Outcome FederationExecution::Parts::take_object_request(std::uint32_t slot, Mess
 }
 
 /// A set is granted whole or not at all (6.5).
-Outcome FederationExecution::Parts::take_names(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::take_names(std::uint32_t slot, Reader& reader) {
   InstanceNamesMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const FederateHandle federate = federates_[slot].handle;
@@ -66,14 +65,14 @@ Outcome FederationExecution::Parts::take_names(std::uint32_t slot, Reader& reade
   return std::nullopt;
 }
 
-void FederationExecution::Parts::answer_names(std::uint32_t slot, NameAnswer answer, Bytes names) {
+void FederationParts::answer_names(std::uint32_t slot, NameAnswer answer, Bytes names) {
   say(federates_[slot].control,
       InstanceNamesAnswerMessage{static_cast<std::uint8_t>(answer), names});
 }
 
 /// For an object that is being registered: its sender's reservation, or a name that is free. Else
 /// its sender is told.
-bool FederationExecution::Parts::take_name(std::uint32_t slot, std::string_view name) {
+bool FederationParts::take_name(std::uint32_t slot, std::string_view name) {
   const auto [found, is_new] = instance_names_.emplace(name, FederateHandle{});
   if ((is_new && !name.starts_with("HLA")) ||
       (!is_new && found->second && found->second == federates_[slot].handle)) {
@@ -88,14 +87,14 @@ bool FederationExecution::Parts::take_name(std::uint32_t slot, std::string_view 
 }
 
 /// What it reserved and did not use is free again.
-void FederationExecution::Parts::leave_names(std::uint32_t slot) {
+void FederationParts::leave_names(std::uint32_t slot) {
   const FederateHandle federate = federates_[slot].handle;
   std::erase_if(instance_names_,
                 [federate](const auto& each) { return each.second && each.second == federate; });
 }
 
 /// Its confirmation comes before whatever makes the object discovered anew.
-Outcome FederationExecution::Parts::delete_locally(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::delete_locally(std::uint32_t slot, Reader& reader) {
   LocalDeleteMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
@@ -111,7 +110,7 @@ Outcome FederationExecution::Parts::delete_locally(std::uint32_t slot, Reader& r
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::request_update(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::request_update(std::uint32_t slot, Reader& reader) {
   RequestUpdateMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const AttributeSet attributes{message.attributes};
@@ -135,8 +134,8 @@ Outcome FederationExecution::Parts::request_update(std::uint32_t slot, Reader& r
 }
 
 /// Nobody is asked for what is its own.
-void FederationExecution::Parts::ask_owners(std::uint32_t slot, ObjectSlot object,
-                                            AttributeSet attributes, Bytes tag) {
+void FederationParts::ask_owners(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
+                                 Bytes tag) {
   if (attributes.is_empty()) return;
   const Object& asked = objects_[object];
   if (management_objects_ && management_objects_->owns(object))
@@ -156,7 +155,7 @@ void FederationExecution::Parts::ask_owners(std::uint32_t slot, ObjectSlot objec
 
 /// Those that may travel by datagram: what the model says may become reliable, and only what it
 /// says travels so at all.
-AttributeSet FederationExecution::Parts::by_datagram(ObjectSlot object) const {
+AttributeSet FederationParts::by_datagram(ObjectSlot object) const {
   const AttributeSet* changed = changed_transportation_.size() > 0
                                     ? changed_transportation_.find(objects_[object].handle)
                                     : nullptr;
@@ -164,7 +163,7 @@ AttributeSet FederationExecution::Parts::by_datagram(ObjectSlot object) const {
   return changed != nullptr ? *changed & best_effort : best_effort;
 }
 
-Outcome FederationExecution::Parts::change_transportation(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::change_transportation(std::uint32_t slot, Reader& reader) {
   ChangeTransportationMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const auto transportation = static_cast<Transportation>(message.transportation);
@@ -197,7 +196,7 @@ Outcome FederationExecution::Parts::change_transportation(std::uint32_t slot, Re
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::query_transportation(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::query_transportation(std::uint32_t slot, Reader& reader) {
   QueryTransportationMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   TransportationMessage answer{message.is_interaction, 0, message.number, message.which, 0};

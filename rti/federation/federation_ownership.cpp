@@ -48,8 +48,7 @@ bool carries_tag(OwnershipRequest request, OwnershipEvent::Kind kind) {
 
 }  // namespace
 
-Outcome FederationExecution::Parts::take_ownership(std::uint32_t slot, MessageKind kind,
-                                                   Reader& reader) {
+Outcome FederationParts::take_ownership(std::uint32_t slot, MessageKind kind, Reader& reader) {
   if (kind == MessageKind::query_ownership) return query_ownership(slot, reader);
   if (kind == MessageKind::resign_directive) {
     ResignDirectiveMessage message;
@@ -67,26 +66,25 @@ Outcome FederationExecution::Parts::take_ownership(std::uint32_t slot, MessageKi
   return is_read || outcome ? outcome : Violation::malformed;
 }
 
-bool FederationExecution::Parts::is_known_to(std::uint32_t slot, ObjectSlot object) const {
+bool FederationParts::is_known_to(std::uint32_t slot, ObjectSlot object) const {
   return objects_[object].owner == slot || interest_.of(slot).known.contains(object) ||
          !ownership_.owned_by(slot, object).is_empty();
 }
 
-Outcome FederationExecution::Parts::find_known(std::uint32_t slot, ObjectHandle handle,
-                                               ObjectSlot& object) {
+Outcome FederationParts::find_known(std::uint32_t slot, ObjectHandle handle, ObjectSlot& object) {
   object = objects_.find(handle);
   if (object != no_object) return is_known_to(slot, object) ? Outcome() : Violation::unknown_name;
   return is_late(handle) ? Outcome() : Violation::unknown_name;
 }
 
-AttributeSet FederationExecution::Parts::acquirable(std::uint32_t slot, ObjectSlot object) const {
+AttributeSet FederationParts::acquirable(std::uint32_t slot, ObjectSlot object) const {
   const AttributeSet published = federates_[slot].published[objects_[object].object_class];
   return published.is_empty() ? published : published | AttributeSet{privilege_to_delete_object};
 }
 
-Outcome FederationExecution::Parts::take_ownership_request(std::uint32_t slot,
-                                                           const OwnershipRequestMessage& message,
-                                                           ObjectHandle handle) {
+Outcome FederationParts::take_ownership_request(std::uint32_t slot,
+                                                const OwnershipRequestMessage& message,
+                                                ObjectHandle handle) {
   ObjectSlot object = no_object;
   if (const Outcome outcome = find_known(slot, handle, object); outcome || object == no_object)
     return outcome;
@@ -103,9 +101,9 @@ Outcome FederationExecution::Parts::take_ownership_request(std::uint32_t slot,
   return std::nullopt;
 }
 
-void FederationExecution::Parts::serve_ownership(std::uint32_t slot, ObjectSlot object,
-                                                 OwnershipRequest request, AttributeSet attributes,
-                                                 Bytes tag) {
+void FederationParts::serve_ownership(std::uint32_t slot, ObjectSlot object,
+                                      OwnershipRequest request, AttributeSet attributes,
+                                      Bytes tag) {
   const Stamp newest = newest_of(object);
   const AttributeSet before = ownership_.owned_by(slot, object);
   if (objects_[object].owner == slot)
@@ -145,9 +143,8 @@ void FederationExecution::Parts::serve_ownership(std::uint32_t slot, ObjectSlot 
 
 /// A confirmation without anybody to take it any more (who wanted it cancelled or left) gives the
 /// attributes back, as does a divestiture of what nobody wants.
-void FederationExecution::Parts::give_ownership(std::uint32_t slot, ObjectSlot object,
-                                                OwnershipRequest request, AttributeSet attributes,
-                                                Bytes tag) {
+void FederationParts::give_ownership(std::uint32_t slot, ObjectSlot object,
+                                     OwnershipRequest request, AttributeSet attributes, Bytes tag) {
   const Stamp newest = newest_of(object);
   const bool is_confirmation = request == OwnershipRequest::confirm;
   const AttributeSet given =
@@ -163,7 +160,7 @@ void FederationExecution::Parts::give_ownership(std::uint32_t slot, ObjectSlot o
   notify(slot, OwnershipNotice::kept_offered, handle, offered, {});
 }
 
-void FederationExecution::Parts::ownership_moved(ObjectSlot object, const Stamp& newest) {
+void FederationParts::ownership_moved(ObjectSlot object, const Stamp& newest) {
   if (object >= inherited_.size()) inherited_.resize(objects_.slot_count());
   inherited_[object] = newest;
   interest_.owner_changed(object);
@@ -171,7 +168,7 @@ void FederationExecution::Parts::ownership_moved(ObjectSlot object, const Stamp&
 }
 
 /// The newest stamp of its owner, but not older than what a former owner said.
-Stamp FederationExecution::Parts::newest_of(ObjectSlot object) const {
+Stamp FederationParts::newest_of(ObjectSlot object) const {
   const std::uint32_t owner = objects_[object].owner;
   if (inherited_.empty() && owner != no_federate) return federates_[owner].newest;
   Stamp newest = object < inherited_.size() ? inherited_[object] : Stamp();
@@ -183,8 +180,8 @@ Stamp FederationExecution::Parts::newest_of(ObjectSlot object) const {
   return newest;
 }
 
-void FederationExecution::Parts::notify(std::uint32_t slot, OwnershipNotice notice,
-                                        ObjectHandle object, AttributeSet attributes, Bytes tag) {
+void FederationParts::notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object,
+                             AttributeSet attributes, Bytes tag) {
   if (attributes.is_empty()) return;
   Federate& federate = federates_[slot];
   federate.tail_block.append(
@@ -194,9 +191,8 @@ void FederationExecution::Parts::notify(std::uint32_t slot, OwnershipNotice noti
   ++counters_.ownership_notices_sent;
 }
 
-void FederationExecution::Parts::say_ownership(std::uint32_t slot, ObjectSlot object,
-                                               OwnershipRequest request, Ownership::Events events,
-                                               Bytes tag, const Stamp& newest) {
+void FederationParts::say_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
+                                    Ownership::Events events, Bytes tag, const Stamp& newest) {
   for (const OwnershipEvent& each : events) {
     const Bytes words = carries_tag(request, each.kind) ? tag : Bytes();
     if (each.kind == OwnershipEvent::Kind::offered) {
@@ -211,8 +207,8 @@ void FederationExecution::Parts::say_ownership(std::uint32_t slot, ObjectSlot ob
   }
 }
 
-void FederationExecution::Parts::offer_to_all(std::uint32_t from, ObjectSlot object,
-                                              AttributeSet attributes, Bytes tag) {
+void FederationParts::offer_to_all(std::uint32_t from, ObjectSlot object, AttributeSet attributes,
+                                   Bytes tag) {
   for (std::uint32_t i = 0; i < federates_.size(); ++i)
     if (i != from && federates_[i].is_joined && is_known_to(i, object))
       notify(i, OwnershipNotice::assumption_requested, objects_[object].handle,
@@ -220,8 +216,8 @@ void FederationExecution::Parts::offer_to_all(std::uint32_t from, ObjectSlot obj
 }
 
 /// To one who may own them since just now: it has published, or discovered the object.
-void FederationExecution::Parts::offer_to(std::uint32_t slot, ObjectSlot object,
-                                          AttributeSet newly_published) {
+void FederationParts::offer_to(std::uint32_t slot, ObjectSlot object,
+                               AttributeSet newly_published) {
   const AttributeSet others = ownership_.offered(object)
                                   .without(ownership_.confirming(object))
                                   .without(ownership_.owned_by(slot, object));
@@ -235,8 +231,7 @@ void FederationExecution::Parts::offer_to(std::uint32_t slot, ObjectSlot object,
 /// The newest state reaches the new owner before the notification. After it comes nothing more, for
 /// what one owns is out of one's scope: neither what was said this tick nor what buffering held
 /// back.
-void FederationExecution::Parts::say_last_state(std::uint32_t slot, ObjectSlot object,
-                                                const Stamp& newest) {
+void FederationParts::say_last_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest) {
   const Object& moved = objects_[object];
   const AttributeSet set = interest_.of(slot).told(object, moved.object_class) & moved.valued;
   if (set.is_empty()) return;
@@ -252,7 +247,7 @@ void FederationExecution::Parts::say_last_state(std::uint32_t slot, ObjectSlot o
   counters_.update_bytes_sent += bytes.size() - before;
 }
 
-Outcome FederationExecution::Parts::query_ownership(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::query_ownership(std::uint32_t slot, Reader& reader) {
   QueryOwnershipMessage message;
   ObjectSlot object = no_object;
   if (!exchange(reader, message)) return Violation::malformed;
@@ -270,8 +265,8 @@ Outcome FederationExecution::Parts::query_ownership(std::uint32_t slot, Reader& 
 
 /// Publishing less gives up what it owns of it (5.3); publishing more, it may be asked to take what
 /// has no owner.
-void FederationExecution::Parts::published_changed(std::uint32_t slot, std::uint16_t object_class,
-                                                   AttributeSet before) {
+void FederationParts::published_changed(std::uint32_t slot, std::uint16_t object_class,
+                                        AttributeSet before) {
   const AttributeSet now = federates_[slot].published[object_class];
   AttributeSet lost = before.without(now), won = now.without(before);
   if (now.is_empty()) lost.insert(privilege_to_delete_object);
@@ -290,7 +285,7 @@ void FederationExecution::Parts::published_changed(std::uint32_t slot, std::uint
   });
 }
 
-void FederationExecution::Parts::leave_objects(std::uint32_t slot) {
+void FederationParts::leave_objects(std::uint32_t slot) {
   const ResignAction action = federates_[slot].resign_action;
   const bool is_deleting = deletes(action);
   ownership_.forget_claims(slot);

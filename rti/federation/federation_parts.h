@@ -11,13 +11,16 @@
 #include "rti/baselines/baselines.h"
 #include "rti/buffering/buffering.h"
 #include "rti/buffering/datagram_batch.h"
+#include "rti/central_component.h"
 #include "rti/distribution/relevance.h"
 #include "rti/federation/datagram_way.h"
 #include "rti/federation/federation_connection.h"
 #include "rti/federation/joined_federate.h"
 #include "rti/federation/synchronization_point.h"
-#include "rti/federation_execution.h"
+#include "rti/federation_counters.h"
 #include "rti/federation_services.h"
+#include "rti/federation_settings.h"
+#include "rti/management/federation_report.h"
 #include "rti/management/management_handles.h"
 #include "rti/objects/object_map.h"
 #include "rti/objects/object_table.h"
@@ -33,11 +36,11 @@ namespace rink::rti {
 /// What an interaction costs beside its parameters, roughly.
 inline constexpr std::size_t interaction_head = 16;
 
-class FederationExecution::Parts {
+class FederationParts {
  public:
-  Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services,
-        std::unique_ptr<im::Filter> filter);
-  ~Parts();
+  FederationParts(const Fom& fom, const FederationSettings& settings,
+                  const FederationServices& services, std::unique_ptr<im::Filter> filter);
+  ~FederationParts();
 
   using Federate = JoinedFederate;
   using Connection = FederationConnection;
@@ -342,7 +345,7 @@ class FederationExecution::Parts {
 };
 
 template <class Visit>
-void FederationExecution::Parts::for_each_owned(std::uint32_t slot, Visit visit) {
+void FederationParts::for_each_owned(std::uint32_t slot, Visit visit) {
   if (!has_ownership_moved_) {
     for (const std::uint32_t block : federates_[slot].former_blocks)
       objects_.for_each_in_block(block, visit);

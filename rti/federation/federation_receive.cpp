@@ -11,7 +11,7 @@ namespace rink::rti {
 
 using Outcome = std::optional<Violation>;
 
-void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
+void FederationParts::receive(ConnectionId id, Bytes bytes) {
   if (id >= connections_.size() || connections_[id].phase == Phase::unknown) return;
   counters_.bytes_received += bytes.size();
   // A stranger's frame counts when it is whole: one byte now and then says nothing.
@@ -46,7 +46,7 @@ void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
   }
 }
 
-Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {
+Outcome FederationParts::take_frame(ConnectionId id, Bytes frame) {
   ++counters_.frames_received;
   connections_[id].has_spoken = true;
   if (connections_[id].phase == Phase::joined) {
@@ -75,8 +75,7 @@ Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t slot,
-                                                 Reader& reader) {
+Outcome FederationParts::take_message(ConnectionId id, std::uint32_t slot, Reader& reader) {
   std::uint8_t number = 0;
   reader.number(number);
   const auto kind = static_cast<MessageKind>(number);
@@ -148,8 +147,7 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
   }
 }
 
-Outcome FederationExecution::Parts::take_object(std::uint32_t slot, MessageKind kind,
-                                                Reader& reader) {
+Outcome FederationParts::take_object(std::uint32_t slot, MessageKind kind, Reader& reader) {
   if (kind == MessageKind::register_object) return register_object(slot, reader);
   if (kind == MessageKind::delete_object) return delete_object(slot, reader);
   if (kind == MessageKind::updates) return take_updates(slot, reader);
@@ -158,7 +156,7 @@ Outcome FederationExecution::Parts::take_object(std::uint32_t slot, MessageKind 
   return take_interaction(slot, reader);
 }
 
-Outcome FederationExecution::Parts::register_object(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::register_object(std::uint32_t slot, Reader& reader) {
   RegisterObjectMessage message;
   Federate& federate = federates_[slot];
   if (!exchange(reader, message)) return Violation::malformed;
@@ -188,7 +186,7 @@ Outcome FederationExecution::Parts::register_object(std::uint32_t slot, Reader& 
   return std::nullopt;
 }
 
-std::size_t FederationExecution::Parts::registered_alive(const Federate& federate) const {
+std::size_t FederationParts::registered_alive(const Federate& federate) const {
   std::size_t count = objects_.alive_in(federate.block);
   for (const std::uint32_t block : federate.former_blocks) count += objects_.alive_in(block);
   return count;
@@ -196,7 +194,7 @@ std::size_t FederationExecution::Parts::registered_alive(const Federate& federat
 
 /// Goes on in the block that it was given. Without one it stays where it is, and its next handle is
 /// none of its own.
-void FederationExecution::Parts::extend_block(Federate& federate) {
+void FederationParts::extend_block(Federate& federate) {
   if (!federate.further_block) return;
   objects_.close_block(federate.block);
   federate.former_blocks.push_back(federate.block);
@@ -205,12 +203,12 @@ void FederationExecution::Parts::extend_block(Federate& federate) {
 }
 
 /// Its registrar hears that it is removed; what it says of it meanwhile is late and no crime.
-void FederationExecution::Parts::refuse_object(std::uint32_t slot, ObjectHandle object) {
+void FederationParts::refuse_object(std::uint32_t slot, ObjectHandle object) {
   objects_.pass_over(object);
   say(federates_[slot].tail, RemoveObjectMessage{object.value});
 }
 
-Outcome FederationExecution::Parts::delete_object(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::delete_object(std::uint32_t slot, Reader& reader) {
   DeleteObjectMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
@@ -223,13 +221,13 @@ Outcome FederationExecution::Parts::delete_object(std::uint32_t slot, Reader& re
   return std::nullopt;
 }
 
-bool FederationExecution::Parts::is_late(ObjectHandle handle) {
+bool FederationParts::is_late(ObjectHandle handle) {
   const bool was_here = objects_.was_registered(handle);
   counters_.late_requests += was_here ? 1u : 0u;
   return was_here;
 }
 
-void FederationExecution::Parts::delete_object(ObjectSlot object) {
+void FederationParts::delete_object(ObjectSlot object) {
   interest_.object_deleted(object);
   ownership_.forget(object);
   if (object < inherited_.size()) inherited_[object] = {};
@@ -248,14 +246,14 @@ void FederationExecution::Parts::delete_object(ObjectSlot object) {
   objects_.erase(object);
 }
 
-Outcome FederationExecution::Parts::take_stamp(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::take_stamp(std::uint32_t slot, Reader& reader) {
   StampMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   federates_[slot].stamp = message.stamp;
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::take_updates(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::take_updates(std::uint32_t slot, Reader& reader) {
   UpdatesMessage message;
   if (!exchange(reader, message) || !federates_[slot].stamp) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
@@ -274,8 +272,8 @@ Outcome FederationExecution::Parts::take_updates(std::uint32_t slot, Reader& rea
   return is_read || outcome ? outcome : Violation::malformed;
 }
 
-Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const UpdatesMessage& message,
-                                                ObjectHandle handle, Bytes values) {
+Outcome FederationParts::take_update(std::uint32_t slot, const UpdatesMessage& message,
+                                     ObjectHandle handle, Bytes values) {
   const ObjectSlot object = objects_.find(handle);
   if (object == no_object && is_late(handle)) return std::nullopt;
   if (object == no_object || objects_[object].object_class != message.object_class)
@@ -292,9 +290,8 @@ Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const Update
   return std::nullopt;
 }
 
-void FederationExecution::Parts::store_update(std::uint32_t slot, ObjectSlot object,
-                                              AttributeSet attributes, const Stamp& stamp,
-                                              Bytes values) {
+void FederationParts::store_update(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
+                                   const Stamp& stamp, Bytes values) {
   Federate& owner = federates_[slot];
   if (stamp.time >= owner.newest.time) owner.newest = stamp;  // a datagram may be late
   objects_.store(object, attributes, values);
@@ -304,7 +301,7 @@ void FederationExecution::Parts::store_update(std::uint32_t slot, ObjectSlot obj
   ++owner.counts.updates_sent;
 }
 
-Outcome FederationExecution::Parts::take_interaction(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::take_interaction(std::uint32_t slot, Reader& reader) {
   InteractionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.interaction_class >= fom_.interaction_classes().size())
@@ -312,9 +309,8 @@ Outcome FederationExecution::Parts::take_interaction(std::uint32_t slot, Reader&
   return deliver_interaction(slot, message);
 }
 
-Outcome FederationExecution::Parts::deliver_interaction(std::uint32_t slot,
-                                                        InteractionMessage& message,
-                                                        std::span<const RegionHandle> regions) {
+Outcome FederationParts::deliver_interaction(std::uint32_t slot, InteractionMessage& message,
+                                             std::span<const RegionHandle> regions) {
   if (!federates_[slot].published_interactions[message.interaction_class])
     return Violation::undeclared;
   ++counters_.interactions_received;

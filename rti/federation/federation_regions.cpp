@@ -31,8 +31,7 @@ std::vector<RegionHandle> regions_of(Bytes bytes) {
 
 }  // namespace
 
-Outcome FederationExecution::Parts::take_region(std::uint32_t slot, MessageKind kind,
-                                                Reader& reader) {
+Outcome FederationParts::take_region(std::uint32_t slot, MessageKind kind, Reader& reader) {
   switch (kind) {
     case MessageKind::modify_regions:
       return modify_regions(slot, reader);
@@ -55,8 +54,8 @@ Outcome FederationExecution::Parts::take_region(std::uint32_t slot, MessageKind 
   }
 }
 
-Outcome FederationExecution::Parts::create_or_delete_region(std::uint32_t slot, MessageKind kind,
-                                                            Reader& reader) {
+Outcome FederationParts::create_or_delete_region(std::uint32_t slot, MessageKind kind,
+                                                 Reader& reader) {
   CreateRegionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const RegionHandle region{message.region};
@@ -69,7 +68,7 @@ Outcome FederationExecution::Parts::create_or_delete_region(std::uint32_t slot, 
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::create_region_over(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::create_region_over(std::uint32_t slot, Reader& reader) {
   CreateRegionOverMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const DimensionSet dimensions{message.dimensions};
@@ -80,14 +79,14 @@ Outcome FederationExecution::Parts::create_region_over(std::uint32_t slot, Reade
                                   : Violation::unknown_name;
 }
 
-Outcome FederationExecution::Parts::create_region(std::uint32_t slot, RegionHandle region,
-                                                  DimensionSet dimensions) {
+Outcome FederationParts::create_region(std::uint32_t slot, RegionHandle region,
+                                       DimensionSet dimensions) {
   if (!interest_.create_region(slot, region, dimensions)) return Violation::unknown_name;
   ++federates_[slot].counts.regions;
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::modify_regions(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::modify_regions(std::uint32_t slot, Reader& reader) {
   ModifyRegionsMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   return for_each_record<RegionBounds>(
@@ -98,7 +97,7 @@ Outcome FederationExecution::Parts::modify_regions(std::uint32_t slot, Reader& r
       });
 }
 
-Outcome FederationExecution::Parts::modify_ranges(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::modify_ranges(std::uint32_t slot, Reader& reader) {
   ModifyRangesMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const RegionHandle region{message.region};
@@ -117,7 +116,7 @@ Outcome FederationExecution::Parts::modify_ranges(std::uint32_t slot, Reader& re
   return outcome;
 }
 
-Outcome FederationExecution::Parts::associate_region(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::associate_region(std::uint32_t slot, Reader& reader) {
   AssociateRegionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
@@ -130,7 +129,7 @@ Outcome FederationExecution::Parts::associate_region(std::uint32_t slot, Reader&
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::associate_regions(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::associate_regions(std::uint32_t slot, Reader& reader) {
   AssociateRegionsMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
@@ -150,7 +149,7 @@ Outcome FederationExecution::Parts::associate_regions(std::uint32_t slot, Reader
       });
 }
 
-Outcome FederationExecution::Parts::take_regional_class(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::take_regional_class(std::uint32_t slot, Reader& reader) {
   RegionalClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
@@ -181,9 +180,8 @@ Outcome FederationExecution::Parts::take_regional_class(std::uint32_t slot, Read
 }
 
 /// Looks at every object: it is asked for seldom, and what overlaps is not kept.
-void FederationExecution::Parts::find_owners(std::uint32_t slot, ObjectClassHandle object_class,
-                                             AttributeSet attributes, RegionHandle region,
-                                             Bytes tag) {
+void FederationParts::find_owners(std::uint32_t slot, ObjectClassHandle object_class,
+                                  AttributeSet attributes, RegionHandle region, Bytes tag) {
   federates_[slot].looked_at += objects_.slot_count();
   for (ObjectSlot object = 0; object < objects_.slot_count(); ++object) {
     const Object& asked = objects_[object];
@@ -194,7 +192,7 @@ void FederationExecution::Parts::find_owners(std::uint32_t slot, ObjectClassHand
   }
 }
 
-void FederationExecution::Parts::settle_update_requests() {
+void FederationParts::settle_update_requests() {
   for (auto each = update_requests_.begin(); each != update_requests_.end();) {
     const auto& [slot, region, object_class, tag] = each->first;
     if (federates_[slot].looked_at >= looked_at_max) {
@@ -214,8 +212,7 @@ void FederationExecution::Parts::settle_update_requests() {
 
 /// Those within a region that is about to go. Who makes regions, asks and deletes them faster than
 /// anybody can look is not waited for.
-Outcome FederationExecution::Parts::settle_update_requests(std::uint32_t slot,
-                                                           RegionHandle region) {
+Outcome FederationParts::settle_update_requests(std::uint32_t slot, RegionHandle region) {
   for (auto each = update_requests_.lower_bound({slot, region.value, 0, {}});
        each != update_requests_.end();) {
     const auto& [asking, within, object_class, tag] = each->first;
@@ -227,14 +224,14 @@ Outcome FederationExecution::Parts::settle_update_requests(std::uint32_t slot,
   return std::nullopt;
 }
 
-void FederationExecution::Parts::forget_update_requests(std::uint32_t slot) {
+void FederationParts::forget_update_requests(std::uint32_t slot) {
   update_requests_.erase(update_requests_.lower_bound({slot, 0, 0, {}}),
                          update_requests_.lower_bound({slot + 1, 0, 0, {}}));
   updates_to_provide_.erase(updates_to_provide_.lower_bound({slot, 0, {}}),
                             updates_to_provide_.lower_bound({slot + 1, 0, {}}));
 }
 
-Outcome FederationExecution::Parts::take_regional_interaction(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::take_regional_interaction(std::uint32_t slot, Reader& reader) {
   RegionalInteractionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.interaction_class >= fom_.interaction_classes().size())
@@ -247,7 +244,7 @@ Outcome FederationExecution::Parts::take_regional_interaction(std::uint32_t slot
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::take_interaction_within(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::take_interaction_within(std::uint32_t slot, Reader& reader) {
   InteractionWithinMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.interaction_class >= fom_.interaction_classes().size())

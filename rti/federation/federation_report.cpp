@@ -2,6 +2,7 @@
 // asked.
 #include "rti/federation/federation_parts.h"
 #include "rti/federation/federation_time.h"
+#include "rti/federation_execution.h"
 #include "rti/wire/management_messages.h"
 
 namespace rink::rti {
@@ -10,7 +11,7 @@ FederationReport FederationExecution::report(const Outlet* outlet) const {
   return parts_->report(outlet);
 }
 
-FederationReport FederationExecution::Parts::report(const Outlet* outlet) const {
+FederationReport FederationParts::report(const Outlet* outlet) const {
   FederationReport report;
   report.federation = settings_.federation;
   report.model = fom_.name();
@@ -33,7 +34,7 @@ FederationReport FederationExecution::Parts::report(const Outlet* outlet) const 
   return report;
 }
 
-void FederationExecution::Parts::tell_time(std::uint32_t slot, FederateCounts& counts) const {
+void FederationParts::tell_time(std::uint32_t slot, FederateCounts& counts) const {
   const TimeManagement& management = time_->management();
   counts.is_time_regulating = management.is_regulating(slot);
   counts.is_time_constrained = management.is_constrained(slot);
@@ -43,7 +44,7 @@ void FederationExecution::Parts::tell_time(std::uint32_t slot, FederateCounts& c
 }
 
 /// By federate slot: objects of which it owns at least one attribute.
-std::vector<std::uint32_t> FederationExecution::Parts::count_owned() const {
+std::vector<std::uint32_t> FederationParts::count_owned() const {
   std::vector<std::uint32_t> owned(federates_.size(), 0);
   for (ObjectSlot slot = 0; slot < objects_.slot_count(); ++slot) {
     const Object& object = objects_[slot];
@@ -65,7 +66,7 @@ std::vector<std::uint32_t> FederationExecution::Parts::count_owned() const {
 }
 
 /// By federate slot: objects that it may delete.
-std::vector<std::uint32_t> FederationExecution::Parts::count_deletable() const {
+std::vector<std::uint32_t> FederationParts::count_deletable() const {
   std::vector<std::uint32_t> deletable(federates_.size(), 0);
   for (ObjectSlot slot = 0; slot < objects_.slot_count(); ++slot) {
     if (!objects_[slot].is_alive) continue;
@@ -76,7 +77,7 @@ std::vector<std::uint32_t> FederationExecution::Parts::count_deletable() const {
 }
 
 /// One report serves all who asked since the last flush.
-void FederationExecution::Parts::answer_queries(Outlet& outlet) {
+void FederationParts::answer_queries(Outlet& outlet) {
   if (management_queries_.empty()) return;
   const FederationReport whole = report(&outlet);
   for (const ConnectionId id : management_queries_) {

@@ -11,8 +11,7 @@ namespace rink::rti {
 
 using Outcome = std::optional<Violation>;
 
-Outcome FederationExecution::Parts::take_time(std::uint32_t slot, MessageKind kind,
-                                              Reader& reader) {
+Outcome FederationParts::take_time(std::uint32_t slot, MessageKind kind, Reader& reader) {
   federates_[slot].has_stream_only =
       true;  // whose messages wait for its time, which no datagram could keep up with
   if (!time_) {
@@ -23,16 +22,15 @@ Outcome FederationExecution::Parts::take_time(std::uint32_t slot, MessageKind ki
   return time_->take(slot, kind, reader);
 }
 
-void FederationExecution::Parts::settle_time() {
+void FederationParts::settle_time() {
   if (time_) time_->settle();
 }
 
-void FederationExecution::Parts::leave_time(std::uint32_t slot) {
+void FederationParts::leave_time(std::uint32_t slot) {
   if (time_) time_->leave(slot);
 }
 
-Outcome FederationExecution::Parts::Time::take(std::uint32_t slot, MessageKind kind,
-                                               Reader& reader) {
+Outcome FederationParts::Time::take(std::uint32_t slot, MessageKind kind, Reader& reader) {
   switch (kind) {
     case MessageKind::timed_send:
       return take_message(slot, reader);
@@ -65,7 +63,7 @@ Outcome FederationExecution::Parts::Time::take(std::uint32_t slot, MessageKind k
   return is_allowed ? Outcome() : Violation::untimely;
 }
 
-Outcome FederationExecution::Parts::Time::take_switch(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::Time::take_switch(std::uint32_t slot, Reader& reader) {
   TimeSwitchMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   bool is_allowed = false;
@@ -84,7 +82,7 @@ Outcome FederationExecution::Parts::Time::take_switch(std::uint32_t slot, Reader
   return is_allowed ? Outcome() : Violation::untimely;
 }
 
-std::uint32_t FederationExecution::Parts::Time::take_place() {
+std::uint32_t FederationParts::Time::take_place() {
   if (free_.empty()) {
     messages_.emplace_back();
     return static_cast<std::uint32_t>(messages_.size() - 1);
@@ -94,13 +92,12 @@ std::uint32_t FederationExecution::Parts::Time::take_place() {
   return index;
 }
 
-FederationExecution::Parts::Time::Sender& FederationExecution::Parts::Time::sender(
-    std::uint32_t slot) {
+FederationParts::Time::Sender& FederationParts::Time::sender(std::uint32_t slot) {
   if (slot >= senders_.size()) senders_.resize(slot + 1);
   return senders_[slot];
 }
 
-Outcome FederationExecution::Parts::Time::take_message(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::Time::take_message(std::uint32_t slot, Reader& reader) {
   TimedSendMessage wire;
   if (!exchange(reader, wire)) return Violation::malformed;
   if (!management_->may_send(slot, wire.stamp.time)) return Violation::untimely;
@@ -133,14 +130,14 @@ Outcome FederationExecution::Parts::Time::take_message(std::uint32_t slot, Reade
   return is_greedy(from) ? Violation::over_limit : Outcome();
 }
 
-bool FederationExecution::Parts::Time::is_full() const {
+bool FederationParts::Time::is_full() const {
   return messages_.size() - free_.size() >= parts_.settings_.timed_max ||
          bytes_ >= parts_.settings_.timed_bytes_max;
 }
 
 /// What a federate can still take back is there by its own doing: it says more than it lets time
 /// pass.
-bool FederationExecution::Parts::Time::is_greedy(const Sender& sender) const {
+bool FederationParts::Time::is_greedy(const Sender& sender) const {
   return sender.sent.size() > parts_.settings_.timed_per_federate_max ||
          sender.bytes > parts_.settings_.timed_bytes_per_federate_max;
 }
@@ -148,7 +145,7 @@ bool FederationExecution::Parts::Time::is_greedy(const Sender& sender) const {
 /// Forgets what nobody can ask for any more. If that is not enough, whoever holds most of it up
 /// must go: it must not cost the others the federate that they all listen to, nor those who wait
 /// their place.
-void FederationExecution::Parts::Time::make_room(std::uint32_t speaker) {
+void FederationParts::Time::make_room(std::uint32_t speaker) {
   for (std::uint32_t slot = 0; slot < senders_.size(); ++slot) forget_final(slot);
   while (is_full()) {
     const std::uint32_t culprit = find_culprit();
@@ -162,7 +159,7 @@ void FederationExecution::Parts::Time::make_room(std::uint32_t speaker) {
 /// A message that can still be taken back is there for its sender's sake. One that waits in time
 /// for its receiver's next request is there for the receiver's; one that could not be delivered if
 /// it asked is there for the sake of the regulating federate that is furthest behind.
-std::uint32_t FederationExecution::Parts::Time::find_culprit() const {
+std::uint32_t FederationParts::Time::find_culprit() const {
   const auto count = static_cast<std::uint32_t>(parts_.federates_.size());
   std::vector<std::size_t> blamed(count);
   std::vector<double> galt(count);
@@ -193,8 +190,7 @@ std::uint32_t FederationExecution::Parts::Time::find_culprit() const {
                                               : static_cast<std::uint32_t>(worst - blamed.begin());
 }
 
-Outcome FederationExecution::Parts::Time::read_content(std::uint32_t slot, Bytes bytes,
-                                                       Message& message) {
+Outcome FederationParts::Time::read_content(std::uint32_t slot, Bytes bytes, Message& message) {
   Reader content(bytes);
   std::uint8_t kind = 0;
   content.number(kind);
@@ -207,8 +203,7 @@ Outcome FederationExecution::Parts::Time::read_content(std::uint32_t slot, Bytes
   return outcome;
 }
 
-Outcome FederationExecution::Parts::Time::read_update(std::uint32_t slot, Reader& content,
-                                                      Message& message) {
+Outcome FederationParts::Time::read_update(std::uint32_t slot, Reader& content, Message& message) {
   UpdatesMessage header;
   if (!exchange(content, header)) return Violation::malformed;
   if (header.object_class >= parts_.fom_.object_classes().size()) return Violation::unknown_name;
@@ -239,8 +234,8 @@ Outcome FederationExecution::Parts::Time::read_update(std::uint32_t slot, Reader
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::Time::read_interaction(std::uint32_t slot, Reader& content,
-                                                           Message& message) {
+Outcome FederationParts::Time::read_interaction(std::uint32_t slot, Reader& content,
+                                                Message& message) {
   InteractionMessage wire;
   if (!exchange(content, wire)) return Violation::malformed;
   if (wire.interaction_class >= parts_.fom_.interaction_classes().size())
@@ -253,8 +248,8 @@ Outcome FederationExecution::Parts::Time::read_interaction(std::uint32_t slot, R
   return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::Time::read_deletion(std::uint32_t slot, Reader& content,
-                                                        Message& message) {
+Outcome FederationParts::Time::read_deletion(std::uint32_t slot, Reader& content,
+                                             Message& message) {
   DeleteObjectMessage wire;
   if (!exchange(content, wire)) return Violation::malformed;
   const ObjectSlot object = parts_.objects_.find({wire.object});
@@ -276,7 +271,7 @@ Outcome FederationExecution::Parts::Time::read_deletion(std::uint32_t slot, Read
 
 /// Drops what `slot` can't take back any more: its time stamp lies before the least that it could
 /// still use.
-void FederationExecution::Parts::Time::forget_final(std::uint32_t slot) {
+void FederationParts::Time::forget_final(std::uint32_t slot) {
   Sender& from = sender(slot);
   const double earliest = management_->earliest(slot);
   std::erase_if(from.sent, [&](const Sent& each) {
@@ -293,7 +288,7 @@ void FederationExecution::Parts::Time::forget_final(std::uint32_t slot) {
                                    parts_.settings_.timed_bytes_per_federate_max + 1);
 }
 
-Outcome FederationExecution::Parts::Time::retract(std::uint32_t slot, Reader& reader) {
+Outcome FederationParts::Time::retract(std::uint32_t slot, Reader& reader) {
   RetractMessage wire;
   if (!exchange(reader, wire)) return Violation::malformed;
   std::vector<Sent>& sent = sender(slot).sent;
@@ -330,7 +325,7 @@ Outcome FederationExecution::Parts::Time::retract(std::uint32_t slot, Reader& re
   return std::nullopt;
 }
 
-void FederationExecution::Parts::Time::leave(std::uint32_t slot) {
+void FederationParts::Time::leave(std::uint32_t slot) {
   management_->remove(slot, *this);
   std::erase(asking_, slot);
   if (slot >= senders_.size()) return;

@@ -11,9 +11,9 @@ namespace rink::rti {
 
 /// Checks what federates ask and send in time-stamp order, keeps each message until the last
 /// constrained receiver's time has come, and tells what the time management decides.
-class FederationExecution::Parts::Time final : public TimeListener {
+class FederationParts::Time final : public TimeListener {
  public:
-  Time(Parts& parts, std::unique_ptr<TimeManagement> management)
+  Time(FederationParts& parts, std::unique_ptr<TimeManagement> management)
       : parts_(parts), management_(std::move(management)) {}
 
   Outcome take(std::uint32_t slot, MessageKind kind, Reader& reader);
@@ -91,7 +91,7 @@ class FederationExecution::Parts::Time final : public TimeListener {
   void constrained_enabled(std::uint32_t federate, double time) override;
   void grant(std::uint32_t federate, double time) override;
 
-  Parts& parts_;
+  FederationParts& parts_;
   std::unique_ptr<TimeManagement> management_;
   std::vector<Message> messages_;
   std::vector<std::uint32_t> free_;

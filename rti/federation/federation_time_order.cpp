@@ -16,7 +16,7 @@ constexpr std::size_t body_kept_max = 512, places_kept_max = 4096;
 
 }  // namespace
 
-void FederationExecution::Parts::Time::settle() {
+void FederationParts::Time::settle() {
   for (const std::uint32_t index : arrived_) distribute(index);
   arrived_.clear();
   management_->settle(*this);
@@ -26,12 +26,12 @@ void FederationExecution::Parts::Time::settle() {
   asking_.clear();
 }
 
-bool FederationExecution::Parts::Time::is_here(FederateHandle federate) const {
+bool FederationParts::Time::is_here(FederateHandle federate) const {
   const std::uint32_t slot = parts_.slot_of_handle_[federate.value];
   return parts_.federates_[slot].is_joined && parts_.federates_[slot].handle == federate;
 }
 
-void FederationExecution::Parts::Time::find_receivers(Message& message) {
+void FederationParts::Time::find_receivers(Message& message) {
   const auto add = [&](std::uint32_t slot, AttributeSet told) {
     if (parts_.federates_[slot].handle != message.sender)
       message.receivers.push_back({parts_.federates_[slot].handle, told});
@@ -63,7 +63,7 @@ void FederationExecution::Parts::Time::find_receivers(Message& message) {
 }
 
 /// To the queues of those who are constrained, to the others at once.
-void FederationExecution::Parts::Time::distribute(std::uint32_t index) {
+void FederationParts::Time::distribute(std::uint32_t index) {
   Message& message = messages_[index];
   message.is_distributed = true;
   if (!message.is_retracted) find_receivers(message);
@@ -84,7 +84,7 @@ void FederationExecution::Parts::Time::distribute(std::uint32_t index) {
 }
 
 /// The message in the form in which it travels, in `content_`.
-void FederationExecution::Parts::Time::write_content(const Message& message, AttributeSet told) {
+void FederationParts::Time::write_content(const Message& message, AttributeSet told) {
   content_.clear();
   if (message.kind == MessageKind::interaction) {
     say(content_, InteractionMessage{message.class_number, message.sender.value, {}, message.body});
@@ -110,8 +110,8 @@ void FederationExecution::Parts::Time::write_content(const Message& message, Att
 }
 
 /// False if there is nothing to tell, since the object is gone meanwhile.
-bool FederationExecution::Parts::Time::tell(std::uint32_t slot, const Message& message,
-                                            AttributeSet told, bool is_in_order) {
+bool FederationParts::Time::tell(std::uint32_t slot, const Message& message, AttributeSet told,
+                                 bool is_in_order) {
   if (message.kind != MessageKind::interaction) {
     const ObjectSlot object = parts_.objects_.find({message.object});
     if (object == no_object) return false;
@@ -139,7 +139,7 @@ bool FederationExecution::Parts::Time::tell(std::uint32_t slot, const Message& m
   return true;
 }
 
-void FederationExecution::Parts::Time::deliver(std::uint32_t federate, const TimedEntry& entry) {
+void FederationParts::Time::deliver(std::uint32_t federate, const TimedEntry& entry) {
   Message& message = messages_[entry.message];
   Message::Receiver& receiver = message.receivers[entry.place];
   receiver.is_waiting = false;
@@ -148,7 +148,7 @@ void FederationExecution::Parts::Time::deliver(std::uint32_t federate, const Tim
   finish(entry.message);
 }
 
-void FederationExecution::Parts::Time::discard(std::uint32_t, const TimedEntry& entry) {
+void FederationParts::Time::discard(std::uint32_t, const TimedEntry& entry) {
   Message& message = messages_[entry.message];
   message.receivers[entry.place].is_waiting = false;
   if (--message.waiting == 0) complete(message);
@@ -157,7 +157,7 @@ void FederationExecution::Parts::Time::discard(std::uint32_t, const TimedEntry& 
 
 /// Nobody waits for it any more: what it says is now the state that newcomers are told. (Earlier,
 /// they would be told what is to come.)
-void FederationExecution::Parts::Time::complete(const Message& message) {
+void FederationParts::Time::complete(const Message& message) {
   const ObjectSlot slot =
       message.kind == MessageKind::interaction ? no_object : parts_.objects_.find({message.object});
   if (slot == no_object) return;
@@ -175,7 +175,7 @@ void FederationExecution::Parts::Time::complete(const Message& message) {
 
 /// False for an update that is completed after a later one of its object, which had fewer to wait
 /// for.
-bool FederationExecution::Parts::Time::is_news(const Message& message) {
+bool FederationParts::Time::is_news(const Message& message) {
   if (told_until_.size() > 64 + 2 * parts_.objects_.size())
     std::erase_if(told_until_, [this](const auto& each) {
       return parts_.objects_.find({each.first}) == no_object;
@@ -187,12 +187,12 @@ bool FederationExecution::Parts::Time::is_news(const Message& message) {
 }
 
 /// Frees the message's place once nobody can ask for it.
-void FederationExecution::Parts::Time::finish(std::uint32_t index) {
+void FederationParts::Time::finish(std::uint32_t index) {
   const Message& message = messages_[index];
   if (message.is_distributed && !message.is_retractable && message.waiting == 0) release(index);
 }
 
-void FederationExecution::Parts::Time::release(std::uint32_t index) {
+void FederationParts::Time::release(std::uint32_t index) {
   Message& message = messages_[index];
   std::vector<std::byte> body = std::move(message.body);
   std::vector<Message::Receiver> receivers = std::move(message.receivers);
@@ -209,14 +209,14 @@ void FederationExecution::Parts::Time::release(std::uint32_t index) {
   free_ = {};
 }
 
-void FederationExecution::Parts::Time::regulation_enabled(std::uint32_t federate, double time,
-                                                          double earliest) {
+void FederationParts::Time::regulation_enabled(std::uint32_t federate, double time,
+                                               double earliest) {
   say(parts_.federates_[federate].tail, TimeRegulationEnabledMessage{time, earliest});
 }
-void FederationExecution::Parts::Time::constrained_enabled(std::uint32_t federate, double time) {
+void FederationParts::Time::constrained_enabled(std::uint32_t federate, double time) {
   say(parts_.federates_[federate].tail, TimeConstrainedEnabledMessage{time});
 }
-void FederationExecution::Parts::Time::grant(std::uint32_t federate, double time) {
+void FederationParts::Time::grant(std::uint32_t federate, double time) {
   say(parts_.federates_[federate].tail, TimeAdvanceGrantMessage{time});
   parts_.federates_[federate].is_advancing = false;
   ++parts_.counters_.time_advance_grants;

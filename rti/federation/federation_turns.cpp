@@ -10,7 +10,7 @@ namespace rink::rti {
 /// Decides for the flush at hand. Of whom it is the turn, that goes out by this flush's updates if
 /// they say all that is late of him, so that it is shared, goes by datagram or as a difference like
 /// anybody's; else by `catch_up`.
-void FederationExecution::Parts::take_turns(std::uint32_t slot) {
+void FederationParts::take_turns(std::uint32_t slot) {
   FederateInterest& interest = interest_.of(slot);
   Turns& turns = *interest.turns;
   interest_.take_turns(slot);
@@ -44,7 +44,7 @@ void FederationExecution::Parts::take_turns(std::uint32_t slot) {
 /// Of those who wait, or did so: what this flush's updates say becomes late; under a budget of all,
 /// for who waits is not known yet. What was late of whom is out of scope is forgotten: if he comes
 /// back he is told of whole.
-void FederationExecution::Parts::note_late(std::uint32_t slot, Turns& turns) {
+void FederationParts::note_late(std::uint32_t slot, Turns& turns) {
   const FederateInterest& interest = interest_.of(slot);
   for (std::size_t i = 0; i < turns.late.word_count(); ++i)
     if (const std::uint64_t gone = turns.late.any(i) & ~interest.in_scope.word(i); gone != 0)
@@ -65,7 +65,7 @@ void FederationExecution::Parts::note_late(std::uint32_t slot, Turns& turns) {
 }
 
 /// What telling of `object` takes now; its state on entry whole.
-std::size_t FederationExecution::Parts::bytes_due(std::uint32_t slot, ObjectSlot object) const {
+std::size_t FederationParts::bytes_due(std::uint32_t slot, ObjectSlot object) const {
   constexpr std::size_t handle_bytes = 2;  // a step to the next handle, mostly
   const FederateInterest& interest = interest_.of(slot);
   const bool is_fresh = interest.fresh.contains(object);
@@ -76,7 +76,7 @@ std::size_t FederationExecution::Parts::bytes_due(std::uint32_t slot, ObjectSlot
 }
 
 /// The newest state of whom has waited, as far as it is late.
-void FederationExecution::Parts::catch_up(std::uint32_t slot) {
+void FederationParts::catch_up(std::uint32_t slot) {
   const FederateInterest& interest = interest_.of(slot);
   Turns& turns = *interest.turns;
   const std::size_t before = scratch_.size();

@@ -10,7 +10,7 @@
 namespace rink::rti {
 
 /// Nothing in a datagram costs anybody the connection.
-void FederationExecution::Parts::receive_datagram(ConnectionId id, Bytes datagram) {
+void FederationParts::receive_datagram(ConnectionId id, Bytes datagram) {
   if (id >= connections_.size() || connections_[id].phase != Phase::joined) return;
   counters_.bytes_received += datagram.size();
   connections_[id].has_spoken = true;
@@ -35,7 +35,7 @@ void FederationExecution::Parts::receive_datagram(ConnectionId id, Bytes datagra
   if (!is_taken) ++counters_.datagrams_ignored;
 }
 
-bool FederationExecution::Parts::take_datagram(std::uint32_t slot, Bytes datagram) {
+bool FederationParts::take_datagram(std::uint32_t slot, Bytes datagram) {
   DatagramHead head;
   Reader reader(datagram);
   exchange(reader, head);
@@ -64,7 +64,7 @@ bool FederationExecution::Parts::take_datagram(std::uint32_t slot, Bytes datagra
   return true;
 }
 
-bool FederationExecution::Parts::take_acknowledgement(std::uint32_t slot, Reader& reader) {
+bool FederationParts::take_acknowledgement(std::uint32_t slot, Reader& reader) {
   DatagramWay* way = federates_[slot].way.get();
   AcknowledgeDatagramsMessage message;
   if (way == nullptr || !exchange(reader, message) ||
@@ -75,8 +75,8 @@ bool FederationExecution::Parts::take_acknowledgement(std::uint32_t slot, Reader
   return true;
 }
 
-bool FederationExecution::Parts::take_datagram_updates(std::uint32_t slot, const DatagramHead& head,
-                                                       const Stamp& stamp, Reader& reader) {
+bool FederationParts::take_datagram_updates(std::uint32_t slot, const DatagramHead& head,
+                                            const Stamp& stamp, Reader& reader) {
   UpdatesMessage message;
   if (!exchange(reader, message) || message.object_class >= fom_.object_classes().size())
     return false;
@@ -104,7 +104,7 @@ bool FederationExecution::Parts::take_datagram_updates(std::uint32_t slot, const
   });
 }
 
-void FederationExecution::Parts::take_held_datagrams(std::uint32_t slot) {
+void FederationParts::take_held_datagrams(std::uint32_t slot) {
   std::vector<std::vector<std::byte>>& held = federates_[slot].upward->held;
   for (std::size_t i = 0; i < held.size();) {
     DatagramHead head;
@@ -121,7 +121,7 @@ void FederationExecution::Parts::take_held_datagrams(std::uint32_t slot) {
 }
 
 /// When many are due, one is missing, or the first has waited for long enough.
-void FederationExecution::Parts::acknowledge_datagrams(Federate& federate, Outlet& outlet) {
+void FederationParts::acknowledge_datagrams(Federate& federate, Outlet& outlet) {
   UpwardWay& way = *federate.upward;
   if (!way.receipts.is_due() ||
       (!way.receipts.is_urgent() && now_ - way.due_since < DatagramReceipts::longest_delay_s))

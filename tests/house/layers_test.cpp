@@ -313,9 +313,10 @@ TEST(Layers, NoFileIncludesItselfThroughOthers) {
             "");
 }
 
-TEST(Layers, HeadersWithTheirSourcesFormNoCircleInIm) {
-  EXPECT_EQ(
-      joined(circle_in(includes_between(read_sources({"im"}, code_extensions), component_of))), "");
+TEST(Layers, HeadersWithTheirSourcesFormNoCircleInImAndRti) {
+  EXPECT_EQ(joined(circle_in(
+                includes_between(read_sources({"im", "rti"}, code_extensions), component_of))),
+            "");
 }
 
 TEST(LayersThemselves, SeeAClockBehindAnAliasToo) {
