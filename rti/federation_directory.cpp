@@ -105,9 +105,8 @@ bool FederationDirectory::take_waiting(ConnectionId id) {
   std::size_t taken = 0;
   while (connection.is_connected && connection.execution == nullptr) {
     const Bytes rest = Bytes(connection.waiting).subspan(taken);
-    std::uint32_t size = 0;
     if (rest.size() < frame_header_size) break;
-    std::memcpy(&size, rest.data(), sizeof size);
+    const std::size_t size = frame_length(rest);
     if (size == 0 || size > frame_max_to_join) return false;
     if (rest.size() < frame_header_size + size) break;
     const Bytes frame = rest.subspan(frame_header_size, size);

@@ -1,11 +1,8 @@
 // What each end says next.
 #include "rti/admission/handshake.h"
 
-#include <algorithm>
-#include <cstring>
-
 #include "rti/wire/admission_messages.h"
-#include "rti/wire/frame.h"
+#include "rti/wire/federation_messages.h"
 #include "rti/wire/membership_messages.h"
 
 namespace rink::rti {
@@ -23,13 +20,10 @@ ProofBasis Handshake::basis() const {
 
 template <class Message>
 void Handshake::say(Message message) {
-  const auto length = static_cast<std::uint32_t>(measure(message));
-  if (role_ == Role::rti && said_ + frame_header_size + length > heard_) return;
-  said_ += frame_header_size + length;
-  const std::size_t header = outgoing_.size();
-  outgoing_.resize(header + frame_header_size);
-  std::memcpy(outgoing_.data() + header, &length, frame_header_size);
-  write(outgoing_, message);
+  const std::vector<std::byte> frame = framed(message);
+  if (role_ == Role::rti && said_ + frame.size() > heard_) return;
+  said_ += frame.size();
+  outgoing_.insert(outgoing_.end(), frame.begin(), frame.end());
 }
 
 void Handshake::fail(std::string_view why) {
@@ -44,22 +38,12 @@ void Handshake::refuse(std::string_view why) {
 
 Handshake::State Handshake::receive(Bytes& bytes) {
   while (state_ == State::going_on && !bytes.empty()) {
-    std::uint32_t length = 0;
-    if (incoming_.size() >= frame_header_size)
-      std::memcpy(&length, incoming_.data(), sizeof length);
-    const std::size_t wanted = frame_header_size + length;
-    const Bytes taken = bytes.first(std::min(bytes.size(), wanted - incoming_.size()));
-    incoming_.insert(incoming_.end(), taken.begin(), taken.end());
-    bytes = bytes.subspan(taken.size());
-    heard_ += taken.size();
-    if (incoming_.size() == frame_header_size && length == 0) {
-      std::memcpy(&length, incoming_.data(), sizeof length);
-      if (length == 0 || length > frame_max_to_join) fail("the other end speaks another language");
-      continue;
-    }
-    if (length == 0 || incoming_.size() < wanted) continue;
-    take_frame(Bytes(incoming_).subspan(frame_header_size));
-    incoming_.clear();
+    const std::size_t before = bytes.size();
+    Bytes frame;
+    const Framing framing = incoming_.next(bytes, frame_max_to_join, frame);
+    heard_ += before - bytes.size();
+    if (framing != Framing::sound) fail("the other end speaks another language");
+    else if (!frame.empty()) take_frame(frame);
   }
   return state_;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rti/admission/shared_key.h"
+#include "rti/wire/frame.h"
 
 namespace rink::rti {
 
@@ -52,7 +53,8 @@ class Handshake {
   std::optional<Nonce> theirs_;
   State state_ = State::going_on;
   std::string why_;
-  std::vector<std::byte> incoming_, outgoing_;
+  FrameReader incoming_;
+  std::vector<std::byte> outgoing_;
   std::size_t heard_ = 0, said_ = 0;  ///< bytes in all
 };
 

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "rti/wire/stream.h"
+
 namespace rink::rti {
 
 namespace {
@@ -54,8 +56,9 @@ void BundledTransport::write_header(ConnectionId trunk_id, std::uint32_t number,
                                     std::uint32_t size) {
   std::vector<std::byte>& gathered = trunks_[trunk_id].gathered;
   if (gathered.empty()) full_.push_back(trunk_id);
-  const std::uint32_t words[] = {number, size};
-  append(gathered, std::as_bytes(std::span(words)));
+  Writer writer(gathered);
+  writer.number(number);
+  writer.number(size);
 }
 
 void BundledTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
@@ -177,9 +180,10 @@ void BundledTransport::on_bytes(ConnectionId trunk_id, Bytes bytes) {
 
 bool BundledTransport::take_header(ConnectionId trunk_id) {
   Trunk& heard = trunks_[trunk_id];
-  std::uint32_t words[2];
-  std::memcpy(words, heard.header, sizeof words);
-  const auto [number, size] = words;
+  std::uint32_t number = 0, size = 0;
+  Reader header(heard.header);
+  header.number(number);
+  header.number(size);
   if (size == opens) {
     if (heard.is_ours || number != heard.channels.size() || number >= channel_max) return false;
     const ConnectionId connection = add(trunk_id);

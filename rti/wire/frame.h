@@ -17,6 +17,13 @@ inline constexpr std::size_t frame_max_to_join = 1024;  ///< and one that has no
 inline constexpr std::size_t frame_max_to_federate = 64u
                                                      << 20;  ///< longest payload that the RTI sends
 
+/// Of the payload, as a header says.
+inline std::size_t frame_length(Bytes header) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, header.data(), sizeof length);
+  return length;
+}
+
 /// Collects messages in frames; a frame is closed when the next message would not fit.
 class FrameWriter {
  public:
@@ -84,34 +91,39 @@ class FrameReader {
   template <class Limit, class Take>
   [[nodiscard]] Framing receive(Bytes bytes, Limit limit, Take take) {
     while (!bytes.empty()) {
-      if (partial_.empty() && bytes.size() >= frame_header_size) {
-        const std::size_t size = length(bytes);
-        if (const Framing judged = judge(size, limit()); judged != Framing::sound) return judged;
-        if (bytes.size() >= frame_header_size + size) {
-          if (!take(bytes.subspan(frame_header_size, size))) return Framing::stopped;
-          bytes = bytes.subspan(frame_header_size + size);
-          continue;
-        }
-      }
-      if (!fill(bytes, frame_header_size)) return Framing::sound;
-      const std::size_t size = length(partial_);
-      if (const Framing judged = judge(size, limit()); judged != Framing::sound) return judged;
-      if (!fill(bytes, frame_header_size + size)) return Framing::sound;
-      complete_.swap(partial_);
-      partial_.clear();
-      if (!take(Bytes(complete_).subspan(frame_header_size))) return Framing::stopped;
+      Bytes payload;
+      if (const Framing framing = next(bytes, limit(), payload); framing != Framing::sound)
+        return framing;
+      if (!payload.empty() && !take(payload)) return Framing::stopped;
     }
+    return Framing::sound;
+  }
+  /// Takes one frame from the front of `bytes` and gives its payload, which is valid until the next
+  /// call. While it is not whole, all bytes are taken and the payload is empty.
+  [[nodiscard]] Framing next(Bytes& bytes, std::size_t limit, Bytes& payload) {
+    payload = {};
+    if (partial_.empty() && bytes.size() >= frame_header_size) {
+      const std::size_t size = frame_length(bytes);
+      if (const Framing judged = judge(size, limit); judged != Framing::sound) return judged;
+      if (bytes.size() >= frame_header_size + size) {
+        payload = bytes.subspan(frame_header_size, size);
+        bytes = bytes.subspan(frame_header_size + size);
+        return Framing::sound;
+      }
+    }
+    if (!fill(bytes, frame_header_size)) return Framing::sound;
+    const std::size_t size = frame_length(partial_);
+    if (const Framing judged = judge(size, limit); judged != Framing::sound) return judged;
+    if (!fill(bytes, frame_header_size + size)) return Framing::sound;
+    complete_.swap(partial_);
+    partial_.clear();
+    payload = Bytes(complete_).subspan(frame_header_size);
     return Framing::sound;
   }
   std::size_t waiting_bytes() const { return partial_.size(); }
   std::size_t memory_bytes() const { return partial_.capacity() + complete_.capacity(); }
 
  private:
-  static std::size_t length(Bytes bytes) {
-    std::uint32_t value = 0;
-    std::memcpy(&value, bytes.data(), sizeof value);
-    return value;
-  }
   static Framing judge(std::size_t size, std::size_t limit) {
     if (size == 0) return Framing::empty;
     return size > limit ? Framing::oversized : Framing::sound;

@@ -2,7 +2,6 @@
 #include "rti/transport/staged/rate_limiter.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "rti/wire/frame.h"
@@ -14,7 +13,7 @@ struct RateLimiter::Meter {
   TokenBucket bytes, frames;
   std::byte header[frame_header_size] = {};
   std::size_t header_size = 0;  ///< of it heard
-  std::uint32_t body_left = 0;  ///< of the frame at hand
+  std::size_t body_left = 0;    ///< of the frame at hand
   bool is_closing = false;
 
   /// Frames whose header ends in `heard`.
@@ -22,15 +21,15 @@ struct RateLimiter::Meter {
     int count = 0;
     while (!heard.empty()) {
       if (body_left > 0) {
-        const std::size_t skipped = std::min<std::size_t>(body_left, heard.size());
-        body_left -= static_cast<std::uint32_t>(skipped);
+        const std::size_t skipped = std::min(body_left, heard.size());
+        body_left -= skipped;
         heard = heard.subspan(skipped);
         continue;
       }
       header[header_size++] = heard.front();
       heard = heard.subspan(1);
       if (header_size < frame_header_size) continue;
-      std::memcpy(&body_left, header, sizeof body_left);
+      body_left = frame_length(header);
       header_size = 0;
       ++count;
     }
