@@ -51,10 +51,8 @@ inline HandleReader::Next read_handle(BitReader& bits, std::uint32_t& handle) {
   if (!bits.flag(is_next) || (!is_next && !bits.golomb(step, handle_order)))
     return HandleReader::Next::malformed;
   if (!is_next && step == 0) return HandleReader::Next::end;
-  const std::int64_t value = std::int64_t{handle} + (is_next ? 1 : from_zigzag(step - 1));
-  if (value < 0 || value > 0xffffffffll) return HandleReader::Next::malformed;
-  handle = static_cast<std::uint32_t>(value);
-  return HandleReader::Next::handle;
+  if (is_next) step = handle_step(0, 1);
+  return follow_step(step, handle) ? HandleReader::Next::handle : HandleReader::Next::malformed;
 }
 
 /// What a baseline's counts become after `elapsed` s if every rate stays as it is. The same bits at

@@ -23,8 +23,7 @@ void begin_block(std::vector<std::byte>& bytes, std::uint16_t object_class, Attr
 
 void put_record(std::vector<std::byte>& bytes, std::uint32_t& last, std::uint32_t handle,
                 Bytes values) {
-  std::uint64_t step = handle_step(last, handle);
-  Writer(bytes).varint(step);
+  write_handle(bytes, last, handle);
   last = handle;
   bytes.insert(bytes.end(), values.begin(), values.end());
 }

@@ -26,8 +26,7 @@ class SaidList {
     has_group_ = true;
   }
   void add(std::uint32_t handle) {
-    std::uint64_t step = handle_step(last_, handle);
-    Writer(bytes_).varint(step);
+    write_handle(bytes_, last_, handle);
     last_ = handle;
   }
   void end_group() {

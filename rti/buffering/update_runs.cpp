@@ -44,9 +44,8 @@ void UpdateRuns::append(std::uint32_t owner, ObjectSlot slot, const Object& obje
   UpdateRun& run = run_for(owner, slot, object, attributes, stamp);
   last_run_[slot] = static_cast<std::uint32_t>(&run - runs_.data()) + 1;
   run.slots.push_back(slot);
-  std::uint64_t step =
-      handle_step(run.records.empty() ? 0 : run.records.back().handle, object.handle.value);
-  Writer(run.message).varint(step);
+  write_handle(run.message, run.records.empty() ? 0 : run.records.back().handle,
+               object.handle.value);
   run.records.push_back({object.handle.value, static_cast<std::uint32_t>(run.message.size()),
                          static_cast<std::uint32_t>(values.size())});
   run.message.insert(run.message.end(), values.begin(), values.end());

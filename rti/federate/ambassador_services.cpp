@@ -172,8 +172,7 @@ void AmbassadorParts::say_update(ObjectHandle object, ObjectClassHandle object_c
   }
   std::vector<std::byte>& bytes = outgoing_.buffer();
   bytes.pop_back();  // the zero that ends the block
-  std::uint64_t step = handle_step(open_.last_object, object.value);
-  Writer(bytes).varint(step);
+  write_handle(bytes, open_.last_object, object.value);
   open_.last_object = object.value;
   bytes.insert(bytes.end(), values.begin(), values.end());
   bytes.push_back(std::byte{0});

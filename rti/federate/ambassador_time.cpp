@@ -110,8 +110,7 @@ RetractionHandle AmbassadorServices::update_attribute_values(ObjectHandle object
   content_.clear();
   UpdatesMessage header{static_cast<std::uint16_t>(object_class.value), in_order.bits};
   write(content_, header);
-  std::uint64_t step = handle_step(0, object.value);
-  Writer(content_).varint(step);
+  write_handle(content_, 0, object.value);
   if (is_coded(fom_.at(object_class), in_order))
     encode(fom_.at(object_class), in_order, ordered, time.value, content_);
   else content_.insert(content_.end(), ordered.begin(), ordered.end());

@@ -239,8 +239,7 @@ void FederationParts::say_last_state(std::uint32_t slot, ObjectSlot object, cons
   const std::size_t before = bytes.size();
   say(bytes, StampMessage{newest});
   say(bytes, UpdatesMessage{moved.object_class, set.bits});
-  std::uint64_t step = handle_step(0, moved.handle.value);
-  Writer(bytes).varint(step);
+  write_handle(bytes, 0, moved.handle.value);
   objects_.append(object, set, bytes);
   bytes.push_back(std::byte{0});
   ++counters_.updates_sent;

@@ -95,8 +95,7 @@ void FederationParts::Time::write_content(const Message& message, AttributeSet t
     return;
   }
   say(content_, UpdatesMessage{message.class_number, told.bits});
-  std::uint64_t step = handle_step(0, message.object);
-  Writer(content_).varint(step);
+  write_handle(content_, 0, message.object);
   const ObjectClass& object_class = parts_.fom_.at(ObjectClassHandle{message.class_number});
   for (std::uint32_t bits = told.bits; bits != 0; bits &= bits - 1) {
     const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};

@@ -13,14 +13,6 @@
 
 namespace rink::rti {
 
-/// Numbers of any sign as numbers that are small near zero: 0, -1, 1, -2, 2 become 0, 1, 2, 3, 4.
-inline std::uint64_t zigzag(std::int64_t value) {
-  return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
-}
-inline std::int64_t from_zigzag(std::uint64_t value) {
-  return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
-}
-
 /// Exponential Golomb codes (Teuhola 1978): what is below 2^order takes order + 1 bits; each
 /// doubling of (value + 2^order) takes two bits more.
 inline constexpr std::uint64_t golomb_max = (std::uint64_t{1} << 56) - 1;

@@ -29,8 +29,7 @@ class ObjectBlockWriter {
       header_.swap(scratch_);
       previous_ = 0;
     }
-    std::uint64_t step = handle_step(previous_, object);
-    Writer(bytes).varint(step);
+    write_handle(bytes, previous_, object);
     bytes.push_back(std::byte{0});
     previous_ = object;
     end_ = bytes.size();

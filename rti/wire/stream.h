@@ -29,6 +29,14 @@ inline std::size_t varint_size(std::uint64_t value) {
   return (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7;
 }
 
+/// Numbers of any sign as numbers that are small near zero: 0, -1, 1, -2, 2 become 0, 1, 2, 3, 4.
+inline std::uint64_t zigzag(std::int64_t value) {
+  return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
+}
+inline std::int64_t from_zigzag(std::uint64_t value) {
+  return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
+}
+
 /// Appends to a buffer; asserts the ranges, for what we write is ours.
 class Writer {
  public:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "rti/fom/coded_values.h"
@@ -16,10 +17,20 @@ namespace rink::rti {
 /// The step from one handle to the next as it is sent: small for near handles in either direction,
 /// and never 0, which ends the block.
 inline std::uint64_t handle_step(std::uint32_t from, std::uint32_t to) {
-  const std::int64_t difference = std::int64_t{to} - std::int64_t{from};
-  return ((static_cast<std::uint64_t>(difference) << 1) ^
-          static_cast<std::uint64_t>(difference >> 63)) +
-         1;
+  return zigzag(std::int64_t{to} - std::int64_t{from}) + 1;
+}
+/// Moves `handle` on by a step that is not the end of a block; false if there is no such handle.
+inline bool follow_step(std::uint64_t step, std::uint32_t& handle) {
+  if (--step >> 34 != 0) return false;
+  const std::int64_t next = std::int64_t{handle} + from_zigzag(step);
+  if (next < 0 || next > 0xffffffffll) return false;
+  handle = static_cast<std::uint32_t>(next);
+  return true;
+}
+inline void write_handle(std::vector<std::byte>& bytes, std::uint32_t previous,
+                         std::uint32_t handle) {
+  std::uint64_t step = handle_step(previous, handle);
+  Writer(bytes).varint(step);
 }
 
 /// Reads the handles of one block.
@@ -29,13 +40,9 @@ class HandleReader {
   Next next(Reader& reader, std::uint32_t& handle) {
     std::uint64_t step = 0;
     if (!reader.varint(step)) return Next::malformed;
-    if (step-- == 0) return Next::end;
-    if (step >> 34 != 0) return Next::malformed;
-    const std::int64_t difference =
-        static_cast<std::int64_t>(step >> 1) ^ -static_cast<std::int64_t>(step & 1);
-    const std::int64_t value = std::int64_t{previous_} + difference;
-    if (value < 0 || value > 0xffffffffll) return Next::malformed;
-    previous_ = handle = static_cast<std::uint32_t>(value);
+    if (step == 0) return Next::end;
+    if (!follow_step(step, previous_)) return Next::malformed;
+    handle = previous_;
     return Next::handle;
   }
 

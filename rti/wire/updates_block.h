@@ -23,8 +23,7 @@ class UpdatesBlock {
   void append(std::uint16_t object_class, AttributeSet attributes, ObjectHandle object, Put put) {
     if (!is_open_ || object_class != header_.object_class || attributes.bits != header_.attributes)
       begin(object_class, attributes);
-    std::uint64_t step = handle_step(previous_, object.value);
-    Writer(bytes_).varint(step);
+    write_handle(bytes_, previous_, object.value);
     previous_ = object.value;
     put();
   }

@@ -275,8 +275,7 @@ TEST(UpwardDatagrams, NonsenseAndWhatIsNotOnesOwnIsIgnoredAndCostsNobodyTheConne
   write(stolen, stamp);
   UpdatesMessage updates{static_cast<std::uint16_t>(buoy.value), height.bits};
   write(stolen, updates);
-  std::uint64_t step = handle_step(0, object.value);
-  Writer(stolen).varint(step);
+  write_handle(stolen, 0, object.value);
   const auto value = values_of(99.0);
   stolen.insert(stolen.end(), value.begin(), value.end());
   stolen.push_back(std::byte{0});
