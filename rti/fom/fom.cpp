@@ -2,10 +2,10 @@
 #include "rti/fom/fom.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "rti/fom/attribute_codec.h"
 #include "rti/fom/quantised_codec.h"
+#include "rti/wire/stream.h"
 
 namespace rink::rti {
 
@@ -53,9 +53,8 @@ std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) 
     return *attribute.size <= values.size() ? std::optional<std::size_t>(*attribute.size)
                                             : std::nullopt;
   std::uint32_t length = 0;
-  if (values.size() < sizeof length) return std::nullopt;
-  std::memcpy(&length, values.data(), sizeof length);
-  if (length > values.size() - sizeof length) return std::nullopt;
+  Reader reader(values);
+  if (!reader.number(length) || length > reader.left()) return std::nullopt;
   return sizeof length + length;
 }
 

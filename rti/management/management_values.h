@@ -5,13 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string_view>
 #include <vector>
 
 #include "rti/handles.h"
-#include "rti/wire/bytes.h"
+#include "rti/wire/stream.h"
 
 namespace rink::rti {
 
@@ -32,21 +31,17 @@ class ManagementWriter {
   void time(double value) { big_endian(std::bit_cast<std::uint64_t>(value), 8); }
   /// HLAunicodeString: UTF-8.
   void text(std::string_view value) {
-    length(value.size());
-    const auto* first = reinterpret_cast<const std::byte*>(value.data());
-    bytes_.insert(bytes_.end(), first, first + value.size());
+    Bytes text = std::as_bytes(std::span(value));
+    Writer(bytes_).bytes<std::uint32_t>(text, text.size());
   }
   /// HLAhandleList: u32 each.
   void handles(const std::vector<std::uint32_t>& values) {
-    length(4 * values.size());
+    auto size = static_cast<std::uint32_t>(4 * values.size());
+    Writer(bytes_).number(size);
     for (const std::uint32_t each : values) handle(each);
   }
 
  private:
-  void length(std::size_t size) {
-    for (unsigned byte = 0; byte < 4; ++byte)
-      bytes_.push_back(static_cast<std::byte>(size >> 8 * byte & 0xff));
-  }
   void big_endian(std::uint64_t value, unsigned size) {
     while (size-- > 0) bytes_.push_back(static_cast<std::byte>(value >> 8 * size & 0xff));
   }
@@ -58,7 +53,7 @@ class ManagementWriter {
 /// longer `is_whole`.
 class ManagementReader {
  public:
-  explicit ManagementReader(Bytes bytes) : bytes_(bytes) {}
+  explicit ManagementReader(Bytes bytes) : reader_(bytes) {}
 
   std::int32_t count() { return static_cast<std::int32_t>(big_endian(4)); }
   std::uint32_t handle() { return static_cast<std::uint32_t>(big_endian(4)); }
@@ -70,36 +65,28 @@ class ManagementReader {
   std::vector<std::uint32_t> handles() {
     ManagementReader list(varying());
     std::vector<std::uint32_t> found;
-    while (!list.bytes_.empty() && list.is_whole()) found.push_back(list.handle());
+    while (!list.is_at_end() && list.is_whole()) found.push_back(list.handle());
     is_whole_ = is_whole_ && list.is_whole();
     return found;
   }
   bool is_whole() const { return is_whole_; }
-  bool is_at_end() const { return bytes_.empty(); }
+  bool is_at_end() const { return reader_.is_at_end(); }
 
  private:
-  Bytes take(std::size_t size) {
-    is_whole_ = is_whole_ && size <= bytes_.size();
-    if (!is_whole_) return {};
-    const Bytes found = bytes_.first(size);
-    bytes_ = bytes_.subspan(size);
+  Bytes varying() {
+    Bytes found;
+    is_whole_ = is_whole_ && reader_.bytes<std::uint32_t>(found, reader_.left());
     return found;
   }
-  Bytes varying() {
-    std::size_t size = 0;
-    const Bytes word = take(4);
-    for (std::size_t byte = word.size(); byte-- > 0;)
-      size = size << 8 | std::to_integer<std::size_t>(word[byte]);
-    return take(size);
-  }
   std::uint64_t big_endian(std::size_t size) {
+    Bytes found;
+    is_whole_ = is_whole_ && reader_.rest(found, size);
     std::uint64_t value = 0;
-    for (const std::byte each : take(size))
-      value = value << 8 | std::to_integer<std::uint64_t>(each);
+    for (const std::byte each : found) value = value << 8 | std::to_integer<std::uint64_t>(each);
     return value;
   }
 
-  Bytes bytes_;
+  Reader reader_;
   bool is_whole_ = true;
 };
 
