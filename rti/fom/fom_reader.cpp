@@ -195,20 +195,13 @@ Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) 
 /// quantised.
 void FomReader::quantise(Attribute& attribute, bool is_periodic) {
   if (!attribute.size) return;
-  try {
-    const auto known = codecs_.find(attribute.data_type);
-    const QuantisationReader::Layout layout{
-        [this](const std::string& type) { return types_.size_of(type, {}).value_or(0); },
-        [this](const Node& record) { return types_.padding_of(record); }};
-    const auto codec = known != codecs_.end() ? known->second
-                                              : QuantisationReader::codec_of(
-                                                    attribute.data_type, types_.declared(), layout);
-    codecs_[attribute.data_type] = codec;
-    attribute.codec = codec;
-    if (codec && is_periodic && codec->is_all_quantised()) attribute.baselines = codec;
-  } catch (const QuantisationError& error) {
-    fail(error.node, error.what);
-  }
+  const auto known = codecs_.find(attribute.data_type);
+  const auto codec = known != codecs_.end()
+                         ? known->second
+                         : quantised_codec_of(attribute.data_type, types_, modules_);
+  codecs_[attribute.data_type] = codec;
+  attribute.codec = codec;
+  if (codec && is_periodic && codec->is_all_quantised()) attribute.baselines = codec;
 }
 
 void FomReader::read_interaction_class(const Group& group, InteractionClassHandle parent) {

@@ -5,8 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace rink::rti {
 
@@ -14,7 +18,6 @@ namespace {
 
 using Node = pugi::xml_node;
 using Form = QuantisedField::Form;
-using Types = QuantisationReader::Types;
 
 struct Representation {
   const char* name;
@@ -81,7 +84,7 @@ bool holds(Form form, const Quantisation& grid) {
   return false;
 }
 
-QuantisedField ranged_field(const Node& node) {
+QuantisedField ranged_field(const Node& node, const FomModules& modules) {
   QuantisedField field;
   const std::string_view representation = node.child("representation").text().get();
   for (const Representation& each : representations)
@@ -92,36 +95,34 @@ QuantisedField ranged_field(const Node& node) {
   double low = 0.0, high = 0.0, step = 0.0;
   std::string rest;
   if (!(bounds >> low >> high) || bounds >> rest)
-    throw QuantisationError{node, named(node) + " has a note 'range " + range +
-                                      "'; expected 'range LOW HIGH', two numbers"};
+    modules.fail(node, named(node) + " has a note 'range " + range +
+                           "'; expected 'range LOW HIGH', two numbers");
   if (!(resolution >> step) || resolution >> rest || !(step > 0.0))
-    throw QuantisationError{
-        node, named(node) + " has a range, so its <resolution> must be a number above 0"};
+    modules.fail(node, named(node) + " has a range, so its <resolution> must be a number above 0");
   if (field.form == Form::octets)
-    throw QuantisationError{node, named(node) +
-                                      " has a range, so its <representation> must be HLAfloat32, "
-                                      "HLAfloat64, HLAinteger16 or HLAinteger32, LE or BE"};
+    modules.fail(node, named(node) +
+                           " has a range, so its <representation> must be HLAfloat32, "
+                           "HLAfloat64, HLAinteger16 or HLAinteger32, LE or BE");
   field.grid = Quantisation::of(low, high, 0.5 * step);
   if (!field.grid || !holds(field.form, *field.grid))
-    throw QuantisationError{
-        node, named(node) + " has a range and resolution that its representation cannot hold"};
+    modules.fail(node,
+                 named(node) + " has a range and resolution that its representation cannot hold");
   return field;
 }
 
 class Flattening {
  public:
-  Flattening(const Types& types, const QuantisationReader::Layout& layout)
-      : types_(types), layout_(layout) {}
+  Flattening(DataTypes& types, const FomModules& modules) : types_(types), modules_(modules) {}
 
   /// Appends the fields of `type`, whose size is known and which thus does not contain itself, the
   /// first of them behind `padding` bytes.
   void add(const std::string& type, std::uint32_t padding) {
-    const auto found = types_.find(type);
-    const std::string_view kind = found == types_.end() ? "" : found->second.name();
+    const auto found = types_.declared().find(type);
+    const std::string_view kind = found == types_.declared().end() ? "" : found->second.name();
     if (kind == "fixedRecordData") return add_record(found->second, padding);
     if (kind == "simpleData" && note(found->second, "range"))
-      fields.push_back(ranged_field(found->second));
-    else fields.push_back({.size = layout_.size_of(type)});
+      fields.push_back(ranged_field(found->second, modules_));
+    else fields.push_back({.size = types_.size_of(type, {}).value_or(0)});
     fields.back().padding = padding;
   }
 
@@ -130,7 +131,7 @@ class Flattening {
  private:
   void add_record(const Node& record, std::uint32_t outer_padding) {
     std::map<std::string, std::size_t> places;
-    auto padding = layout_.padding_of(record);
+    auto padding = types_.padding_of(record);
     if (!padding.empty()) padding.front() += outer_padding;
     auto before = padding.begin();
     for (const Node& field : record.children("field")) {
@@ -144,23 +145,23 @@ class Flattening {
       const std::size_t self = places[field.child("name").text().get()];
       if (of == places.end() || of->second == self || !fields[self].grid ||
           !fields[of->second].grid)
-        throw QuantisationError{field, named(field) + " is the rate of '" + *rated +
-                                           "'; both must be fields of " + named(record) +
-                                           " with a range and a resolution"};
+        modules_.fail(field, named(field) + " is the rate of '" + *rated +
+                                 "'; both must be fields of " + named(record) +
+                                 " with a range and a resolution");
       fields[self].rate_of = static_cast<std::uint32_t>(of->second);
     }
   }
 
-  const Types& types_;
-  const QuantisationReader::Layout& layout_;
+  DataTypes& types_;
+  const FomModules& modules_;
 };
 
 }  // namespace
 
-std::shared_ptr<const QuantisedCodec> QuantisationReader::codec_of(const std::string& data_type,
-                                                                   const Types& types,
-                                                                   const Layout& layout) {
-  Flattening flat(types, layout);
+std::shared_ptr<const QuantisedCodec> quantised_codec_of(const std::string& data_type,
+                                                         DataTypes& types,
+                                                         const FomModules& modules) {
+  Flattening flat(types, modules);
   flat.add(data_type, 0);
   const auto has_grid = [](const QuantisedField& field) { return field.grid.has_value(); };
   if (flat.fields.size() > QuantisedCodec::field_max || std::ranges::none_of(flat.fields, has_grid))

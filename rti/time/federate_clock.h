@@ -44,7 +44,6 @@ class FederateClock {
   bool is_regulating() const { return is_regulating_ && !awaits_regulation_; }
   bool is_constrained() const { return is_constrained_ && !awaits_constraint_; }
   bool is_advancing() const { return is_advancing_; }
-  bool is_asynchronous() const { return is_asynchronous_; }
   double time() const { return time_; }
   /// 8.20: TimeRegulationIsNotEnabled. The actual one: a shorter one comes about only as time
   /// advances.

@@ -36,7 +36,6 @@ class FederationHost::Port final : public TransportListener {
     if (connection >= numbers_.size() || numbers_[connection] == nobody) return;
     host_.core_.disconnect(numbers_[connection], detail.empty() ? to_string(reason) : detail);
     if (reason == CloseReason::queue_full) ++host_.closed_by_full_queue_;
-    --host_.connection_count_;
     host_.routes_[numbers_[connection]] = {};
     host_.free_routes_.push_back(numbers_[connection]);
     numbers_[connection] = nobody;
@@ -93,7 +92,6 @@ ConnectionId FederationHost::admit(Port& port, ConnectionId connection) {
     free_routes_.pop_back();
   }
   routes_[number] = {&port, connection};
-  ++connection_count_;
   core_.connect(number);
   return number;
 }

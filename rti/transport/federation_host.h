@@ -32,7 +32,6 @@ class FederationHost {
   /// One write per destination; drops whom the execution wants dropped.
   void flush();
 
-  std::size_t connection_count() const { return connection_count_; }
   /// Sum over the transports' connections, closed ones included.
   std::uint64_t closed_by_full_queue() const { return closed_by_full_queue_; }
 
@@ -49,7 +48,6 @@ class FederationHost {
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<Route> routes_;  ///< by the core's connection number
   std::vector<ConnectionId> free_routes_;
-  std::size_t connection_count_ = 0;
   std::uint64_t closed_by_full_queue_ = 0;
 };
 
