@@ -5,7 +5,10 @@
 #include <sys/timerfd.h>
 
 #include <asio.hpp>
+#include <cstring>
 #include <ctime>
+
+#include "rti/wire/stream.h"
 
 namespace rink::rti {
 
@@ -177,8 +180,11 @@ void UdpTransport::take_what_came() {
 }
 
 void UdpTransport::take_from_client(const SocketAddress& source, Bytes datagram) {
-  const auto known =
-      datagram.size() < prefix_size ? by_key_.end() : by_key_.find(get<std::uint64_t>(datagram, 0));
+  Reader reader(datagram);
+  std::uint64_t key = 0, nonce = 0;
+  Kind kind{};
+  const bool is_ours = reader.number(key) && reader.number(kind);
+  const auto known = is_ours ? by_key_.find(key) : by_key_.end();
   Way* way = known == by_key_.end() ? nullptr : find(known->second);
   // Who knows the key but comes from elsewhere than the TCP connection would have us flood a
   // stranger.
@@ -186,7 +192,6 @@ void UdpTransport::take_from_client(const SocketAddress& source, Bytes datagram)
     ++counters_.stranger_datagrams;
     return;
   }
-  const auto kind = static_cast<Kind>(datagram[8]);
   const bool is_from_there = way->state != Way::State::closed && way->address.is_same(source);
   if (kind == Kind::hello && datagram.size() == payload_max && way->state != Way::State::open) {
     way->address = source;
@@ -195,7 +200,7 @@ void UdpTransport::take_from_client(const SocketAddress& source, Bytes datagram)
                 payload_max);  // no longer than the question
   }
   const bool is_proven =
-      datagram.size() == prefix_size + 8 && get<std::uint64_t>(datagram, prefix_size) == way->nonce;
+      datagram.size() == prefix_size + 8 && reader.number(nonce) && nonce == way->nonce;
   if (kind == Kind::confirm && is_from_there && is_proven) {
     counters_.ways_opened += way->state == Way::State::open ? 0u : 1u;
     way->state = Way::State::open;
@@ -207,14 +212,16 @@ void UdpTransport::take_from_client(const SocketAddress& source, Bytes datagram)
 }
 
 void UdpTransport::take_from_server(ConnectionId connection, Way& way, Bytes datagram) {
-  if (datagram.size() < prefix_size || get<std::uint64_t>(datagram, 0) != way.down_key) {
+  Reader reader(datagram);
+  std::uint64_t key = 0;
+  Kind kind{};
+  if (!reader.number(key) || !reader.number(kind) || key != way.down_key) {
     ++counters_.stranger_datagrams;
     return;
   }
-  const auto kind = static_cast<Kind>(datagram[8]);
   if (kind == Kind::welcome && datagram.size() == payload_max) {
     if (way.state != Way::State::hello) return;
-    way.nonce = get<std::uint64_t>(datagram, prefix_size);
+    reader.number(way.nonce);
     way.state = Way::State::confirm;
     return ask(way);
   }
@@ -249,10 +256,10 @@ void UdpTransport::send_datagrams(ConnectionId connection, std::span<const Datag
   if (datagram_max(connection) == 0) return;
   const Way& way = *find(connection);
   const bool is_client = way.role == Way::Role::client;
+  const std::uint64_t key = is_client ? way.up_key : way.down_key;
   std::array<std::byte, prefix_size> prefix;
-  std::byte* at = prefix.data();
-  put(at, is_client ? way.up_key : way.down_key);
-  put(at, Kind::data);
+  std::memcpy(prefix.data(), &key, sizeof key);
+  prefix[sizeof key] = static_cast<std::byte>(Kind::data);
   Tally& tally = tallies_[connection];
   tally.datagrams_sent += datagrams.size();
   for (const Datagram& each : datagrams) tally.bytes_sent += each.head.size() + each.body.size();

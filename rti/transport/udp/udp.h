@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -87,18 +86,6 @@ class UdpTransport final : public Transport, private TransportListener {
     std::uint64_t stream_sent = 0, stream_received = 0, datagrams_sent = 0, datagrams_received = 0,
                   bytes_sent = 0, bytes_received = 0;
   };
-
-  template <class Number>
-  static void put(std::byte*& at, Number number) {
-    std::memcpy(at, &number, sizeof number);
-    at += sizeof number;
-  }
-  template <class Number>
-  static Number get(Bytes bytes, std::size_t at) {
-    Number number{};
-    std::memcpy(&number, bytes.data() + at, sizeof number);
-    return number;
-  }
 
   void on_open(ConnectionId connection) override;
   void on_bytes(ConnectionId connection, Bytes bytes) override;

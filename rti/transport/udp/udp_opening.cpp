@@ -5,15 +5,30 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
+#include <vector>
 
 #include "rti/transport/udp/udp.h"
+#include "rti/wire/stream.h"
 
 namespace rink::rti {
 
 namespace {
 
 constexpr int tries_max = 30;  ///< ten a second
+
+/// What a server says first of all to a client that asks for datagrams.
+struct DatagramGreeting {
+  std::uint32_t magic = 0;
+  std::uint16_t port = 0;
+  std::uint64_t up_key = 0, down_key = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, DatagramGreeting& greeting) {
+  return stream.number(greeting.magic) && stream.number(greeting.port) &&
+         stream.number(greeting.up_key) && stream.number(greeting.down_key);
+}
 
 std::uint64_t secret() {
   std::uint64_t key = 0;
@@ -63,12 +78,11 @@ void UdpTransport::greet(ConnectionId connection, Way& way) {
   way.down_key = secret();
   way.nonce = secret();
   by_key_[way.up_key] = connection;
-  std::array<std::byte, greeting_size> greeting;
-  std::byte* at = greeting.data();
-  put(at, datagram_magic);
-  put(at, server_port_);
-  put(at, way.up_key);
-  put(at, way.down_key);
+  std::vector<std::byte> greeting;
+  Writer writer(greeting);
+  DatagramGreeting said{datagram_magic, server_port_, way.up_key, way.down_key};
+  exchange(writer, said);
+  assert(greeting.size() == greeting_size);
   const Bytes bytes = greeting;
   tallies_[connection].stream_sent = greeting_size;
   tcp_.send(connection, std::span(&bytes, 1));
@@ -76,10 +90,13 @@ void UdpTransport::greet(ConnectionId connection, Way& way) {
 }
 
 void UdpTransport::open_socket(ConnectionId connection, Way& way) {
-  way.up_key = get<std::uint64_t>(way.head, magic_size + 2);
-  way.down_key = get<std::uint64_t>(way.head, magic_size + 10);
+  DatagramGreeting greeting;
+  Reader reader(way.head);
+  exchange(reader, greeting);
+  way.up_key = greeting.up_key;
+  way.down_key = greeting.down_key;
   way.address = peer_of(tcp_.file(connection));
-  way.address.set_port(get<std::uint16_t>(way.head, magic_size));
+  way.address.set_port(greeting.port);
   way.file =
       File(::socket(way.address.storage.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   // Connected, it hears of nobody but the server.
@@ -123,12 +140,14 @@ void UdpTransport::ask_again() {
 
 void UdpTransport::tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce,
                         std::size_t size) {
-  std::array<std::byte, payload_max> bytes{};
-  std::byte* at = bytes.data();
-  put(at, key);
-  put(at, kind);
-  put(at, nonce);
-  const Datagram whole{Bytes(bytes).first(size), {}};
+  std::vector<std::byte> bytes;
+  bytes.reserve(payload_max);
+  Writer writer(bytes);
+  writer.number(key);
+  writer.number(kind);
+  writer.number(nonce);
+  bytes.resize(size);
+  const Datagram whole{bytes, {}};
   const bool is_client = way.role == Way::Role::client;
   sender_.add(is_client ? way.file.number() : server_.number(), is_client ? nullptr : &way.address,
               {}, std::span(&whole, 1));
