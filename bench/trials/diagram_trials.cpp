@@ -8,7 +8,7 @@
 
 #include "game/model/random_stream.h"
 #include "game/model/scene.h"
-#include "game/physics/world.h"
+#include "game/physics/extended/extended_world.h"
 
 namespace rink::accuracy {
 namespace {
@@ -180,7 +180,7 @@ std::vector<Vector2> extended_places(const Trial& trial, long double horizon) {
   play.advance(horizon);
   std::vector<Vector2> places;
   for (std::size_t i = trial.first_mover(); i < trial.body_count(); ++i)
-    places.push_back(world.position({static_cast<std::uint32_t>(i)}).template cast<double>());
+    places.push_back(world.position({static_cast<std::uint32_t>(i)}).cast<double>());
   return places;
 }
 

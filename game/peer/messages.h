@@ -59,13 +59,13 @@ struct Flown {
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
   double time = 0.0;                               ///< of the last impact [s]
 
-  static Flown of(std::uint32_t number, const physics::Flight<double>& f) {
+  static Flown of(std::uint32_t number, const physics::Flight& f) {
     return {number, {f.x, f.y}, {f.vx, f.vy}, f.time};
   }
-  bool is_as(const physics::Flight<double>& f) const {
+  bool is_as(const physics::Flight& f) const {
     return position == Vector2(f.x, f.y) && velocity == Vector2(f.vx, f.vy) && time == f.time;
   }
-  void write_to(physics::Flight<double>& f) const {
+  void write_to(physics::Flight& f) const {
     f.x = position.x(), f.y = position.y(), f.vx = velocity.x(), f.vy = velocity.y(), f.time = time;
   }
 };

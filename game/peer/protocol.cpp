@@ -96,10 +96,10 @@ std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::
       if (!take(flown.number, {nullptr, &flown})) return std::nullopt;
   }
   if (known != body_count) return std::nullopt;
-  physics::BasicBodyHash<double> hash;
+  physics::BodyHash hash;
   for (const auto& [state, flown] : places) {
     if (flown != nullptr) {
-      physics::Flight<double> flight{};
+      physics::Flight flight{};
       flown->write_to(flight);
       hash.add(flight, nullptr, nullptr, 0, std::nullopt);
       continue;

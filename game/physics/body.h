@@ -7,23 +7,12 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 namespace rink::physics {
 
-/// Everything that moves is a template over its scalar: `double` is the product, `long double` the
-/// truth to judge it by.
-template <class Real>
-using BasicVector2 = Eigen::Matrix<Real, 2, 1>;
-using Vector2 = BasicVector2<double>;
-
-/// How much finer than double a scalar is: the factor on every tolerance that stands for rounding;
-/// exactly 1 for double.
-template <class Real>
-constexpr Real fineness = std::numeric_limits<Real>::epsilon() /
-                          static_cast<Real>(std::numeric_limits<double>::epsilon());
+using Vector2 = Eigen::Vector2d;
 
 /// Names a body of one World: bodies are numbered in order of creation, and a number is never used
 /// again.
@@ -143,15 +132,5 @@ struct BatSpec {
 };
 
 enum class End : std::uint8_t { left, right };
-
-/// `puck` crossed the goal line at `end` (x = 0 or x = length) with its centre at `time` and is out
-/// of play from then on.
-template <class Real>
-struct BasicGoal {
-  Real time = 0.0;
-  BodyId puck;
-  End end = End::left;
-};
-using Goal = BasicGoal<double>;
 
 }  // namespace rink::physics

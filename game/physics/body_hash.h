@@ -7,17 +7,17 @@
 #include <optional>
 
 #include "game/physics/body_state.h"
+#include "game/physics/real.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
-/// FNV-1a over the states of all bodies in order of their numbers; what BasicWorld::hash() gives.
-template <class Real>
-class BasicBodyHash {
+/// FNV-1a over the states of all bodies in order of their numbers; what World::hash() gives.
+class BodyHash {
  public:
   /// `lasting`: in or out of play, held, frozen. The law of motion only of those that do not fly
   /// straight, the spin only in worlds with surface friction.
-  void add(const Flight<Real>& flight, const BasicVector2<Real>* acceleration,
-           const BasicVector2<Real>* drag, std::uint8_t lasting, std::optional<Real> spin) {
+  void add(const Flight& flight, const RealVector* acceleration, const RealVector* drag,
+           std::uint8_t lasting, std::optional<Real> spin) {
     for (const Real value : {flight.x, flight.y, flight.vx, flight.vy, flight.time}) mix(value);
     if (acceleration != nullptr)
       for (int axis = 0; axis < 2; ++axis) mix((*acceleration)[axis]), mix((*drag)[axis]);
@@ -41,4 +41,4 @@ class BasicBodyHash {
   std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -1,24 +1,25 @@
 // All that the future of a body depends on, as a value that one world hands to another.
 #pragma once
 
+#include "game/physics/body.h"
 #include "game/physics/engine/partner.h"
 #include "game/physics/flight/motion.h"
 #include "game/physics/flight/straight_flight.h"
+#include "game/physics/real.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// Of a body at its last event. Another world that is given it goes on with the same bits.
-template <class Real>
-struct BasicBodyState {
-  Flight<Real> flight{};
+struct BodyState {
+  Flight flight{};
   Real mass = 1.0, inverse_mass = 1.0;
-  BasicVector2<Real> half_extent{0.0, 0.0}, thrust{0.0, 0.0};
-  BasicVector2<Real> acceleration{0.0, 0.0}, drag{0.0, 0.0};
+  RealVector half_extent{0.0, 0.0}, thrust{0.0, 0.0};
+  RealVector acceleration{0.0, 0.0}, drag{0.0, 0.0};
   Real impacts_begin = -1.0, last_hop = -1.0;  ///< how densely impacts follow each other [s]
   std::uint32_t impacts = 0, hops = 0, repeats = 0;
   Real repeats_instant = -1.0;
   Real rest_time = std::numeric_limits<Real>::infinity();
-  BasicVector2<Real> slowing{0.0, 0.0};  ///< friction's part in the acceleration
+  RealVector slowing{0.0, 0.0};  ///< friction's part in the acceleration
   Real spin = 0.0;
   std::uint32_t jam = 0;  ///< of a frozen body: the lowest number in its jam
   BodyKind kind = BodyKind::puck;
@@ -27,16 +28,13 @@ struct BasicBodyState {
   std::uint8_t flags = 0;  ///< in or out of play, held, frozen
   std::uint8_t mouth = 0;
 
-  BasicMotion<Real> motion() const {
+  Motion motion() const {
     return {flight.time, {flight.x, flight.y}, {flight.vx, flight.vy}, acceleration, drag,
             rest_time};
   }
   /// Half of the bounding box [m].
-  BasicVector2<Real> extent() const {
-    return half_extent + BasicVector2<Real>::Constant(flight.radius);
-  }
+  RealVector extent() const { return half_extent + RealVector::Constant(flight.radius); }
 };
-using BodyState = BasicBodyState<double>;
 
 /// When a rest contact began, in a form that orders those of different worlds as one world would
 /// have made them: events of one instant are processed in order of the bodies' numbers, but for
@@ -52,8 +50,7 @@ struct HoldAge {
 
 /// A rest contact along `axis`; `low` is on the side of smaller coordinates. Fixed partners are
 /// posts or parts of the field.
-template <class Real>
-struct BasicHold {
+struct Hold {
   Partner low = partner::none, high = partner::none;
   int axis = 0;
   Real pull_time = 0.0;  ///< when the contact force vanishes by drag
@@ -63,4 +60,4 @@ struct BasicHold {
   HoldAge age;           ///< holds stand in order of it; only known where a journal is kept
 };
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 void Movers::look(const World& world) {
   const std::span<const BodyId> changed = world.changed(cursor_);
@@ -22,4 +22,4 @@ void Movers::look(const World& world) {
   moving_.swap(still_moving_);
 }
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

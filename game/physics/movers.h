@@ -4,9 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "game/physics/real.h"
 #include "game/physics/world.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// One reader's view of a world's changes. What it costs to look depends on how many bodies move or
 /// changed, not on how many rest.
@@ -25,4 +26,4 @@ class Movers {
   std::vector<BodyId> changed_, moving_, still_moving_;
 };
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -7,7 +7,7 @@
 
 #include "game/physics/engine/engine.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 std::uint64_t most_at_once(std::span<const double> times) {
   constexpr double roundings =
@@ -64,10 +64,10 @@ Motion Portion::motion_before(std::uint32_t body) const {
                                                      : state_before(body).motion();
 }
 
-const Flight<double>& Portion::flight(std::uint32_t body) const { return engine().bodies_[body]; }
+const Flight& Portion::flight(std::uint32_t body) const { return engine().bodies_[body]; }
 
-std::optional<Flight<double>> Portion::free_flight(std::uint32_t body) const {
-  const Engine::Body& b = engine().bodies_[body];
+std::optional<Flight> Portion::free_flight(std::uint32_t body) const {
+  const Body& b = engine().bodies_[body];
   if ((b.flags & (Engine::curved | Engine::held | Engine::frozen | Engine::gone)) != 0)
     return std::nullopt;
   return b;
@@ -96,16 +96,16 @@ bool Portion::is_held_along(const BodyState& state, int axis) {
 /// All of the body's state, but not where it is listed.
 void Portion::write(std::uint32_t body, const BodyState& s) {
   Engine& e = engine();
-  Engine::Body& b = e.bodies_[body];
+  Body& b = e.bodies_[body];
   const auto kept = static_cast<std::uint8_t>(b.flags & (Engine::curved | Engine::pending));
-  static_cast<Flight<double>&>(b) = s.flight;
+  static_cast<Flight&>(b) = s.flight;
   b.inverse_mass = s.inverse_mass, b.kind = s.kind, b.material = s.material, b.mouth = s.mouth;
   b.flags = static_cast<std::uint8_t>(kept | s.flags);
   ++b.version;
   e.changes_.note(body);
   e.builds_[body] = {s.mass, s.inverse_mass, s.half_extent, s.thrust, s.half};
   e.laws_[body] = {s.acceleration, s.drag};
-  Engine::Rhythm& rhythm = e.rhythms_[body];
+  Rhythm& rhythm = e.rhythms_[body];
   rhythm.window_start = s.impacts_begin, rhythm.last_hop = s.last_hop, rhythm.impacts = s.impacts,
   rhythm.hops = s.hops;
   rhythm.repeats = {s.repeats_instant, s.repeats};
@@ -215,7 +215,7 @@ void Portion::undo() {
     write(kept.body, state);
   }
   for (const Journal::KeptFlight& kept : journal_.flights)
-    static_cast<Flight<double>&>(e.bodies_[kept.body]) = kept.flight;
+    static_cast<Flight&>(e.bodies_[kept.body]) = kept.flight;
   e.holds_ = holds_before_, e.frozen_ = frozen_before_;
   e.now_ = clock_before_.now, e.instant_begin_ = clock_before_.instant_begin,
   e.events_at_once_ = clock_before_.events_at_once;
@@ -226,7 +226,7 @@ void Portion::undo() {
     e.bodies_[body].flags = static_cast<std::uint8_t>(e.bodies_[body].flags & ~Engine::pending);
   e.pending_.clear(), e.touched_.clear();
   e.goal_.reset();
-  e.queue_ = Engine::EventQueue(e.spec_.queue);
+  e.queue_ = EventSchedule(e.spec_.queue);
   e.looked_ahead_ = {};
   e.curved_count_ = 0;
   e.rebuild_from_state();
@@ -238,4 +238,4 @@ void Portion::advance(double until) {
   }
 }
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "game/physics/engine/journal.h"
+#include "game/physics/real.h"
 #include "game/physics/world.h"
 
-namespace rink::physics {
-
-using Hold = BasicHold<double>;
+namespace rink::physics::inline RINK_PRECISION {
 
 /// So many events at one instant, wherever in the field, and the engine thinks of means beyond the
 /// bodies concerned; below, they alone matter.
@@ -53,14 +52,14 @@ class Portion {
   /// The body's path from then to its first change.
   Motion motion_before(std::uint32_t body) const;
 
-  const Flight<double>& flight(std::uint32_t body) const;
+  const Flight& flight(std::uint32_t body) const;
   /// Whether it has changed in this window, and by nothing but free impacts, which leave all but
   /// its flight.
   bool has_only_flown(std::uint32_t body) const {
     return journal_.marks[body].number == journal_.mark;
   }
   /// Of a body in play that flies straight and has no companions; nothing of any other.
-  std::optional<Flight<double>> free_flight(std::uint32_t body) const;
+  std::optional<Flight> free_flight(std::uint32_t body) const;
 
   /// Whether it was out of play, or removed.
   bool was_gone(std::uint32_t body) const;
@@ -110,7 +109,7 @@ class Portion {
     std::uint32_t jam_count;
     bool is_hopeless, is_played;
   };
-  BasicEngine<double>& engine() const { return *world_.engine_; }
+  Engine& engine() const { return *world_.engine_; }
   void write(std::uint32_t body, const BodyState& state);
 
   World world_;
@@ -122,4 +121,4 @@ class Portion {
   Counters counters_before_;
 };
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -3,12 +3,13 @@
 
 #include <cmath>
 
-namespace rink::physics {
+#include "game/physics/real.h"
+
+namespace rink::physics::inline RINK_PRECISION {
 
 /// Neumaier's compensated summation (Z. Angew. Math. Mech. 54, 1974): what each addition rounds
 /// away is kept beside the sum.
-template <class Real>
-class BasicSum {
+class Sum {
  public:
   void add(Real number) {
     const Real sum = sum_ + number;
@@ -26,4 +27,4 @@ class BasicSum {
   Real sum_ = 0.0, lost_ = 0.0;
 };
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

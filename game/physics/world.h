@@ -11,34 +11,23 @@
 #include "game/physics/body.h"
 #include "game/physics/change_log.h"
 #include "game/physics/counters.h"
+#include "game/physics/event.h"
 #include "game/physics/flight/motion.h"
+#include "game/physics/real.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
-template <class Real>
-class BasicEngine;
-
-/// What happened to `body` and `other` at `time` [s]; `other` is nothing for a wall, the edge of a
-/// goal, and wherever one body alone is concerned.
-template <class Real>
-struct BasicEvent {
-  Real time = 0.0;
-  EventKind kind = EventKind::puck_puck;
-  BodyId body;
-  std::optional<BodyId> other;
-};
-using Event = BasicEvent<double>;
+class Engine;
 
 /// A set of bodies in a field, and a simulated time that only moves forward. Pure: the same calls
 /// give the same bits, whatever the cell size and however often advance() stops on the way. Method,
 /// proofs and limits: docs/physics.md.
-template <class Real>
-class BasicWorld {
+class World {
  public:
-  explicit BasicWorld(const WorldSpec& spec);
-  ~BasicWorld();
-  BasicWorld(BasicWorld&&) noexcept;
-  BasicWorld& operator=(BasicWorld&&) noexcept;
+  explicit World(const WorldSpec& spec);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
 
   /// Adds a body at now(). The place must be free (asserted); ask is_free() first when in doubt.
   BodyId add(const PuckSpec& spec);
@@ -59,25 +48,25 @@ class BasicWorld {
   /// goal, which it returns at the goal's exact time. Where it stops never changes the motion: an
   /// instant that it has been to is over, and what set_thrust(), place(), add() or remove() bring
   /// about there happens when it goes on.
-  std::optional<BasicGoal<Real>> advance(Real until);
+  std::optional<Goal> advance(Real until);
 
   /// From now on keeps a record of every event, for observers; off at first. Never changes the
   /// motion.
   void record_events(bool is_wanted);
   /// Recorded since the last forget_events(), in order of time; valid until anything else is asked
   /// of the world.
-  std::span<const BasicEvent<Real>> events() const;
+  std::span<const Event> events() const;
   void forget_events();
 
   Real now() const;  ///< s
-  BasicVector2<Real> position(BodyId body)
+  RealVector position(BodyId body)
       const;  ///< centre at now() [m], evaluated on demand; where it left play for a puck that did
-  BasicVector2<Real> velocity(BodyId body) const;  ///< at now() [m/s]
+  RealVector velocity(BodyId body) const;  ///< at now() [m/s]
   Real spin(BodyId body) const;  ///< at now(), anticlockwise [rad/s]; changed by impacts alone
 
   /// Closed form since the body's last event, valid until its next: what a distant replica needs to
   /// follow it exactly.
-  BasicMotion<Real> motion(BodyId body) const;
+  Motion motion(BodyId body) const;
   /// Grows by one or more whenever motion() changes.
   std::uint32_t motion_version(BodyId body) const;
   /// Who moves on otherwise since `cursor` was read last: whose motion() changed, who was added,
@@ -88,13 +77,12 @@ class BasicWorld {
 
   std::uint32_t body_count() const;  ///< bodies ever added; valid ids are below
   BodyKind kind(BodyId body) const;
-  Real radius(BodyId body) const;                     ///< of a puck or post [m]; 0 for a bat
-  BasicVector2<Real> half_extent(BodyId body) const;  ///< of the body's bounding box [m]
-  Real mass(BodyId body) const;                       ///< kg; infinity for a post
+  Real radius(BodyId body) const;             ///< of a puck or post [m]; 0 for a bat
+  RealVector half_extent(BodyId body) const;  ///< of the body's bounding box [m]
+  Real mass(BodyId body) const;               ///< kg; infinity for a post
   MaterialId material(BodyId body) const;
-  BasicVector2<Real> thrust(
-      BodyId body) const;              ///< as set, whether or not the body yields to it [m/s^2]
-  bool is_in_play(BodyId body) const;  ///< false once it has scored or was removed
+  RealVector thrust(BodyId body) const;  ///< as set, whether or not the body yields to it [m/s^2]
+  bool is_in_play(BodyId body) const;    ///< false once it has scored or was removed
   bool is_removed(BodyId body) const;
   bool is_resting(BodyId body) const;  ///< at rest, and will be until something else acts on it
   bool is_held(
@@ -110,7 +98,7 @@ class BasicWorld {
   std::vector<std::uint8_t> save() const;
   /// A world that goes on from there with the same bits; nothing if the bytes are no intact
   /// snapshot of this version and scalar.
-  static std::optional<BasicWorld> restore(std::span<const std::uint8_t> bytes);
+  static std::optional<World> restore(std::span<const std::uint8_t> bytes);
 
   const WorldSpec& spec() const;
   const Counters& counters() const;
@@ -121,8 +109,8 @@ class BasicWorld {
   Real energy_introduced() const;  ///< of bodies as they were added or placed, less that of bodies
                                    ///< as they were removed or scored
   Real work_of_thrust() const;
-  Real dissipated() const;              ///< lost to drag, to friction and in impacts
-  BasicVector2<Real> momentum() const;  ///< likewise [kg m/s]
+  Real dissipated() const;      ///< lost to drag, to friction and in impacts
+  RealVector momentum() const;  ///< likewise [kg m/s]
   /// The deepest overlap of any two bodies, or of a body and a wall, at now() [m]; 0 if none
   /// overlap. Looks at every body.
   Real max_overlap() const;
@@ -133,10 +121,8 @@ class BasicWorld {
 
  private:
   friend class Portion;
-  explicit BasicWorld(std::unique_ptr<BasicEngine<Real>> engine);
-  std::unique_ptr<BasicEngine<Real>> engine_;
+  explicit World(std::unique_ptr<Engine> engine);
+  std::unique_ptr<Engine> engine_;
 };
-using World = BasicWorld<double>;
-using ExtendedWorld = BasicWorld<long double>;
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

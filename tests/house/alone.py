@@ -29,7 +29,8 @@ if options.configure:
     sys.exit()
 commands = json.loads((options.work / "compile_commands.json").read_text())
 
-# One command per source: a file that two targets share is the same file.
+# One command per source: a file that two targets share is the same file, but for the engine's scalar, and then double counts.
+commands.sort(key=lambda command: "-DRINK_EXTENDED_PRECISION" not in command["command"])
 checks = {command["file"]: re.sub(r" -o \S+ -c ", " -fsyntax-only -Werror -c ", command["command"]) for command in commands}
 # A header may be used wherever all that Rink depends on is at hand.
 places = sorted({place for command in commands for place in re.findall(r"-(?:I|isystem )\S+", command["command"])})

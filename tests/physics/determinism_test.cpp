@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "game/physics/extended/extended_world.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics::test {

@@ -13,7 +13,7 @@ namespace {
 
 #if defined(__SSE2__)
 
-struct alignas(64) Disc : Flight<double> {};
+struct alignas(64) Disc : Flight {};
 
 TEST(DiscsNear, AreAsManyAsALookAtEachFinds) {
   if (!has_fours) GTEST_SKIP() << "this processor takes two at a time at most";

@@ -21,7 +21,7 @@ TEST(EventHeap, AgreesWithTheCalendarAndWithASearchThroughAll) {
   constexpr std::uint64_t seed = 4;
   SCOPED_TRACE(seed);
   std::mt19937_64 random(seed);
-  BasicEventHeap<double> heap;
+  EventHeap heap;
   EventQueue calendar;
   heap.resize(count);
   calendar.resize(count);
@@ -43,10 +43,10 @@ TEST(EventHeap, AgreesWithTheCalendarAndWithASearchThroughAll) {
     const auto best = std::min_element(all.begin(), all.end());
     const std::uint32_t expected = std::get<0>(*best) <= now + 0.02
                                        ? static_cast<std::uint32_t>(best - all.begin())
-                                       : BasicEventHeap<double>::none;
+                                       : EventHeap::none;
     ASSERT_EQ(heap.first(now + 0.02), expected);
     ASSERT_EQ(calendar.first(now + 0.02), expected);
-    if (expected == BasicEventHeap<double>::none) continue;
+    if (expected == EventHeap::none) continue;
     now = std::get<0>(*best);
     ASSERT_EQ(heap.time(expected), now);
     const auto close = std::count_if(all.begin(), all.end(), [&](const auto& event) {

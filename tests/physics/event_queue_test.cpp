@@ -85,7 +85,7 @@ TEST(EventQueue, KnowsWhetherAnotherEventFollowsClosely) {
 
 TEST(EventQueue, DoesNotTakeAnImpactForItsOwnSuccessorBecauseItIsNotedForBothBodies) {
   EventQueue calendar;
-  BasicEventHeap<double> heap;
+  EventHeap heap;
   const auto set = [&](std::uint32_t body, double time, std::uint32_t lower, std::uint32_t higher) {
     calendar.set(body, time, lower, higher), heap.set(body, time, lower, higher);
   };

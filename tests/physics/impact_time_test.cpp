@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "game/physics/flight/time_to_touch.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics::test {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "game/physics/flight/impact_time.h"
+#include "game/physics/flight/time_to_touch.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics::test {

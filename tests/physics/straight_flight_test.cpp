@@ -15,8 +15,8 @@ namespace {
 using test::uniform;
 
 /// Some overlap, some lie still, some are copies of each other.
-std::vector<Flight<double>> crowd_of(std::mt19937_64& random, std::uint32_t count) {
-  std::vector<Flight<double>> discs;
+std::vector<Flight> crowd_of(std::mt19937_64& random, std::uint32_t count) {
+  std::vector<Flight> discs;
   for (std::uint32_t k = 0; k < count; ++k) {
     if (k > 1 && random() % 8 == 0) {
       discs.push_back(discs[1 + random() % (k - 1)]);
@@ -35,22 +35,20 @@ TEST(FirstMeeting, HasTheSameBitsTwoOrFourAtATimeAsOneByOne) {
   int met = 0, tied = 0;
   for (int round = 0; round < 20'000; ++round) {
     const auto count = static_cast<std::uint32_t>(random() % (flight_max + 1));
-    const std::vector<Flight<double>> discs = crowd_of(random, count + 1);
+    const std::vector<Flight> discs = crowd_of(random, count + 1);
     std::vector<std::uint32_t> near;
     for (std::uint32_t k = 0; k < count; ++k)
       near.push_back(static_cast<std::uint32_t>(random() % discs.size()));
     near.resize(flight_max + 8);
     const double latest =
         round % 3 == 0 ? std::numeric_limits<double>::infinity() : uniform(random, 0.05, 0.4);
-    const Meeting<double> expected =
-        first_meeting_singly(discs.data(), 0, near.data(), count, latest);
-    const Meeting<double> first = first_meeting(discs.data(), 0, near.data(), count, latest);
+    const Meeting expected = first_meeting_singly(discs.data(), 0, near.data(), count, latest);
+    const Meeting first = first_meeting(discs.data(), 0, near.data(), count, latest);
     ASSERT_EQ(first.time, expected.time) << "round " << round;
     ASSERT_EQ(first.other, expected.other) << "round " << round;
     ASSERT_EQ(first.second_time, expected.second_time) << "round " << round;
 #if defined(__SSE2__)
-    const Meeting<double> in_pairs =
-        first_meeting_in_pairs(discs.data(), 0, near.data(), count, latest);
+    const Meeting in_pairs = first_meeting_in_pairs(discs.data(), 0, near.data(), count, latest);
     ASSERT_EQ(in_pairs.time, expected.time) << "round " << round;
     ASSERT_EQ(in_pairs.second_time, expected.second_time) << "round " << round;
 #endif
@@ -63,17 +61,17 @@ TEST(FirstMeeting, HasTheSameBitsTwoOrFourAtATimeAsOneByOne) {
 }
 
 TEST(FirstMeeting, CountsThoseWhoTouchInTheSameBreath) {
-  if (!counts_touching<double>()) GTEST_SKIP() << "this processor takes two at a time at most";
+  if (!counts_touching()) GTEST_SKIP() << "this processor takes two at a time at most";
   std::mt19937_64 random(9);
   std::uint32_t touched = 0, apart = 0;
   for (int round = 0; round < 20'000; ++round) {
     const auto count = static_cast<std::uint32_t>(random() % (flight_max + 1));
-    std::vector<Flight<double>> discs = crowd_of(random, count + 1);
-    Flight<double>& own = discs[0];
+    std::vector<Flight> discs = crowd_of(random, count + 1);
+    Flight& own = discs[0];
     own.time = 0.1;  // nobody's event is later, as at an impact
     // Every third is put where it is nearly in touch then.
     for (std::uint32_t k = 1; k <= count; k += 3) {
-      Flight<double>& other = discs[k];
+      Flight& other = discs[k];
       const double angle = uniform(random, 0.0, 6.3),
                    distance = own.radius + other.radius +
                               clear_of_touching * (random() % 2 == 0 ? uniform(random, -0.1, 0.9)
@@ -86,14 +84,13 @@ TEST(FirstMeeting, CountsThoseWhoTouchInTheSameBreath) {
     near.resize(flight_max + 8);
     std::uint32_t expected = 0;
     for (std::uint32_t k = 0; k < count; ++k) {
-      const Flight<double>& other = discs[k];
+      const Flight& other = discs[k];
       const double distance = std::hypot(other.x + other.vx * (0.1 - other.time) - own.x,
                                          other.y + other.vy * (0.1 - other.time) - own.y);
       expected += k == 0 || distance <= own.radius + other.radius + clear_of_touching;
     }
-    const Meeting<double> plain = first_meeting(discs.data(), 0, near.data(), count, 1.0),
-                          counting =
-                              first_meeting_counting(discs.data(), 0, near.data(), count, 1.0);
+    const Meeting plain = first_meeting(discs.data(), 0, near.data(), count, 1.0),
+                  counting = first_meeting_counting(discs.data(), 0, near.data(), count, 1.0);
     ASSERT_EQ(counting.touching, expected) << "round " << round;
     ASSERT_EQ(counting.time, plain.time) << "round " << round;
     ASSERT_EQ(counting.other, plain.other) << "round " << round;
@@ -117,12 +114,12 @@ TEST(FirstMeeting, OfThoseWhoGrazeDoesNotDependOnHowFarOneLooks) {
                  across = 1e-16 * static_cast<double>(random() % 5),
                  along = random() % 2 == 0 ? speed : -speed;
     const double x = std::cos(angle), y = std::sin(angle);
-    const std::vector<Flight<double>> discs{
+    const std::vector<Flight> discs{
         {0.5, 0.5, 0.0, 0.0, 0.3, 0.5 * reach},
         {0.5 + distance * x, 0.5 + distance * y, -along * y - across * x, along * x - across * y,
          0.3, 0.5 * reach}};
     std::vector<std::uint32_t> near{1, 0, 0, 0};
-    const Meeting<double> ever = first_meeting_singly(discs.data(), 0, near.data(), 1, infinity);
+    const Meeting ever = first_meeting_singly(discs.data(), 0, near.data(), 1, infinity);
     const double closing =
         (discs[1].x - discs[0].x) * discs[1].vx + (discs[1].y - discs[0].y) * discs[1].vy;
     if (!(ever.time < infinity && ever.time > 0.3 + 1e-12)) continue;
@@ -148,12 +145,12 @@ TEST(FirstMeeting, OfThoseWhoGrazeDoesNotDependOnHowFarOneLooks) {
 TEST(FirstMeeting, IsWhereTheDistanceIsTheSumOfTheRadii) {
   std::mt19937_64 random(6);
   for (int round = 0; round < 2'000; ++round) {
-    const std::vector<Flight<double>> discs = crowd_of(random, 12);
+    const std::vector<Flight> discs = crowd_of(random, 12);
     std::vector<std::uint32_t> near{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 0, 0};
-    const Meeting<double> first =
+    const Meeting first =
         first_meeting(discs.data(), 0, near.data(), 11, std::numeric_limits<double>::infinity());
     if (first.other > 11) continue;
-    const Flight<double>&a = discs[0], &b = discs[first.other];
+    const Flight &a = discs[0], &b = discs[first.other];
     const double distance =
         std::hypot(b.x + b.vx * (first.time - b.time) - a.x - a.vx * (first.time - a.time),
                    b.y + b.vy * (first.time - b.time) - a.y - a.vy * (first.time - a.time));

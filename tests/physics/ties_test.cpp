@@ -135,7 +135,7 @@ void expect_every_close_pair_to_be_seen(double gap, double apart) {
 TEST(Ties, AreSeenAcrossTheEdgesOfBuckets) {
   for (const double gap : {1e-3, 1e-5, 3.7e-7, 2.3e-8}) {
     expect_every_close_pair_to_be_seen<EventQueue>(gap, 4e-10);
-    expect_every_close_pair_to_be_seen<BasicEventHeap<double>>(gap, 4e-10);
+    expect_every_close_pair_to_be_seen<EventHeap>(gap, 4e-10);
   }
 }
 

@@ -1,16 +1,15 @@
 // The shapes that the collision tests ask about, and what a test answers.
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
 #include <optional>
 #include <type_traits>
 
-#include "game/physics/body.h"
-
 namespace rink::physics::collision {
 
 template <class Real>
-using Vector = BasicVector2<Real>;
+using Vector = Eigen::Matrix<Real, 2, 1>;
 
 /// A parameter that follows the shapes' scalar instead of helping to deduce it: any expression that
 /// gives a vector will do.

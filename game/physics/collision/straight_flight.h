@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "game/physics/collision/shapes.h"
-#include "game/physics/flight/impact_time.h"
+#include "game/physics/flight/time_to_touch.h"
 
 namespace rink::physics::collision {
 

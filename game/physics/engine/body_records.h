@@ -7,38 +7,35 @@
 #include "game/physics/cell_grid.h"
 #include "game/physics/engine/partner.h"
 #include "game/physics/flight/straight_flight.h"
+#include "game/physics/real.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// What an impact of two pucks reads and writes: one cache line.
-template <class Real>
-struct alignas(64) BasicBody : Flight<Real> {
+struct alignas(64) Body : Flight {
   Real inverse_mass;
   std::uint32_t version;
   BodyKind kind;
   MaterialId material;
-  std::uint8_t flags;  // BasicEngine::Flag
-  std::uint8_t mouth;  // BasicEngine::Mouth
+  std::uint8_t flags;  // Engine::Flag
+  std::uint8_t mouth;  // Engine::Mouth
 };
 
 /// What the body is, and the thrust on it.
-template <class Real>
-struct BasicBuild {
+struct Build {
   Real mass, inverse_mass;
-  BasicVector2<Real> half_extent;  // of the rectangle itself: 0 for discs
-  BasicVector2<Real> thrust;
+  RealVector half_extent;  // of the rectangle itself: 0 for discs
+  RealVector thrust;
   Half half;
 };
 
 /// What its velocity changes by until its next event.
-template <class Real>
-struct BasicLaw {
-  BasicVector2<Real> acceleration, drag;
+struct Law {
+  RealVector acceleration, drag;
 };
 
 /// How often something came at the last instant at which it did.
-template <class Real>
-struct BasicTally {
+struct Tally {
   Real instant = -1.0;
   std::uint32_t count = 0;
   /// Once more at `time`; answers how often now.
@@ -50,19 +47,16 @@ struct BasicTally {
 };
 
 /// How densely impacts follow each other; part of the physical history.
-template <class Real>
-struct BasicRhythm {
+struct Rhythm {
   Real window_start = -1.0, last_hop = -1.0;
   std::uint32_t impacts = 0, hops = 0;
-  BasicTally<Real> repeats;  // impacts where bodies may start in overlap, attempts at rest of pucks
-                             // that friction slows
-  BasicTally<Real>
-      meetings;  // impacts that are not simple ones, at instants within roundings of the clock
+  Tally repeats;   // impacts where bodies may start in overlap, attempts at rest of pucks
+                   // that friction slows
+  Tally meetings;  // impacts that are not simple ones, at instants within roundings of the clock
 };
 
 /// Its next impact, and its next crossing into another cell of the grid.
-template <class Real>
-struct BasicSlot {
+struct Slot {
   Real impact_time, crossing_time;
   Partner partner;
   std::uint32_t partner_version;
@@ -70,4 +64,4 @@ struct BasicSlot {
   bool is_tied;                   // another impact of the body comes within the instant
 };
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

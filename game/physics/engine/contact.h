@@ -6,26 +6,25 @@
 #include "game/physics/body.h"
 #include "game/physics/engine/partner.h"
 #include "game/physics/flight/impact_time.h"
+#include "game/physics/real.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// A body, whom or what it meets, and the gap between them.
-template <class Real>
-struct BasicContact {
+struct Contact {
   std::uint32_t body;
   Partner partner;
-  BasicGap<Real> gap;  // normal from partner to body
+  Gap gap;  // normal from partner to body
 };
 
 constexpr std::uint32_t fixed_place = 0xffffffff;
 
 /// Two bodies that touch, or a body and a fixed part; `body` and `other` are places in the engine's
 /// joint_, `fixed_place` for what cannot move.
-template <class Real>
-struct BasicTouch {
+struct Touch {
   std::uint32_t body, other;
   Partner partner;
-  BasicVector2<Real> normal;
+  RealVector normal;
   Real restitution;
   Real wanted;      // least speed of separation afterwards [m/s]
   Real impulse;     // of the problem at hand [kg m/s]
@@ -33,4 +32,4 @@ struct BasicTouch {
   bool has_pushed;
 };
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -7,15 +7,14 @@
 #include <limits>
 #include <utility>
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 /// With fewer bodies all is near at hand, and to look ahead costs a fifth.
 constexpr std::size_t look_ahead_min = 30'000;
 }  // namespace
 
-template <class Real>
-BasicEngine<Real>::BasicEngine(const WorldSpec& spec)
+Engine::Engine(const WorldSpec& spec)
     : spec_(spec),
       puck_drag_(spec.puck_drag),
       contact_time_(spec.contact_time),
@@ -30,34 +29,30 @@ BasicEngine<Real>::BasicEngine(const WorldSpec& spec)
                               spec.restitution.material_count() &&
                           spec.surface_friction->tangential_restitution.material_count() ==
                               spec.restitution.material_count())));
-  tolerance_ = 0x1p-52 * fineness<Real> * (spec.field.length + spec.field.width);
+  tolerance_ = 0x1p-52 * fineness * (spec.field.length + spec.field.width);
   has_free_impacts_ = spec.puck_drag == 0.0 && !is_slowed() && !is_rough() &&
                       !spec.accounts_energy && !spec.allow_overlap;
   grid_.rebuild(spec.field.length, spec.field.width, 0.0, 1, spec.cell_size);
 }
 
-template <class Real>
-BasicMotion<Real> BasicEngine<Real>::motion(std::uint32_t body) const {
+Motion Engine::motion(std::uint32_t body) const {
   const Body& b = bodies_[body];
   return {b.time,           {b.x, b.y},
           {b.vx, b.vy},     laws_[body].acceleration,
           laws_[body].drag, is_slowed() ? rest_times_[body] : infinity};
 }
 
-template <class Real>
-Real BasicEngine<Real>::reach_of(std::uint32_t body) const {
+Real Engine::reach_of(std::uint32_t body) const {
   return bodies_[body].radius + builds_[body].half_extent.maxCoeff();
 }
 
-template <class Real>
-BasicRoundedBox<Real> BasicEngine<Real>::shape_of(std::uint32_t a, std::uint32_t b) const {
+RoundedBox Engine::shape_of(std::uint32_t a, std::uint32_t b) const {
   return {builds_[a].half_extent + builds_[b].half_extent, bodies_[a].radius + bodies_[b].radius};
 }
 
-template <class Real>
-BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vector2& velocity,
-                              Real radius, const Vector2& half_extent, Real mass,
-                              MaterialId material, Half half, Real spin) {
+BodyId Engine::add(BodyKind kind, const RealVector& position, const RealVector& velocity,
+                   Real radius, const RealVector& half_extent, Real mass, MaterialId material,
+                   Half half, Real spin) {
   assert(position.allFinite() && velocity.allFinite() && mass > 0.0 &&
          material < spec_.restitution.material_count());
   assert(spec_.allow_overlap || is_free(position, {half_extent, radius}));
@@ -71,9 +66,9 @@ BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vect
                      0,
                      no_mouth});
   changes_.add(body);
-  builds_.push_back({mass, inverse_mass, half_extent, Vector2(0.0, 0.0), half});
+  builds_.push_back({mass, inverse_mass, half_extent, RealVector(0.0, 0.0), half});
   slots_.push_back(no_event);
-  laws_.push_back({Vector2(0.0, 0.0), Vector2::Constant(own_drag(body))});
+  laws_.push_back({RealVector(0.0, 0.0), RealVector::Constant(own_drag(body))});
   rhythms_.emplace_back();
   jams_.push_back(0);
   write_law(body);
@@ -95,21 +90,19 @@ BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vect
   return {body};
 }
 
-template <class Real>
-void BasicEngine<Real>::rebuild_grid() {
+void Engine::rebuild_grid() {
   grid_.rebuild(spec_.field.length, spec_.field.width, static_cast<double>(2.0 * reach_),
                 static_cast<std::uint32_t>(bodies_.size()), spec_.cell_size);
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     if (is_gone(body)) continue;
-    const Vector2 position = at(body, now_).position;
+    const RealVector position = at(body, now_).position;
     grid_.insert(body, static_cast<double>(position.x()), static_cast<double>(position.y()));
     require_prediction(body);
   }
   is_everything_pending_ = true;
 }
 
-template <class Real>
-void BasicEngine<Real>::enter_mouth_if_inside(std::uint32_t body) {
+void Engine::enter_mouth_if_inside(std::uint32_t body) {
   Body& b = bodies_[body];
   b.mouth = no_mouth;
   if (b.kind != BodyKind::puck || spec_.field.goal_width == 0.0) return;
@@ -117,8 +110,7 @@ void BasicEngine<Real>::enter_mouth_if_inside(std::uint32_t body) {
   if (b.x > spec_.field.length - b.radius) b.mouth = right_mouth;
 }
 
-template <class Real>
-void BasicEngine<Real>::require_prediction(std::uint32_t body) {
+void Engine::require_prediction(std::uint32_t body) {
   if ((bodies_[body].flags & pending) != 0) return;
   bodies_[body].flags |= pending;
   pending_.push_back(body);
@@ -126,8 +118,7 @@ void BasicEngine<Real>::require_prediction(std::uint32_t body) {
 
 /// Where everything is predicted anew, whoever moves finds those who rest; these need not look for
 /// themselves.
-template <class Real>
-void BasicEngine<Real>::predict_pending() {
+void Engine::predict_pending() {
   if (2 * pending_.size() > bodies_.size()) rebuild_grid();
   for (const std::uint32_t body : pending_) {
     bodies_[body].flags = static_cast<std::uint8_t>(bodies_[body].flags & ~pending);
@@ -144,15 +135,13 @@ void BasicEngine<Real>::predict_pending() {
 }
 
 /// At rest by itself: it has no event before somebody else's.
-template <class Real>
-bool BasicEngine<Real>::is_left_alone(std::uint32_t body) const {
+bool Engine::is_left_alone(std::uint32_t body) const {
   const Body& b = bodies_[body];
   return b.vx == 0.0 && b.vy == 0.0 && (b.flags & held) == 0 &&
-         laws_[body].acceleration == Vector2(0.0, 0.0);
+         laws_[body].acceleration == RealVector(0.0, 0.0);
 }
 
-template <class Real>
-void BasicEngine<Real>::remove(std::uint32_t body) {
+void Engine::remove(std::uint32_t body) {
   Body& b = bodies_[body];
   if ((b.flags & removed) != 0) return;
   keep(body);
@@ -169,13 +158,11 @@ void BasicEngine<Real>::remove(std::uint32_t body) {
   settle();
 }
 
-template <class Real>
-void BasicEngine<Real>::place(std::uint32_t puck, const Vector2& position,
-                              const Vector2& velocity) {
+void Engine::place(std::uint32_t puck, const RealVector& position, const RealVector& velocity) {
   Body& b = bodies_[puck];
   assert(b.kind == BodyKind::puck && (b.flags & gone) == out_of_play && position.allFinite() &&
          velocity.allFinite());
-  assert(is_free(position, {Vector2(0.0, 0.0), b.radius}));
+  assert(is_free(position, {RealVector(0.0, 0.0), b.radius}));
   keep(puck);
   b.x = position.x(), b.y = position.y(), b.vx = velocity.x(), b.vy = velocity.y(), b.time = now_;
   b.flags = static_cast<std::uint8_t>(b.flags & ~out_of_play);
@@ -187,8 +174,7 @@ void BasicEngine<Real>::place(std::uint32_t puck, const Vector2& position,
   settle();
 }
 
-template <class Real>
-void BasicEngine<Real>::set_thrust(std::uint32_t bat, const Vector2& acceleration) {
+void Engine::set_thrust(std::uint32_t bat, const RealVector& acceleration) {
   assert(bodies_[bat].kind == BodyKind::bat && acceleration.allFinite());
   if (builds_[bat].thrust == acceleration) return;
   keep(bat);
@@ -209,8 +195,7 @@ void BasicEngine<Real>::set_thrust(std::uint32_t bat, const Vector2& acceleratio
   settle();
 }
 
-template <class Real>
-std::optional<BasicGoal<Real>> BasicEngine<Real>::advance(Real until) {
+std::optional<Goal> Engine::advance(Real until) {
   assert(until >= now_ && until < infinity);
   // Or else a stop between two keys of one instant would let the first one's impacts come before
   // the second one.
@@ -232,8 +217,7 @@ std::optional<BasicGoal<Real>> BasicEngine<Real>::advance(Real until) {
 
 /// Fetches what the next events will look into, in steps, as one thing leads to the next: who
 /// comes, whom he meets and in which cells, who is there. Changes nothing but speed.
-template <class Real>
-void BasicEngine<Real>::look_ahead() {
+void Engine::look_ahead() {
   const auto& calendar = *queue_.calendar();
   const auto fetch = [&](std::uint32_t body) {
     __builtin_prefetch(&bodies_[body], 1);
@@ -279,8 +263,7 @@ void BasicEngine<Real>::look_ahead() {
   });
 }
 
-template <class Real>
-void BasicEngine<Real>::process(std::uint32_t body, Real time) {
+void Engine::process(std::uint32_t body, Real time) {
   now_ = std::max(now_, time);
   const Slot& slot = slots_[body];
   if (slot.crossing_time < slot.impact_time) return cross_cell(body);
@@ -304,8 +287,7 @@ void BasicEngine<Real>::process(std::uint32_t body, Real time) {
 }
 
 /// Time that advances by roundings alone does not count as advancing.
-template <class Real>
-void BasicEngine<Real>::count_event(Real time) {
+void Engine::count_event(Real time) {
   if (time > instant_begin_ + 16.0 * std::numeric_limits<Real>::epsilon() * (1.0 + time)) {
     instant_begin_ = time;
     events_at_once_ = 0;
@@ -317,8 +299,7 @@ void BasicEngine<Real>::count_event(Real time) {
     journal_->times.push_back(time);
 }
 
-template <class Real>
-void BasicEngine<Real>::settle() {
+void Engine::settle() {
   if (spec_.accounts_energy) enter_impacts();
   if (is_slowed()) slide_touched();
   if (journal_ != nullptr) enter_changes();
@@ -330,8 +311,7 @@ void BasicEngine<Real>::settle() {
   touched_.clear();
 }
 
-template <class Real>
-void BasicEngine<Real>::cross_cell(std::uint32_t body) {
+void Engine::cross_cell(std::uint32_t body) {
   ++counters_.crossings;
   const CellGrid::Direction direction = slots_[body].direction;
   grid_.move(body, direction);
@@ -344,8 +324,7 @@ void BasicEngine<Real>::cross_cell(std::uint32_t body) {
   enqueue(body);
 }
 
-template <class Real>
-void BasicEngine<Real>::stop(std::uint32_t body, Real time) {
+void Engine::stop(std::uint32_t body, Real time) {
   note(EventKind::stop, time, body);
   wake(body, time);
   rebase_companions(body, time);
@@ -353,8 +332,7 @@ void BasicEngine<Real>::stop(std::uint32_t body, Real time) {
       0.0;  // one too slow to move before the next instant that a clock can show was not evaluated
 }
 
-template <class Real>
-void BasicEngine<Real>::score(std::uint32_t body, Real time) {
+void Engine::score(std::uint32_t body, Real time) {
   note(EventKind::goal, time, body);
   wake(body, time);
   for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
@@ -368,7 +346,4 @@ void BasicEngine<Real>::score(std::uint32_t body, Real time) {
   goal_ = Goal{time, {body}, b.x < 0.5 * spec_.field.length ? End::left : End::right};
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

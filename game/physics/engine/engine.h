@@ -17,52 +17,41 @@
 #include "game/physics/engine/journal.h"
 #include "game/physics/engine/partner.h"
 #include "game/physics/engine/tolerances.h"
+#include "game/physics/event.h"
 #include "game/physics/events/event_schedule.h"
 #include "game/physics/flight/impact_time.h"
 #include "game/physics/large_pages.h"
+#include "game/physics/real.h"
 #include "game/physics/sum.h"
-#include "game/physics/world.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// All state is in `Real`; specs are in double, whose values every wider scalar holds exactly.
-template <class Real>
-class BasicEngine {
-  using Vector2 = BasicVector2<Real>;
-  using Motion = BasicMotion<Real>;
-  using WarpedTime = BasicWarpedTime<Real>;
-  using Gap = BasicGap<Real>;
-  using RoundedBox = BasicRoundedBox<Real>;
-  using HalfPlane = BasicHalfPlane<Real>;
-  using RelativeMotion = BasicRelativeMotion<Real>;
-  using EventQueue = BasicEventSchedule<Real>;
-  using Goal = BasicGoal<Real>;
-  using Event = BasicEvent<Real>;
-
+class Engine {
  public:
-  explicit BasicEngine(const WorldSpec& spec);
+  explicit Engine(const WorldSpec& spec);
 
-  BodyId add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius,
-             const Vector2& half_extent, Real mass, MaterialId material, Half half, Real spin);
+  BodyId add(BodyKind kind, const RealVector& position, const RealVector& velocity, Real radius,
+             const RealVector& half_extent, Real mass, MaterialId material, Half half, Real spin);
   void remove(std::uint32_t body);
-  void set_thrust(std::uint32_t bat, const Vector2& acceleration);
-  void place(std::uint32_t puck, const Vector2& position, const Vector2& velocity);
+  void set_thrust(std::uint32_t bat, const RealVector& acceleration);
+  void place(std::uint32_t puck, const RealVector& position, const RealVector& velocity);
   std::optional<Goal> advance(Real until);
 
   Motion motion(std::uint32_t body) const;
-  bool is_free(const Vector2& centre, const RoundedBox& shape) const;
+  bool is_free(const RealVector& centre, const RoundedBox& shape) const;
   Real kinetic_energy() const;
-  Vector2 momentum() const;
+  RealVector momentum() const;
   Real max_overlap() const;
   Real spin(std::uint32_t body) const { return is_rough() ? spins_[body] : 0.0; }
   Real work_of_thrust() const;
   Real dissipated() const;
   std::uint64_t hash() const;
   std::vector<std::uint8_t> save() const;
-  static std::unique_ptr<BasicEngine> restore(std::span<const std::uint8_t> bytes);
+  static std::unique_ptr<Engine> restore(std::span<const std::uint8_t> bytes);
 
  private:
-  friend class BasicWorld<Real>;
+  friend class World;
   friend class Portion;
 
   enum Flag : std::uint8_t {
@@ -79,20 +68,12 @@ class BasicEngine {
   static std::uint8_t held_along(int axis) { return axis == 0 ? held_x : held_y; }
   enum Mouth : std::uint8_t { no_mouth, left_mouth, right_mouth };
 
-  using Body = BasicBody<Real>;
-  using Build = BasicBuild<Real>;
-  using Law = BasicLaw<Real>;
-  using Rhythm = BasicRhythm<Real>;
-  using Slot = BasicSlot<Real>;
   static constexpr Slot no_event{std::numeric_limits<Real>::infinity(),
                                  std::numeric_limits<Real>::infinity(),
                                  partner::none,
                                  0,
                                  CellGrid::left,
                                  false};
-  using Hold = BasicHold<Real>;
-  using Contact = BasicContact<Real>;
-  using Touch = BasicTouch<Real>;
 
   // engine.cpp: bodies and the loop
   bool is_body(Partner p) const { return p < partner::field_parts; }
@@ -102,7 +83,7 @@ class BasicEngine {
   Motion at(std::uint32_t body, Real time) const { return motion(body).at(time); }
   RoundedBox shape_of(std::uint32_t a, std::uint32_t b) const;
   HalfPlane plane_of(std::uint32_t body, Partner wall) const;
-  Vector2 goal_edge(Partner edge) const;
+  RealVector goal_edge(Partner edge) const;
   Real reach_of(std::uint32_t body) const;
   void rebuild_grid();
   void enter_mouth_if_inside(std::uint32_t body);
@@ -141,7 +122,7 @@ class BasicEngine {
   }
   void keep_state(std::uint32_t body);
   void enter_changes();
-  BasicBodyState<Real> state_of(std::uint32_t body) const;
+  BodyState state_of(std::uint32_t body) const;
   std::uint64_t conditions_of(std::uint32_t body) const;
 
   // engine_friction.cpp
@@ -164,7 +145,7 @@ class BasicEngine {
   bool has_sliders(int axis, const std::vector<std::uint32_t>& members) const;
   Real aim_friction(int axis, const std::vector<std::uint32_t>& members, Real time);
   void calm(int axis, const std::vector<std::uint32_t>& members);
-  Vector2 friction_along(const Vector2& velocity) const;
+  RealVector friction_along(const RealVector& velocity) const;
   Real speed_lost(Real speed, Real push, Real drag) const;
 
   // engine_prediction.cpp
@@ -190,10 +171,10 @@ class BasicEngine {
   Real real_time(Real start, Real warped) const;
 
   // engine_impact.cpp
-  Vector2 position_at(std::uint32_t body, Real time) const;
+  RealVector position_at(std::uint32_t body, Real time) const;
   Contact contact(std::uint32_t body, Partner partner, Real time) const;
-  Vector2 velocity_of(Partner p) const;
-  Vector2 acceleration_of(Partner p) const;
+  RealVector velocity_of(Partner p) const;
+  RealVector acceleration_of(Partner p) const;
   Real restitution(std::uint32_t body, Partner partner) const;
   bool collide_freely(std::uint32_t body, Partner partner, Real time);
   void collide(std::uint32_t body, Partner partner, Real time);
@@ -218,11 +199,12 @@ class BasicEngine {
   bool collide_together(const Contact& contact, Real time);
   /// The speed at which the two sides part in a field of velocities: also the field's product,
   /// weighed by the masses, with the one that an impulse of 1 causes.
-  Real parting(const Touch& touch, const std::vector<Vector2>& velocities) const {
-    const Vector2 there = touch.other == fixed_place ? Vector2(0.0, 0.0) : velocities[touch.other];
+  Real parting(const Touch& touch, const std::vector<RealVector>& velocities) const {
+    const RealVector there =
+        touch.other == fixed_place ? RealVector(0.0, 0.0) : velocities[touch.other];
     return touch.normal.dot(velocities[touch.body] - there);
   }
-  Real joint_product(const std::vector<Vector2>& a, const std::vector<Vector2>& b) const;
+  Real joint_product(const std::vector<RealVector>& a, const std::vector<RealVector>& b) const;
   Real joint_energy() const { return 0.5 * joint_product(joint_velocities_, joint_velocities_); }
   Real joint_speed() const;
   bool solve_joint();
@@ -322,11 +304,11 @@ class BasicEngine {
   std::vector<std::uint32_t> jams_;  // number of the jam that a frozen body belongs to
   std::vector<Real>
       rest_times_;  // of worlds with friction: when it will have brought the body to rest
-  std::vector<Vector2> slowing_;  // likewise: its part in the acceleration of the body
-  std::vector<Real> spins_;       // of worlds with surface friction [rad/s]
+  std::vector<RealVector> slowing_;  // likewise: its part in the acceleration of the body
+  std::vector<Real> spins_;          // of worlds with surface friction [rad/s]
   std::vector<Hold> holds_;
   CellGrid grid_;
-  EventQueue queue_;
+  EventSchedule queue_;
   Real reach_ = 0.0;                 // largest half extent of any body [m]
   std::uint32_t grid_capacity_ = 0;  // bodies that the grid was made for
   std::uint32_t jam_count_ = 0;
@@ -338,17 +320,17 @@ class BasicEngine {
       looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
   std::vector<std::uint32_t> touched_, pending_, frozen_;
   std::vector<std::uint32_t> near_;
-  std::vector<Vector2> cluster_friction_;  // impulses per mass
+  std::vector<RealVector> cluster_friction_;  // impulses per mass
   std::vector<Real> accelerations_;
   std::vector<std::uint32_t> joint_;  // bodies of the cluster or joint impact at hand
-  std::vector<Vector2> joint_velocities_, trial_velocities_, velocities_before_;
+  std::vector<RealVector> joint_velocities_, trial_velocities_, velocities_before_;
   std::vector<Touch> touches_;
   std::vector<std::uint32_t> closing_,
       pushing_;  // touches of the problem at hand, and those of them that push
-  std::vector<std::vector<Vector2>>
+  std::vector<std::vector<RealVector>>
       basis_;  // what those that push can change, orthonormal in the metric of the masses
   std::vector<std::vector<Real>> columns_;  // each one's effect in terms of the basis: a triangle
-  std::vector<Vector2>
+  std::vector<RealVector>
       direction_;  // of the touch that is looked at: the part of its effect beyond the basis,
   std::vector<Real> column_, share_;  // and the part within
   Real instant_begin_ = -1.0;         // of the events counted as coming at once
@@ -358,13 +340,12 @@ class BasicEngine {
   bool is_hopeless_ = false;    // no joint impact could be solved at this instant
   std::optional<Goal> goal_;
   Counters counters_;
-  BasicSum<Real> introduced_, work_, loss_;
+  Sum introduced_, work_, loss_;
   std::vector<Real> energies_;  // of the bodies in touched_, before what happens to them now
   bool records_events_ = false;
   std::vector<Event> events_;
   ChangeLog changes_;
-  BasicJournal<Real>* journal_ = nullptr;
+  Journal* journal_ = nullptr;
 };
-using Engine = BasicEngine<double>;
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

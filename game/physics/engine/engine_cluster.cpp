@@ -7,7 +7,7 @@
 #include "game/physics/engine/engine.h"
 #include "game/physics/engine/visit_partners.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 constexpr std::uint32_t slow_impacts_max = 8;  // within contact_time, before a hop
@@ -22,9 +22,7 @@ constexpr double loose_gaps = 8.0;
 constexpr double creep_speed = 1e-9;  // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
 
-template <class Real>
-bool BasicEngine<Real>::is_pressed_hard(std::uint32_t body, Partner p, Real approach,
-                                        Real time) const {
+bool Engine::is_pressed_hard(std::uint32_t body, Partner p, Real approach, Real time) const {
   const auto is_worn = [&](std::uint32_t b) {
     const Rhythm& rhythm = rhythms_[b];
     if (rhythm.impacts >= impacts_max) return true;
@@ -39,8 +37,7 @@ bool BasicEngine<Real>::is_pressed_hard(std::uint32_t body, Partner p, Real appr
 /// its contacts by a little: half of what its thrust, or the difference in drag that closes `c` by
 /// `pressing`, builds up within `contact_time`. False, with nothing done to velocities, if an
 /// ordinary impact serves: nothing presses, and nothing is lost or the contact is alone.
-template <class Real>
-bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real time) {
+bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
   gather(c, std::max<Real>(rest_speed_, 2.0 * approach), time);
   const Real thrust_max = joint_thrust();
   Real given_back = 1.0;
@@ -70,11 +67,11 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
   for (const std::uint32_t body : joint_) joint_velocities_.push_back(velocity_of(body));
   const Real speed = joint_speed();
   if (thrust_max == 0.0 && speed < still_speed()) {
-    std::fill(joint_velocities_.begin(), joint_velocities_.end(), Vector2(0.0, 0.0));
+    std::fill(joint_velocities_.begin(), joint_velocities_.end(), RealVector(0.0, 0.0));
   } else {
     // Less than a few roundings of the speeds would be none; its energy, 1e-24 of what there is, is
     // below rounding.
-    const Real least = 1e-12 * fineness<Real> * speed;
+    const Real least = 1e-12 * fineness * speed;
     const Real driven = std::max(
                    least, std::clamp<Real>(0.5 * pressure * contact_time_, 0.0, 0.5 * rest_speed_)),
                sum = driven * static_cast<Real>(touches_.size());
@@ -94,20 +91,18 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
 }
 
 /// The strongest thrust in the cluster [m/s^2].
-template <class Real>
-Real BasicEngine<Real>::joint_thrust() const {
+Real Engine::joint_thrust() const {
   Real most = 0.0;
   for (const std::uint32_t body : joint_) most = std::max(most, builds_[body].thrust.norm());
   return most;
 }
 
 /// The acceleration at which contacts close because their normals turn, at most [m/s^2]: v^2/R.
-template <class Real>
-Real BasicEngine<Real>::turning() const {
+Real Engine::turning() const {
   Real most = 0.0;
   for (const Touch& c : touches_) {
     const bool is_partner_moved = c.other != fixed_place;
-    const Vector2 there = is_partner_moved ? joint_velocities_[c.other] : Vector2(0.0, 0.0);
+    const RealVector there = is_partner_moved ? joint_velocities_[c.other] : RealVector(0.0, 0.0);
     const Real reach = bodies_[joint_[c.body]].radius +
                        (is_partner_moved ? bodies_[joint_[c.other]].radius : Real(0.0));
     if (reach > 0.0)
@@ -119,24 +114,21 @@ Real BasicEngine<Real>::turning() const {
 /// Pucks that nothing but their friction presses together hop further than others, as if they met
 /// for 16 `contact_time`: that presses weakly and only until they rest. During the flight friction
 /// takes more energy than the hop gives, for they are faster than twice the hop.
-template <class Real>
-Real BasicEngine<Real>::glancing_speed(Real thrust_max, Real pressing, Real speed) const {
+Real Engine::glancing_speed(Real thrust_max, Real pressing, Real speed) const {
   const Real apart = 0.5 * pressing * Real(glancing_part) * contact_time_;
   return is_slowed() && thrust_max == 0.0 && speed > 2.0 * apart ? apart : Real(0.0);
 }
 
 /// What moves no faster than this, and is not driven, stops [m/s]: pucks that friction would stop
 /// within `contact_time`, and anything that merely creeps.
-template <class Real>
-Real BasicEngine<Real>::still_speed() const {
+Real Engine::still_speed() const {
   const bool is_slowed_down = std::all_of(joint_.begin(), joint_.end(),
                                           [&](std::uint32_t body) { return is_slowed(body); });
   return is_slowed_down ? std::max<Real>(creep_speed, spec_.puck_friction * contact_time_)
                         : Real(creep_speed);
 }
 
-template <class Real>
-std::uint32_t BasicEngine<Real>::place_in_cluster(std::uint32_t body, Real time) {
+std::uint32_t Engine::place_in_cluster(std::uint32_t body, Real time) {
   const auto found = std::find(joint_.begin(), joint_.end(), body);
   if (found != joint_.end()) return static_cast<std::uint32_t>(found - joint_.begin());
   wake(body, time);
@@ -146,12 +138,11 @@ std::uint32_t BasicEngine<Real>::place_in_cluster(std::uint32_t body, Real time)
   return static_cast<std::uint32_t>(joint_.size() - 1);
 }
 
-template <class Real>
-void BasicEngine<Real>::add_contact(std::uint32_t place, Partner p, Real speed_max, Real time) {
+void Engine::add_contact(std::uint32_t place, Partner p, Real speed_max, Real time) {
   const std::uint32_t body = joint_[place];
   const Contact c = contact(body, p, time);
   if (c.gap.distance > gap_max_) return;
-  const Vector2 there = is_fixed(p) ? Vector2(0.0, 0.0) : at(p, time).velocity;
+  const RealVector there = is_fixed(p) ? RealVector(0.0, 0.0) : at(p, time).velocity;
   if (std::abs(c.gap.normal.dot(velocity_of(body) - there)) > speed_max) return;
   if (is_fixed(p)) {
     touches_.push_back(
@@ -168,8 +159,7 @@ void BasicEngine<Real>::add_contact(std::uint32_t place, Partner p, Real speed_m
 
 /// Every body connected with the contact by gaps below `cluster_gap` that close or open no faster
 /// than `speed_max`, in an order that depends on ids alone.
-template <class Real>
-void BasicEngine<Real>::gather(const Contact& c, Real speed_max, Real time) {
+void Engine::gather(const Contact& c, Real speed_max, Real time) {
   joint_.clear();
   touches_.clear();
   place_in_cluster(c.body, time);
@@ -181,17 +171,16 @@ void BasicEngine<Real>::gather(const Contact& c, Real speed_max, Real time) {
 /// Parts the cluster at `separation`. Energy may grow by `gain_max`; what it takes beyond that, the
 /// bodies pay from their motion against each other (from all their motion where the cluster leans
 /// on something fixed), which leaves the momentum and slows the parting in the same measure.
-template <class Real>
-void BasicEngine<Real>::part_cluster(Real separation, Real gain_max) {
+void Engine::part_cluster(Real separation, Real gain_max) {
   Real mass = 0.0;
-  Vector2 momentum(0.0, 0.0);
+  RealVector momentum(0.0, 0.0);
   for (std::size_t place = 0; place < joint_.size(); ++place) {
     mass += builds_[joint_[place]].mass;
     momentum += builds_[joint_[place]].mass * joint_velocities_[place];
   }
   const bool is_leaning = std::any_of(touches_.begin(), touches_.end(),
                                       [](const Touch& c) { return c.other == fixed_place; });
-  const Vector2 frame = is_leaning ? Vector2(0.0, 0.0) : Vector2(momentum / mass);
+  const RealVector frame = is_leaning ? RealVector(0.0, 0.0) : RealVector(momentum / mass);
   const auto energy = [&] {
     Real sum = 0.0;
     for (std::size_t place = 0; place < joint_.size(); ++place)
@@ -203,7 +192,7 @@ void BasicEngine<Real>::part_cluster(Real separation, Real gain_max) {
   Real energy_after = energy();
   if (energy_after > energy_max) {
     const Real share = std::sqrt(energy_max / energy_after);
-    for (Vector2& velocity : joint_velocities_) velocity = frame + share * (velocity - frame);
+    for (RealVector& velocity : joint_velocities_) velocity = frame + share * (velocity - frame);
     energy_after = energy_max;
   }
   counters_.hop_energy += std::max(0.0, static_cast<double>(energy_after - energy_before));
@@ -211,8 +200,7 @@ void BasicEngine<Real>::part_cluster(Real separation, Real gain_max) {
 
 /// The nearest velocities, in the metric of the masses, that part every contact at `separation` or
 /// faster.
-template <class Real>
-void BasicEngine<Real>::solve_cluster(Real separation) {
+void Engine::solve_cluster(Real separation) {
   for (Touch& touch : touches_) touch.wanted = separation;
   closing_.resize(touches_.size());
   std::iota(closing_.begin(), closing_.end(), 0u);
@@ -229,8 +217,7 @@ void BasicEngine<Real>::solve_cluster(Real separation) {
 
 /// After find_pushing() met contacts that cannot all part, for they hold what is between them from
 /// opposite sides: these shall only not close. Answers whether that asks for less.
-template <class Real>
-bool BasicEngine<Real>::give_way() {
+bool Engine::give_way() {
   if (blocked_ == fixed_place) return false;
   bool is_less = touches_[blocked_].wanted > 0.0;
   touches_[blocked_].wanted = 0.0;
@@ -246,8 +233,7 @@ bool BasicEngine<Real>::give_way() {
 /// Bodies that are held from opposite sides along an axis get the same velocity along it, to the
 /// bit (none, where something fixed holds them): what rounding leaves would let them meet again at
 /// once, and for ever.
-template <class Real>
-void BasicEngine<Real>::hold_jammed() {
+void Engine::hold_jammed() {
   const auto fixed = static_cast<std::uint32_t>(joint_.size());
   const Real slowest = 1e-9 * joint_speed();
   std::vector<std::uint32_t> leaders(fixed + 1);
@@ -275,14 +261,13 @@ void BasicEngine<Real>::hold_jammed() {
 /// Gauss-Seidel on impulses: for clusters so large that the direct way would take milliseconds, at
 /// the price of poor convergence where light bodies lie between heavy ones. Where `friction` is
 /// above 0, pucks resist their motion by up to that impulse per mass.
-template <class Real>
-void BasicEngine<Real>::sweep_cluster(Real separation, Real friction) {
+void Engine::sweep_cluster(Real separation, Real friction) {
   const auto yielding = [&](std::uint32_t place) {
     return place == fixed_place ? 0.0 : builds_[joint_[place]].inverse_mass;
   };
   const Real accuracy = separation > 0.0 ? 0.1 * separation : 1e-9 * joint_speed();
   for (Touch& c : touches_) c.impulse = 0.0;
-  cluster_friction_.assign(joint_.size(), Vector2(0.0, 0.0));
+  cluster_friction_.assign(joint_.size(), RealVector(0.0, 0.0));
   for (int sweep = 0; sweep < sweeps_max; ++sweep) {
     Real change = friction > 0.0 ? resist_in_cluster(friction) : Real(0.0);
     for (Touch& c : touches_) {
@@ -300,15 +285,14 @@ void BasicEngine<Real>::sweep_cluster(Real separation, Real friction) {
 }
 
 /// One sweep of static friction in sweep_cluster(); answers its largest change.
-template <class Real>
-Real BasicEngine<Real>::resist_in_cluster(Real friction) {
+Real Engine::resist_in_cluster(Real friction) {
   Real change = 0.0;
   for (std::size_t place = 0; place < joint_.size(); ++place) {
     if (!is_slowed(joint_[place])) continue;
-    Vector2 resistance = cluster_friction_[place] - joint_velocities_[place];
+    RealVector resistance = cluster_friction_[place] - joint_velocities_[place];
     const Real length = resistance.norm();
     if (length > friction) resistance *= friction / length;
-    const Vector2 step = resistance - cluster_friction_[place];
+    const RealVector step = resistance - cluster_friction_[place];
     joint_velocities_[place] += step;
     cluster_friction_[place] = resistance;
     change = std::max(change, step.norm());
@@ -318,8 +302,7 @@ Real BasicEngine<Real>::resist_in_cluster(Real friction) {
 
 /// Brings a slow cluster whose contacts and friction can bear all its thrust to a stop, for as long
 /// as nothing else acts on it. Answers whether it could.
-template <class Real>
-bool BasicEngine<Real>::freeze(Real thrust_max) {
+bool Engine::freeze(Real thrust_max) {
   joint_velocities_.clear();
   for (const std::uint32_t body : joint_) {
     if (velocity_of(body).norm() > rest_speed_) return false;
@@ -327,7 +310,7 @@ bool BasicEngine<Real>::freeze(Real thrust_max) {
   }
   if (is_slowed()) sweep_cluster(0.0, spec_.puck_friction);
   else solve_cluster(0.0);
-  for (const Vector2& acceleration : joint_velocities_)
+  for (const RealVector& acceleration : joint_velocities_)
     if (acceleration.norm() > 1e-6 * thrust_max) return false;
   stop_cluster();
   return true;
@@ -336,8 +319,7 @@ bool BasicEngine<Real>::freeze(Real thrust_max) {
 /// A pile that hops for long is seldom in contact everywhere at once: gaps eight times as wide
 /// count as closed for the question whether it could stand. If it could not, the cluster is what
 /// gather() found before.
-template <class Real>
-bool BasicEngine<Real>::freeze_loosely(const Contact& c, Real speed_max, Real time) {
+bool Engine::freeze_loosely(const Contact& c, Real speed_max, Real time) {
   gap_max_ = loose_gaps * cluster_gap;
   gather(c, std::numeric_limits<Real>::infinity(), time);
   gap_max_ = cluster_gap;
@@ -346,7 +328,4 @@ bool BasicEngine<Real>::freeze_loosely(const Contact& c, Real speed_max, Real ti
   return false;
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// Of its motion and spin at its last event [J].
-template <class Real>
-Real BasicEngine<Real>::energy_of(std::uint32_t body) const {
+Real Engine::energy_of(std::uint32_t body) const {
   const Body& b = bodies_[body];
   if (b.kind == BodyKind::post) return 0.0;
   const Real spin_energy = is_rough() && b.kind == BodyKind::puck
@@ -21,8 +20,7 @@ Real BasicEngine<Real>::energy_of(std::uint32_t body) const {
 /// of a v and g v^2, with v = v0 e + a s (docs/physics.md, "Energy"). Of the acceleration, friction
 /// takes its part; all else is thrust: the body's own, or its share in that of those who press on
 /// it.
-template <class Real>
-auto BasicEngine<Real>::expense_until(std::uint32_t body, Real time) const -> Expense {
+auto Engine::expense_until(std::uint32_t body, Real time) const -> Expense {
   const Motion m = motion(body);
   const Real elapsed = std::min(time, m.rest_time) - m.time;
   if (elapsed <= 0.0 || builds_[body].inverse_mass == 0.0) return {0.0, 0.0};
@@ -41,40 +39,33 @@ auto BasicEngine<Real>::expense_until(std::uint32_t body, Real time) const -> Ex
   return {mass * pushed, mass * dragged};
 }
 
-template <class Real>
-void BasicEngine<Real>::enter_expense(std::uint32_t body, Real time) {
+void Engine::enter_expense(std::uint32_t body, Real time) {
   const Expense expense = expense_until(body, time);
   work_.add(expense.work);
   loss_.add(expense.loss);
 }
 
 /// What the event at hand took from the bodies that it touched.
-template <class Real>
-void BasicEngine<Real>::enter_impacts() {
+void Engine::enter_impacts() {
   for (std::size_t i = 0; i < touched_.size(); ++i)
     if (!is_gone(touched_[i])) loss_.add(energies_[i] - energy_of(touched_[i]));
   energies_.clear();
 }
 
-template <class Real>
-Real BasicEngine<Real>::work_of_thrust() const {
+Real Engine::work_of_thrust() const {
   if (!spec_.accounts_energy) return 0.0;
-  BasicSum<Real> sum = work_;
+  Sum sum = work_;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
     if (!is_gone(body)) sum.add(expense_until(body, now_).work);
   return sum.value();
 }
 
-template <class Real>
-Real BasicEngine<Real>::dissipated() const {
+Real Engine::dissipated() const {
   if (!spec_.accounts_energy) return 0.0;
-  BasicSum<Real> sum = loss_;
+  Sum sum = loss_;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
     if (!is_gone(body)) sum.add(expense_until(body, now_).loss);
   return sum.value();
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "game/physics/engine/engine.h"
+#include "game/physics/flight/exponential.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 
@@ -19,16 +20,15 @@ constexpr double calm_speed = 1e-9;
 
 }  // namespace
 
-template <class Real>
-BasicVector2<Real> BasicEngine<Real>::friction_along(const Vector2& velocity) const {
+RealVector Engine::friction_along(const RealVector& velocity) const {
   const Real speed = std::sqrt(velocity.squaredNorm());
-  return speed == 0.0 ? Vector2(0.0, 0.0) : Vector2(-spec_.puck_friction * (velocity / speed));
+  return speed == 0.0 ? RealVector(0.0, 0.0)
+                      : RealVector(-spec_.puck_friction * (velocity / speed));
 }
 
 /// The law of friction for everything that the event at hand touched. Groups that push a puck come
 /// first, for they may let it go.
-template <class Real>
-void BasicEngine<Real>::slide_touched() {
+void Engine::slide_touched() {
   std::vector<std::uint32_t> done;
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     const std::uint32_t body = touched_[i];
@@ -46,8 +46,7 @@ void BasicEngine<Real>::slide_touched() {
 
 /// The law of friction for the velocity that the body has now; it does nothing to what friction
 /// does not slow. A pushed puck shares the law of its group along one axis.
-template <class Real>
-void BasicEngine<Real>::slide(std::uint32_t body) {
+void Engine::slide(std::uint32_t body) {
   if (!is_slowed(body)) return;
   if (const std::optional<int> axis = pushed_axis(body)) {
     rest_times_[body] = infinity;
@@ -63,8 +62,7 @@ void BasicEngine<Real>::slide(std::uint32_t body) {
 }
 
 /// The axis along which the body is in rest contact with what can move, and with nothing fixed.
-template <class Real>
-std::optional<int> BasicEngine<Real>::pushed_axis(std::uint32_t body) const {
+std::optional<int> Engine::pushed_axis(std::uint32_t body) const {
   for (int axis = 0; axis < 2; ++axis)
     if ((bodies_[body].flags & held_along(axis)) != 0 &&
         !is_group_fixed(axis, companions(body, held_along(axis))))
@@ -74,8 +72,7 @@ std::optional<int> BasicEngine<Real>::pushed_axis(std::uint32_t body) const {
 
 /// Whether the group is free to move and has a puck that is also pushed along the other axis: its
 /// friction would bind two groups to each other.
-template <class Real>
-bool BasicEngine<Real>::is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const {
+bool Engine::is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const {
   if (!is_slowed() || is_group_fixed(axis, members)) return false;
   return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) {
     return is_slowed(member) && (bodies_[member].flags & held_along(1 - axis)) != 0 &&
@@ -84,8 +81,7 @@ bool BasicEngine<Real>::is_pushed_twice(int axis, const std::vector<std::uint32_
 }
 
 /// Stops what friction has slowed down to nothing.
-template <class Real>
-void BasicEngine<Real>::calm(int axis, const std::vector<std::uint32_t>& members) {
+void Engine::calm(int axis, const std::vector<std::uint32_t>& members) {
   const bool is_group_calm = std::abs(velocity_of(members.front())[axis]) <= calm_speed;
   for (const std::uint32_t member : members) {
     Body& b = bodies_[member];
@@ -99,23 +95,20 @@ void BasicEngine<Real>::calm(int axis, const std::vector<std::uint32_t>& members
 }
 
 /// The time in which a push against it takes a speed away; infinite if it does not.
-template <class Real>
-Real BasicEngine<Real>::speed_lost(Real speed, Real push, Real drag) const {
+Real Engine::speed_lost(Real speed, Real push, Real drag) const {
   if (!(speed * push < 0.0)) return infinity;
   return drag == 0.0 ? -speed / push : log1p_of(-drag * speed / push) / drag;
 }
 
 /// Friction against the velocities of the group's pucks as they are; of those at rest along the
 /// axis of a group that may stand, it remains to be found (solve_forces).
-template <class Real>
-void BasicEngine<Real>::face_friction(const std::vector<std::uint32_t>& members) {
+void Engine::face_friction(const std::vector<std::uint32_t>& members) {
   for (const std::uint32_t member : members)
     if (is_slowed(member)) slowing_[member] = friction_along(velocity_of(member));
 }
 
 /// Whether a puck of the group slides across its axis, so that its friction turns.
-template <class Real>
-bool BasicEngine<Real>::has_sliders(int axis, const std::vector<std::uint32_t>& members) const {
+bool Engine::has_sliders(int axis, const std::vector<std::uint32_t>& members) const {
   return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) {
     return is_slowed(member) && velocity_of(member)[1 - axis] != 0.0;
   });
@@ -124,9 +117,7 @@ bool BasicEngine<Real>::has_sliders(int axis, const std::vector<std::uint32_t>& 
 /// Aims the friction of the group's sliding pucks against the velocities that they will have
 /// half-way to the next time that it is aimed, and answers when that is; never where they keep
 /// their direction.
-template <class Real>
-Real BasicEngine<Real>::aim_friction(int axis, const std::vector<std::uint32_t>& members,
-                                     Real time) {
+Real Engine::aim_friction(int axis, const std::vector<std::uint32_t>& members, Real time) {
   const int across = 1 - axis;
   if (is_group_fixed(axis, members) ||
       std::none_of(members.begin(), members.end(),
@@ -156,7 +147,7 @@ Real BasicEngine<Real>::aim_friction(int axis, const std::vector<std::uint32_t>&
   Real arc = infinity;
   for (const std::uint32_t member : members) {
     if (!slides_across(member)) continue;
-    const Vector2 velocity = velocity_of(member);
+    const RealVector velocity = velocity_of(member);
     const Real along = push() - drag * speed,
                aside = slowing_[member][across] - own_drag(member) * velocity[across];
     const Real square = velocity.squaredNorm(),
@@ -172,7 +163,7 @@ Real BasicEngine<Real>::aim_friction(int axis, const std::vector<std::uint32_t>&
     for (const std::uint32_t member : members) {
       if (!slides_across(member)) continue;
       const WarpedTime alone = warp_unaccelerated(half, own_drag(member));
-      Vector2 velocity;
+      RealVector velocity;
       velocity[axis] = speed * together.e + pushing * together.s;
       velocity[across] = velocity_of(member)[across] * alone.e + slowing_[member][across] * alone.s;
       slowing_[member] = friction_along(velocity);
@@ -183,8 +174,7 @@ Real BasicEngine<Real>::aim_friction(int axis, const std::vector<std::uint32_t>&
 
 /// One sweep of static friction: each puck at rest resists its acceleration along the axis as far
 /// as Coulomb's law lets it. Answers the largest change [m/s^2].
-template <class Real>
-Real BasicEngine<Real>::resist(const std::vector<std::uint32_t>& members, int axis) {
+Real Engine::resist(const std::vector<std::uint32_t>& members, int axis) {
   Real change = 0.0;
   for (const std::uint32_t member : members) {
     if (!is_slowed(member) || is_sliding(member)) continue;
@@ -197,7 +187,4 @@ Real BasicEngine<Real>::resist(const std::vector<std::uint32_t>& members, int ax
   return change;
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -4,7 +4,7 @@
 #include "game/physics/engine/engine.h"
 #include "game/physics/flight/straight_flight.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 
@@ -14,34 +14,30 @@ constexpr double press_min = 1e-7;
 
 }  // namespace
 
-template <class Real>
-BasicVector2<Real> BasicEngine<Real>::position_at(std::uint32_t body, Real time) const {
+RealVector Engine::position_at(std::uint32_t body, Real time) const {
   const Body& b = bodies_[body];
-  return b.time >= time || b.kind == BodyKind::post ? Vector2(b.x, b.y) : at(body, time).position;
+  return b.time >= time || b.kind == BodyKind::post ? RealVector(b.x, b.y)
+                                                    : at(body, time).position;
 }
 
-template <class Real>
-auto BasicEngine<Real>::contact(std::uint32_t body, Partner p, Real time) const -> Contact {
-  const Vector2 position = position_at(body, time);
+auto Engine::contact(std::uint32_t body, Partner p, Real time) const -> Contact {
+  const RealVector position = position_at(body, time);
   if (is_body(p)) return {body, p, shape_of(body, p).gap(position - position_at(p, time))};
   if (p >= partner::edge_left_low && p <= partner::edge_right_high)
     return {body, p, RoundedBox{{0.0, 0.0}, bodies_[body].radius}.gap(position - goal_edge(p))};
   return {body, p, plane_of(body, p).gap(position)};
 }
 
-template <class Real>
-BasicVector2<Real> BasicEngine<Real>::velocity_of(Partner p) const {
-  return is_body(p) ? Vector2(bodies_[p].vx, bodies_[p].vy) : Vector2(0.0, 0.0);
+RealVector Engine::velocity_of(Partner p) const {
+  return is_body(p) ? RealVector(bodies_[p].vx, bodies_[p].vy) : RealVector(0.0, 0.0);
 }
 
-template <class Real>
-BasicVector2<Real> BasicEngine<Real>::acceleration_of(Partner p) const {
+RealVector Engine::acceleration_of(Partner p) const {
   if (is_fixed(p)) return {0.0, 0.0};
   return laws_[p].acceleration - laws_[p].drag.cwiseProduct(velocity_of(p));
 }
 
-template <class Real>
-Real BasicEngine<Real>::restitution(std::uint32_t body, Partner p) const {
+Real Engine::restitution(std::uint32_t body, Partner p) const {
   return spec_.restitution(bodies_[body].material,
                            is_body(p) ? bodies_[p].material : spec_.field.wall);
 }
@@ -51,8 +47,7 @@ Real BasicEngine<Real>::restitution(std::uint32_t body, Partner p) const {
 /// done, for anything else. A third one that touches matters to a journal alone; who is near is
 /// looked at where the next events are predicted, so what was done until then is taken back if
 /// there is one.
-template <class Real>
-bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time) {
+bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
   if (!is_body(p)) return false;
   const std::uint32_t low = std::min(body, p), high = std::max(body, p);
   Body &a = bodies_[low], &b = bodies_[high];
@@ -60,7 +55,7 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
       !has_free_impacts_ || spec_.restitution(a.material, b.material) != 1.0)
     return false;
   if (is_crowded(body, p)) return false;
-  const bool is_counting = journal_ != nullptr && curved_count_ == 0 && counts_touching<Real>();
+  const bool is_counting = journal_ != nullptr && curved_count_ == 0 && counts_touching();
   if (journal_ != nullptr && !is_counting && has_company(body, p, time)) return false;
   const Real elapsed_a = a.time < time ? time - a.time : 0.0,
              elapsed_b = b.time < time ? time - b.time : 0.0;
@@ -72,10 +67,9 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
   const Real approach = x * (b.vx - a.vx) + y * (b.vy - a.vy),
              length_max = std::abs(x) + std::abs(y), square = x * x + y * y;
   const Real speed_max = std::abs(a.vx) + std::abs(a.vy) + std::abs(b.vx) + std::abs(b.vy);
-  if (!(approach >=
-        1.01 * std::max<Real>(rest_speed_, separation_min<Real> * speed_max) * length_max))
+  if (!(approach >= 1.01 * std::max<Real>(rest_speed_, separation_min * speed_max) * length_max))
     return false;
-  const Flight<Real> before_a = a, before_b = b;
+  const Flight before_a = a, before_b = b;
   const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * square);
   const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
   a.restart(ax, ay, a.vx + kick_a * x, a.vy + kick_a * y, std::max(a.time, time));
@@ -88,7 +82,7 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
     const bool is_alone = square <= touching * touching && predict_counting(low) == 2 &&
                           predict_counting(high) == 2;  // each itself and the other
     if (!is_alone) {
-      static_cast<Flight<Real>&>(a) = before_a, static_cast<Flight<Real>&>(b) = before_b;
+      static_cast<Flight&>(a) = before_a, static_cast<Flight&>(b) = before_b;
       --a.version, --b.version;
       slots_[low] = slot_a, slots_[high] = slot_b;
       counters_.predictions = predictions;
@@ -113,16 +107,14 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
   return true;
 }
 
-template <class Real>
-void BasicEngine<Real>::collide(std::uint32_t body, Partner p, Real time) {
+void Engine::collide(std::uint32_t body, Partner p, Real time) {
   const std::uint32_t first = is_body(p) ? std::min(body, p) : body;
   if (is_body(p)) p = std::max(body, p);
   if (is_body(p) && builds_[first].inverse_mass == 0.0) return collide_ordered(p, first, time);
   collide_ordered(first, p, time);
 }
 
-template <class Real>
-void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time) {
+void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
   count_impact(body, p, time);
   wake(body, time);
   rebase_companions(body, time);
@@ -131,7 +123,7 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
   if (spec_.allow_overlap && is_stuck(c, time)) return stop_around(c, time);
   count_meeting(c);
   if (is_beyond_hope(c)) return stop_around(c, time);
-  const Vector2& normal = c.gap.normal;
+  const RealVector& normal = c.gap.normal;
   const Real approach = normal.dot(velocity_of(p) - velocity_of(body)),
              given_back = restitution(body, p);
   if (approach < rest_speed_ || given_back < 1.0 || is_hemmed_in(c)) {
@@ -161,19 +153,18 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
 /// line of centres l as it is, (1 + e) (l . w) / ((1/m + 1/m') l . l), for a unit normal is a
 /// little too long or too short, which does not average out: it changed the energy of 1,000 pucks
 /// by -1e-19 per impact.
-template <class Real>
-void BasicEngine<Real>::bounce(const Contact& c, Real given_back, Real time) {
+void Engine::bounce(const Contact& c, Real given_back, Real time) {
   for (int axis = 0; axis < 2; ++axis) {
     if (c.gap.normal[axis] == 0.0 && !is_rough()) continue;
     dissolve(c.body, axis, time);
     if (is_body(c.partner)) dissolve(c.partner, axis, time);
   }
-  const Vector2 here = velocity_of(c.body), there = velocity_of(c.partner);
-  const Vector2& line = c.gap.line;
+  const RealVector here = velocity_of(c.body), there = velocity_of(c.partner);
+  const RealVector& line = c.gap.line;
   const Real square = line.squaredNorm(), length = std::sqrt(square),
              approach = line.dot(there - here);
   const Real separation =
-      std::max(given_back * approach, separation_min<Real> * (here.norm() + there.norm()) * length);
+      std::max(given_back * approach, separation_min * (here.norm() + there.norm()) * length);
   const Real own = inverse_mass(c.body), other = inverse_mass(c.partner);
   const Real impulse = std::max<Real>(0.0, approach + separation) / ((own + other) * square);
   if (is_rough()) return rub(c, impulse * length);
@@ -188,9 +179,8 @@ void BasicEngine<Real>::bounce(const Contact& c, Real given_back, Real time) {
 
 /// The impulse along the normal and that of the surfaces along the tangent, which turns discs (O.
 /// R. Walton, Mechanics of Materials 16, 1993; docs/physics.md, "Spin").
-template <class Real>
-void BasicEngine<Real>::rub(const Contact& c, Real normal_impulse) {
-  const Vector2 &normal = c.gap.normal, tangent(-normal.y(), normal.x());
+void Engine::rub(const Contact& c, Real normal_impulse) {
+  const RealVector &normal = c.gap.normal, tangent(-normal.y(), normal.x());
   const bool is_partner_moved = inverse_mass(c.partner) > 0.0;
   const auto turns = [&](Partner p) { return is_body(p) && bodies_[p].kind == BodyKind::puck; };
   const auto rim_speed = [&](Partner p) {
@@ -207,7 +197,7 @@ void BasicEngine<Real>::rub(const Contact& c, Real normal_impulse) {
   const Real rubbing = -std::copysign(
       std::min<Real>(stick, spec_.surface_friction->coefficient(own, other) * normal_impulse),
       slip);
-  const Vector2 impulse = normal_impulse * normal + rubbing * tangent;
+  const RealVector impulse = normal_impulse * normal + rubbing * tangent;
   const auto kick = [&](std::uint32_t body, Real sign) {
     Body& b = bodies_[body];
     b.vx += sign * inverse_mass(body) * impulse.x(),
@@ -218,8 +208,7 @@ void BasicEngine<Real>::rub(const Contact& c, Real normal_impulse) {
   if (is_partner_moved) kick(c.partner, -1.0);
 }
 
-template <class Real>
-void BasicEngine<Real>::count_impact(std::uint32_t body, Partner p, Real time) {
+void Engine::count_impact(std::uint32_t body, Partner p, Real time) {
   const auto is = [&](BodyKind kind) {
     return bodies_[body].kind == kind || (is_body(p) && bodies_[p].kind == kind);
   };
@@ -232,8 +221,7 @@ void BasicEngine<Real>::count_impact(std::uint32_t body, Partner p, Real time) {
   note(kind(), time, body, p);
 }
 
-template <class Real>
-void BasicEngine<Real>::note_impact(std::uint32_t body, Real time) {
+void Engine::note_impact(std::uint32_t body, Real time) {
   keep(body);
   Rhythm& rhythm = rhythms_[body];
   if (time - rhythm.window_start > contact_time_) {
@@ -244,7 +232,4 @@ void BasicEngine<Real>::note_impact(std::uint32_t body, Real time) {
   if (journal_ != nullptr) journal_->stir(body, rhythm.impacts);
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -3,14 +3,13 @@
 
 #include "game/physics/engine/engine.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
-template <class Real>
-BasicBodyState<Real> BasicEngine<Real>::state_of(std::uint32_t body) const {
+BodyState Engine::state_of(std::uint32_t body) const {
   const Body& b = bodies_[body];
   const Build& build = builds_[body];
   const Rhythm& rhythm = rhythms_[body];
-  BasicBodyState<Real> state;
+  BodyState state;
   state.flight = b;
   state.mass = build.mass, state.inverse_mass = build.inverse_mass,
   state.half_extent = build.half_extent, state.thrust = build.thrust, state.half = build.half;
@@ -27,9 +26,8 @@ BasicBodyState<Real> BasicEngine<Real>::state_of(std::uint32_t body) const {
 }
 
 /// Before it changes otherwise than in a free impact, which leaves all but its flight.
-template <class Real>
-void BasicEngine<Real>::keep_state(std::uint32_t body) {
-  BasicJournal<Real>& journal = *journal_;
+void Engine::keep_state(std::uint32_t body) {
+  Journal& journal = *journal_;
   if (journal.marks[body].number > journal.mark) return;
   journal.keep_flight(body, bodies_[body]);
   journal.marks[body].number = journal.mark + 1;
@@ -39,8 +37,7 @@ void BasicEngine<Real>::keep_state(std::uint32_t body) {
 
 /// A digest of all but the flight, the same whichever way an impact took. The rhythm of impacts
 /// follows from their list, where `stirred` stands for it.
-template <class Real>
-std::uint64_t BasicEngine<Real>::conditions_of(std::uint32_t body) const {
+std::uint64_t Engine::conditions_of(std::uint32_t body) const {
   const Body& b = bodies_[body];
   std::uint64_t digest = b.mouth;
   const auto mix = [&](std::uint64_t word) {
@@ -52,7 +49,7 @@ std::uint64_t BasicEngine<Real>::conditions_of(std::uint32_t body) const {
   if (is_rough()) mix_real(spins_[body]);
   if (const std::uint8_t lasting = b.flags & (gone | held | frozen | curved); lasting != 0) {
     mix(lasting);
-    for (const Vector2& v : {laws_[body].acceleration, laws_[body].drag, builds_[body].thrust})
+    for (const RealVector& v : {laws_[body].acceleration, laws_[body].drag, builds_[body].thrust})
       mix_real(v.x()), mix_real(v.y());
     if (is_slowed())
       mix_real(rest_times_[body]), mix_real(slowing_[body].x()), mix_real(slowing_[body].y());
@@ -60,9 +57,8 @@ std::uint64_t BasicEngine<Real>::conditions_of(std::uint32_t body) const {
   return digest;
 }
 
-template <class Real>
-void BasicEngine<Real>::enter_changes() {
-  BasicJournal<Real>& journal = *journal_;
+void Engine::enter_changes() {
+  Journal& journal = *journal_;
   const auto enter = [&](std::uint32_t body) {
     journal.enter(body, bodies_[body], conditions_of(body) ^ journal.stirred);
     if ((bodies_[body].flags & (curved | held | frozen | gone)) == 0) return;
@@ -77,7 +73,4 @@ void BasicEngine<Real>::enter_changes() {
   ++journal.event;
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -5,7 +5,7 @@
 
 #include "game/physics/engine/engine.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 /// Impacts of one body at one and the same instant. Free bodies in overlap part after a few; a body
@@ -16,34 +16,25 @@ constexpr std::uint32_t hemmed_in_min = 10'000;
 }  // namespace
 
 /// Counts the impacts of each body at the instant at hand.
-template <class Real>
-void BasicEngine<Real>::count_meeting(const Contact& c) {
+void Engine::count_meeting(const Contact& c) {
   for (const Partner p : {c.body, c.partner})
     if (!is_fixed(p)) rhythms_[p].meetings.add(instant_begin_);
 }
 
-template <class Real>
-std::uint32_t BasicEngine<Real>::meetings(const Contact& c) const {
+std::uint32_t Engine::meetings(const Contact& c) const {
   return std::max(rhythms_[c.body].meetings.count,
                   is_fixed(c.partner) ? 0u : rhythms_[c.partner].meetings.count);
 }
 
 /// Whether somebody has so little room that even lossless impacts at one instant do not end:
 /// elastic series between unequal masses take fewer.
-template <class Real>
-bool BasicEngine<Real>::is_hemmed_in(const Contact& c) const {
-  return meetings(c) > hemmed_in_min;
-}
+bool Engine::is_hemmed_in(const Contact& c) const { return meetings(c) > hemmed_in_min; }
 
 /// Whether nothing that parts them has helped.
-template <class Real>
-bool BasicEngine<Real>::is_beyond_hope(const Contact& c) const {
-  return meetings(c) > 2 * hemmed_in_min;
-}
+bool Engine::is_beyond_hope(const Contact& c) const { return meetings(c) > 2 * hemmed_in_min; }
 
 /// Counts the impact at `time`; whether one of the two has had its fill.
-template <class Real>
-bool BasicEngine<Real>::is_stuck(const Contact& c, Real time) {
+bool Engine::is_stuck(const Contact& c, Real time) {
   const auto has_had_enough = [&](std::uint32_t body) {
     return rhythms_[body].repeats.add(time) > repeats_max;
   };
@@ -53,15 +44,13 @@ bool BasicEngine<Real>::is_stuck(const Contact& c, Real time) {
 }
 
 /// Stops all that hangs together with the contact, for as long as nothing else acts on it.
-template <class Real>
-void BasicEngine<Real>::stop_around(const Contact& c, Real time) {
+void Engine::stop_around(const Contact& c, Real time) {
   gather(c, std::numeric_limits<Real>::infinity(), time);
   note(EventKind::freeze, time, c.body, c.partner);
   stop_cluster();
 }
 
-template <class Real>
-void BasicEngine<Real>::stop_cluster() {
+void Engine::stop_cluster() {
   ++jam_count_;
   const std::uint32_t jam = *std::min_element(
       joint_.begin(), joint_.end());  // nobody is in two, so that it names the jam in every world
@@ -75,7 +64,4 @@ void BasicEngine<Real>::stop_cluster() {
   }
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

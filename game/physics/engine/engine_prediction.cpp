@@ -1,16 +1,16 @@
 // The earliest event of a body, from last-event states alone.
 #include "game/physics/engine/engine.h"
+#include "game/physics/flight/exponential.h"
 
 #include <algorithm>
 
 #include "game/physics/flight/straight_flight.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// Ties break by (time, lower id, higher id); parts of the field count as higher than every body.
 /// Whether another impact follows within the instant does not depend on the order of the offers.
-template <class Real>
-void BasicEngine<Real>::offer(std::uint32_t body, Real time, Partner p) {
+void Engine::offer(std::uint32_t body, Real time, Partner p) {
   Slot& slot = slots_[body];
   if (time > slot.impact_time + Real(instant)) return;
   slot.is_tied = time >= slot.impact_time - Real(instant);
@@ -21,16 +21,14 @@ void BasicEngine<Real>::offer(std::uint32_t body, Real time, Partner p) {
   slot.partner_version = is_body(p) ? bodies_[p].version : 0;
 }
 
-template <class Real>
-void BasicEngine<Real>::enqueue(std::uint32_t body) {
+void Engine::enqueue(std::uint32_t body) {
   const Slot& slot = slots_[body];
   if (slot.crossing_time < slot.impact_time) queue_.set(body, slot.crossing_time, body, body);
   else
     queue_.set(body, slot.impact_time, std::min(body, slot.partner), std::max(body, slot.partner));
 }
 
-template <class Real>
-void BasicEngine<Real>::predict(std::uint32_t body) {
+void Engine::predict(std::uint32_t body) {
   if (bodies_[body].kind == BodyKind::post) return;
   predict_pairs(body, begin_prediction(body));
   enqueue(body);
@@ -38,8 +36,7 @@ void BasicEngine<Real>::predict(std::uint32_t body) {
 
 /// Forgets what was known, asks the field, and makes all who are near candidates; returns how many,
 /// the body itself among them.
-template <class Real>
-std::uint32_t BasicEngine<Real>::begin_prediction(std::uint32_t body) {
+std::uint32_t Engine::begin_prediction(std::uint32_t body) {
   slots_[body].impact_time = infinity;
   slots_[body].partner = partner::none;
   slots_[body].is_tied = false;
@@ -52,15 +49,13 @@ std::uint32_t BasicEngine<Real>::begin_prediction(std::uint32_t body) {
 
 /// Likewise of a puck in straight flight where all are, but for telling the queue. Returns how many
 /// touch it now, itself included: never too few, hardly ever too many.
-template <class Real>
-std::uint32_t BasicEngine<Real>::predict_counting(std::uint32_t body) {
+std::uint32_t Engine::predict_counting(std::uint32_t body) {
   const std::uint32_t count = begin_prediction(body);
   counters_.predictions += count;
   return predict_straight_pairs<true>(body, candidates_.data(), count);
 }
 
-template <class Real>
-void BasicEngine<Real>::predict_field(std::uint32_t body) {
+void Engine::predict_field(std::uint32_t body) {
   const Body& b = bodies_[body];
   if (is_slowed() && rest_times_[body] < infinity) offer(body, rest_times_[body], partner::stop);
   if ((b.flags & held) != 0) predict_release(body);
@@ -71,8 +66,7 @@ void BasicEngine<Real>::predict_field(std::uint32_t body) {
 
 /// The instant at which the pucks' warped clock has advanced by `warped` since `start`; infinite if
 /// it never does.
-template <class Real>
-Real BasicEngine<Real>::real_time(Real start, Real warped) const {
+Real Engine::real_time(Real start, Real warped) const {
   if (puck_drag_ == 0.0) return start + warped;
   const Real lost = puck_drag_ * warped;
   return lost < 1.0 ? start - log1p_of(-lost) / puck_drag_ : infinity;
@@ -80,8 +74,7 @@ Real BasicEngine<Real>::real_time(Real start, Real warped) const {
 
 /// The crossing of a body in straight flight and, where its cell lies at the rim, the wall: from
 /// any other cell a crossing comes first.
-template <class Real>
-void BasicEngine<Real>::predict_flight(std::uint32_t body) {
+void Engine::predict_flight(std::uint32_t body) {
   const Body& b = bodies_[body];
   Slot& slot = slots_[body];
   slot.crossing_time = infinity;
@@ -99,8 +92,7 @@ void BasicEngine<Real>::predict_flight(std::uint32_t body) {
   if (warped < infinity) slot.crossing_time = real_time(b.time, warped);
 }
 
-template <class Real>
-void BasicEngine<Real>::predict_side_wall(std::uint32_t body) {
+void Engine::predict_side_wall(std::uint32_t body) {
   const Body& b = bodies_[body];
   if (b.vy == 0.0) return;
   const Real gap = b.vy < 0.0 ? b.y - b.radius : spec_.field.width - b.radius - b.y;
@@ -108,8 +100,7 @@ void BasicEngine<Real>::predict_side_wall(std::uint32_t body) {
         b.vy < 0.0 ? partner::wall_bottom : partner::wall_top);
 }
 
-template <class Real>
-void BasicEngine<Real>::predict_end_wall(std::uint32_t body) {
+void Engine::predict_end_wall(std::uint32_t body) {
   const Body& b = bodies_[body];
   const Field& field = spec_.field;
   if (b.vx == 0.0 || b.mouth != no_mouth) return;
@@ -125,10 +116,9 @@ void BasicEngine<Real>::predict_end_wall(std::uint32_t body) {
 
 /// The half-plane of a wall, the halfway line or a goal line, grown by the body: its centre must
 /// stay on the side of the normal.
-template <class Real>
-BasicHalfPlane<Real> BasicEngine<Real>::plane_of(std::uint32_t body, Partner wall) const {
+HalfPlane Engine::plane_of(std::uint32_t body, Partner wall) const {
   const Field& field = spec_.field;
-  const Vector2 extent = builds_[body].half_extent + Vector2::Constant(bodies_[body].radius);
+  const RealVector extent = builds_[body].half_extent + RealVector::Constant(bodies_[body].radius);
   switch (wall) {
     case partner::wall_left:
       return {{1.0, 0.0}, extent.x()};
@@ -145,8 +135,7 @@ BasicHalfPlane<Real> BasicEngine<Real>::plane_of(std::uint32_t body, Partner wal
   return {{1.0, 0.0}, extent.x() + 0.5 * field.length};
 }
 
-template <class Real>
-void BasicEngine<Real>::predict_curved_walls(std::uint32_t body) {
+void Engine::predict_curved_walls(std::uint32_t body) {
   const Body& b = bodies_[body];
   const Motion still, moving = motion(body);
   const RelativeMotion relative{still, moving};
@@ -170,8 +159,7 @@ void BasicEngine<Real>::predict_curved_walls(std::uint32_t body) {
     predict_plane(partner::halfway);
 }
 
-template <class Real>
-BasicVector2<Real> BasicEngine<Real>::goal_edge(Partner edge) const {
+RealVector Engine::goal_edge(Partner edge) const {
   const Field& field = spec_.field;
   const bool is_left = edge == partner::edge_left_low || edge == partner::edge_left_high;
   const bool is_low = edge == partner::edge_left_low || edge == partner::edge_right_low;
@@ -180,8 +168,7 @@ BasicVector2<Real> BasicEngine<Real>::goal_edge(Partner edge) const {
 }
 
 /// Between the edges of a goal: the two edges, the goal line, and the way out.
-template <class Real>
-void BasicEngine<Real>::predict_mouth(std::uint32_t body) {
+void Engine::predict_mouth(std::uint32_t body) {
   const Body& b = bodies_[body];
   const bool is_left = b.mouth == left_mouth;
   const Motion moving = motion(body);
@@ -202,8 +189,7 @@ void BasicEngine<Real>::predict_mouth(std::uint32_t body) {
 }
 
 /// The first `count` of the candidates.
-template <class Real>
-void BasicEngine<Real>::predict_pairs(std::uint32_t body, std::uint32_t count) {
+void Engine::predict_pairs(std::uint32_t body, std::uint32_t count) {
   counters_.predictions += count;
   std::uint32_t* near = candidates_.data();
   if ((bodies_[body].flags & curved) == 0 && puck_drag_ == 0.0) {
@@ -225,25 +211,24 @@ void BasicEngine<Real>::predict_pairs(std::uint32_t body, std::uint32_t count) {
 
 /// Where nothing comes at the same instant, which is nearly always, no branch depends on who meets
 /// whom.
-template <class Real>
 template <bool counts>
-std::uint32_t BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
-                                                        std::uint32_t count) {
+std::uint32_t Engine::predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
+                                             std::uint32_t count) {
   Slot& slot = slots_[body];
   std::uint32_t touching = 0;
   for (std::uint32_t begin = 0; begin < count; begin += flight_max) {
     const std::uint32_t asked = std::min(flight_max, count - begin);
     // The slack keeps those that come within the same instant.
-    const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness<Real>)+Real(instant);
-    const Meeting<Real> first =
-        counts ? first_meeting_counting<Real>(bodies_.data(), body, near + begin, asked, latest)
-               : first_meeting<Real>(bodies_.data(), body, near + begin, asked, latest);
+    const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness) + Real(instant);
+    const Meeting first =
+        counts ? first_meeting_counting(bodies_.data(), body, near + begin, asked, latest)
+               : first_meeting(bodies_.data(), body, near + begin, asked, latest);
     touching += first.touching;
     const bool is_tied = first.second_time <= first.time + Real(instant) ||
                          std::abs(first.time - slot.impact_time) <= Real(instant);
     if (first.time < infinity && is_tied) {
       for (std::uint32_t k = begin; k < begin + asked; ++k)
-        if (const auto time = meeting_time<Real>(bodies_[body], bodies_[near[k]], latest))
+        if (const auto time = meeting_time(bodies_[body], bodies_[near[k]], latest))
           offer(body, *time, near[k]);
       continue;
     }
@@ -260,34 +245,32 @@ std::uint32_t BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std:
 
 /// Both positions are taken at the later of the two last events, so that the result depends on
 /// nothing but the two states.
-template <class Real>
-void BasicEngine<Real>::predict_pair(std::uint32_t body, std::uint32_t other) {
+void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
   const Body &a = bodies_[body], &b = bodies_[other];
   if (((a.flags | b.flags) & curved) != 0) return predict_curved_pair(body, other);
-  Vector2 offset(b.x - a.x, b.y - a.y), velocity;
+  RealVector offset(b.x - a.x, b.y - a.y), velocity;
   const Real time = std::max(a.time, b.time);
   if (puck_drag_ == 0.0) {
     const Real ahead_a = time - a.time, ahead_b = time - b.time;
-    offset += Vector2(b.vx * ahead_b - a.vx * ahead_a, b.vy * ahead_b - a.vy * ahead_a);
-    velocity = Vector2(b.vx - a.vx, b.vy - a.vy);
+    offset += RealVector(b.vx * ahead_b - a.vx * ahead_a, b.vy * ahead_b - a.vy * ahead_a);
+    velocity = RealVector(b.vx - a.vx, b.vy - a.vy);
   } else {
     const auto warped_since = [&](const Body& c) {
       return c.time == time ? WarpedTime{0.0, 0.0, 1.0}
                             : warp_unaccelerated(time - c.time, puck_drag_);
     };
     const WarpedTime wa = warped_since(a), wb = warped_since(b);
-    offset += Vector2(b.vx * wb.s - a.vx * wa.s, b.vy * wb.s - a.vy * wa.s);
-    velocity = Vector2(b.vx * wb.e - a.vx * wa.e, b.vy * wb.e - a.vy * wa.e);
+    offset += RealVector(b.vx * wb.s - a.vx * wa.s, b.vy * wb.s - a.vy * wa.s);
+    velocity = RealVector(b.vx * wb.e - a.vx * wa.e, b.vy * wb.e - a.vy * wa.e);
   }
   // Warped time never runs ahead of real time, so the best event so far limits it as well; the
   // slack keeps those that come within the same instant.
-  const Real limit = slots_[body].impact_time * (1.0 + 4e-15 * fineness<Real>)+Real(instant) - time;
+  const Real limit = slots_[body].impact_time * (1.0 + 4e-15 * fineness) + Real(instant) - time;
   if (const auto wait = time_to_touch(offset, velocity, a.radius + b.radius, limit))
     offer(body, real_time(time, *wait), other);
 }
 
-template <class Real>
-void BasicEngine<Real>::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
+void Engine::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
   if ((bodies_[body].flags & bodies_[other].flags & frozen) != 0) return;
   if ((bodies_[body].flags & held) != 0 && are_held(body, other)) return;
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
@@ -304,8 +287,7 @@ void BasicEngine<Real>::predict_curved_pair(std::uint32_t body, std::uint32_t ot
   if (time) offer(body, *time, other);
 }
 
-template <class Real>
-void BasicEngine<Real>::predict_release(std::uint32_t body) {
+void Engine::predict_release(std::uint32_t body) {
   for (const Hold& hold : holds_)
     if (hold.low == body || hold.high == body)
       offer(body, std::min({hold.pull_time, hold.turn_time, slide_time(hold)}), partner::release);
@@ -313,14 +295,13 @@ void BasicEngine<Real>::predict_release(std::uint32_t body) {
 
 /// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as
 /// well, so now_ may be used.
-template <class Real>
-void BasicEngine<Real>::predict_curved_crossing(std::uint32_t body) {
+void Engine::predict_curved_crossing(std::uint32_t body) {
   Slot& slot = slots_[body];
   slot.crossing_time = infinity;
   const CellGrid::Place place = grid_.place(body);
   const Motion still, moving = motion(body);
   const Real start = std::max(bodies_[body].time, now_);
-  const auto leave = [&](Real edge, Vector2 normal, CellGrid::Direction direction) {
+  const auto leave = [&](Real edge, RealVector normal, CellGrid::Direction direction) {
     if (std::abs(edge) == infinity) return;
     const Real limit = std::min(slot.impact_time, slot.crossing_time);
     const auto time =
@@ -336,7 +317,4 @@ void BasicEngine<Real>::predict_curved_crossing(std::uint32_t body) {
   leave(grid_.row_edge(place.row, true), {0.0, -1.0}, CellGrid::up);
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

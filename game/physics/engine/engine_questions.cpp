@@ -5,11 +5,10 @@
 #include "game/physics/body_hash.h"
 #include "game/physics/engine/engine.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
-template <class Real>
-bool BasicEngine<Real>::is_free(const Vector2& centre, const RoundedBox& shape) const {
-  const Vector2 extent = shape.half_extent + Vector2::Constant(shape.radius);
+bool Engine::is_free(const RealVector& centre, const RoundedBox& shape) const {
+  const RealVector extent = shape.half_extent + RealVector::Constant(shape.radius);
   if ((centre - extent).minCoeff() < 0.0 || centre.x() + extent.x() > spec_.field.length ||
       centre.y() + extent.y() > spec_.field.width)
     return false;
@@ -27,8 +26,7 @@ bool BasicEngine<Real>::is_free(const Vector2& centre, const RoundedBox& shape) 
   return is_clear;
 }
 
-template <class Real>
-Real BasicEngine<Real>::kinetic_energy() const {
+Real Engine::kinetic_energy() const {
   Real sum = 0.0;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
     if (!is_gone(body) && builds_[body].inverse_mass > 0.0)
@@ -39,22 +37,21 @@ Real BasicEngine<Real>::kinetic_energy() const {
   return sum;
 }
 
-template <class Real>
-BasicVector2<Real> BasicEngine<Real>::momentum() const {
-  Vector2 sum(0.0, 0.0);
+RealVector Engine::momentum() const {
+  RealVector sum(0.0, 0.0);
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
     if (!is_gone(body) && builds_[body].inverse_mass > 0.0)
       sum += builds_[body].mass * at(body, now_).velocity;
   return sum;
 }
 
-template <class Real>
-Real BasicEngine<Real>::max_overlap() const {
+Real Engine::max_overlap() const {
   Real deepest = 0.0;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     if (is_gone(body) || bodies_[body].kind == BodyKind::post) continue;
-    const Vector2 position = at(body, now_).position;
-    const Vector2 extent = builds_[body].half_extent + Vector2::Constant(bodies_[body].radius);
+    const RealVector position = at(body, now_).position;
+    const RealVector extent =
+        builds_[body].half_extent + RealVector::Constant(bodies_[body].radius);
     const Real end =
         bodies_[body].mouth == no_mouth
             ? std::min(position.x() - extent.x(), spec_.field.length - extent.x() - position.x())
@@ -71,9 +68,8 @@ Real BasicEngine<Real>::max_overlap() const {
   return deepest;
 }
 
-template <class Real>
-std::uint64_t BasicEngine<Real>::hash() const {
-  BasicBodyHash<Real> hash;
+std::uint64_t Engine::hash() const {
+  BodyHash hash;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     const Body& b = bodies_[body];
     const bool is_curved = (b.flags & curved) != 0;
@@ -85,7 +81,4 @@ std::uint64_t BasicEngine<Real>::hash() const {
   return hash.value();
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

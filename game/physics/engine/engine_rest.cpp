@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "game/physics/engine/engine.h"
+#include "game/physics/flight/exponential.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 
@@ -15,8 +16,7 @@ constexpr double pull_min = 1e-9;
 
 }  // namespace
 
-template <class Real>
-bool BasicEngine<Real>::are_held(std::uint32_t a, std::uint32_t b) const {
+bool Engine::are_held(std::uint32_t a, std::uint32_t b) const {
   return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
     return (hold.low == a && hold.high == b) || (hold.low == b && hold.high == a);
   });
@@ -24,9 +24,7 @@ bool BasicEngine<Real>::are_held(std::uint32_t a, std::uint32_t b) const {
 
 /// The bodies in rest contact with `body`, directly or through others, along any of `axes`; itself
 /// first. Fixed partners are not among them.
-template <class Real>
-std::vector<std::uint32_t> BasicEngine<Real>::companions(std::uint32_t body,
-                                                         std::uint8_t axes) const {
+std::vector<std::uint32_t> Engine::companions(std::uint32_t body, std::uint8_t axes) const {
   std::vector<std::uint32_t> found{body};
   const auto include = [&](Partner p) {
     if (!is_fixed(p) && std::find(found.begin(), found.end(), p) == found.end()) found.push_back(p);
@@ -40,8 +38,7 @@ std::vector<std::uint32_t> BasicEngine<Real>::companions(std::uint32_t body,
   return found;
 }
 
-template <class Real>
-bool BasicEngine<Real>::would_push_twice(const Contact& c) const {
+bool Engine::would_push_twice(const Contact& c) const {
   if (!is_slowed() || is_fixed(c.partner)) return false;
   std::vector<std::uint32_t> members = companions(c.body, held_along(c.gap.face));
   const std::vector<std::uint32_t> others = companions(c.partner, held_along(c.gap.face));
@@ -49,8 +46,7 @@ bool BasicEngine<Real>::would_push_twice(const Contact& c) const {
   return is_pushed_twice(c.gap.face, members);
 }
 
-template <class Real>
-bool BasicEngine<Real>::can_rest(const Contact& c) const {
+bool Engine::can_rest(const Contact& c) const {
   if (c.gap.face < 0 || would_push_twice(c)) return false;
   if (!is_body(c.partner)) return true;
   const int along = 1 - c.gap.face;
@@ -66,8 +62,7 @@ bool BasicEngine<Real>::can_rest(const Contact& c) const {
 }
 
 /// Perfectly inelastic along the axis of the face: the groups on both sides become one.
-template <class Real>
-void BasicEngine<Real>::rest(const Contact& c, Real time) {
+void Engine::rest(const Contact& c, Real time) {
   note(EventKind::rest, time, c.body, c.partner);
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
@@ -88,16 +83,14 @@ void BasicEngine<Real>::rest(const Contact& c, Real time) {
   share(axis, members, time);
 }
 
-template <class Real>
-bool BasicEngine<Real>::is_in_group(const Hold& hold, int axis,
-                                    const std::vector<std::uint32_t>& members) const {
+bool Engine::is_in_group(const Hold& hold, int axis,
+                         const std::vector<std::uint32_t>& members) const {
   if (hold.axis != axis) return false;
   const Partner inside = is_fixed(hold.low) ? hold.high : hold.low;
   return std::find(members.begin(), members.end(), inside) != members.end();
 }
 
-template <class Real>
-bool BasicEngine<Real>::is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const {
+bool Engine::is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const {
   return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
     return is_in_group(hold, axis, members) && (is_fixed(hold.low) || is_fixed(hold.high));
   });
@@ -107,9 +100,8 @@ bool BasicEngine<Real>::is_group_fixed(int axis, const std::vector<std::uint32_t
 /// hold: Gauss-Seidel on the forces, which push only if `only_push`. Groups are small (a bat and
 /// the pucks before it), and the sweep order is the order of the holds, so the bits are
 /// reproducible.
-template <class Real>
-void BasicEngine<Real>::solve_forces(int axis, const std::vector<std::uint32_t>& members,
-                                     Real speed, bool only_push) {
+void Engine::solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed,
+                          bool only_push) {
   accelerations_.resize(bodies_.size());
   Real scale = 1.0;
   for (const std::uint32_t member : members) {
@@ -134,14 +126,13 @@ void BasicEngine<Real>::solve_forces(int axis, const std::vector<std::uint32_t>&
       if (!is_fixed(hold.high)) accelerations_[hold.high] += step * inverse_mass(hold.high);
       change = std::max(change, std::abs(step) * yielding);
     }
-    if (change <= 1e-13 * fineness<Real> * scale) break;
+    if (change <= 1e-13 * fineness * scale) break;
   }
 }
 
 /// Lets go what is pulled apart, then gives each remaining part of the group one acceleration and
 /// one drag, bitwise equal for all its members.
-template <class Real>
-void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& members, Real time) {
+void Engine::share(int axis, const std::vector<std::uint32_t>& members, Real time) {
   // Who is pulled is judged by the friction of this instant, as the next impact is, and not by that
   // of an arc.
   if (is_slowed()) calm(axis, members), face_friction(members);
@@ -176,8 +167,7 @@ void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& member
   }
 }
 
-template <class Real>
-void BasicEngine<Real>::share_part(int axis, const std::vector<std::uint32_t>& part, Real time) {
+void Engine::share_part(int axis, const std::vector<std::uint32_t>& part, Real time) {
   const bool is_fixed_part = is_group_fixed(axis, part);
   const bool is_alone = part.size() == 1 && !is_fixed_part;
   Real mass = 0.0, thrust = 0.0, drag = 0.0;
@@ -209,9 +199,8 @@ void BasicEngine<Real>::share_part(int axis, const std::vector<std::uint32_t>& p
 
 /// Contact forces are linear in the common speed, which tends to `terminal_speed` at rate `drag`:
 /// one that would be negative there vanishes on the way.
-template <class Real>
-void BasicEngine<Real>::set_pull_times(int axis, const std::vector<std::uint32_t>& part,
-                                       Real terminal_speed, Real drag, Real time) {
+void Engine::set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed,
+                            Real drag, Real time) {
   for (Hold& hold : holds_)
     if (is_in_group(hold, axis, part)) hold.pull_time = infinity;
   if (drag == 0.0) return;
@@ -240,8 +229,7 @@ void BasicEngine<Real>::set_pull_times(int axis, const std::vector<std::uint32_t
 
 /// Ends every rest contact of the group of `body` along `axis`; each member goes on with the common
 /// velocity and its own thrust and drag.
-template <class Real>
-void BasicEngine<Real>::dissolve(std::uint32_t body, int axis, Real time) {
+void Engine::dissolve(std::uint32_t body, int axis, Real time) {
   if ((bodies_[body].flags & held_along(axis)) == 0) return;
   const std::vector<std::uint32_t> members = companions(body, held_along(axis));
   for (const std::uint32_t member : members) rebase_companions(member, time);
@@ -251,8 +239,7 @@ void BasicEngine<Real>::dissolve(std::uint32_t body, int axis, Real time) {
 
 /// When the contact reaches the end of its face [s]; infinite if it never does. Judged from the two
 /// last-event states, like any event.
-template <class Real>
-Real BasicEngine<Real>::slide_time(const Hold& hold) const {
+Real Engine::slide_time(const Hold& hold) const {
   if (!is_body(hold.low) || !is_body(hold.high)) return infinity;
   const int along = 1 - hold.axis;
   const Real extent = shape_of(hold.low, hold.high).half_extent[along];
@@ -265,7 +252,7 @@ Real BasicEngine<Real>::slide_time(const Hold& hold) const {
   }
   Real earliest = infinity;
   for (const Real side : {-1.0, 1.0}) {
-    Vector2 normal(0.0, 0.0);
+    RealVector normal(0.0, 0.0);
     normal[along] = side;
     const auto time = first_contact(RelativeMotion{low, high}, HalfPlane{normal, -extent}, start,
                                     earliest, tolerance_);
@@ -276,8 +263,7 @@ Real BasicEngine<Real>::slide_time(const Hold& hold) const {
 
 /// The rest contacts of `body` that end at `time` do so; or the friction in its group is aimed
 /// anew.
-template <class Real>
-void BasicEngine<Real>::release(std::uint32_t body, Real time) {
+void Engine::release(std::uint32_t body, Real time) {
   for (std::size_t i = 0; i < holds_.size(); ++i) {
     const Hold hold = holds_[i];
     if (hold.low != body && hold.high != body) continue;
@@ -293,7 +279,4 @@ void BasicEngine<Real>::release(std::uint32_t body, Real time) {
   }
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

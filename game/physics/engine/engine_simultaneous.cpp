@@ -7,7 +7,7 @@
 
 #include "game/physics/engine/engine.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 
@@ -18,41 +18,34 @@ constexpr int cycles_max = 4;                 // of rounds and yielding
 constexpr std::uint64_t endless_events = 64;  // at one instant: then too
 /// Relative to the speeds: what closes more slowly does not close, and lacks no more of what is
 /// wanted than a quarter of it.
-template <class Real>
-constexpr Real rest_of_closing = 4e-13 * fineness<Real>;
+constexpr Real rest_of_closing = 4e-13 * fineness;
 /// A contact of whose effect no more than this is left by those of others, relative to it, is
 /// implied by them.
-template <class Real>
-constexpr Real superfluous = 1e-12 * fineness<Real>;
+constexpr Real superfluous = 1e-12 * fineness;
 
 }  // namespace
 
 /// Whether another impact may come at the instant at hand. Never misses one: an impact is either
 /// the first of its body, and thus in the queue, or hidden behind that one.
-template <class Real>
-bool BasicEngine<Real>::is_crowded(std::uint32_t body, Partner p) const {
+bool Engine::is_crowded(std::uint32_t body, Partner p) const {
   return slots_[body].is_tied || (is_body(p) && slots_[p].is_tied) || is_endless() ||
          queue_.is_followed_within(instant);
 }
 
 /// Whether so many events have come at this instant that all that touch shall yield as one.
-template <class Real>
-bool BasicEngine<Real>::is_endless() const {
-  return events_at_once_ % endless_events == 0;
-}
+bool Engine::is_endless() const { return events_at_once_ % endless_events == 0; }
 
 /// The impact at hand together with all others that close at this instant among bodies that touch,
 /// directly or through others. False if there are none, or if no solution was found that keeps the
 /// energy; then nothing has changed, and no other is looked for until the instant is over.
-template <class Real>
-bool BasicEngine<Real>::collide_together(const Contact& c, Real time) {
+bool Engine::collide_together(const Contact& c, Real time) {
   if (is_rough() || is_hopeless_) return false;
   const bool is_joint = gather_touching(c, time) || is_endless();
   note_looked_at();
   if (!is_joint) return false;
   velocities_before_ = joint_velocities_;
   const Real energy = joint_energy();
-  is_hopeless_ = !solve_joint() || !(joint_energy() <= energy * (1.0 + 1e-12 * fineness<Real>));
+  is_hopeless_ = !solve_joint() || !(joint_energy() <= energy * (1.0 + 1e-12 * fineness));
   if (is_hopeless_ && journal_ != nullptr) journal_->was_hopeless = true;
   if (is_hopeless_) return false;
   ++counters_.joint_impacts;
@@ -60,27 +53,24 @@ bool BasicEngine<Real>::collide_together(const Contact& c, Real time) {
   return true;
 }
 
-template <class Real>
-bool BasicEngine<Real>::solve_joint() {
+bool Engine::solve_joint() {
   if (is_endless() && !yield_as_one(1.0)) return false;
   if (!propagate() && !come_to_rest()) return false;
   part_what_rounding_closes();
   return true;
 }
 
-template <class Real>
-Real BasicEngine<Real>::joint_product(const std::vector<Vector2>& a,
-                                      const std::vector<Vector2>& b) const {
+Real Engine::joint_product(const std::vector<RealVector>& a,
+                           const std::vector<RealVector>& b) const {
   Real sum = 0.0;
   for (std::size_t place = 0; place < joint_.size(); ++place)
     sum += builds_[joint_[place]].mass * a[place].dot(b[place]);
   return sum;
 }
 
-template <class Real>
-Real BasicEngine<Real>::joint_speed() const {
+Real Engine::joint_speed() const {
   Real speed = 0.0;
-  for (const Vector2& velocity : joint_velocities_) speed = std::max(speed, velocity.norm());
+  for (const RealVector& velocity : joint_velocities_) speed = std::max(speed, velocity.norm());
   return speed;
 }
 
@@ -88,8 +78,7 @@ Real BasicEngine<Real>::joint_speed() const {
 /// and those that do not stay out (Smith et al. 2012). Where they do not end (a light ball between
 /// heavy ones, collapse), all that touch yield as one now and then. Answers whether that comes to
 /// an end.
-template <class Real>
-bool BasicEngine<Real>::propagate() {
+bool Engine::propagate() {
   const std::size_t rounds = std::min(rounds_min + 2 * touches_.size(), rounds_max);
   for (int cycle = 0; cycle < cycles_max; ++cycle) {
     for (std::size_t round = 0; round < rounds; ++round) {
@@ -97,9 +86,8 @@ bool BasicEngine<Real>::propagate() {
       closing_.clear();
       for (std::uint32_t i = 0; i < touches_.size(); ++i) {
         const Real approach = -parting(touches_[i], joint_velocities_);
-        touches_[i].wanted =
-            std::max(touches_[i].restitution * approach, separation_min<Real> * speed);
-        if (approach > rest_of_closing<Real> * speed) closing_.push_back(i);
+        touches_[i].wanted = std::max(touches_[i].restitution * approach, separation_min * speed);
+        if (approach > rest_of_closing * speed) closing_.push_back(i);
       }
       if (closing_.empty()) return true;
       if (!find_pushing()) return false;
@@ -114,8 +102,7 @@ bool BasicEngine<Real>::propagate() {
 /// contact, becomes T - e N. T and N are at right angles in the metric of the masses, so that
 /// energy is kept for e = 1 and never grows. e is the least restitution of those that push, at most
 /// `restitution_max`.
-template <class Real>
-bool BasicEngine<Real>::yield_as_one(Real restitution_max) {
+bool Engine::yield_as_one(Real restitution_max) {
   closing_.resize(touches_.size());
   std::iota(closing_.begin(), closing_.end(), 0u);
   for (Touch& touch : touches_) touch.wanted = 0.0;
@@ -125,22 +112,20 @@ bool BasicEngine<Real>::yield_as_one(Real restitution_max) {
 }
 
 /// The end of what loses energy without end. Not for what loses none.
-template <class Real>
-bool BasicEngine<Real>::come_to_rest() {
+bool Engine::come_to_rest() {
   const bool is_lossless = std::all_of(touches_.begin(), touches_.end(),
                                        [](const Touch& touch) { return touch.restitution == 1.0; });
   return !is_lossless && yield_as_one(0.0);
 }
 
 /// What is left of closing would be the next event.
-template <class Real>
-void BasicEngine<Real>::part_what_rounding_closes() {
+void Engine::part_what_rounding_closes() {
   for (std::size_t round = 0; round < rounds_min; ++round) {
     const Real speed = joint_speed();
     closing_.clear();
     for (std::uint32_t i = 0; i < touches_.size(); ++i)
       if (parting(touches_[i], joint_velocities_) < 0.0)
-        touches_[i].wanted = separation_min<Real> * speed, closing_.push_back(i);
+        touches_[i].wanted = separation_min * speed, closing_.push_back(i);
     if (closing_.empty() || !find_pushing()) return;
     for (std::size_t place = 0; place < joint_.size(); ++place)
       joint_velocities_[place] = trial_velocities_[place];
@@ -151,14 +136,13 @@ void BasicEngine<Real>::part_what_rounding_closes() {
 /// wanted, into `trial_velocities_`, and who pushes for it: the dual method of Goldfarb and Idnani
 /// (Math. Programming 27, 1983). `basis_` is made orthonormal in that metric, which bears any ratio
 /// of masses.
-template <class Real>
-bool BasicEngine<Real>::find_pushing() {
+bool Engine::find_pushing() {
   trial_velocities_ = joint_velocities_;
   pushing_.clear();
   blocked_ = fixed_place;
   for (const std::uint32_t i : closing_) touches_[i].impulse = 0.0;
   for (std::size_t steps_left = 20 * closing_.size() + 20; steps_left > 0;) {
-    Real most = 0.25 * rest_of_closing<Real> * joint_speed();
+    Real most = 0.25 * rest_of_closing * joint_speed();
     std::uint32_t next = fixed_place;
     for (const std::uint32_t i : closing_) {
       const Real lacking = touches_[i].wanted - parting(touches_[i], trial_velocities_);
@@ -176,8 +160,7 @@ bool BasicEngine<Real>::find_pushing() {
 /// Lets the contact push harder until it parts as wanted, or until another one of those that push
 /// need not push any more and is dropped. Whether the former was reached, or nothing can be (then
 /// its impulse is 0).
-template <class Real>
-bool BasicEngine<Real>::push_until_blocked(std::uint32_t next) {
+bool Engine::push_until_blocked(std::uint32_t next) {
   Touch& touch = touches_[next];
   const std::size_t count = pushing_.size();
   const Real own = orthogonalise(touch), length = joint_product(direction_, direction_);
@@ -187,7 +170,7 @@ bool BasicEngine<Real>::push_until_blocked(std::uint32_t next) {
     for (std::size_t k = row + 1; k < count; ++k) sum -= columns_[k][row] * share_[k];
     share_[row] = sum / columns_[row][row];
   }
-  const bool is_implied = length <= superfluous<Real> * superfluous<Real> * own;
+  const bool is_implied = length <= superfluous * superfluous * own;
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   Real step = is_implied ? infinity : (touch.wanted - parting(touch, trial_velocities_)) / length;
   std::size_t blocking = count;
@@ -210,9 +193,8 @@ bool BasicEngine<Real>::push_until_blocked(std::uint32_t next) {
 /// The effect of an impulse of 1, less what those that push already can do: into `direction_`, and
 /// their shares into `column_`. Twice is enough (Kahan, in Parlett 1980). Answers the square of the
 /// effect's length.
-template <class Real>
-Real BasicEngine<Real>::orthogonalise(const Touch& touch) {
-  direction_.assign(joint_.size(), Vector2(0.0, 0.0));
+Real Engine::orthogonalise(const Touch& touch) {
+  direction_.assign(joint_.size(), RealVector(0.0, 0.0));
   direction_[touch.body] = inverse_mass(joint_[touch.body]) * touch.normal;
   if (touch.other != fixed_place)
     direction_[touch.other] = -inverse_mass(joint_[touch.other]) * touch.normal;
@@ -228,19 +210,17 @@ Real BasicEngine<Real>::orthogonalise(const Touch& touch) {
   return own;
 }
 
-template <class Real>
-void BasicEngine<Real>::append_pushing(std::uint32_t touch, Real length) {
+void Engine::append_pushing(std::uint32_t touch, Real length) {
   const std::size_t count = pushing_.size();
   if (basis_.size() <= count) basis_.emplace_back(), columns_.emplace_back();
-  for (Vector2& part : direction_) part /= length;
+  for (RealVector& part : direction_) part /= length;
   basis_[count] = direction_;
   column_.push_back(length);
   columns_[count] = column_;
   pushing_.push_back(touch);
 }
 
-template <class Real>
-void BasicEngine<Real>::drop_pushing(std::size_t place) {
+void Engine::drop_pushing(std::size_t place) {
   touches_[pushing_[place]].impulse = 0.0;
   const std::vector<std::uint32_t> others(pushing_.begin() + static_cast<std::ptrdiff_t>(place) + 1,
                                           pushing_.end());
@@ -254,8 +234,7 @@ void BasicEngine<Real>::drop_pushing(std::size_t place) {
 /// The new velocities, given who pushes: the part along `basis_` turns into -e times itself, which
 /// keeps energy to rounding for e = 1 whatever the masses; then, if `as_wanted`, what is wanted
 /// beyond that is added.
-template <class Real>
-void BasicEngine<Real>::reflect(bool as_wanted, Real restitution_max) {
+void Engine::reflect(bool as_wanted, Real restitution_max) {
   Real least = restitution_max;
   for (const std::uint32_t i : pushing_)
     least = std::min(least, touches_[i].restitution), touches_[i].has_pushed = true;
@@ -275,8 +254,7 @@ void BasicEngine<Real>::reflect(bool as_wanted, Real restitution_max) {
 
 /// Writes the velocities back. Rest contacts of whoever was pushed end as in any impact, and every
 /// contact that pushed counts as one.
-template <class Real>
-void BasicEngine<Real>::apply_joint(Real time) {
+void Engine::apply_joint(Real time) {
   for (const Touch& touch : touches_) {
     if (!touch.has_pushed) continue;
     const std::uint32_t body = joint_[touch.body];
@@ -305,7 +283,4 @@ void BasicEngine<Real>::apply_joint(Real time) {
   }
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

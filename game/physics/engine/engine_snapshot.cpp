@@ -6,7 +6,7 @@
 #include "game/physics/engine/engine.h"
 #include "game/physics/snapshot_stream.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 
@@ -73,9 +73,9 @@ bool exchange(Stream& stream, Counters& counters) {
 }
 
 /// Of one body, in all the arrays that have an entry for it.
-template <class Real, class Stream, class Body, class Build, class Law, class Rhythm>
+template <class Stream>
 bool exchange_body(Stream& stream, Body& body, Build& build, Law& law, Rhythm& rhythm) {
-  auto& [x, y, vx, vy, time, radius] = static_cast<Flight<Real>&>(body);
+  auto& [x, y, vx, vy, time, radius] = static_cast<Flight&>(body);
   auto& [mass, inverse_mass, half_extent, thrust, half] = build;
   auto& [acceleration, drag] = law;
   auto& [window_start, last_hop, impacts, hops, repeats, meetings] = rhythm;
@@ -89,7 +89,7 @@ bool exchange_body(Stream& stream, Body& body, Build& build, Law& law, Rhythm& r
                         meetings.count);
 }
 
-template <class Stream, class Hold>
+template <class Stream>
 bool exchange_hold(Stream& stream, Hold& hold) {
   auto& [low, high, axis, pull_time, force, turn_time, age] = hold;
   static_cast<void>(age);  // they stand in order of it
@@ -100,9 +100,8 @@ bool exchange_hold(Stream& stream, Hold& hold) {
 
 /// All that the future depends on. What follows from it (predictions, grid, queue) is made anew,
 /// what observers asked for (recorded events) is not part of it.
-template <class Real>
 template <class Stream>
-bool BasicEngine<Real>::exchange_state(Stream& stream) {
+bool Engine::exchange_state(Stream& stream) {
   if (!stream.numbers(now_, jam_count_, instant_begin_, events_at_once_) ||
       !stream.truth(is_played_) || !stream.truth(is_hopeless_) || !exchange(stream, counters_))
     return false;
@@ -110,7 +109,7 @@ bool BasicEngine<Real>::exchange_state(Stream& stream) {
   const std::size_t count = bodies_.size();
   builds_.resize(count), laws_.resize(count), rhythms_.resize(count), jams_.resize(count);
   for (std::size_t body = 0; body < count; ++body) {
-    if (!exchange_body<Real>(stream, bodies_[body], builds_[body], laws_[body], rhythms_[body]) ||
+    if (!exchange_body(stream, bodies_[body], builds_[body], laws_[body], rhythms_[body]) ||
         !stream.number(jams_[body]))
       return false;
   }
@@ -118,7 +117,7 @@ bool BasicEngine<Real>::exchange_state(Stream& stream) {
   if (is_rough()) spins_.resize(count);
   for (Real& time : rest_times_)
     if (!stream.number(time)) return false;
-  for (Vector2& slowing : slowing_)
+  for (RealVector& slowing : slowing_)
     if (!stream.numbers(slowing.x(), slowing.y())) return false;
   for (Real& spin : spins_)
     if (!stream.number(spin)) return false;
@@ -131,10 +130,9 @@ bool BasicEngine<Real>::exchange_state(Stream& stream) {
   return true;
 }
 
-template <class Real>
-bool BasicEngine<Real>::is_sound() const {
+bool Engine::is_sound() const {
   const auto count = static_cast<std::uint32_t>(bodies_.size());
-  const auto is_finite = [](const Vector2& v) { return v.allFinite(); };
+  const auto is_finite = [](const RealVector& v) { return v.allFinite(); };
   for (std::uint32_t body = 0; body < count; ++body) {
     const Body& b = bodies_[body];
     const Build& build = builds_[body];
@@ -163,9 +161,8 @@ bool BasicEngine<Real>::is_sound() const {
          });
 }
 
-template <class Real>
-std::vector<std::uint8_t> BasicEngine<Real>::save() const {
-  BasicEngine state(*this);
+std::vector<std::uint8_t> Engine::save() const {
+  Engine state(*this);
   for (Body& b : state.bodies_) b.flags = static_cast<std::uint8_t>(b.flags & ~pending);
   SnapshotWriter writer;
   std::uint64_t kind = magic;
@@ -176,8 +173,7 @@ std::vector<std::uint8_t> BasicEngine<Real>::save() const {
   return writer.finish();
 }
 
-template <class Real>
-std::unique_ptr<BasicEngine<Real>> BasicEngine<Real>::restore(std::span<const std::uint8_t> bytes) {
+std::unique_ptr<Engine> Engine::restore(std::span<const std::uint8_t> bytes) {
   SnapshotReader reader(bytes);
   std::uint64_t kind = 0;
   std::uint32_t format = 0, digits = 0;
@@ -186,15 +182,14 @@ std::unique_ptr<BasicEngine<Real>> BasicEngine<Real>::restore(std::span<const st
     return nullptr;
   WorldSpec spec;
   if (!exchange(reader, spec)) return nullptr;
-  auto engine = std::make_unique<BasicEngine>(spec);
+  auto engine = std::make_unique<Engine>(spec);
   if (!engine->exchange_state(reader) || !reader.is_at_end() || !engine->is_sound()) return nullptr;
   engine->rebuild_from_state();
   return engine;
 }
 
 /// Predictions, grid and queue follow from the last-event states, whenever they are made.
-template <class Real>
-void BasicEngine<Real>::rebuild_from_state() {
+void Engine::rebuild_from_state() {
   const auto count = static_cast<std::uint32_t>(bodies_.size());
   slots_.assign(count, no_event);
   grid_.resize(count);
@@ -208,7 +203,4 @@ void BasicEngine<Real>::rebuild_from_state() {
   rebuild_grid();
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

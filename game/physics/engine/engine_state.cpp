@@ -1,10 +1,9 @@
 // Rewriting the last-event states of bodies; nothing else in the engine does.
 #include "game/physics/engine/engine.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
-template <class Real>
-void BasicEngine<Real>::touch(std::uint32_t body) {
+void Engine::touch(std::uint32_t body) {
   Body& b = bodies_[body];
   if ((b.flags & touched) != 0) return;
   b.flags |= touched;
@@ -15,8 +14,7 @@ void BasicEngine<Real>::touch(std::uint32_t body) {
   if (spec_.accounts_energy) energies_.push_back(energy_of(body));
 }
 
-template <class Real>
-void BasicEngine<Real>::rebase(std::uint32_t body, Real time) {
+void Engine::rebase(std::uint32_t body, Real time) {
   Body& b = bodies_[body];
   if (b.kind == BodyKind::post) return;
   keep(body);
@@ -41,15 +39,13 @@ void BasicEngine<Real>::rebase(std::uint32_t body, Real time) {
 
 /// Bodies in rest contact keep bitwise equal velocities only if they are evaluated from the same
 /// instant, so they are rebased together.
-template <class Real>
-void BasicEngine<Real>::rebase_companions(std::uint32_t body, Real time) {
+void Engine::rebase_companions(std::uint32_t body, Real time) {
   rebase(body, time);
   if ((bodies_[body].flags & held) == 0) return;
   for (const std::uint32_t companion : companions(body, held)) rebase(companion, time);
 }
 
-template <class Real>
-void BasicEngine<Real>::set_law(std::uint32_t body, int axis, Real acceleration, Real drag) {
+void Engine::set_law(std::uint32_t body, int axis, Real acceleration, Real drag) {
   keep(body);
   laws_[body].acceleration[axis] = acceleration;
   laws_[body].drag[axis] = drag;
@@ -57,20 +53,18 @@ void BasicEngine<Real>::set_law(std::uint32_t body, int axis, Real acceleration,
   touch(body);
 }
 
-template <class Real>
-void BasicEngine<Real>::write_law(std::uint32_t body) {
+void Engine::write_law(std::uint32_t body) {
   Body& b = bodies_[body];
   const bool is_straight = b.kind != BodyKind::bat &&
-                           laws_[body].acceleration == Vector2(0.0, 0.0) &&
-                           laws_[body].drag == Vector2::Constant(puck_drag_);
+                           laws_[body].acceleration == RealVector(0.0, 0.0) &&
+                           laws_[body].drag == RealVector::Constant(puck_drag_);
   curved_count_ += (is_straight ? 0u : 1u) - ((b.flags & curved) != 0 ? 1u : 0u);
   b.flags = static_cast<std::uint8_t>(is_straight ? b.flags & ~curved : b.flags | curved);
 }
 
 /// Ends the equilibrium of the jam that `body` is part of: all its members yield to their thrust
 /// again.
-template <class Real>
-void BasicEngine<Real>::wake(std::uint32_t body, Real time) {
+void Engine::wake(std::uint32_t body, Real time) {
   if ((bodies_[body].flags & frozen) == 0) return;
   const std::uint32_t jam = jams_[body];
   for (std::size_t i = 0; i < frozen_.size();) {
@@ -90,7 +84,4 @@ void BasicEngine<Real>::wake(std::uint32_t body, Real time) {
   }
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

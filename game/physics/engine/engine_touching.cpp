@@ -7,7 +7,7 @@
 #include "game/physics/engine/visit_partners.h"
 #include "game/physics/flight/discs_near.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 
@@ -20,44 +20,38 @@ constexpr double touch_roundings = 16.0;
 /// An impact that comes alone here would be joint if any of those who touch were hit at this
 /// instant, however far away, by somebody whom this world does not have. So it concerns all of
 /// them, and the journal says so; nothing else changes.
-template <class Real>
-void BasicEngine<Real>::look_at_touching(const Contact& c, Real time) {
+void Engine::look_at_touching(const Contact& c, Real time) {
   if (is_rough() || is_hopeless_ || !has_company(c.body, c.partner, time)) return;
   gather_touching(c, time);
   note_looked_at();
 }
 
-template <class Real>
-void BasicEngine<Real>::note_looked_at() {
+void Engine::note_looked_at() {
   if (journal_ != nullptr)
     journal_->looked_at.insert(journal_->looked_at.end(), joint_.begin(), joint_.end());
 }
 
 /// Whether a third body may touch one of the two: never missed, and hardly ever wrong.
-template <class Real>
-bool BasicEngine<Real>::has_company(std::uint32_t body, Partner p, Real time) {
+bool Engine::has_company(std::uint32_t body, Partner p, Real time) {
   candidates_.resize(grid_.collected_max());
-#if defined(__SSE2__)
+#if defined(RINK_PAIRS_SCALARS)
   // In a gas nobody does, and to count who is near at all, posts among them, takes a third of what
   // it takes to ask who they are.
-  if constexpr (std::is_same_v<Real, double>) {
-    const auto is_alone = [&](std::uint32_t one, std::uint32_t two) {
-      const std::uint32_t count = grid_.collect(one, candidates_.data()),
-                          fillers = (0u - count) & 3u;
-      const Body &a = bodies_[one], &b = bodies_[two];
-      const double ahead_a = std::max(0.0, time - a.time), ahead_b = std::max(0.0, time - b.time),
-                   ax = a.x + a.vx * ahead_a, ay = a.y + a.vy * ahead_a;
-      const double x = b.x + b.vx * ahead_b - ax, y = b.y + b.vy * ahead_b - ay,
-                   touching = a.radius + b.radius + 0.5 * clear_of_touching;
-      return x * x + y * y <= touching * touching &&
-             count_near_in_fours(bodies_.data(), candidates_.data(), count, one, ax, ay, time,
-                                 a.radius + clear_of_touching) == 2 + fillers;
-    };
-    // Bats are on curves, always.
-    if (has_fours && curved_count_ == 0 && puck_drag_ == 0.0 && !is_fixed(p) && is_alone(body, p) &&
-        is_alone(p, body))
-      return false;
-  }
+  const auto is_alone = [&](std::uint32_t one, std::uint32_t two) {
+    const std::uint32_t count = grid_.collect(one, candidates_.data()), fillers = (0u - count) & 3u;
+    const Body &a = bodies_[one], &b = bodies_[two];
+    const double ahead_a = std::max(0.0, time - a.time), ahead_b = std::max(0.0, time - b.time),
+                 ax = a.x + a.vx * ahead_a, ay = a.y + a.vy * ahead_a;
+    const double x = b.x + b.vx * ahead_b - ax, y = b.y + b.vy * ahead_b - ay,
+                 touching = a.radius + b.radius + 0.5 * clear_of_touching;
+    return x * x + y * y <= touching * touching &&
+           count_near_in_fours(bodies_.data(), candidates_.data(), count, one, ax, ay, time,
+                               a.radius + clear_of_touching) == 2 + fillers;
+  };
+  // Bats are on curves, always.
+  if (has_fours && curved_count_ == 0 && puck_drag_ == 0.0 && !is_fixed(p) && is_alone(body, p) &&
+      is_alone(p, body))
+    return false;
 #endif
   const auto has_third = [&](std::uint32_t one, Partner two) {
     const std::uint32_t count = grid_.collect(one, candidates_.data());
@@ -84,8 +78,7 @@ bool BasicEngine<Real>::has_company(std::uint32_t body, Partner p, Real time) {
   return has_third(body, p) || (!is_fixed(p) && has_third(p, body));
 }
 
-template <class Real>
-std::uint32_t BasicEngine<Real>::place_in_joint(std::uint32_t body, Real time) {
+std::uint32_t Engine::place_in_joint(std::uint32_t body, Real time) {
   const auto found = std::find(joint_.begin(), joint_.end(), body);
   if (found != joint_.end()) return static_cast<std::uint32_t>(found - joint_.begin());
   joint_.push_back(body);
@@ -93,9 +86,7 @@ std::uint32_t BasicEngine<Real>::place_in_joint(std::uint32_t body, Real time) {
   return static_cast<std::uint32_t>(joint_.size() - 1);
 }
 
-template <class Real>
-void BasicEngine<Real>::add_touch(std::uint32_t place, Partner p, const Contact& at_hand,
-                                  Real time) {
+void Engine::add_touch(std::uint32_t place, Partner p, const Contact& at_hand, Real time) {
   const std::uint32_t body = joint_[place];
   const Contact c = contact(body, p, time);
   const bool is_at_hand = (body == at_hand.body && p == at_hand.partner) ||
@@ -116,8 +107,7 @@ void BasicEngine<Real>::add_touch(std::uint32_t place, Partner p, const Contact&
 
 /// All bodies that touch those of `c`, directly or through others, in an order that depends on ids
 /// alone. False if no other contact among them closes now.
-template <class Real>
-bool BasicEngine<Real>::gather_touching(const Contact& c, Real time) {
+bool Engine::gather_touching(const Contact& c, Real time) {
   joint_.clear();
   joint_velocities_.clear();
   touches_.clear();
@@ -133,7 +123,4 @@ bool BasicEngine<Real>::gather_touching(const Contact& c, Real time) {
   });
 }
 
-template class BasicEngine<double>;
-template class BasicEngine<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

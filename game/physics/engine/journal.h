@@ -7,33 +7,31 @@
 
 #include "game/physics/body_state.h"
 #include "game/physics/counters.h"
+#include "game/physics/real.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// The part of one body in one event: the state in which it went on. One that was only looked at
 /// went on as before.
-template <class Real>
-struct BasicChange {
+struct Change {
   static constexpr std::uint32_t straight = 0xffffffff;
 
   Real time;                  ///< of the event [s]
   Real x, y, vx, vy, since;   ///< as of Flight
   std::uint64_t conditions;   ///< a digest of all else that its future depends on
   std::uint32_t body, event;  ///< changes of one event have the same number, and stand side by side
-  std::uint32_t motion;       ///< in BasicJournal::motions; `straight` if it flies freely
+  std::uint32_t motion;       ///< in Journal::motions; `straight` if it flies freely
 };
-using Change = BasicChange<double>;
 
 /// Kept by a world for the portion that looks at it (portion.h).
-template <class Real>
-struct BasicJournal {
+struct Journal {
   struct KeptFlight {
     std::uint32_t body;
-    Flight<Real> flight;
+    Flight flight;
   };
   struct KeptState {
     std::uint32_t body;
-    BasicBodyState<Real> state;  ///< but for the flight
+    BodyState state;  ///< but for the flight
   };
   /// What is kept of a body, and where: its flight if `number` is that of this window, all of it if
   /// it is one more.
@@ -49,8 +47,8 @@ struct BasicJournal {
     }
   };
 
-  std::vector<BasicChange<Real>> changes;
-  std::vector<BasicMotion<Real>>
+  std::vector<Change> changes;
+  std::vector<Motion>
       motions;  ///< of those that went on along a curve, or have companions, or are out of play
   std::vector<KeptFlight> flights;       ///< of all that changed, before that
   std::vector<KeptState> states;         ///< of those that changed otherwise than in a free impact
@@ -76,25 +74,25 @@ struct BasicJournal {
                                        ///< of them: from then on all is
   HoldAge age;
 
-  void keep_flight(std::uint32_t body, const Flight<Real>& flight) {
+  void keep_flight(std::uint32_t body, const Flight& flight) {
     if (marks[body].number >= mark) return;
     marks[body] = {mark, static_cast<std::uint32_t>(flights.size()), 0};
     flights.push_back({body, flight});
   }
-  void enter(std::uint32_t body, const Flight<Real>& f, std::uint64_t conditions) {
+  void enter(std::uint32_t body, const Flight& f, std::uint64_t conditions) {
     if (rooms_of[body] != 0) rooms_of[body] = 0, entered.push_back(body);
     changes.push_back(
-        {time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, BasicChange<Real>::straight});
+        {time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, Change::straight});
   }
-  bool is_quiet(std::uint32_t body, const Flight<Real>& f) const {
+  bool is_quiet(std::uint32_t body, const Flight& f) const {
     if (rooms_of[body] == 0) return false;
     const Room& room = rooms[rooms_of[body] - 1u];
     const Real ahead = quiet_until - f.time;  // drag would only make the way shorter
     return room.holds(f.x, f.y) && room.holds(f.x + f.vx * ahead, f.y + f.vy * ahead);
   }
   /// A free impact of two bodies, after it.
-  void enter_impact(std::uint32_t low, const Flight<Real>& a, std::uint64_t conditions_a,
-                    std::uint32_t high, const Flight<Real>& b, std::uint64_t conditions_b) {
+  void enter_impact(std::uint32_t low, const Flight& a, std::uint64_t conditions_a,
+                    std::uint32_t high, const Flight& b, std::uint64_t conditions_b) {
     if (is_quiet(low, a) && is_quiet(high, b)) ++quiet_events;
     else enter(low, a, conditions_a), enter(high, b, conditions_b);
     ++event;
@@ -113,6 +111,5 @@ struct BasicJournal {
     return age;
   }
 };
-using Journal = BasicJournal<double>;
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

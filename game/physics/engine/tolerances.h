@@ -3,9 +3,9 @@
 
 #include <limits>
 
-#include "game/physics/body.h"
+#include "game/physics/real.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// Impacts are looked at together if they come within this time of each other [s]; whether they are
 /// one is decided by their gaps.
@@ -14,8 +14,7 @@ constexpr double instant = 1e-9;
 constexpr double cluster_gap = 2e-6;
 /// The least separation an impulse leaves, relative to the speeds: far above rounding, far below
 /// anything seen.
-template <class Real>
-constexpr Real separation_min = 1e-14 * fineness<Real>;
+constexpr Real separation_min = 1e-14 * fineness;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

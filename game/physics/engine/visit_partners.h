@@ -6,13 +6,12 @@
 
 #include "game/physics/engine/engine.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// Everybody that `body` may touch, in an order that depends on ids alone: bodies near it, walls,
 /// and whatever else of the field concerns it.
-template <class Real>
 template <class Visit>
-void BasicEngine<Real>::visit_partners(std::uint32_t body, Visit&& visit) {
+void Engine::visit_partners(std::uint32_t body, Visit&& visit) {
   near_.clear();
   grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
     if (other != body) near_.push_back(other);
@@ -30,4 +29,4 @@ void BasicEngine<Real>::visit_partners(std::uint32_t body, Visit&& visit) {
       visit(edge);
 }
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

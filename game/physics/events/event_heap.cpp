@@ -1,17 +1,15 @@
 // Entries rise and sink by (time, lower id, higher id).
 #include "game/physics/events/event_heap.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
-template <class Real>
-void BasicEventHeap<Real>::raise(std::uint32_t place, const Entry& entry) {
+void EventHeap::raise(std::uint32_t place, const Entry& entry) {
   for (; place > 0 && precedes(entry, heap_[(place - 1) / 2]); place = (place - 1) / 2)
     put(place, heap_[(place - 1) / 2]);
   put(place, entry);
 }
 
-template <class Real>
-void BasicEventHeap<Real>::sink(std::uint32_t place, const Entry& entry) {
+void EventHeap::sink(std::uint32_t place, const Entry& entry) {
   const auto size = static_cast<std::uint32_t>(heap_.size());
   for (std::uint32_t child = 2 * place + 1; child < size; child = 2 * place + 1) {
     if (child + 1 < size && precedes(heap_[child + 1], heap_[child])) ++child;
@@ -22,8 +20,7 @@ void BasicEventHeap<Real>::sink(std::uint32_t place, const Entry& entry) {
   put(place, entry);
 }
 
-template <class Real>
-void BasicEventHeap<Real>::take_out(std::uint32_t body) {
+void EventHeap::take_out(std::uint32_t body) {
   const std::uint32_t place = places_[body];
   if (place == none) return;
   places_[body] = none;
@@ -34,9 +31,7 @@ void BasicEventHeap<Real>::take_out(std::uint32_t body) {
   else sink(place, last);
 }
 
-template <class Real>
-void BasicEventHeap<Real>::set(std::uint32_t body, Real time, std::uint32_t lower,
-                               std::uint32_t higher) {
+void EventHeap::set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher) {
   take_out(body);
   times_[body] = time;
   if (time == std::numeric_limits<Real>::infinity()) return;
@@ -45,7 +40,4 @@ void BasicEventHeap<Real>::set(std::uint32_t body, Real time, std::uint32_t lowe
   raise(static_cast<std::uint32_t>(heap_.size() - 1), entry);
 }
 
-template class BasicEventHeap<double>;
-template class BasicEventHeap<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

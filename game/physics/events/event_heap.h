@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "game/physics/events/event_order.h"
+#include "game/physics/real.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
-/// As BasicEventQueue (event_queue.h), whose contract it shares: the same entries in the same
+/// As EventQueue (event_queue.h), whose contract it shares: the same entries in the same
 /// order.
-template <class Real>
-class BasicEventHeap {
+class EventHeap {
  public:
   static constexpr std::uint32_t none = 0xffffffff;
 
@@ -30,16 +30,16 @@ class BasicEventHeap {
   /// The twin of the first is one of the next two, if it is there; whoever else may follow is above
   /// or right below it.
   bool is_followed_within(Real window) const {
-    const EventOrder<Real>& first = heap_.front();
+    const EventOrder& first = heap_.front();
     const Real end = first.time + window;
     return std::any_of(
         heap_.begin() + 1,
         heap_.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(7, heap_.size())),
-        [&](const EventOrder<Real>& e) { return e.time <= end && e != first; });
+        [&](const EventOrder& e) { return e.time <= end && e != first; });
   }
 
  private:
-  struct Entry : EventOrder<Real> {
+  struct Entry : EventOrder {
     std::uint32_t body;
   };
 
@@ -56,4 +56,4 @@ class BasicEventHeap {
   std::vector<Real> times_;            ///< by body
 };
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

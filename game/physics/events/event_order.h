@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <limits>
 
-namespace rink::physics {
+#include "game/physics/real.h"
+
+namespace rink::physics::inline RINK_PRECISION {
 
 /// What tells events apart. The other body's event of the same impact has the same.
-template <class Real>
 struct EventOrder {
   Real time = std::numeric_limits<Real>::infinity();      ///< simulated [s]
   std::uint32_t lower = 0xffffffff, higher = 0xffffffff;  ///< ids of the two that meet
@@ -16,11 +17,10 @@ struct EventOrder {
 };
 
 /// Ties break by (time, lower id, higher id).
-template <class Real>
-bool precedes(const EventOrder<Real>& a, const EventOrder<Real>& b) {
+inline bool precedes(const EventOrder& a, const EventOrder& b) {
   if (a.time != b.time) return a.time < b.time;
   if (a.lower != b.lower) return a.lower < b.lower;
   return a.higher < b.higher;
 }
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -8,7 +8,7 @@
 
 #include "game/physics/body.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 constexpr double number_max = 4.0e18;
@@ -18,14 +18,11 @@ constexpr double number_max = 4.0e18;
 constexpr double events_per_bucket = 8.0;
 }  // namespace
 
-template <class Real>
-std::int64_t BasicEventQueue<Real>::bucket_number(Real time) const {
+std::int64_t EventQueue::bucket_number(Real time) const {
   return static_cast<std::int64_t>(std::min<Real>(time * inverse_width_, number_max));
 }
 
-template <class Real>
-void BasicEventQueue<Real>::set(std::uint32_t body, Real time, std::uint32_t lower,
-                                std::uint32_t higher) {
+void EventQueue::set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher) {
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   Entry& entry = entries_[body];
   const bool is_noted = entry.time == time;
@@ -40,8 +37,7 @@ void BasicEventQueue<Real>::set(std::uint32_t body, Real time, std::uint32_t low
     rebuild(1.0 / inverse_width_, counts_.size());
 }
 
-template <class Real>
-void BasicEventQueue<Real>::note(std::uint32_t body, Real time) {
+void EventQueue::note(std::uint32_t body, Real time) {
   const std::int64_t number = bucket_number(time);
   if (number >= horizon_) {
     later_.push_back({time, body});
@@ -58,8 +54,7 @@ void BasicEventQueue<Real>::note(std::uint32_t body, Real time) {
 }
 
 /// Moves all that is in the bucket to its list of full ones.
-template <class Real>
-void BasicEventQueue<Real>::spill(Bucket& bucket) {
+void EventQueue::spill(Bucket& bucket) {
   std::uint32_t place = static_cast<std::uint32_t>(full_.size());
   if (free_.empty()) {
     full_.push_back(bucket);
@@ -72,8 +67,7 @@ void BasicEventQueue<Real>::spill(Bucket& bucket) {
 }
 
 /// Puts the body's entry among those that are due, in its order.
-template <class Real>
-void BasicEventQueue<Real>::add_due(std::uint32_t body) {
+void EventQueue::add_due(std::uint32_t body) {
   const Due due{entries_[body], body};
   due_.push_back(due);
   std::size_t k = due_.size() - 1;
@@ -82,9 +76,8 @@ void BasicEventQueue<Real>::add_due(std::uint32_t body) {
 }
 
 /// Calls `visit(body, time)` for all notes in a bucket, which is empty then.
-template <class Real>
 template <class Visit>
-void BasicEventQueue<Real>::empty(std::size_t place, Visit&& visit) {
+void EventQueue::empty(std::size_t place, Visit&& visit) {
   Bucket& bucket = buckets_[place];
   const std::uint32_t count = std::exchange(counts_[place], std::uint8_t{0});
   for (std::uint32_t k = 0; k < count; ++k) visit(bucket.bodies[k], bucket.times[k]);
@@ -99,8 +92,7 @@ void BasicEventQueue<Real>::empty(std::size_t place, Visit&& visit) {
 }
 
 /// Sorts what the current bucket holds into what is due.
-template <class Real>
-void BasicEventQueue<Real>::gather() {
+void EventQueue::gather() {
   constexpr std::size_t few = 32;
   empty(place_of(current_), [&](std::uint32_t body, Real time) {
     ++looked_at_;
@@ -113,16 +105,14 @@ void BasicEventQueue<Real>::gather() {
               [](const Due& a, const Due& b) { return precedes(b.entry, a.entry); });
 }
 
-template <class Real>
-bool BasicEventQueue<Real>::is_followed_within(Real window) const {
+bool EventQueue::is_followed_within(Real window) const {
   const Real end = last_time_ + window;
   for (std::size_t k = due_.size(); k-- > 0 && due_[k].entry.time <= end;)
     if (is_valid(due_[k]) && due_[k].entry != entries_[found_]) return true;
   return end * inverse_width_ >= static_cast<Real>(current_ + 1);
 }
 
-template <class Real>
-void BasicEventQueue<Real>::rebuild(Real width, std::size_t bucket_count) {
+void EventQueue::rebuild(Real width, std::size_t bucket_count) {
   std::vector<Note> pending;
   pending.reserve(count_);
   const auto add = [&](std::uint32_t body, Real time) {
@@ -148,23 +138,20 @@ void BasicEventQueue<Real>::rebuild(Real width, std::size_t bucket_count) {
   begin_span();
 }
 
-template <class Real>
-void BasicEventQueue<Real>::begin_span() {
+void EventQueue::begin_span() {
   taken_ = 0;
   span_looked_at_ = looked_at_;
   span_begin_ = last_time_;
 }
 
-template <class Real>
-std::optional<Real> BasicEventQueue<Real>::wanted_width() const {
+std::optional<Real> EventQueue::wanted_width() const {
   if (taken_ < span_min || last_time_ <= span_begin_) return std::nullopt;
   return std::max(events_per_bucket * (last_time_ - span_begin_) / static_cast<Real>(taken_),
-                  1e-15 * fineness<Real> * (1.0 + last_time_));
+                  1e-15 * fineness * (1.0 + last_time_));
 }
 
 /// Whether the buckets did not fit and have been made anew.
-template <class Real>
-bool BasicEventQueue<Real>::adapt() {
+bool EventQueue::adapt() {
   const auto wanted = wanted_width();
   if (!wanted) return false;
   const Real width = 1.0 / inverse_width_;
@@ -176,8 +163,7 @@ bool BasicEventQueue<Real>::adapt() {
 }
 
 /// Moves the horizon on; false if nothing is due by `until`.
-template <class Real>
-bool BasicEventQueue<Real>::refill(Real until) {
+bool EventQueue::refill(Real until) {
   if (near_count_ == 0) {
     if (later_begin_ > until) return false;
     std::erase_if(later_, [&](const Note& note) { return entries_[note.body].time != note.time; });
@@ -200,8 +186,7 @@ bool BasicEventQueue<Real>::refill(Real until) {
 }
 
 /// Goes on to the next bucket; false if nothing in it can come by `until`.
-template <class Real>
-bool BasicEventQueue<Real>::turn(Real until) {
+bool EventQueue::turn(Real until) {
   if (taken_ > 4096 + count_ / 8) adapt();
   if ((near_count_ == 0 || current_ + 1 >= horizon_) && !refill(until)) return false;
   if (static_cast<Real>(current_ + 1) > until * inverse_width_) return false;
@@ -210,8 +195,7 @@ bool BasicEventQueue<Real>::turn(Real until) {
   return true;
 }
 
-template <class Real>
-std::uint32_t BasicEventQueue<Real>::first(Real until) {
+std::uint32_t EventQueue::first(Real until) {
   for (;;) {
     while (!due_.empty() && !is_valid(due_.back())) due_.pop_back();
     if (due_.empty()) {
@@ -230,7 +214,4 @@ std::uint32_t BasicEventQueue<Real>::first(Real until) {
   }
 }
 
-template class BasicEventQueue<double>;
-template class BasicEventQueue<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -9,8 +9,9 @@
 
 #include "game/physics/events/event_order.h"
 #include "game/physics/large_pages.h"
+#include "game/physics/real.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// One entry per body. Setting and taking cost constant time as long as events are spread over
 /// time; the bucket width follows the rate at which they are taken, the number of buckets that of
@@ -21,8 +22,7 @@ namespace rink::physics {
 /// where it is: it no longer says what the body's entry says, and is dropped when its bucket comes.
 /// So setting writes to one bucket and reads none, and who comes next is known ahead (upcoming());
 /// linked entries would not tell without waiting for memory.
-template <class Real>
-class BasicEventQueue {
+class EventQueue {
  public:
   static constexpr std::uint32_t none = 0xffffffff;
 
@@ -57,7 +57,7 @@ class BasicEventQueue {
   void prefetch(std::uint32_t body) const { __builtin_prefetch(&entries_[body], 1); }
 
  private:
-  using Entry = EventOrder<Real>;
+  using Entry = EventOrder;
   struct Note {
     Real time;
     std::uint32_t body;
@@ -116,6 +116,5 @@ class BasicEventQueue {
   std::uint64_t looked_at_ = 0, span_looked_at_ = 0;  // ever, and before this span
   Real span_begin_ = 0.0, last_time_ = 0.0;           // simulated [s]
 };
-using EventQueue = BasicEventQueue<double>;
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -4,10 +4,11 @@
 #include <cstdint>
 
 #include "game/physics/flight/straight_flight.h"
+#include "game/physics/real.h"
 
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
-#if defined(__SSE2__)
+#if defined(RINK_PAIRS_SCALARS)
 
 /// How many of `count` discs of `near` (ids in `discs`), all in straight flight without drag, have
 /// their centres at `time` no farther from (x, y) than their radius and `least` [m]. Four at a time
@@ -42,4 +43,4 @@ template <class Disc>
 
 #endif
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -3,13 +3,14 @@
 
 #include <cmath>
 
-namespace rink::physics {
+#include "game/physics/flight/exponential.h"
+
+namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
 
 /// (1/2 - y/6 + y^2/24 - ...), the q of unit time: for y = g t below 0.4 where (t - s)/g would lose
 /// up to all digits.
-template <class Real>
 Real stretched_square(Real y) {
   constexpr int last = std::numeric_limits<Real>::digits > 53 ? 19 : 15;
   Real sum = 0.0;
@@ -18,7 +19,6 @@ Real stretched_square(Real y) {
 }
 
 /// q of WarpedTime, given its s.
-template <class Real>
 Real warped_square(Real elapsed, Real drag, Real s) {
   if (drag == 0.0) return 0.5 * elapsed * elapsed;
   const Real y = drag * elapsed;
@@ -27,27 +27,24 @@ Real warped_square(Real elapsed, Real drag, Real s) {
 
 }  // namespace
 
-template <class Real>
-BasicWarpedTime<Real> warp_unaccelerated(Real elapsed, std::type_identity_t<Real> drag) {
+WarpedTime warp_unaccelerated(Real elapsed, Real drag) {
   if (drag == 0.0) return {elapsed, 0.0, 1.0};
   const Real lost = expm1_of(-drag * elapsed);
   return {-lost / drag, 0.0, 1.0 + lost};
 }
 
-template <class Real>
-BasicWarpedTime<Real> warp(Real elapsed, std::type_identity_t<Real> drag) {
-  BasicWarpedTime<Real> warped = warp_unaccelerated(elapsed, drag);
+WarpedTime warp(Real elapsed, Real drag) {
+  WarpedTime warped = warp_unaccelerated(elapsed, drag);
   warped.q = warped_square(elapsed, drag, warped.s);
   return warped;
 }
 
-template <class Real>
-BasicMotion<Real> BasicMotion<Real>::at(Real instant) const {
-  BasicMotion moved = *this;
+Motion Motion::at(Real instant) const {
+  Motion moved = *this;
   moved.time = instant;
   const bool is_at_rest = instant >= rest_time;
   const Real elapsed = (is_at_rest ? rest_time : instant) - time;
-  BasicWarpedTime<Real> w{};
+  WarpedTime w{};
   for (int axis = 0; axis < 2; ++axis) {
     if (axis == 0 || drag[axis] != drag[0]) w = warp_unaccelerated(elapsed, drag[axis]);
     if (acceleration[axis] != 0.0 && w.q == 0.0) w.q = warped_square(elapsed, drag[axis], w.s);
@@ -55,15 +52,14 @@ BasicMotion<Real> BasicMotion<Real>::at(Real instant) const {
     moved.velocity[axis] = velocity[axis] * w.e + acceleration[axis] * w.s;
   }
   if (is_at_rest) {
-    moved.velocity = moved.acceleration = BasicVector2<Real>(0.0, 0.0);
+    moved.velocity = moved.acceleration = RealVector(0.0, 0.0);
     moved.rest_time = std::numeric_limits<Real>::infinity();
   }
   return moved;
 }
 
-template <class Real>
-void BasicMotion<Real>::slide(Real friction) {
-  acceleration = BasicVector2<Real>(0.0, 0.0);
+void Motion::slide(Real friction) {
+  acceleration = RealVector(0.0, 0.0);
   rest_time = std::numeric_limits<Real>::infinity();
   if (velocity == acceleration) return;
   rest_time = time;
@@ -74,11 +70,4 @@ void BasicMotion<Real>::slide(Real friction) {
   rest_time += rate == 0.0 ? speed / friction : log1p_of(rate * speed / friction) / rate;
 }
 
-template BasicWarpedTime<double> warp(double, double);
-template BasicWarpedTime<long double> warp(long double, long double);
-template BasicWarpedTime<double> warp_unaccelerated(double, double);
-template BasicWarpedTime<long double> warp_unaccelerated(long double, long double);
-template struct BasicMotion<double>;
-template struct BasicMotion<long double>;
-
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -4,18 +4,19 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <type_traits>
+#include <limits>
+#include <optional>
 
-#if defined(__SSE2__)
+#include "game/physics/flight/time_to_touch.h"
+#include "game/physics/real.h"
+
+#if defined(RINK_PAIRS_SCALARS)
 #include <immintrin.h>
 #endif
 
-#include "game/physics/flight/impact_time.h"
-
-namespace rink::physics {
+namespace rink::physics::inline RINK_PRECISION {
 
 /// A disc at its last event.
-template <class Real>
 struct Flight {
   Real x, y, vx, vy;  ///< m, m/s
   Real time;          ///< of the event [s]
@@ -24,20 +25,17 @@ struct Flight {
   /// Two numbers at a time where the machine can: first_meeting() reads them in twos, and what was
   /// written by ones would make that wait.
   void restart(Real new_x, Real new_y, Real new_vx, Real new_vy, Real new_time) {
-#if defined(__SSE2__)
-    if constexpr (std::is_same_v<Real, double>) {
-      _mm_storeu_pd(&x, _mm_setr_pd(new_x, new_y));
-      _mm_storeu_pd(&vx, _mm_setr_pd(new_vx, new_vy));
-      _mm_storeu_pd(&time, _mm_setr_pd(new_time, radius));
-      return;
-    }
-#endif
+#if defined(RINK_PAIRS_SCALARS)
+    _mm_storeu_pd(&x, _mm_setr_pd(new_x, new_y));
+    _mm_storeu_pd(&vx, _mm_setr_pd(new_vx, new_vy));
+    _mm_storeu_pd(&time, _mm_setr_pd(new_time, radius));
+#else
     x = new_x, y = new_y, vx = new_vx, vy = new_vy, time = new_time;
+#endif
   }
 };
 
 /// Whom a disc meets first and when, and when the second.
-template <class Real>
 struct Meeting {
   Real time = std::numeric_limits<Real>::infinity();
   std::uint32_t other = 0xffffffff;
@@ -48,15 +46,17 @@ struct Meeting {
 
 /// When the two first touch, both taken at the later of their two events; nothing if they never do,
 /// or only after `latest`, unless they touch at that event already.
-template <class Real>
-std::optional<Real> meeting_time(const Flight<Real>& a, const Flight<Real>& b, Real latest) {
+inline std::optional<Real> meeting_time(const Flight& a, const Flight& b, Real latest) {
   const Real time = std::max(a.time, b.time), ahead_a = time - a.time, ahead_b = time - b.time;
-  const BasicVector2<Real> offset(b.x - a.x + (b.vx * ahead_b - a.vx * ahead_a),
-                                  b.y - a.y + (b.vy * ahead_b - a.vy * ahead_a));
-  const auto wait = time_to_touch<Real>(offset, BasicVector2<Real>(b.vx - a.vx, b.vy - a.vy),
-                                        a.radius + b.radius, latest - time);
+  const RealVector offset(b.x - a.x + (b.vx * ahead_b - a.vx * ahead_a),
+                          b.y - a.y + (b.vy * ahead_b - a.vy * ahead_a));
+  const auto wait = time_to_touch(offset, RealVector(b.vx - a.vx, b.vy - a.vy), a.radius + b.radius,
+                                  latest - time);
   return wait ? std::optional(time + *wait) : std::nullopt;
 }
+
+/// Discs whose gap is at most this may touch, whatever the roundings [m].
+constexpr double clear_of_touching = 1e-6;
 
 /// How many can be asked about at once.
 constexpr std::uint32_t flight_max = 32;
@@ -64,12 +64,12 @@ constexpr std::uint32_t flight_max = 32;
 /// Whom of `count` discs of `near` (ids in `discs`) the disc `own` meets first, as of
 /// meeting_time(); the first of them in `near` if several come at that time. `near` must be
 /// writable three places beyond its end. Meetings after `latest` are left out, as there.
-template <class Real, class Disc>
-Meeting<Real> first_meeting_singly(const Disc* discs, std::uint32_t own, const std::uint32_t* near,
-                                   std::uint32_t count, Real latest) {
-  Meeting<Real> first;
+template <class Disc>
+Meeting first_meeting_singly(const Disc* discs, std::uint32_t own, const std::uint32_t* near,
+                             std::uint32_t count, Real latest) {
+  Meeting first;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const auto time = meeting_time<Real>(discs[own], discs[near[k]], latest);
+    const auto time = meeting_time(discs[own], discs[near[k]], latest);
     if (!time) continue;
     first.second_time = std::min(first.second_time, std::max(first.time, *time));
     if (*time < first.time) first.time = *time, first.other = near[k];
@@ -77,15 +77,15 @@ Meeting<Real> first_meeting_singly(const Disc* discs, std::uint32_t own, const s
   return first;
 }
 
-#if defined(__SSE2__)
+#if defined(RINK_PAIRS_SCALARS)
 
 /// The same bits two at a time, and without a branch that depends on where anybody is: a
 /// mispredicted one costs as much as the arithmetic for four discs. First all are tested for what
 /// rules a meeting out without a root, then those left over are solved; mostly these are no more
 /// than two.
 template <class Disc>
-Meeting<double> first_meeting_in_pairs(const Disc* discs, std::uint32_t own, std::uint32_t* near,
-                                       std::uint32_t count, double latest) {
+Meeting first_meeting_in_pairs(const Disc* discs, std::uint32_t own, std::uint32_t* near,
+                               std::uint32_t count, double latest) {
   const auto both = [](double value) { return _mm_set1_pd(value); };
   const auto pair = [](const double& low, const double& high) {
     return _mm_loadh_pd(_mm_load_sd(&low), &high);
@@ -140,7 +140,7 @@ Meeting<double> first_meeting_in_pairs(const Disc* discs, std::uint32_t own, std
   times.at[end] = openings.at[end] = squares.at[end] = reaches.at[end] = 0.0;
   gaps.at[end] = misses.at[end] = 1.0;
   const __m128d never = both(std::numeric_limits<double>::infinity());
-  Meeting<double> first;
+  Meeting first;
   std::uint32_t m = 0;
   do {
     const std::uint32_t j = left[m], k = left[m + 1];
@@ -180,15 +180,12 @@ Meeting<double> first_meeting_in_pairs(const Disc* discs, std::uint32_t own, std
   first = _mm256_unpacklo_pd(even, odd), second = _mm256_unpackhi_pd(even, odd);
 }
 
-/// Discs whose gap is at most this may touch, whatever the roundings [m].
-constexpr double clear_of_touching = 1e-6;
-
 /// The same bits four at a time, in one pass: so many roots cost less than to find out who needs
 /// one. Who touches is told, and places that fill up fours are not counted, if `counts`.
 template <bool counts, class Disc>
-[[gnu::target("avx2")]] Meeting<double> first_meeting_in_fours(const Disc* discs, std::uint32_t own,
-                                                               std::uint32_t* near,
-                                                               std::uint32_t count, double latest) {
+[[gnu::target("avx2")]] Meeting first_meeting_in_fours(const Disc* discs, std::uint32_t own,
+                                                       std::uint32_t* near, std::uint32_t count,
+                                                       double latest) {
   const Disc& a = discs[own];
   if ((count & 3) != 0)
     near[count] = near[count + 1] = near[count + 2] = own;  // nobody closes on himself
@@ -263,7 +260,7 @@ template <bool counts, class Disc>
   const int lanes = _mm256_movemask_pd(_mm256_cmp_pd(first, first_one, _CMP_EQ_OQ));
   alignas(32) std::int64_t place_of[4];
   _mm256_store_si256(reinterpret_cast<__m256i*>(place_of), others);
-  Meeting<double> meeting;
+  Meeting meeting;
   meeting.time = _mm256_cvtsd_f64(first_one), meeting.second_time = _mm256_cvtsd_f64(second_one);
   if constexpr (counts) {
     alignas(32) std::int64_t counted[4];
@@ -287,22 +284,21 @@ inline const bool has_fours = __builtin_cpu_supports("avx2") != 0;
 #endif
 
 /// As first_meeting_singly(), the quickest way that this machine's baseline allows.
-template <class Real, class Disc>
-Meeting<Real> first_meeting(const Disc* discs, std::uint32_t own, std::uint32_t* near,
-                            std::uint32_t count, Real latest) {
-#if defined(__SSE2__)
-  if constexpr (std::is_same_v<Real, double>)
-    return has_fours ? first_meeting_in_fours<false>(discs, own, near, count, latest)
-                     : first_meeting_in_pairs(discs, own, near, count, latest);
-#endif
+template <class Disc>
+Meeting first_meeting(const Disc* discs, std::uint32_t own, std::uint32_t* near,
+                      std::uint32_t count, Real latest) {
+#if defined(RINK_PAIRS_SCALARS)
+  return has_fours ? first_meeting_in_fours<false>(discs, own, near, count, latest)
+                   : first_meeting_in_pairs(discs, own, near, count, latest);
+#else
   return first_meeting_singly(discs, own, near, count, latest);
+#endif
 }
 
 /// Whether first_meeting_counting() is there.
-template <class Real>
-bool counts_touching() {
-#if defined(__SSE2__)
-  return std::is_same_v<Real, double> && has_fours;
+inline bool counts_touching() {
+#if defined(RINK_PAIRS_SCALARS)
+  return has_fours;
 #else
   return false;
 #endif
@@ -310,15 +306,15 @@ bool counts_touching() {
 
 /// As first_meeting(), and who touches is counted as well: asked in the same breath, that takes
 /// four instructions more per four discs.
-template <class Real, class Disc>
-Meeting<Real> first_meeting_counting(const Disc* discs, std::uint32_t own, std::uint32_t* near,
-                                     std::uint32_t count, Real latest) {
-  assert(counts_touching<Real>());
-#if defined(__SSE2__)
-  if constexpr (std::is_same_v<Real, double>)
-    return first_meeting_in_fours<true>(discs, own, near, count, latest);
-#endif
+template <class Disc>
+Meeting first_meeting_counting(const Disc* discs, std::uint32_t own, std::uint32_t* near,
+                               std::uint32_t count, Real latest) {
+  assert(counts_touching());
+#if defined(RINK_PAIRS_SCALARS)
+  return first_meeting_in_fours<true>(discs, own, near, count, latest);
+#else
   return first_meeting(discs, own, near, count, latest);
+#endif
 }
 
-}  // namespace rink::physics
+}  // namespace rink::physics::inline RINK_PRECISION

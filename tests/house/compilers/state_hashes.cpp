@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "game/model/random_stream.h"
+#include "game/physics/extended/extended_world.h"
 #include "game/physics/world.h"
 
 namespace {
