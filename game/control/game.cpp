@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "game/control/free_place.h"
-#include "game/control/game_hash.h"
 
 namespace rink::game {
 namespace {
@@ -215,6 +214,17 @@ std::uint64_t Game::hash() const {
   StateHash hash = begun_game_hash(simulator_->hash(), entities_, players, score_);
   for (const FaceOff& due : face_offs_) hash.add(due.time), hash.add(std::uint64_t{due.puck.index});
   return hash.value();
+}
+
+StateHash begun_game_hash(std::uint64_t world, std::span<const Entity> entities,
+                          std::span<const BatController* const> players, const Score& score) {
+  StateHash hash;
+  hash.add(world);
+  for (const Entity& entity : entities) hash.add(std::uint64_t{entity.id.index});
+  for (const BatController* player : players)
+    hash.add(std::uint64_t{player->keys().bits()} << 32 | player->input_count());
+  hash.add(std::uint64_t{score.left} << 32 | score.right);
+  return hash;
 }
 
 }  // namespace rink::game

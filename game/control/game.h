@@ -11,6 +11,7 @@
 
 #include "game/control/bat_controller.h"
 #include "game/model/scene.h"
+#include "game/model/state_hash.h"
 #include "game/physics/simulator.h"
 
 namespace rink::game {
@@ -163,5 +164,10 @@ class Game {
   std::vector<Entity> spawned_, removed_;
   std::vector<ScoredGoal> scored_;
 };
+
+/// Of a game's hash: the world's, all that is in it, what the players hold, in order of player, and
+/// the score; pending face-offs come after that. For those who have the game in parts.
+StateHash begun_game_hash(std::uint64_t world, std::span<const Entity> entities,
+                          std::span<const BatController* const> players, const Score& score);
 
 }  // namespace rink::game

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "game/control/game.h"
-#include "game/control/game_hash.h"
 #include "tests/game/rink_scenes.h"
 
 namespace rink::game {

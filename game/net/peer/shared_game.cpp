@@ -11,7 +11,6 @@
 #endif
 
 #include "game/control/free_place.h"
-#include "game/control/game_hash.h"
 #include "game/model/state_hash.h"
 #include "game/net/peer/crowd.h"
 #include "game/net/peer/meeting/seating.h"
