@@ -14,7 +14,7 @@
 #include "game/apps/peer_flags.h"
 #include "game/apps/peer_ranks.h"
 #include "game/apps/peer_report.h"
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"

@@ -6,7 +6,7 @@
 #include <cinttypes>
 #include <cstdio>
 
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/net/scene_choice.h"
 
 namespace rink::game {

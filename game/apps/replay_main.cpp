@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "game/apps/command.h"
+#include "game/control/key_log_file.h"
 #include "game/control/replay.h"
 #include "game/version/version.h"
 

@@ -9,7 +9,7 @@
 #include "game/apps/command.h"
 #include "game/apps/serve_flags.h"
 #include "game/apps/server_process.h"
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"
 #include "game/net/fom_file.h"

@@ -10,7 +10,7 @@
 #include "game/apps/command.h"
 #include "game/apps/simulate_report.h"
 #include "game/control/game.h"
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/control/playing.h"
 #include "game/control/simulate_progress.h"
 #include "game/model/scene_file.h"

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,11 +13,11 @@ namespace rink::game {
 /// The greatest instant of an event [s], as in scenes (docs/scenes.md, "Limits").
 inline constexpr double key_time_max = 1e9;
 
-/// Which game was played and how: packed (key_log_packed.h) of matches, else text: a line
-/// `rink-keys 1`, one line each for scene, seed and, if known, bats, fingerprint, until, hash, the
-/// scene's own text behind bars, then one line per event: time with 17 significant digits, which
-/// read back to the same bits, player, what (down, up, enter, leave) and, for down and up, the key.
-/// The last line, `end`, has the number of events and a checksum of all lines above.
+/// Which game was played and how. As a file: packed (key_log_packed.h) of matches, else text: a
+/// line `rink-keys 1`, one line each for scene, seed and, if known, bats, fingerprint, until, hash,
+/// the scene's own text behind bars, then one line per event: time with 17 significant digits,
+/// which read back to the same bits, player, what (down, up, enter, leave) and, for down and up,
+/// the key. The last line, `end`, has the number of events and a checksum of all lines above.
 struct KeyLog {
   std::string scene;  ///< as given to load_scene
   std::uint64_t seed = 1;
@@ -38,17 +36,6 @@ struct KeyLog {
 
 /// The log's header for `scene`; its events are still to come.
 KeyLog key_log_for(const Scene& scene);
-
-/// Seals the log, whatever `is_sealed` says.
-void write_key_log(std::ostream& stream, const KeyLog& log);
-/// Throws SceneError if the file cannot be written.
-void write_key_log(const std::filesystem::path& file, const KeyLog& log);
-
-/// Reads text and packed logs. Throws SceneError naming file, line, what stands there and what was
-/// expected.
-KeyLog read_key_log(const std::filesystem::path& file);
-/// As above; `name` is named in errors.
-KeyLog read_key_log(std::istream& stream, const std::string& name);
 
 /// Throws SceneError, naming `file`, if `log` has players that `scene` has no bats for, or was
 /// recorded in another scene.

@@ -1,6 +1,7 @@
 // Key logs in as few bytes as they need: matches are recorded so.
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
 #include <string>
 

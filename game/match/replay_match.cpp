@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "game/control/key_log_file.h"
+
 namespace rink::game {
 
 Replay ReplayMatch::read(const std::filesystem::path& file) {

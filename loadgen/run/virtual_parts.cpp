@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "loadgen/measure/results.h"
 
 namespace rink::loadgen {

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/model/scene_file.h"
 #include "game/net/interest_codec.h"
 #include "game/replication/trajectory_codec.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/control/replay.h"
 #include "game/model/random_stream.h"
 #include "tests/game/rink_scenes.h"

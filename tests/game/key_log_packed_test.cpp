@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "game/control/key_log_file.h"
 #include "game/model/random_stream.h"
 #include "game/model/time_grid.h"
 #include "tests/game/rink_scenes.h"

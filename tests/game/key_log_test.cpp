@@ -1,5 +1,5 @@
 // A key log reads back bit for bit, and what is wrong with it is said by line.
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 
 #include <gmock/gmock.h>
 

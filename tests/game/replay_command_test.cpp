@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "game/control/game.h"
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/control/simulate_progress.h"
 #include "game/model/report_schema.h"
 #include "tests/command.h"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "loadgen/run/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "game/control/key_log_file.h"
 #include "game/control/replay.h"
 #include "game/match/local_match.h"
 #include "game/match/replay_match.h"

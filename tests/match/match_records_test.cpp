@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "game/control/key_log_file.h"
 #include "game/control/replay.h"
 #include "game/match/local_match.h"
 #include "game/match/replay_match.h"

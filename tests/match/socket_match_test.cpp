@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "game/control/key_log_file.h"
 #include "game/control/key_log_packed.h"
 #include "game/control/replay.h"
 #include "game/net/client/network_match.h"

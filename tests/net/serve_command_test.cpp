@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "game/control/key_log_file.h"
 #include "game/control/replay.h"
 #include "game/net/address.h"
 #include "game/net/fom_file.h"

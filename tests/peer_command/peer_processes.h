@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/control/playing.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"

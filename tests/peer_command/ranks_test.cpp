@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "game/control/game.h"
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/control/playing.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/control/playing.h"
 #include "game/match/local_match.h"
 #include "game/match/replay_match.h"

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "game/control/game.h"
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/model/scene_file.h"
 #include "game/net/scene_choice.h"
 #include "game/view/picture_of.h"

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <random>
 
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
 #include "game/net/interrupt.h"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "game/control/game_state.h"
+#include "game/control/key_log_file.h"
 #include "game/control/replay.h"
 #include "game/model/scene_file.h"
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "game/control/key_log_file.h"
 #include "loadgen/measure/growth.h"
 #include "loadgen/run/game_plan.h"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/net/evidence.h"
 #include "loadgen/run/cell_runner.h"
 #include "loadgen/run/game_plan.h"

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "game/control/game.h"
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "loadgen/measure/summary.h"
 #include "loadgen/run/campaign.h"
 #include "loadgen/run/game_plan.h"

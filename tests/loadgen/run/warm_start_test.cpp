@@ -12,7 +12,7 @@
 
 #include "game/control/game.h"
 #include "game/control/game_state.h"
-#include "game/control/key_log.h"
+#include "game/control/key_log_file.h"
 #include "game/model/byte_hash.h"
 #include "game/net/evidence.h"
 #include "game/net/evidence_lines.h"
