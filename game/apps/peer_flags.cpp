@@ -2,7 +2,7 @@
 #include "game/apps/peer_flags.h"
 
 #include "game/net/limits.h"
-#include "game/players/player.h"
+#include "game/players/player_kinds.h"
 
 namespace rink::game {
 namespace {

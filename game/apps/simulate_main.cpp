@@ -14,6 +14,7 @@
 #include "game/control/playing.h"
 #include "game/control/simulate_progress.h"
 #include "game/model/scene_file.h"
+#include "game/players/player_kinds.h"
 #include "game/version/version.h"
 
 namespace {

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "game/players/player_kinds.h"
 #include "game/players/random_plan.h"
 
 namespace rink::game {

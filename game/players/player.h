@@ -3,11 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "game/model/scene.h"
 
@@ -76,17 +72,5 @@ class Player {
   /// How many of the nearest pucks it looks at.
   virtual std::uint32_t pucks_wanted() const { return 0; }
 };
-
-/// Every kind of player that decides: all that an experiment's or a command's `players` may name
-/// but "random", whose keys are drawn before the game (random_plan.h).
-const std::vector<std::string>& player_kinds();
-
-/// Whether `name` is one of these, or "random".
-bool is_player_kind(std::string_view name);
-
-/// The player of `kind`, which must be one of player_kinds(). Places that a population shares, such
-/// as hot ones, depend on `seed` alone; all else on `seed` and the seat.
-std::unique_ptr<Player> make_player(std::string_view kind, const PlayerRules& rules,
-                                    const PlayerSeat& seat, std::uint64_t seed);
 
 }  // namespace rink::game

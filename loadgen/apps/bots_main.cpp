@@ -16,6 +16,7 @@
 #include "game/net/limits.h"
 #include "game/net/record_file.h"
 #include "game/players/player.h"
+#include "game/players/player_kinds.h"
 #include "game/players/random_plan.h"
 #include "game/replication/trajectory_codec.h"
 #include "game/version/version.h"

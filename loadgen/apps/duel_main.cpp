@@ -17,7 +17,7 @@
 #include "game/net/fom_file.h"
 #include "game/net/interrupt.h"
 #include "game/net/limits.h"
-#include "game/players/player.h"
+#include "game/players/player_kinds.h"
 #include "game/replication/trajectory_codec.h"
 #include "game/version/version.h"
 #include "loadgen/duel/match_bot.h"

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "game/players/player_kinds.h"
+
 namespace rink::loadgen {
 
 void MatchBot::act(game::NetworkMatch& match, double now_s) {

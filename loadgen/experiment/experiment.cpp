@@ -9,7 +9,7 @@
 #include "game/model/byte_hash.h"
 #include "game/net/peer/meeting/greetings.h"
 #include "game/net/relevant_kinds.h"
-#include "game/players/player.h"
+#include "game/players/player_kinds.h"
 #include "game/replication/update_policy.h"
 #include "loadgen/experiment/cell_key.h"
 #include "loadgen/experiment/experiment_network.h"

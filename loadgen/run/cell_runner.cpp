@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "game/players/player.h"
+#include "game/players/player_kinds.h"
 #include "game/replication/update_policy.h"
 #include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/discovery_table.h"

@@ -8,6 +8,7 @@
 #include "game/control/game_state.h"
 #include "game/control/key_log_file.h"
 #include "game/control/playing.h"
+#include "game/players/player_kinds.h"
 #include "game/players/random_plan.h"
 #include "loadgen/measure/results.h"
 

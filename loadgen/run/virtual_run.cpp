@@ -15,6 +15,7 @@
 #include "game/net/server/serve_report.h"
 #include "game/net/server/serving.h"
 #include "game/players/player.h"
+#include "game/players/player_kinds.h"
 #include "game/replication/trajectory_codec.h"
 #include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/discovery_table.h"

@@ -11,6 +11,7 @@
 #include "game/control/playing.h"
 #include "game/players/gathering.h"
 #include "game/players/hotspot.h"
+#include "game/players/player_kinds.h"
 #include "game/players/steering.h"
 #include "game/players/waypoint.h"
 #include "tests/game/rink_scenes.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "game/players/player_kinds.h"
 #include "game/players/random_plan.h"
 
 namespace rink::game {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "game/players/player_kinds.h"
+
 namespace rink::loadgen {
 namespace {
 
