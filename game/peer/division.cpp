@@ -4,8 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <sstream>
-
-#include "game/peer/cuts.h"
+#include <utility>
 
 namespace rink::peer {
 
@@ -85,11 +84,6 @@ Division Division::into_strips(const physics::Field& field, PeerNumber peer_coun
     else zones.push_back({{0.0, side(k, field.width), field.length, side(k + 1, field.width)}, k});
   }
   return Division(field, std::move(zones), peer_count);
-}
-
-Division Division::by_count(const physics::Field& field, std::vector<Vector2> places,
-                            PeerNumber peer_count) {
-  return Cuts::by_count(field, std::move(places), peer_count).division(peer_count);
 }
 
 PeerNumber Division::owner_of(const Vector2& place) const {

@@ -32,9 +32,6 @@ class Division {
   Division(const physics::Field& field, std::vector<Zone> zones, PeerNumber peer_count);
   /// Strips of equal width along the longer side, one for each peer.
   static Division into_strips(const physics::Field& field, PeerNumber peer_count);
-  /// By Cuts::by_count.
-  static Division by_count(const physics::Field& field, std::vector<Vector2> places,
-                           PeerNumber peer_count);
 
   PeerNumber peer_count() const { return peer_count_; }
   PeerNumber owner_of(const Vector2& place) const;

@@ -1,11 +1,9 @@
-// Messages to bytes and back, through the stream that snapshots of worlds go through.
+// Messages to bytes and back, and how long they would be.
 #include "game/peer/messages.h"
 
 #include <array>
 
-#include "game/peer/session/mirror.h"
-#include "game/peer/session/scoring.h"
-#include "game/peer/session/session.h"
+#include "game/peer/message_bytes.h"
 #include "game/physics/snapshot_stream.h"
 
 namespace rink::peer {
@@ -45,19 +43,6 @@ class Scribe : public physics::SnapshotStream<Scribe> {
 };
 
 template <class Message>
-std::vector<std::uint8_t> bytes_from(Message& message, int checksum_bytes = 8) {
-  physics::SnapshotWriter writer;
-  exchange(writer, message);
-  return writer.finish(checksum_bytes);
-}
-
-template <class Message>
-bool read_whole(std::span<const std::uint8_t> bytes, Message& message, int checksum_bytes = 8) {
-  physics::SnapshotReader reader(bytes);
-  return reader.is_intact(checksum_bytes) && exchange(reader, message) && reader.is_at_end();
-}
-
-template <class Message>
 std::size_t size_of(Message& message) {
   Measure measure;
   exchange(measure, message);
@@ -69,20 +54,6 @@ std::size_t size_of(Message& message) {
 std::vector<std::uint8_t> written(Arrivals message) { return bytes_from(message, short_checksum); }
 std::vector<std::uint8_t> written(Claims message) { return bytes_from(message, short_checksum); }
 std::vector<std::uint8_t> written(Verdict message) { return bytes_from(message, short_checksum); }
-std::vector<std::uint8_t> written(PartChange message) { return bytes_from(message); }
-std::vector<std::uint8_t> written(Loss message) { return bytes_from(message); }
-std::vector<std::uint8_t> written(FaceOffWord message) { return bytes_from(message); }
-std::vector<std::uint8_t> written(Entry message) { return bytes_from(message); }
-bool read(std::span<const std::uint8_t> bytes, Entry& message) {
-  return read_whole(bytes, message);
-}
-bool read(std::span<const std::uint8_t> bytes, PartChange& message) {
-  return read_whole(bytes, message);
-}
-bool read(std::span<const std::uint8_t> bytes, Loss& message) { return read_whole(bytes, message); }
-bool read(std::span<const std::uint8_t> bytes, FaceOffWord& message) {
-  return read_whole(bytes, message);
-}
 bool read(std::span<const std::uint8_t> bytes, Arrivals& message) {
   return read_whole(bytes, message, short_checksum);
 }

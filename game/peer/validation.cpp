@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "game/peer/session/session.h"
+#include "game/peer/session/session_state.h"
 
 namespace rink::peer {
 

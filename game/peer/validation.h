@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "game/peer/messages.h"
+#include "game/peer/session/loss.h"
 #include "game/peer/session/mirror.h"
 #include "game/peer/session/scoring.h"
 
 namespace rink::peer {
-
-struct Loss;
 
 /// What nothing that happens in a game changes of a body.
 struct BodyConstants {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "game/peer/cuts.h"
 #include "tests/peer/shared_scenes.h"
 
 namespace rink::peer::test {
@@ -88,7 +89,7 @@ TEST(Division, ByCountGivesAllPeersEquallyManyPlaces) {
       const double y = uniform(random, 0.0, 1.0);
       places.push_back({4.0 * x * x * x, 2.0 * y * y});
     }
-    const Division division = Division::by_count(field, places, peer_count);
+    const Division division = Cuts::by_count(field, places, peer_count).division(peer_count);
     std::vector<int> counts(peer_count, 0);
     for (const Vector2& place : places) ++counts[division.owner_of(place)];
     for (const int count : counts)
@@ -99,7 +100,7 @@ TEST(Division, ByCountGivesAllPeersEquallyManyPlaces) {
 TEST(Division, ByCountOfPlacesThatCannotBeToldApartIsOneByArea) {
   for (const std::size_t count : {0, 1, 7}) {
     const Division division =
-        Division::by_count(field, std::vector<Vector2>(count, Vector2(0.0, 0.0)), 5);
+        Cuts::by_count(field, std::vector<Vector2>(count, Vector2(0.0, 0.0)), 5).division(5);
     for (PeerNumber peer = 0; peer < 5; ++peer) EXPECT_EQ(division.zones_of(peer).size(), 1u);
   }
 }

@@ -3,7 +3,14 @@
 
 #include <cassert>
 
+#include "game/peer/message_bytes.h"
+
 namespace rink::peer {
+
+std::vector<std::uint8_t> written(PartChange message) { return bytes_from(message); }
+bool read(std::span<const std::uint8_t> bytes, PartChange& message) {
+  return read_whole(bytes, message);
+}
 
 bool Mirror::add(PartChange change) {
   const std::optional<std::uint64_t> step = last_   ? std::optional(last_->step)

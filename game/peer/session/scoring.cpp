@@ -5,7 +5,14 @@
 #include <limits>
 #include <tuple>
 
+#include "game/peer/message_bytes.h"
+
 namespace rink::peer {
+
+std::vector<std::uint8_t> written(FaceOffWord message) { return bytes_from(message); }
+bool read(std::span<const std::uint8_t> bytes, FaceOffWord& message) {
+  return read_whole(bytes, message);
+}
 
 void Scoring::count(std::vector<Goal> goals, const GoalRules& rules) {
   std::sort(goals.begin(), goals.end(), [](const Goal& a, const Goal& b) {

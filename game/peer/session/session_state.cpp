@@ -5,7 +5,14 @@
 #include <functional>
 #include <iterator>
 
+#include "game/peer/message_bytes.h"
+
 namespace rink::peer {
+
+std::vector<std::uint8_t> written(Entry message) { return bytes_from(message); }
+bool read(std::span<const std::uint8_t> bytes, Entry& message) {
+  return read_whole(bytes, message);
+}
 
 std::vector<PeerNumber> State::voters() const {
   std::vector<PeerNumber> all;

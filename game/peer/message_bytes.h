@@ -1,0 +1,27 @@
+// Any message as bytes and back, through the stream that snapshots of worlds go through: by the one
+// function `exchange` of its kind, with a checksum at the end.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "game/physics/snapshot_stream.h"
+
+namespace rink::peer {
+
+template <class Message>
+std::vector<std::uint8_t> bytes_from(Message& message, int checksum_bytes = 8) {
+  physics::SnapshotWriter writer;
+  exchange(writer, message);
+  return writer.finish(checksum_bytes);
+}
+
+/// False, with the message in no particular state, unless the bytes are one whole message.
+template <class Message>
+bool read_whole(std::span<const std::uint8_t> bytes, Message& message, int checksum_bytes = 8) {
+  physics::SnapshotReader reader(bytes);
+  return reader.is_intact(checksum_bytes) && exchange(reader, message) && reader.is_at_end();
+}
+
+}  // namespace rink::peer
