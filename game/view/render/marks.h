@@ -1,4 +1,4 @@
-// What lies on the table, as rows for the shaders: shadows, streaks, the glow of a goal; overlays.
+// What lies on the table, as rows for the shaders: shadows, streaks, the glow of a goal.
 #pragma once
 
 #include <vector>
@@ -12,11 +12,5 @@ inline constexpr int mark_row[] = {4, 4, 4, 4};
 
 /// `has_shadows` is false where so many pieces are seen that each is a few pixels.
 void add_marks(const Picture& picture, bool has_shadows, std::vector<float>& rows);
-
-/// Floats of a corner of an overlay's triangle: see the shader.
-inline constexpr int overlay_row[] = {4, 2, 4};
-
-/// Triangles over the pieces; a pixel is `pixel` wide [m].
-void add_overlay(const Picture& picture, float pixel, std::vector<float>& rows);
 
 }  // namespace rink::view

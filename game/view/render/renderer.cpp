@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "game/view/render/marks.h"
+#include "game/view/render/overlay_triangles.h"
 #include "game/view/render/shaders.h"
 #include "game/view/render/stage_mesh.h"
 #include "game/view/render/textures.h"

@@ -1,10 +1,8 @@
-// Overlays as triangles: a line is a thin rectangle, a disc a square whose shader draws the circle.
-#include "game/view/render/overlay.h"
+// A line is a thin rectangle, a disc a square whose shader draws the circle.
+#include "game/view/render/overlay_triangles.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "game/view/render/marks.h"
 
 namespace rink::view {
 namespace {
