@@ -10,6 +10,7 @@
 #include "game/net/interrupt.h"
 #include "game/version/version.h"
 #include "loadgen/apps/compare_flags.h"
+#include "loadgen/experiment/experiment_file.h"
 #include "loadgen/experiment/plan_text.h"
 #include "loadgen/measure/assertion.h"
 #include "loadgen/measure/discovery_table.h"

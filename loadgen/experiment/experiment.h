@@ -2,12 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -165,14 +163,6 @@ const Experiment& part_of(const Experiment& experiment, const std::string& part)
 /// `as_named`. An experiment takes such a file of its own folder before the one that it names, so
 /// that a report is complete wherever it goes.
 std::string kept_log_name(const std::string& as_named);
-
-/// Reads `file`. Throws ExperimentError.
-Experiment load_experiment(const std::filesystem::path& file, const Vocabulary& vocabulary);
-
-/// The same from `text`; `file` is named in errors, and a scene given as a path is relative to its
-/// folder. Throws ExperimentError.
-Experiment parse_experiment(std::string_view text, const std::filesystem::path& file,
-                            const Vocabulary& vocabulary);
 
 /// One point of the matrix: one start of a server and its bots.
 struct Cell {

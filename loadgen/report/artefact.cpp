@@ -13,6 +13,7 @@
 #include "game/model/report_schema.h"
 #include "game/model/scene_file.h"
 #include "game/version/version.h"
+#include "loadgen/experiment/experiment_file.h"
 
 namespace rink::loadgen {
 namespace {

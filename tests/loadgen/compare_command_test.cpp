@@ -10,6 +10,7 @@
 
 #include "im/filter.h"
 #include "im/usage.h"
+#include "loadgen/experiment/experiment_file.h"
 #include "loadgen/run/process.h"
 #include "tests/command.h"
 #include "tests/loadgen/report/canned_reports.h"

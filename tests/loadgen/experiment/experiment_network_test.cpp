@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "loadgen/experiment/experiment_file.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_run.h"
 #include "tests/loadgen/complaint.h"

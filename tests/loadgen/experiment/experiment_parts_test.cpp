@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "loadgen/experiment/experiment_file.h"
 #include "loadgen/run/campaign.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_run.h"

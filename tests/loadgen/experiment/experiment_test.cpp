@@ -1,6 +1,6 @@
 // Experiment files: what they mean, the order of their cells, and complaints that name file, line,
 // key and what is allowed.
-#include "loadgen/experiment/experiment.h"
+#include "loadgen/experiment/experiment_file.h"
 #include "loadgen/experiment/parameter.h"
 
 #include <gmock/gmock.h>

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <set>
 
+#include "loadgen/experiment/experiment_file.h"
 #include "loadgen/measure/summary.h"
 #include "loadgen/report/table.h"
 #include "loadgen/run/game_plan.h"

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "loadgen/experiment/experiment_file.h"
 #include "loadgen/measure/summary.h"
 #include "loadgen/report/table.h"
 #include "tests/loadgen/complaint.h"

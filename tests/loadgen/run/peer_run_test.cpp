@@ -10,6 +10,7 @@
 #include <set>
 
 #include "game/net/peer/traffic.h"
+#include "loadgen/experiment/experiment_file.h"
 #include "loadgen/measure/modes_table.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_run.h"

@@ -16,6 +16,7 @@
 #include "game/model/byte_hash.h"
 #include "game/net/evidence.h"
 #include "game/net/evidence_lines.h"
+#include "loadgen/experiment/experiment_file.h"
 #include "loadgen/run/cell_runner.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_run.h"
