@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "loadgen/measure/run_fields.h"
+
 namespace rink::loadgen {
 namespace {
 

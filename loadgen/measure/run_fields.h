@@ -2,6 +2,8 @@
 // one or lists them.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "loadgen/measure/run_record.h"
 
 namespace rink::loadgen {
@@ -99,5 +101,8 @@ void visit_fields(Line& line, Record& run) {
   line.text_or_null("keys_trouble", run.keys_trouble);
   line.field("acknowledgements_per_s", run.acknowledgements_per_s);
 }
+
+/// One line of runs.jsonl, keys in the documented order.
+nlohmann::ordered_json to_json(const RunRecord& record);
 
 }  // namespace rink::loadgen

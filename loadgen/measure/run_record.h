@@ -2,42 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/measure/statistics/histogram.h"
+#include "loadgen/measure/truth/truth_figures.h"
 
 namespace rink::loadgen {
 
 /// Bytes on the wire around each TCP segment: Ethernet 14, IPv4 20, TCP with timestamps 32 (RFC
 /// 894, 791, 9293, 7323).
 inline constexpr double segment_header_bytes = 66.0;
-
-/// Root mean square, percentiles and maximum of distances [mm]; apart from them, what had been put
-/// back since it was last heard of.
-struct ErrorFigures {
-  std::optional<double> rms, p99, max;
-  std::optional<double> p50{}, p90{};
-  std::optional<std::uint64_t> replaced_samples{};  ///< left out of all the above
-  std::optional<double> replaced_rms{};             ///< of those
-};
-
-/// What a re-simulation of the run says about its quality (docs/metrics.md); all absent if there
-/// was no evidence.
-struct TruthFigures {
-  std::optional<double> filter_precision, filter_recall, delivered_precision, delivered_recall;
-  std::optional<std::uint64_t> interactions, missed_interactions;  ///< of the watched players' bats
-  Percentiles late_entry_ms;
-  ErrorFigures position_error_mm, displayed_error_mm;
-  std::optional<double> churn_per_client_per_s, flapping_fraction, wasted_bytes_fraction,
-      control_bytes_fraction, fairness_jain;
-  std::string relevance;  ///< what truth calls relevant, for a reader, e.g. "square of 3.16 m
-                          ///< around the bat, touched by the entity's box"
-  std::string
-      trouble;  ///< why the figures are absent; empty if they are not, or if no evidence was taken
-};
 
 /// What was carried, by what it was about, in bytes for each client (or peer) and second
 /// (docs/metrics.md, "Nodes").
@@ -104,19 +80,5 @@ struct RunRecord {
 
 /// A record of `cell` without figures yet; not valid.
 RunRecord record_for(const Experiment& experiment, const Cell& cell);
-
-/// Fills `record` from the reports of the server and the bots and judges it. It is valid if both
-/// reports are complete and say so themselves, both counted the same clients and rate as the cell,
-/// no client was lost, every due key was sent, and payload and kernel counts agree within 1 %. Keys
-/// sent too late
-/// (`Measurements::schedule_trouble`) cost it only the figures of keys where a server applies the
-/// planned keys at their instants whenever they come, and all elsewhere. In virtual time there is
-/// neither a kernel nor a clock to measure costs by: such figures may be null in the reports and
-/// stay absent.
-void judge(RunRecord& record, const nlohmann::json& server_report,
-           const nlohmann::json& bots_report);
-
-/// One line of runs.jsonl, keys in the documented order.
-nlohmann::ordered_json to_json(const RunRecord& record);
 
 }  // namespace rink::loadgen

@@ -14,6 +14,7 @@
 #include "game/model/scene_file.h"
 #include "game/version/version.h"
 #include "loadgen/experiment/experiment_file.h"
+#include "loadgen/measure/run_fields.h"
 
 namespace rink::loadgen {
 namespace {

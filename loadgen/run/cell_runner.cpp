@@ -10,6 +10,7 @@
 #include "game/replication/update_policy.h"
 #include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/discovery_table.h"
+#include "loadgen/measure/judge_run.h"
 #include "loadgen/measure/truth/truth.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/process.h"

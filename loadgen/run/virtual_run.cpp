@@ -19,6 +19,7 @@
 #include "game/replication/trajectory_codec.h"
 #include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/discovery_table.h"
+#include "loadgen/measure/judge_run.h"
 #include "loadgen/measure/results.h"
 #include "loadgen/measure/truth/truth.h"
 #include "loadgen/run/bots/bot_crowd.h"

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "loadgen/measure/run_record.h"
 #include "loadgen/measure/truth/surroundings.h"
+#include "loadgen/measure/truth/truth_figures.h"
 
 namespace rink::loadgen {
 

@@ -2,6 +2,8 @@
 // whole distributions.
 #pragma once
 
+#include <cstdint>
+
 #include "loadgen/measure/statistics/sample_distribution.h"
 
 namespace rink::loadgen {
@@ -20,5 +22,9 @@ struct Discoveries {
   }
   friend bool operator==(const Discoveries&, const Discoveries&) = default;
 };
+
+/// Whether it is found out when each entity became relevant, for `late_entry_ms` and late
+/// discoveries; that takes longer than all else.
+enum class Entries : std::uint8_t { found, passed_over };
 
 }  // namespace rink::loadgen

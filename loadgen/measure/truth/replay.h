@@ -9,12 +9,20 @@
 
 #include "game/control/game.h"
 #include "game/net/evidence.h"
+#include "game/net/evidence_lines.h"
 #include "loadgen/measure/truth/encounters.h"
 #include "loadgen/measure/truth/filter_relevance.h"
 #include "loadgen/measure/truth/reach.h"
 #include "loadgen/measure/truth/surroundings.h"
 
 namespace rink::loadgen {
+
+/// The game played again from the evidence is not the one that the server played: nothing that was
+/// measured in it can be trusted.
+class DifferentGame : public game::EvidenceError {
+ public:
+  using game::EvidenceError::EvidenceError;
+};
 
 /// Entities are named by the numbers of their bodies. Instants never decrease.
 class Replay {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "game/net/evidence.h"
-#include "loadgen/measure/run_record.h"
 #include "loadgen/measure/statistics/histogram.h"
 #include "loadgen/measure/statistics/sample_distribution.h"
 #include "loadgen/measure/truth/bots_evidence.h"
@@ -20,7 +19,7 @@
 #include "loadgen/measure/truth/scope_history.h"
 #include "loadgen/measure/truth/stays.h"
 #include "loadgen/measure/truth/trace.h"
-#include "loadgen/measure/truth/truth.h"
+#include "loadgen/measure/truth/truth_figures.h"
 
 namespace rink::loadgen {
 

@@ -15,17 +15,6 @@
 
 namespace rink::loadgen {
 
-/// The game played again from the evidence is not the one that the server played: nothing that was
-/// measured in it can be trusted.
-class DifferentGame : public game::EvidenceError {
- public:
-  using game::EvidenceError::EvidenceError;
-};
-
-/// Whether it is found out when each entity became relevant, for `late_entry_ms` and late
-/// discoveries; that takes longer than all else.
-enum class Entries : std::uint8_t { found, passed_over };
-
 /// All figures but fairness and control bytes, which are counts of the reports. Definitions:
 /// docs/metrics.md. Throws game::EvidenceError if the game played again does not end in the
 /// server's state (DifferentGame), or if the evidence contradicts itself; game::SceneError if the

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "loadgen/experiment/experiment_file.h"
+#include "loadgen/measure/run_fields.h"
 #include "loadgen/run/campaign.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_run.h"

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "loadgen/measure/judge_run.h"
+#include "loadgen/measure/run_fields.h"
 #include "loadgen/measure/run_record.h"
 #include "loadgen/measure/statistics/histogram.h"
 #include "tests/loadgen/report/canned_reports.h"

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "loadgen/measure/judge_run.h"
+#include "loadgen/measure/run_fields.h"
 #include "tests/loadgen/report/canned_reports.h"
 
 namespace rink::loadgen {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "loadgen/measure/judge_run.h"
 #include "loadgen/report/table.h"
 #include "tests/loadgen/report/canned_reports.h"
 

@@ -13,6 +13,7 @@
 #include <set>
 #include <sstream>
 
+#include "loadgen/measure/judge_run.h"
 #include "loadgen/report/report.h"
 #include "loadgen/report/write_report.h"
 #include "tests/loadgen/report/canned_reports.h"

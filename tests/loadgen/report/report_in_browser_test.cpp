@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "loadgen/measure/judge_run.h"
 #include "loadgen/report/report.h"
 #include "tests/command.h"
 #include "tests/loadgen/report/canned_reports.h"

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "loadgen/measure/judge_run.h"
 #include "tests/loadgen/report/canned_reports.h"
 #include "tests/loadgen/report/markup.h"
 

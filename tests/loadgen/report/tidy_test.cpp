@@ -14,6 +14,8 @@
 #include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/equal_error.h"
 #include "loadgen/measure/growth.h"
+#include "loadgen/measure/judge_run.h"
+#include "loadgen/measure/run_fields.h"
 #include "loadgen/measure/server_cores.h"
 #include "loadgen/measure/summary.h"
 #include "loadgen/report/dictionary.h"

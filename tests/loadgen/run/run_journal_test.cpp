@@ -7,7 +7,9 @@
 
 #include <fstream>
 
+#include "loadgen/measure/judge_run.h"
 #include "loadgen/measure/results.h"
+#include "loadgen/measure/run_fields.h"
 #include "tests/loadgen/report/canned_reports.h"
 #include "tests/temporary_folder.h"
 

@@ -13,6 +13,7 @@
 #include "game/net/peer/peer_evidence.h"
 #include "loadgen/measure/run_record.h"
 #include "loadgen/measure/truth/bots_evidence.h"
+#include "loadgen/measure/truth/replay.h"
 #include "loadgen/measure/truth/truth.h"
 #include "tests/loadgen/run/tiny_rink.h"
 

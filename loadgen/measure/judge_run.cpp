@@ -1,0 +1,306 @@
+// Turns the two processes' reports into rates per client, and says why a run does not count.
+#include "loadgen/measure/judge_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "loadgen/measure/truth/classification.h"
+
+namespace rink::loadgen {
+namespace {
+
+constexpr double count_mismatch_max = 0.01;
+constexpr double in_flight_bytes_max =
+    128.0;  // per client: last words that the kernel has not seen acknowledged; where nearly
+            // nothing is sent they exceed 1 %
+
+/// A report, which another process wrote: whatever is missing or of another type is noted once and
+/// reads as absent.
+class ReportReader {
+ public:
+  /// `accepts_null`: what is null could not be measured, and that is no complaint.
+  ReportReader(const nlohmann::json& report, std::string who, bool accepts_null,
+               std::vector<std::string>& complaints)
+      : report_(report),
+        who_(std::move(who)),
+        accepts_null_(accepts_null),
+        complaints_(complaints) {}
+
+  std::optional<double> number(const char* key) {
+    const nlohmann::json* value = find(key);
+    if (value && value->is_number() && std::isfinite(value->get<double>()) &&
+        value->get<double>() >= 0.0)
+      return value->get<double>();
+    return complain(key, "a number that is not negative");
+  }
+  /// For figures that a run may do without: absent or of another type is no complaint.
+  std::optional<double> number_if_there(const char* key) {
+    const nlohmann::json* value = find(key);
+    return value && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
+  }
+  std::vector<double> numbers_if_there(const char* key) {
+    const nlohmann::json* value = find(key);
+    std::vector<double> numbers;
+    if (!value || !value->is_array()) return numbers;
+    for (const nlohmann::json& element : *value)
+      numbers.push_back(element.is_number() ? element.get<double>() : 0.0);
+    return numbers;
+  }
+  std::optional<std::uint64_t> count(const char* key) {
+    const nlohmann::json* value = find(key);
+    if (value && value->is_number_integer() &&
+        (value->is_number_unsigned() || value->get<std::int64_t>() >= 0))
+      return value->get<std::uint64_t>();
+    complain(key, "a count");
+    return std::nullopt;
+  }
+  std::string text(const char* key) {
+    const nlohmann::json* value = find(key);
+    if (value && value->is_string()) return value->get<std::string>();
+    complain(key, "a text");
+    return {};
+  }
+  Percentiles percentiles(const char* key) {
+    const nlohmann::json* value = find(key);
+    const auto histogram = value ? Histogram::from_json(*value) : std::nullopt;
+    if (histogram) return histogram->percentiles_ms();
+    complain(key, "a histogram");
+    return {};
+  }
+  std::optional<std::uint64_t> samples_if_there(const char* key) {
+    const nlohmann::json* value = find(key);
+    const auto histogram = value ? Histogram::from_json(*value) : std::nullopt;
+    return histogram ? std::optional(histogram->count()) : std::nullopt;
+  }
+  void verdict() {
+    const nlohmann::json* value = find("valid");
+    if (!value || !value->is_boolean()) {
+      complain("valid", "true or false");
+    } else if (!value->get<bool>()) {
+      complaints_.push_back("the " + who_ + ": " + text("why_invalid"));
+    }
+  }
+
+ private:
+  const nlohmann::json* find(const char* key) const {
+    if (!report_.is_object()) return nullptr;
+    const auto found = report_.find(key);
+    return found == report_.end() ? nullptr : &*found;
+  }
+  std::nullopt_t complain(const char* key, const std::string& expected) {
+    const nlohmann::json* value = find(key);
+    if (accepts_null_ && value != nullptr && value->is_null()) return std::nullopt;
+    complaints_.push_back("the report of the " + who_ + " has no " + key + " that is " + expected);
+    return std::nullopt;
+  }
+
+  const nlohmann::json& report_;
+  std::string who_;
+  bool accepts_null_;
+  std::vector<std::string>& complaints_;
+};
+
+std::string plain_text(double number) {
+  std::string text = std::to_string(number);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+void compare_counts(const std::string& what, std::optional<double> payload,
+                    std::optional<double> kernel, double clients,
+                    std::vector<std::string>& complaints) {
+  if (!payload || !kernel ||
+      std::abs(*payload - *kernel) <= count_mismatch_max * *kernel + in_flight_bytes_max * clients)
+    return;
+  complaints.push_back(what + ": " + plain_text(*payload) + " B counted, " + plain_text(*kernel) +
+                       " B by the kernel, more than 1 % and what may be on its way apart");
+}
+
+void expect_none(const std::string& what, std::optional<std::uint64_t> count,
+                 std::vector<std::string>& complaints) {
+  if (count.value_or(0) > 0) complaints.push_back(std::to_string(*count) + " " + what);
+}
+
+void expect_equal(const std::string& what, std::optional<double> value, double expected,
+                  std::vector<std::string>& complaints) {
+  if (value && *value != expected)
+    complaints.push_back(what + " is " + plain_text(*value) + " instead of " +
+                         plain_text(expected));
+}
+
+std::optional<double> per(std::optional<double> amount, std::optional<double> divisor) {
+  if (!amount || !divisor || *divisor <= 0.0) return std::nullopt;
+  return *amount / *divisor;
+}
+
+/// What one process sent on its connections.
+struct Sent {
+  std::optional<double> bytes, segments, acknowledgements;
+
+  explicit Sent(ReportReader& report)
+      : bytes(report.number("bytes_sent")),
+        segments(report.number("segments_sent")),
+        acknowledgements(report.number("acknowledgements_sent")) {
+    const auto kernel_segments = report.number("kernel_segments_sent");
+    // Where the kernel's segments are larger than Ethernet's their receiver acknowledges fewer: one
+    // of each further two is missing.
+    if (acknowledgements && segments && kernel_segments)
+      *acknowledgements += 0.5 * std::max(0.0, *segments - *kernel_segments);
+  }
+  std::optional<double> with_headers() const {
+    if (!bytes || !segments || !acknowledgements) return std::nullopt;
+    return *bytes + segment_header_bytes * (*segments + *acknowledgements);
+  }
+};
+
+void fill_from_server(RunRecord& record, ReportReader& server) {
+  record.entities = server.count("entities");
+  record.ticks = server.count("ticks");
+  record.ticks_on_time_fraction = server.number("ticks_on_time_fraction");
+  record.physics_us_per_tick = server.number("physics_us_per_tick");
+  record.filter_us_per_tick = server.number("filter_us_per_tick");
+  record.send_us_per_tick = server.number("send_us_per_tick");
+  record.server_rss_bytes = server.count("server_rss_bytes");
+  record.state_hash = server.text("state_hash");
+  record.measured_s = server.number("measured_s");
+  record.messages_per_s = per(server.number("messages_sent"), record.measured_s);
+  record.writes_per_s = per(server.number("writes_sent"), record.measured_s);
+}
+
+void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
+  const double clients = record.cell.clients;
+  const Sent by_server(server), by_bots(bots);
+  const auto down = by_server.bytes, up = server.number("bytes_received");
+  const auto bots_measured_s = bots.number("measured_s");
+  const auto wire_down_per_s = per(by_server.with_headers(), record.measured_s),
+             wire_up_per_s = per(by_bots.with_headers(), bots_measured_s);
+  record.down_bytes_per_client_per_s = per(per(down, record.measured_s), clients);
+  record.up_bytes_per_client_per_s = per(per(up, record.measured_s), clients);
+  if (wire_down_per_s && wire_up_per_s)
+    record.wire_bytes_per_client_per_s = (*wire_down_per_s + *wire_up_per_s) / clients;
+  const auto states = server.number_if_there("state_bytes_sent"),
+             keys = server.number_if_there("key_bytes_received");
+  if (down && up && *down + *up > 0.0 && states && keys)
+    record.truth.control_bytes_fraction = std::max(0.0, 1.0 - (*states + *keys) / (*down + *up));
+  const auto both = [](std::optional<double> down_per_s, std::optional<double> up_per_s) {
+    return down_per_s && up_per_s ? std::optional(*down_per_s + *up_per_s) : std::nullopt;
+  };
+  record.segments_per_s =
+      both(per(by_server.segments, record.measured_s), per(by_bots.segments, bots_measured_s));
+  record.acknowledgements_per_s = both(per(by_server.acknowledgements, record.measured_s),
+                                       per(by_bots.acknowledgements, bots_measured_s));
+}
+
+/// A server's node is the server, through which everything goes; peers say what the busiest of them
+/// bore.
+void fill_nodes(RunRecord& record, ReportReader& server) {
+  const bool are_peers = record.cell.mode == peer_mode;
+  const auto down = server.number_if_there("bytes_sent"),
+             up = server.number_if_there("bytes_received");
+  const auto rate = [&](std::optional<double> bytes) {
+    return per(per(bytes, record.measured_s), record.cell.clients);
+  };
+  if (are_peers) {
+    record.traffic = {rate(server.number_if_there("halo_bytes")),
+                      rate(server.number_if_there("claims_bytes")),
+                      rate(server.number_if_there("agreement_bytes")),
+                      rate(server.number_if_there("interest_bytes")),
+                      rate(server.number_if_there("updates_bytes")),
+                      rate(server.number_if_there("keys_bytes"))};
+    record.nodes.busiest_bytes_per_s =
+        per(server.number_if_there("busiest_node_bytes"), record.measured_s);
+  } else {
+    const auto states = server.number_if_there("state_bytes_sent"),
+               keys = server.number_if_there("key_bytes_received");
+    record.traffic.updates = rate(states), record.traffic.keys = rate(keys);
+    if (down && up && states && keys)
+      record.traffic.interest = rate(std::max(0.0, *down + *up - *states - *keys));
+    if (down && up) record.nodes.busiest_bytes_per_s = per(*down + *up, record.measured_s);
+  }
+  record.nodes.busiest_events_per_s =
+      per(server.number_if_there(are_peers ? "busiest_node_events" : "physics_events"),
+          record.measured_s);
+}
+
+void fill_from_bots(RunRecord& record, ReportReader& bots) {
+  record.update_age_ms = bots.percentiles("update_age_ms");
+  record.update_age_samples = bots.samples_if_there("update_age_ms");
+  record.key_to_effect_ms = bots.percentiles("key_to_effect_ms");
+  record.keys_due = bots.count("keys_due");
+  record.keys_sent = bots.count("keys_sent");
+  record.late_sends_fraction = bots.number("late_sends_fraction");
+  record.keys_trouble = bots.text("schedule_trouble");
+  if (!record.keys_trouble.empty()) record.key_to_effect_ms = {};
+  record.health.bots_cpu_share = bots.number_if_there("cpu_share");
+  record.health.histogram_ns_per_record = bots.number_if_there("histogram_ns_per_record");
+  record.truth.fairness_jain = jain_index(bots.numbers_if_there("bytes_received_by_bot"));
+}
+
+/// Whether the server has the planned keys itself and applies each at its instant, so that the game
+/// and its traffic are the same however late bots send theirs.
+bool is_plan_applied(const RunRecord& record) {
+  return record.keys == "replay" && record.cell.mode != peer_mode;
+}
+
+void check(const RunRecord& record, ReportReader& server, ReportReader& bots,
+           std::vector<std::string>& complaints) {
+  server.verdict();
+  bots.verdict();
+  expect_equal("the server's clients", server.number("clients"), record.cell.clients, complaints);
+  expect_equal("the bots' clients", bots.number("clients"), record.cell.clients, complaints);
+  expect_equal("the server's tick_rate_hz", server.number("tick_rate_hz"),
+               record.cell.parameters.tick_rate_hz, complaints);
+  expect_none("clients lost by the server", server.count("lost_federates"), complaints);
+  expect_none("connections dropped by the server", server.count("dropped_connections"), complaints);
+  expect_none("clients lost by the bots", bots.count("federates_lost"), complaints);
+  if (!record.keys_trouble.empty() && !is_plan_applied(record))
+    complaints.push_back("the bots could not keep their schedule: " + record.keys_trouble);
+  // Through shared memory no byte goes by the kernel, which has nothing to say then.
+  if (record.transport != "shm") {
+    compare_counts("sent by the server", server.number("total_bytes_sent"),
+                   server.number("kernel_bytes_sent"), record.cell.clients, complaints);
+    compare_counts("received by the server", server.number("total_bytes_received"),
+                   server.number("kernel_bytes_received"), record.cell.clients, complaints);
+    compare_counts("sent by the bots", bots.number("total_bytes_sent"),
+                   bots.number("kernel_bytes_sent"), record.cell.clients, complaints);
+    compare_counts("received by the bots", bots.number("total_bytes_received"),
+                   bots.number("kernel_bytes_received"), record.cell.clients, complaints);
+  }
+  if (record.keys_due && record.keys_sent && *record.keys_sent < *record.keys_due) {
+    complaints.push_back("only " + std::to_string(*record.keys_sent) + " of " +
+                         std::to_string(*record.keys_due) + " due keys were sent");
+  }
+  if (record.measured_s == 0.0) complaints.push_back("nothing was measured");
+}
+
+}  // namespace
+
+void judge(RunRecord& record, const nlohmann::json& server_report,
+           const nlohmann::json& bots_report) {
+  std::vector<std::string> complaints;
+  const bool has_kernel_counts = record.transport == "tcp" || record.transport == "udp";
+  const bool may_lack_figures =
+      !has_kernel_counts ||
+      record.cell.mode == peer_mode;  // no peer plays, filters and sends for all
+  ReportReader server(server_report, "server", may_lack_figures, complaints),
+      bots(bots_report, "bots", may_lack_figures, complaints);
+  fill_from_server(record, server);
+  fill_bytes(record, server, bots);
+  fill_nodes(record, server);
+  fill_from_bots(record, bots);
+  check(record, server, bots, complaints);
+  std::vector<std::string> once;
+  for (const std::string& complaint : complaints) {
+    if (std::find(once.begin(), once.end(), complaint) == once.end()) once.push_back(complaint);
+  }
+  record.valid = once.empty();
+  record.why_invalid.clear();
+  for (const std::string& complaint : once)
+    record.why_invalid += (record.why_invalid.empty() ? "" : "; ") + complaint;
+}
+
+}  // namespace rink::loadgen
