@@ -21,7 +21,7 @@
 namespace rink::loadgen {
 namespace {
 
-using Node = Assertion::Node;
+using Node = AssertionNode;
 using Kind = Node::Kind;
 
 /// Which value of a statistic a name ends in.

@@ -13,6 +13,8 @@
 
 namespace rink::loadgen {
 
+struct AssertionNode;
+
 /// Grammar, loosest first: `or`, `and`, `not`, one comparison (< <= > >= == !=), + -, * /, unary -,
 /// and numbers, parentheses, figures. A figure is the name of one in summary.csv
 /// (`update_age_ms_p99`), standing for its mean over the replications, or that name and _low, _high
@@ -40,11 +42,9 @@ class Assertion {
   };
   Finding judge(std::span<const SummaryRow> rows) const;
 
-  struct Node;
-
  private:
   std::string text_;
-  std::unique_ptr<const Node> root_;
+  std::unique_ptr<const AssertionNode> root_;
 };
 
 }  // namespace rink::loadgen

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <string_view>
 
+#include "loadgen/experiment/experiment.h"
+
 namespace rink::loadgen {
 namespace {
 
-using Node = Assertion::Node;
+using Node = AssertionNode;
 using Tree = std::unique_ptr<const Node>;
 
 constexpr int depth_max = 100;            // so that no text overflows the stack,
@@ -191,7 +193,7 @@ class Parser {
 
 }  // namespace
 
-std::unique_ptr<const Assertion::Node> parse_assertion(const std::string& text) {
+std::unique_ptr<const AssertionNode> parse_assertion(const std::string& text) {
   return Parser(text).whole();
 }
 

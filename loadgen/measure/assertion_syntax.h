@@ -6,13 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "loadgen/measure/assertion.h"
-
 namespace rink::loadgen {
 
 /// A number, a figure, or an operator on one or two others; comparisons and `and`, `or`, `not` are
 /// true or false, all else are numbers.
-struct Assertion::Node {
+struct AssertionNode {
   enum class Kind {
     number,
     figure,
@@ -36,11 +34,11 @@ struct Assertion::Node {
   std::string text;  ///< of a figure with its selection, as written
   std::string name;  ///< of a figure
   std::vector<std::pair<std::string, std::string>> selection;  ///< of a figure: key and value
-  std::unique_ptr<const Node> left, right;  ///< right is absent for negative and negation
+  std::unique_ptr<const AssertionNode> left, right;  ///< right is absent for negative and negation
   bool is_true_or_false() const { return kind >= Kind::less; }
 };
 
 /// Throws ExperimentError. Names are not looked up.
-std::unique_ptr<const Assertion::Node> parse_assertion(const std::string& text);
+std::unique_ptr<const AssertionNode> parse_assertion(const std::string& text);
 
 }  // namespace rink::loadgen
