@@ -5,9 +5,14 @@
 #include <vector>
 
 #include "loadgen/report/exhibits/exhibit.h"
-#include "loadgen/report/report.h"
 
 namespace rink::loadgen {
+
+struct Report {
+  std::string html;
+  std::vector<PlotTable> tables;  ///< for plots/NAME.csv
+  std::vector<Picture> pictures;  ///< for plots/NAME.svg: each has a name of its own
+};
 
 /// Sections in the order of the page, with the list of contents that leads to them.
 class Page {

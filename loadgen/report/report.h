@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "loadgen/report/exhibits/exhibit.h"
+#include "loadgen/report/page.h"
 
 namespace rink::loadgen {
 
@@ -15,12 +16,6 @@ namespace rink::loadgen {
 struct ReportSection {
   std::string id, title;  ///< `id` of letters and dashes
   Exhibit exhibit;
-};
-
-struct Report {
-  std::string html;
-  std::vector<PlotTable> tables;  ///< for plots/NAME.csv
-  std::vector<Picture> pictures;  ///< for plots/NAME.svg: each has a name of its own
 };
 
 /// The page: plots, tables, the runs that did not count with their reasons, definitions, how to
