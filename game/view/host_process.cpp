@@ -1,71 +1,62 @@
-// fork and exec with a pipe for what the server says.
+// The server's first line says whether it listens.
 #include "game/view/host_process.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
+#include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace rink::view {
+namespace {
 
-HostProcess::HostProcess(const std::string& port, const std::string& records,
-                         const std::string& key_file) {
-  const std::string server =
-      (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rink-serve").string();
-  std::vector<std::string> words{server,   "match", "--address", "0.0.0.0",
-                                 "--port", port,    "--record",  records};
-  if (!key_file.empty()) words.insert(words.end(), {"--key-file", key_file});
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw std::runtime_error("cannot host: no pipe to the server");
-  const pid_t owner = getpid();
-  process_ = fork();
-  if (process_ == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);  // a window that is killed cannot end its host itself
-    if (getppid() != owner) _exit(127);
-    dup2(ends[1], STDOUT_FILENO);
-    dup2(ends[1], STDERR_FILENO);
-    execv(server.c_str(), arguments.data());
-    _exit(127);
-  }
-  close(ends[1]);
-  said_ = ends[0];
-  std::string said;
-  for (char letter = 0; process_ > 0 && letter != '\n' && read(said_, &letter, 1) == 1;)
-    said += letter;
-  if (said.starts_with("listening")) {
-    fcntl(said_, F_SETFL, O_NONBLOCK);
-    return;
-  }
-  if (process_ > 0) waitpid(process_, nullptr, 0);
-  close(said_);
-  process_ = -1;
-  throw std::runtime_error("cannot host: " + (said.empty() ? server + " cannot be run"
-                                                           : said.substr(0, said.find('\n'))));
+constexpr std::chrono::seconds farewell{10};  // far more than it takes to write a match's record
+
+std::string server_path() {
+  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rink-serve").string();
 }
 
-std::string HostProcess::take_words() {
-  std::array<char, 4096> buffer;
-  std::string words;
-  for (ssize_t count; (count = read(said_, buffer.data(), buffer.size())) > 0;)
-    words.append(buffer.data(), static_cast<std::size_t>(count));
+/// Asked to end, not killed, when its owner is gone: its records are to be whole.
+game::Process started(const std::vector<std::string>& arguments) try {
+  return game::Process(server_path(), arguments,
+                       {.signal_when_orphaned = SIGTERM, .joins_errors = true});
+} catch (const std::system_error&) {
+  throw std::runtime_error("cannot host: " + server_path() + " cannot be run");
+}
+
+std::vector<std::string> arguments_for(const std::string& port, const std::string& records,
+                                       const std::string& key_file) {
+  std::vector<std::string> words{"match", "--address", "0.0.0.0", "--port",
+                                 port,    "--record",  records};
+  if (!key_file.empty()) words.insert(words.end(), {"--key-file", key_file});
   return words;
 }
 
+}  // namespace
+
+HostProcess::HostProcess(const std::string& port, const std::string& records,
+                         const std::string& key_file)
+    : server_(started(arguments_for(port, records, key_file))) {
+  while (words_.find('\n') == std::string::npos && !server_.ending()) {
+    server_.attend(std::chrono::milliseconds(100));
+    words_ += server_.take_output();
+  }
+  const std::size_t end = std::min(words_.find('\n'), words_.size());
+  if (!words_.starts_with("listening"))
+    throw std::runtime_error("cannot host: " + (words_.empty() ? server_path() + " cannot be run"
+                                                               : words_.substr(0, end)));
+  words_.erase(0, end + 1);
+}
+
+std::string HostProcess::take_words() {
+  server_.attend(std::chrono::milliseconds(0));
+  return std::exchange(words_, {}) + server_.take_output();
+}
+
 HostProcess::~HostProcess() {
-  if (process_ < 0) return;
-  kill(process_, SIGTERM);
-  waitpid(process_, nullptr, 0);
-  close(said_);
+  if (!server_.ending()) server_.stop(farewell);
 }
 
 }  // namespace rink::view

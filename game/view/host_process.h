@@ -2,9 +2,9 @@
 // owner, in whatever way that ends.
 #pragma once
 
-#include <sys/types.h>
-
 #include <string>
+
+#include "game/process/process.h"
 
 namespace rink::view {
 
@@ -17,16 +17,14 @@ class HostProcess {
   HostProcess(const std::string& port, const std::string& records,
               const std::string& key_file = "");
   ~HostProcess();
-  HostProcess(const HostProcess&) = delete;
-  HostProcess& operator=(const HostProcess&) = delete;
 
   /// What it has said since the last time. To be asked now and then: a pipe that nobody empties
   /// stops who fills it.
   std::string take_words();
 
  private:
-  pid_t process_ = -1;
-  int said_ = -1;
+  game::Process server_;
+  std::string words_;
 };
 
 }  // namespace rink::view

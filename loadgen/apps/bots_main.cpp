@@ -18,11 +18,11 @@
 #include "game/players/player.h"
 #include "game/players/player_kinds.h"
 #include "game/players/random_plan.h"
+#include "game/process/process.h"
 #include "game/replication/trajectory_codec.h"
 #include "game/version/version.h"
 #include "loadgen/run/bots/bot_crowd.h"
 #include "loadgen/run/bots/bots_report.h"
-#include "loadgen/run/process.h"
 #include "rti/federation_file.h"
 #include "rti/transport/socket_transport.h"
 
@@ -69,7 +69,7 @@ class ProcessorLoad {
     const double wall_s = begin_ ? end_.wall_s - begin_->wall_s : 0.0;
     if (!(wall_s > 0.0)) return std::nullopt;
     return (end_.cpu_s - begin_->cpu_s) / (wall_s * static_cast<double>(std::max<std::size_t>(
-                                                        1, loadgen::allowed_processors().size())));
+                                                        1, game::allowed_processors().size())));
   }
 
  private:

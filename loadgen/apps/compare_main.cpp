@@ -8,6 +8,7 @@
 
 #include "game/apps/command.h"
 #include "game/net/interrupt.h"
+#include "game/process/process.h"
 #include "game/version/version.h"
 #include "loadgen/apps/compare_flags.h"
 #include "loadgen/experiment/experiment_file.h"
@@ -29,7 +30,6 @@
 #include "loadgen/run/campaign.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/open_files.h"
-#include "loadgen/run/process.h"
 #include "loadgen/run/resume.h"
 #include "loadgen/run/run_journal.h"
 #include "loadgen/run/saturation/saturate_command.h"
@@ -97,7 +97,7 @@ RunnerSettings runner_settings(const CompareOptions& options, bool needs_peers) 
   if (needs_peers) expect_program(settings.peer);
   settings.is_interrupted = &is_interrupted;
   settings.keeps_evidence_of_curves = options.keeps_evidence;
-  pin_apart(settings, allowed_processors());
+  pin_apart(settings, rink::game::allowed_processors());
   return settings;
 }
 

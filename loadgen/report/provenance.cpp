@@ -17,9 +17,9 @@
 #include <thread>
 
 #include "game/model/report_schema.h"
+#include "game/process/process.h"
 #include "game/version/version.h"
 #include "loadgen/run/machine.h"
-#include "loadgen/run/process.h"
 
 namespace rink::loadgen {
 namespace {
@@ -109,7 +109,7 @@ void add_program_and_machine(Provenance& provenance) {
       {"flags", game::built_flags()},
       {"libraries", libraries()},
       {"processor", value_in("/proc/cpuinfo", "model name")},
-      {"cores", std::to_string(allowed_processors().size()) + " allowed of " +
+      {"cores", std::to_string(game::allowed_processors().size()) + " allowed of " +
                     std::to_string(std::thread::hardware_concurrency())},
       {"memory", value_in("/proc/meminfo", "MemTotal")},
       {"governor", governor("/")},

@@ -7,13 +7,13 @@
 #include <system_error>
 
 #include "game/players/player_kinds.h"
+#include "game/process/process.h"
 #include "game/replication/update_policy.h"
 #include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/judge_run.h"
 #include "loadgen/measure/truth/truth.h"
 #include "loadgen/run/game_plan.h"
-#include "loadgen/run/process.h"
 #include "loadgen/run/process_run.h"
 #include "rti/federation_execution.h"
 
@@ -22,7 +22,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-std::string with_last_words(std::string what, const Process& process) {
+std::string with_last_words(std::string what, const game::Process& process) {
   const std::string words = process.last_words();
   return words.empty() ? what : what + ", saying: " + words;
 }
@@ -59,13 +59,15 @@ class CellRun {
     std::vector<std::string> serve = serve_arguments(experiment_, cell_, key_log_, server_report_);
     if (settings_.wants_truth) serve.insert(serve.end(), {"--evidence", server_evidence});
     const bool is_apart = cell_.server_cores == 1;
-    Process server(settings_.serve, serve,
-                   is_apart ? settings_.server_processors : std::vector<int>{});
+    game::Process server(
+        settings_.serve, serve,
+        {.processors = is_apart ? settings_.server_processors : std::vector<int>{}});
     const std::string address = address_of(server);
     std::vector<std::string> play =
         bots_arguments(experiment_, cell_, key_log_, address, bots_report_);
     if (settings_.wants_truth) play.insert(play.end(), {"--evidence", bots_evidence});
-    Process bots(settings_.bots, play, is_apart ? settings_.bots_processors : std::vector<int>{});
+    game::Process bots(settings_.bots, play,
+                       {.processors = is_apart ? settings_.bots_processors : std::vector<int>{}});
     await(server, bots);
     record.server_cpu_s = server.ending()->cpu_s;
     record.bots_cpu_s = bots.ending()->cpu_s;
@@ -79,7 +81,7 @@ class CellRun {
     if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
   }
 
-  std::string address_of(Process& server) {
+  std::string address_of(game::Process& server) {
     const auto deadline = after(settings_.listen_limit_s);
     while (true) {
       heed_interrupt();
@@ -98,7 +100,7 @@ class CellRun {
   }
 
   /// Returns when both have ended well.
-  void await(Process& server, Process& bots) {
+  void await(game::Process& server, game::Process& bots) {
     const double limit_s = experiment_.warm_up_s + experiment_.duration_s + settings_.join_limit_s;
     auto deadline = after(limit_s);
     bool has_failed = false;
@@ -117,13 +119,13 @@ class CellRun {
     const auto add = [&why](const std::string& reason) {
       why += (why.empty() ? "" : "; ") + reason;
     };
-    const auto name_failure = [&](const char* who, const Process& process) {
+    const auto name_failure = [&](const char* who, const game::Process& process) {
       if (process.ending() && !process.ending()->is_success())
         add(with_last_words(std::string(who) + " " + process.ending()->text(), process));
     };
     name_failure("the server", server);
     name_failure("the bots", bots);
-    const auto end_late = [&](const char* who, Process& process) {
+    const auto end_late = [&](const char* who, game::Process& process) {
       if (process.ending()) return;
       process.stop(settings_.stop_grace);
       if (!has_failed)

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "game/process/process.h"
 #include "im/filter.h"
 #include "im/usage.h"
 #include "loadgen/experiment/experiment_file.h"
-#include "loadgen/run/process.h"
 #include "tests/command.h"
 #include "tests/loadgen/report/canned_reports.h"
 #include "tests/places.h"
@@ -63,7 +63,7 @@ class CompareCommandTest : public testing::Test {
   }
   /// Runs the command to its end; `errors_` is what it said.
   int exit_status_of(const std::vector<std::string>& arguments) {
-    Process compare(test::binary_folder() + "/bin/rink-compare", arguments, {});
+    game::Process compare(test::binary_folder() + "/bin/rink-compare", arguments, {});
     while (!compare.ending()) compare.attend(std::chrono::milliseconds(20));
     errors_ = compare.last_words();
     return compare.ending()->exit_status;
@@ -147,7 +147,7 @@ TEST_F(CompareCommandTest, AnInterruptKeepsWhatWasMeasured) {
   const std::string hanging =
       "hang-" + running_order(load_experiment(folder_ / "small.toml", {})).back().scheme;
   write(hanging, "");
-  Process compare(test::binary_folder() + "/bin/rink-compare", arguments("small.toml"), {});
+  game::Process compare(test::binary_folder() + "/bin/rink-compare", arguments("small.toml"), {});
   const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (content("out/runs.jsonl").empty() && std::chrono::steady_clock::now() < limit)
     compare.attend(std::chrono::milliseconds(20));

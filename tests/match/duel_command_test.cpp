@@ -10,14 +10,13 @@
 #include <set>
 
 #include "game/control/key_log_file.h"
-#include "loadgen/run/process.h"
+#include "game/process/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::game {
 namespace {
 
-using loadgen::Process;
 using testing::AllOf;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
@@ -55,14 +54,13 @@ struct ADuel {
     host = std::make_unique<Process>(
         program("serve"),
         std::vector<std::string>{scene == "match" ? "match" : (folder / "short.toml").string(),
-                                 "--port", "0", "--countdown", "0.2", "--record", records()},
-        std::vector<int>{});
+                                 "--port", "0", "--countdown", "0.2", "--record", records()});
     std::optional<std::string> place;
     for (int i = 0; i < 500 && !place; ++i)
       host->attend(10ms), place = host->line_after("listening on ");
     std::vector<std::string> words{"--connect", place.value_or("")};
     words.insert(words.end(), options.begin(), options.end());
-    duel = std::make_unique<Process>(program("duel"), words, std::vector<int>{});
+    duel = std::make_unique<Process>(program("duel"), words);
   }
 
   std::string records() const { return (folder / "records").string(); }

@@ -5,14 +5,13 @@
 #include <chrono>
 #include <filesystem>
 
-#include "loadgen/run/process.h"
+#include "game/process/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::game {
 namespace {
 
-using loadgen::Process;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
@@ -29,10 +28,8 @@ int status_of(Process& process, std::chrono::seconds patience) {
 struct AHost : testing::Test {
   AHost() {
     host = std::make_unique<Process>(
-        command("serve"),
-        std::vector<std::string>{"match", "--port", "0", "--countdown", "0.2", "--record",
-                                 folder.path().string()},
-        std::vector<int>{});
+        command("serve"), std::vector<std::string>{"match", "--port", "0", "--countdown", "0.2",
+                                                   "--record", folder.path().string()});
     for (int i = 0; i < 500 && !place; ++i)
       host->attend(10ms), place = host->line_after("listening on ");
   }

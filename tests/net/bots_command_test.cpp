@@ -8,14 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "loadgen/run/process.h"
+#include "game/process/process.h"
 #include "tests/net/guest.h"
 #include "tests/places.h"
 
 namespace rink::game {
 namespace {
 
-using loadgen::Process;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
@@ -44,8 +43,7 @@ TEST(BotsCommand, BotsThatWantDatagramsOfAServerWithoutAreToldToLookAtItsTranspo
 TEST(BotsCommand, AServerThatIsKilledEndsThemAtOnceWithAStatusOfItsOwn) {
   auto server = std::make_unique<Process>(
       test::binary_folder() + "/bin/rink-serve",
-      std::vector<std::string>{"--scene", "match", "--clients", "2", "--port", "0"},
-      std::vector<int>{});
+      std::vector<std::string>{"--scene", "match", "--clients", "2", "--port", "0"});
   const std::optional<std::string> place = place_of(*server);
   ASSERT_TRUE(place) << server->last_words();
   Process bots(test::binary_folder() + "/bin/rink-bots",

@@ -10,8 +10,8 @@
 #include "game/net/address.h"
 #include "game/net/client/client.h"
 #include "game/net/fom_file.h"
+#include "game/process/process.h"
 #include "game/replication/trajectory_codec.h"
-#include "loadgen/run/process.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/tcp/tcp.h"
 #include "tests/places.h"
@@ -25,7 +25,7 @@ struct Ended {
 };
 
 inline Ended run(const std::string& command, const std::vector<std::string>& arguments) {
-  loadgen::Process process(test::binary_folder() + "/bin/" + command, arguments, {});
+  Process process(test::binary_folder() + "/bin/" + command, arguments, {});
   const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (!process.ending() && std::chrono::steady_clock::now() < limit)
     process.attend(std::chrono::milliseconds(20));
@@ -39,7 +39,7 @@ inline Ended serve(std::vector<std::string> arguments) {
 }
 
 /// Where the server listens, once it says so.
-inline std::optional<std::string> place_of(loadgen::Process& server) {
+inline std::optional<std::string> place_of(Process& server) {
   std::optional<std::string> place;
   for (int i = 0; i < 500 && !place; ++i)
     server.attend(std::chrono::milliseconds(10)), place = server.line_after("listening on ");

@@ -19,8 +19,8 @@
 #include "game/net/address.h"
 #include "game/net/fom_file.h"
 #include "game/net/server/serve_status.h"
+#include "game/process/process.h"
 #include "game/replication/names.h"
-#include "loadgen/run/process.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/tcp/tcp.h"
 #include "tests/net/guest.h"
@@ -31,7 +31,6 @@
 namespace rink::game {
 namespace {
 
-using loadgen::Process;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
@@ -246,8 +245,7 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
   const auto serve_for = [&](const std::string& patience_s) {
     std::vector<std::string> all = flags;
     all.push_back(patience_s);
-    return std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", all,
-                                     std::vector<int>{});
+    return std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", all);
   };
   const auto first = serve_for("20");
   while (!first->line_after("listening on ") && !first->ending()) first->attend(10ms);

@@ -14,7 +14,6 @@
 namespace rink::game {
 namespace {
 
-using loadgen::Process;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 

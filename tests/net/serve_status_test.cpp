@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "loadgen/run/process.h"
+#include "game/process/process.h"
 #include "rti/transport/tcp/tcp.h"
 #include "rti/wire/message.h"
 #include "tests/net/guest.h"
@@ -16,7 +16,6 @@
 namespace rink::game {
 namespace {
 
-using loadgen::Process;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 

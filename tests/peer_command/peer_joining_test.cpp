@@ -95,9 +95,8 @@ TEST_F(PeerJoining, SeveralWhoComeAtOnceEachPlayTheirOwnBats) {
 TEST_F(PeerJoining, MayBeAskedForBeforeTheFirstListens) {
   const auto free_port = [] { return rti::TcpTransport().listen("127.0.0.1", 0); };
   const std::string place = "127.0.0.1:" + std::to_string(free_port());
-  Process& early = *peers_.emplace_back(
-      std::make_unique<Process>(test::binary_folder() + "/bin/rink-peer",
-                                Words{"--scene", scene(), "--join", place}, std::vector<int>{}));
+  Process& early = *peers_.emplace_back(std::make_unique<Process>(
+      test::binary_folder() + "/bin/rink-peer", Words{"--scene", scene(), "--join", place}));
   pass(1000ms);
   EXPECT_FALSE(early.ending());
   Process& first = start({"--peers", "2", "--until", "1", "--listen", place});

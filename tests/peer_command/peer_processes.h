@@ -18,12 +18,11 @@
 #include "game/control/playing.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
-#include "loadgen/run/process.h"
+#include "game/process/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::game {
-using loadgen::Process;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 using Words = std::vector<std::string>;
@@ -65,8 +64,8 @@ class PeerCommand : public testing::Test {
   Process& start(Words arguments, const std::string& scene_file = {}) {
     const Words scene_words{"--scene", scene_file.empty() ? scene() : scene_file};
     arguments.insert(arguments.begin(), scene_words.begin(), scene_words.end());
-    Process& peer = *peers_.emplace_back(std::make_unique<Process>(
-        test::binary_folder() + "/bin/rink-peer", arguments, std::vector<int>{}));
+    Process& peer = *peers_.emplace_back(
+        std::make_unique<Process>(test::binary_folder() + "/bin/rink-peer", arguments));
     until([&] { return peer.line_after("listening on ") || peer.ending(); });
     return peer;
   }

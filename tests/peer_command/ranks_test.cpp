@@ -17,14 +17,13 @@
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
 #include "game/net/peer/meeting/rank_mail.h"
-#include "loadgen/run/process.h"
+#include "game/process/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::game {
 namespace {
 
-using loadgen::Process;
 using testing::AllOf;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
@@ -83,7 +82,7 @@ class RanksOfMpi : public testing::Test {
     output_ = (folder_ / "output").string();
     // The shell keeps what is written, however long it is, and becomes the launcher.
     arguments.insert(arguments.begin(), {"-c", "exec \"$@\" > '" + output_ + "'", "sh"});
-    return *(launcher_ = std::make_unique<Process>("/bin/sh", arguments, std::vector<int>{}));
+    return *(launcher_ = std::make_unique<Process>("/bin/sh", arguments));
   }
   bool ends(std::chrono::seconds limit = 40s) {
     const auto end = std::chrono::steady_clock::now() + limit;

@@ -13,10 +13,10 @@
 #include "game/control/key_log_file.h"
 #include "game/model/scene_file.h"
 #include "game/net/scene_choice.h"
+#include "game/process/process.h"
 #include "game/view/picture_of.h"
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
-#include "loadgen/run/process.h"
 #include "rti/transport/tcp/tcp.h"
 #include "tests/places.h"
 #include "tests/reserved_port.h"
@@ -147,7 +147,7 @@ TEST_F(PlayCommand, SeesKeysThatAreDownAndUpWithinOneFrame) {
 
 /// Bats of a crowd that nobody plays stand where the scene put them, each in its team's colour.
 TEST_F(PlayCommand, ShowsAWatcherEveryBatOfARunningServerWhereItIs) {
-  loadgen::Process server(
+  game::Process server(
       test::binary_folder() + "/bin/rink-serve",
       {"--scene", "crowd", "--bat-count", "6", "--puck-count", "1", "--seed", "3", "--port", "0"},
       {});

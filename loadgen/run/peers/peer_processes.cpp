@@ -13,9 +13,9 @@
 #include "game/net/evidence_lines.h"
 #include "game/net/peer/meeting/seating.h"
 #include "game/net/peer/peer_evidence.h"
+#include "game/process/process.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/peers/peer_judgement.h"
-#include "loadgen/run/process.h"
 #include "loadgen/run/process_run.h"
 #include "loadgen/run/virtual_parts.h"
 
@@ -61,7 +61,7 @@ class PeerProcesses {
   const std::filesystem::path& key_log_;
   game::Scene scene_;
   std::vector<game::InputEvent> keys_;
-  std::deque<Process> processes_;
+  std::deque<game::Process> processes_;
   std::vector<nlohmann::json> reports_;  ///< by process
   std::vector<game::PeerEvidence> evidence_;
 };
@@ -71,14 +71,13 @@ void PeerProcesses::start(const std::string& first) {
   std::error_code ignored;
   for (const char* ending : {".json", ".jsonl"})
     std::filesystem::remove(file_of(number, ending), ignored);
-  processes_.emplace_back(settings_.peer,
-                          peer_arguments(experiment_, cell_, key_log_, first,
-                                         file_of(number, ".json"), file_of(number, ".jsonl")),
-                          std::vector<int>{});
+  processes_.emplace_back(
+      settings_.peer, peer_arguments(experiment_, cell_, key_log_, first, file_of(number, ".json"),
+                                     file_of(number, ".jsonl")));
 }
 
 std::string PeerProcesses::address_of_first() {
-  Process& first = processes_.front();
+  game::Process& first = processes_.front();
   for (const auto deadline = after(settings_.listen_limit_s);;) {
     heed_interrupt();
     first.attend(look_interval);
@@ -97,16 +96,17 @@ void PeerProcesses::await() {
   const double limit_s = experiment_.warm_up_s + experiment_.duration_s + settings_.join_limit_s;
   auto deadline = after(limit_s);
   bool has_failed = false;
-  const auto runs = [](const Process& process) { return !process.ending(); };
+  const auto runs = [](const game::Process& process) { return !process.ending(); };
   for (auto running = processes_.begin(); running != processes_.end();
        running = std::find_if(processes_.begin(), processes_.end(), runs)) {
     heed_interrupt();
     running->attend(look_interval);
-    for (Process& process : processes_)
+    for (game::Process& process : processes_)
       if (!process.ending()) process.attend(milliseconds(0));
-    const bool fails = std::any_of(
-        processes_.begin(), processes_.end(),
-        [](const Process& process) { return process.ending() && !process.ending()->is_success(); });
+    const bool fails =
+        std::any_of(processes_.begin(), processes_.end(), [](const game::Process& process) {
+          return process.ending() && !process.ending()->is_success();
+        });
     if (fails && !has_failed) deadline = std::min(deadline, after(survivor_limit_s));
     has_failed = has_failed || fails;
     if (Clock::now() > deadline) break;
@@ -124,7 +124,7 @@ void PeerProcesses::name_failures() {
   std::size_t others = 0;
   const auto name = [&](bool by_themselves) {
     for (std::size_t k = 0; k < processes_.size(); ++k) {
-      const std::optional<Ending>& ending = processes_[k].ending();
+      const std::optional<game::Ending>& ending = processes_[k].ending();
       if (!ending || ending->is_success() || (ending->exit_status != peer_is_gone) != by_themselves)
         continue;
       if (!why.empty()) {
@@ -257,7 +257,7 @@ void PeerProcesses::run(RunRecord& record) {
   sums.entities = start.entities().size();
   replay(measured, sums);
   double sum_s = 0.0, busiest_s = 0.0;
-  for (const Process& process : processes_)
+  for (const game::Process& process : processes_)
     sum_s += process.ending()->cpu_s, busiest_s = std::max(busiest_s, process.ending()->cpu_s);
   record.nodes.busiest_cpu_s = busiest_s,
   record.nodes.mean_cpu_s = sum_s / static_cast<double>(processes_.size());

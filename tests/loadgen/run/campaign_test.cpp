@@ -12,7 +12,7 @@
 #include <sstream>
 #include <string>
 
-#include "loadgen/run/process.h"
+#include "game/process/process.h"
 #include "tests/loadgen/report/canned_reports.h"
 #include "tests/temporary_folder.h"
 

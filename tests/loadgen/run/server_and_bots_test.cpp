@@ -8,9 +8,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "game/process/process.h"
 #include "loadgen/run/cell_runner.h"
 #include "loadgen/run/game_plan.h"
-#include "loadgen/run/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
@@ -44,7 +44,7 @@ class ServerAndBots : public testing::Test {
                                    "--warm-up",    "0.1",   "--patience",  "2",
                                    "--port",       "0",     "--report",    file("server.json")};
     flags.insert(flags.end(), for_server.begin(), for_server.end());
-    Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
+    game::Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
     std::optional<std::string> place;
     for (int i = 0; i < 1000 && !place; ++i)
       server.attend(10ms), place = server.line_after("listening on ");
@@ -54,7 +54,7 @@ class ServerAndBots : public testing::Test {
         "--connect", *place, "--count",    "12", "--seed", "7", "--duration", "0.7",
         "--warm-up", "0.1",  "--patience", "2",  "--view", "1", "--report",   file("bots.json")};
     flags.insert(flags.end(), for_bots.begin(), for_bots.end());
-    Process bots(test::binary_folder() + "/bin/rink-bots", flags, {});
+    game::Process bots(test::binary_folder() + "/bin/rink-bots", flags, {});
     const auto limit = std::chrono::steady_clock::now() + 20s;
     while ((!server.ending() || !bots.ending()) && std::chrono::steady_clock::now() < limit)
       server.attend(5ms), bots.attend(5ms);

@@ -10,11 +10,11 @@
 
 #include "game/control/key_log_file.h"
 #include "game/net/evidence.h"
+#include "game/process/process.h"
 #include "loadgen/run/cell_runner.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/peers/peer_report.h"
 #include "loadgen/run/peers/peer_run.h"
-#include "loadgen/run/process.h"
 #include "loadgen/run/virtual_run.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
@@ -243,7 +243,7 @@ TEST_F(SpanTest, CostsOfTicksAndProcessesAreThoseThatWereNoted) {
   EXPECT_NEAR(*record.send_us_per_tick, 1e6 * send_s / 6, rounding_us);
   EXPECT_NEAR(*record.tick_us.max, 1e6 * longest_s, 2 * rounding_us);
   EXPECT_FALSE(record.tick_us.p50) << "six ticks";
-  const double processors = static_cast<double>(allowed_processors().size());
+  const double processors = static_cast<double>(game::allowed_processors().size());
   ASSERT_TRUE(record.health.bots_cpu_share);
   EXPECT_GT(*record.health.bots_cpu_share, 0.0);
   EXPECT_LE(*record.health.bots_cpu_share * 0.3 * processors, *record.bots_cpu_s + 0.02)

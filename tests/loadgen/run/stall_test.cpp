@@ -17,7 +17,7 @@
 
 #include "game/net/address.h"
 #include "game/net/server/serve_status.h"
-#include "loadgen/run/process.h"
+#include "game/process/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
@@ -50,21 +50,21 @@ class StallLong : public testing::Test {
         flags.insert(flags.end(), {flag, std::to_string(value)});
       return flags;
     };
-    Process server(test::binary_folder() + "/bin/rink-serve",
-                   with({"--scene", "crowd", "--bat-count", "4", "--puck-count", "40", "--clients",
-                         "4", "--rate", "50", "--scheme", "none", "--policy", "periodic", "--port",
-                         "0", "--report", file("server.json")}),
-                   {});
+    game::Process server(test::binary_folder() + "/bin/rink-serve",
+                         with({"--scene", "crowd", "--bat-count", "4", "--puck-count", "40",
+                               "--clients", "4", "--rate", "50", "--scheme", "none", "--policy",
+                               "periodic", "--port", "0", "--report", file("server.json")}),
+                         {});
     std::optional<std::string> place;
     for (int i = 0; i < 1000 && !place; ++i)
       server.attend(10ms), place = server.line_after("listening on ");
     ASSERT_TRUE(place) << server.last_words();
-    Process bots(
+    game::Process bots(
         test::binary_folder() + "/bin/rink-bots",
         with({"--connect", *place, "--count", "4", "--seed", "7", "--report", file("bots.json")}),
         {});
     await_game(*place);
-    Process& stopped = who == Who::server ? server : bots;
+    game::Process& stopped = who == Who::server ? server : bots;
     ASSERT_EQ(kill(stopped.id(), SIGSTOP), 0);
     while (!is_stopped(stopped)) std::this_thread::sleep_for(1ms);
     const double from_s = now_s();
@@ -102,7 +102,7 @@ class StallLong : public testing::Test {
   }
   /// The state in /proc/PID/stat follows the command in brackets: T of a process that a signal
   /// stopped.
-  static bool is_stopped(const Process& process) {
+  static bool is_stopped(const game::Process& process) {
     const std::string stat = test::text_of("/proc/" + std::to_string(process.id()) + "/stat");
     return stat.substr(stat.rfind(')') + 1).starts_with(" T");
   }

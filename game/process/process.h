@@ -4,12 +4,13 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace rink::loadgen {
+namespace rink::game {
 
 /// How a process ended.
 struct Ending {
@@ -21,15 +22,21 @@ struct Ending {
   std::string text() const;
 };
 
+/// What a process has apart from its program.
+struct ProcessSettings {
+  std::vector<int> processors{};       ///< that it may run on; all that are allowed if empty
+  int signal_when_orphaned = SIGKILL;  ///< from the kernel, when the thread that started it dies
+  bool joins_errors = false;           ///< its standard error goes where its standard output goes
+};
+
 /// A running program in a process group of its own, so that a Ctrl-C at the terminal reaches only
-/// the parent, which then decides. It is killed when this object goes, and by the kernel
-/// (PR_SET_PDEATHSIG) when the thread that started it dies, even by kill -9.
+/// the parent, which then decides. It is killed when this object goes; and the kernel
+/// (PR_SET_PDEATHSIG) sends it a signal when the thread that started it dies, even by kill -9.
 class Process {
  public:
-  /// Starts `executable` on the given processors (all that are allowed if empty). Throws
-  /// std::system_error if it cannot be started.
+  /// Throws std::system_error if `executable` cannot be started.
   Process(const std::filesystem::path& executable, const std::vector<std::string>& arguments,
-          const std::vector<int>& processors);
+          const ProcessSettings& settings = {});
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
   ~Process();
@@ -43,6 +50,9 @@ class Process {
   /// The rest of the first line of its standard output that starts with `beginning`, once that line
   /// is complete.
   std::optional<std::string> line_after(const std::string& beginning) const;
+  /// What it has written to its standard output since the last time, of more than 128 kB the end;
+  /// `line_after` then knows of it no more.
+  std::string take_output();
   /// The last lines of its standard error, at most 2 kB, on one line: newlines become ` / `, other
   /// control characters `?`.
   std::string last_words() const;
@@ -65,4 +75,4 @@ class Process {
 /// The processors that this process may run on, ascending.
 std::vector<int> allowed_processors();
 
-}  // namespace rink::loadgen
+}  // namespace rink::game

@@ -1,6 +1,6 @@
 // fork, exec, poll and wait4 behind one object; between fork and exec only async-signal-safe calls
 // are made.
-#include "loadgen/run/process.h"
+#include "game/process/process.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -16,8 +16,9 @@
 #include <csignal>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
-namespace rink::loadgen {
+namespace rink::game {
 namespace {
 
 constexpr std::size_t output_kept_max = 64 * 1024;
@@ -38,9 +39,10 @@ Pipe make_pipe() {
 /// The child's side of the fork. Reports why exec failed through `failure`, which closes by itself
 /// when it succeeds.
 [[noreturn]] void become(const char* path, char* const* arguments, const cpu_set_t* processors,
-                         pid_t parent, int output, int errors, int failure) {
+                         int signal_when_orphaned, pid_t parent, int output, int errors,
+                         int failure) {
   setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  prctl(PR_SET_PDEATHSIG, signal_when_orphaned);
   if (getppid() != parent) _exit(127);  // the parent died before the line above
   if (processors) sched_setaffinity(0, sizeof *processors, processors);
   sigset_t none;
@@ -69,7 +71,7 @@ std::string Ending::text() const {
 }
 
 Process::Process(const std::filesystem::path& executable, const std::vector<std::string>& arguments,
-                 const std::vector<int>& processors) {
+                 const ProcessSettings& settings) {
   const std::string path = executable.string();
   std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -78,14 +80,16 @@ Process::Process(const std::filesystem::path& executable, const std::vector<std:
   pointers.push_back(nullptr);
   cpu_set_t set;
   CPU_ZERO(&set);
-  for (const int processor : processors) CPU_SET(static_cast<std::size_t>(processor), &set);
+  for (const int processor : settings.processors)
+    CPU_SET(static_cast<std::size_t>(processor), &set);
 
   const Pipe output = make_pipe(), errors = make_pipe(), failure = make_pipe();
   const pid_t parent = getpid();
   id_ = fork();
   if (id_ == 0) {
-    become(path.c_str(), pointers.data(), processors.empty() ? nullptr : &set, parent,
-           output.write_end, errors.write_end, failure.write_end);
+    become(path.c_str(), pointers.data(), settings.processors.empty() ? nullptr : &set,
+           settings.signal_when_orphaned, parent, output.write_end,
+           settings.joins_errors ? output.write_end : errors.write_end, failure.write_end);
   }
   const int fork_error = errno;
   close(output.write_end);
@@ -169,6 +173,8 @@ std::optional<std::string> Process::line_after(const std::string& beginning) con
   return std::nullopt;
 }
 
+std::string Process::take_output() { return std::exchange(output_text_, {}); }
+
 std::string Process::last_words() const {
   std::string text = errors_text_;
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -187,10 +193,9 @@ std::string Process::last_words() const {
 void Process::signal_group(int signal) const { kill(-id_, signal); }
 
 void Process::stop(std::chrono::milliseconds grace) {
-  using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + grace;
+  constexpr std::chrono::milliseconds step{5};
   if (grace.count() > 0) signal_group(SIGTERM);
-  while (!ending_ && Clock::now() < deadline) {
+  for (std::chrono::milliseconds waited{0}; !ending_ && waited < grace; waited += step) {
     attend(std::chrono::milliseconds(0));
     if (!ending_) usleep(5'000);
   }
@@ -212,4 +217,4 @@ std::vector<int> allowed_processors() {
   return processors;
 }
 
-}  // namespace rink::loadgen
+}  // namespace rink::game
