@@ -211,14 +211,9 @@ ExitStatus run(const PeerOptions& options) {
 }
 
 int status_of(const std::exception& error) {
-  const auto* failure = dynamic_cast<const rti::TransportError*>(&error);
-  if (failure == nullptr) return static_cast<int>(ExitStatus::bad_input);
-  using Kind = rti::TransportError::Kind;
-  const Kind kind = failure->kind();
-  return static_cast<int>(kind == Kind::in_use || kind == Kind::no_such_address ||
-                                  kind == Kind::no_permission
-                              ? ExitStatus::address_in_use
-                              : ExitStatus::failed);
+  return static_cast<int>(exit_status(error, {.bad_address = ExitStatus::address_in_use,
+                                              .too_many_files = ExitStatus::failed,
+                                              .otherwise = ExitStatus::failed}));
 }
 
 }  // namespace

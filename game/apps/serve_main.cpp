@@ -104,19 +104,9 @@ ExitStatus serve(ServeOptions& options) {
 }
 
 int status_of(const std::exception& error) {
-  const auto* failure = dynamic_cast<const rti::TransportError*>(&error);
-  if (failure == nullptr) return static_cast<int>(ExitStatus::bad_input);
-  using Kind = rti::TransportError::Kind;
-  switch (failure->kind()) {
-    case Kind::in_use:
-    case Kind::no_such_address:
-    case Kind::no_permission:
-      return static_cast<int>(ExitStatus::address_in_use);
-    case Kind::too_many_files:
-      return static_cast<int>(ExitStatus::too_few_files);
-    default:
-      return static_cast<int>(ExitStatus::failed);
-  }
+  return static_cast<int>(exit_status(error, {.bad_address = ExitStatus::address_in_use,
+                                              .too_many_files = ExitStatus::too_few_files,
+                                              .otherwise = ExitStatus::failed}));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // What the networked commands return, so that a script can tell one failure from another.
 #pragma once
 
+#include <exception>
+
 #include "rti/membership.h"
 
 namespace rink::game {
@@ -34,5 +36,14 @@ constexpr ExitStatus exit_status(rti::Refusal refusal) {
   if (refusal == rti::Refusal::wrong_fom) return ExitStatus::wrong_fom;
   return ExitStatus::not_admitted;
 }
+
+/// What a command ends with if a transport failed.
+struct TransportStatuses {
+  ExitStatus bad_address, too_many_files, otherwise;
+};
+
+/// Where `error` is no failure of a transport: `bad_input`. A bad address is in use, none of this
+/// machine, or not allowed.
+ExitStatus exit_status(const std::exception& error, const TransportStatuses& statuses);
 
 }  // namespace rink::game

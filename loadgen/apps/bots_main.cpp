@@ -281,11 +281,10 @@ game::ExitStatus play(const Options& options) {
 }
 
 int status_of(const std::exception& error) {
-  const auto* failure = dynamic_cast<const rti::TransportError*>(&error);
-  if (failure == nullptr) return static_cast<int>(game::ExitStatus::bad_input);
-  return static_cast<int>(failure->kind() == rti::TransportError::Kind::too_many_files
-                              ? game::ExitStatus::too_few_files
-                              : game::ExitStatus::no_server);
+  return static_cast<int>(
+      game::exit_status(error, {.bad_address = game::ExitStatus::no_server,
+                                .too_many_files = game::ExitStatus::too_few_files,
+                                .otherwise = game::ExitStatus::no_server}));
 }
 
 }  // namespace
