@@ -14,6 +14,7 @@
 #include "bench/peers/peers.h"
 #include "bench/trials/stability_trials.h"
 #include "game/apps/command.h"
+#include "game/model/listed.h"
 #include "game/net/interrupt.h"
 #include "game/version/version.h"
 #include "loadgen/report/provenance.h"
@@ -48,18 +49,12 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 /// Unlike game::one_of it leaves the names to the flag's meaning.
 Check expected_one_of(const std::vector<std::string>& names) {
   return {[names](const std::string& name) -> std::string {
             return std::ranges::find(names, name) != names.end()
                        ? ""
-                       : name + ": expected one of " + listed(names);
+                       : name + ": expected one of " + rink::game::listed(names);
           },
           ""};
 }
@@ -207,13 +202,14 @@ int main(int count, char** words) {
       .delimiter(',');
   flags
       .option("--engines", options.engines,
-              "only these, separated by commas: " + listed(contender_engines()) + " (default: all)")
+              "only these, separated by commas: " + rink::game::listed(contender_engines()) +
+                  " (default: all)")
       .delimiter(',')
       .check(expected_one_of(contender_engines()));
   flags
       .option("--integrators", options.integrators,
               "of paper and naive, separated by commas: " +
-                  listed(rink::physics::integrator_names()) + " (default: all)")
+                  rink::game::listed(rink::physics::integrator_names()) + " (default: all)")
       .delimiter(',')
       .check(expected_one_of(rink::physics::integrator_names()));
   const rink::game::Flag quick =

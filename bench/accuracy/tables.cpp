@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "bench/peers/peers.h"
+#include "game/model/listed.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::accuracy {
@@ -132,7 +133,7 @@ std::string headline_of(const Panel& panel) {
   for (const Series& series : panel.series) {
     const Standing standing = standing_of(panel, series);
     if (is_peer(series.contender) && standing.least_ratio)
-      rivals += (rivals.empty() ? "" : ", ") + series.contender.name() + " " + standing.ratio;
+      game::add_to_list(rivals, series.contender.name() + " " + standing.ratio);
   }
   if (exact == nullptr || rivals.empty()) return "";
   return panel.trial.trial.name + ": to place nine tenths of all bodies within " +

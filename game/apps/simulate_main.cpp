@@ -13,6 +13,7 @@
 #include "game/control/key_log_file.h"
 #include "game/control/playing.h"
 #include "game/control/simulate_progress.h"
+#include "game/model/listed.h"
 #include "game/model/scene_file.h"
 #include "game/players/player_kinds.h"
 #include "game/version/version.h"
@@ -157,13 +158,7 @@ void require_engine(const Options& options) {
         " would take more than 1e12 frames of --dt: expected longer frames or less time");
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-std::string allowed_players() { return "random, " + listed(game::player_kinds()); }
+std::string allowed_players() { return "random, " + game::listed(game::player_kinds()); }
 
 }  // namespace
 
@@ -217,12 +212,12 @@ int main(int count, char** words) {
       .check(game::whole_number_from(0, 100'000));
   flags
       .option("--engine", options.engine.engine,
-              "what moves the bodies: " + listed(physics::engine_names()) +
+              "what moves the bodies: " + game::listed(physics::engine_names()) +
                   " (docs/physics.md, docs/paper-engine.md)")
       .shows_default();
   flags
       .option("--integrator", options.engine.integrator,
-              "of the engines paper and naive: " + listed(physics::integrator_names()))
+              "of the engines paper and naive: " + game::listed(physics::integrator_names()))
       .shows_default();
   flags.option("--dt", options.engine.dt, "length of a frame of the engines paper and naive [s]")
       .shows_default();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "game/control/game.h"
+#include "game/model/listed.h"
 #include "game/model/scene_file.h"
 
 namespace rink::game {
@@ -13,7 +14,7 @@ namespace rink::game {
 void require_complete(const KeyLog& log, const std::string& file) {
   std::string missing;
   const auto need = [&](bool is_there, const char* what) {
-    if (!is_there) missing += (missing.empty() ? "" : ", ") + std::string(what);
+    if (!is_there) add_to_list(missing, what);
   };
   need(log.until.has_value(), "until (how far the game was played)");
   need(log.hash.has_value(), "hash (in which it ended)");

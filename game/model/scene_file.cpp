@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "game/model/listed.h"
 #include "game/model/scene_table.h"
 
 namespace rink::game {
@@ -94,10 +95,8 @@ class SceneReader {
   MaterialId material_named(const SceneTable& table, const char* key,
                             const std::string& name) const {
     const auto place = std::find(scene_.materials.begin(), scene_.materials.end(), name);
-    std::string known;
-    for (const std::string& material : scene_.materials)
-      known += (known.empty() ? "" : ", ") + material;
-    if (place == scene_.materials.end()) table.refuse(key, "materials out of " + known);
+    if (place == scene_.materials.end())
+      table.refuse(key, "materials out of " + listed(scene_.materials));
     return static_cast<MaterialId>(place - scene_.materials.begin());
   }
 
@@ -295,8 +294,7 @@ std::filesystem::path file_of(const std::string& scene) {
   if (scene.ends_with(".toml") || scene.find('/') != std::string::npos) return scene;
   const std::filesystem::path preset = preset_folder() / (scene + ".toml");
   if (std::filesystem::is_regular_file(preset)) return preset;
-  std::string known;
-  for (const std::string& name : preset_names()) known += (known.empty() ? "" : ", ") + name;
+  const std::string known = listed(preset_names());
   throw SceneError(scene + ": no such scene: expected a file NAME.toml or one of the presets " +
                    (known.empty() ? "(none found in " + preset_folder().string() + ")" : known));
 }

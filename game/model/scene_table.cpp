@@ -8,6 +8,8 @@
 #include <numeric>
 #include <sstream>
 
+#include "game/model/listed.h"
+
 namespace rink::game {
 namespace {
 
@@ -28,12 +30,7 @@ std::string exact_text_of(double number) {
 std::string whole_text_of(const toml::node& node) {
   if (const toml::value<double>* number = node.as_floating_point())
     return exact_text_of(number->get());
-  std::string all;
-  if (const toml::array* list = node.as_array()) {
-    for (const toml::node& element : *list)
-      all += (all.empty() ? "" : ", ") + whole_text_of(element);
-    return "[" + all + "]";
-  }
+  if (const toml::array* list = node.as_array()) return "[" + listed(*list, whole_text_of) + "]";
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   return text.str();
@@ -200,14 +197,12 @@ void SceneTable::finish() const {
                                           [word = key.str()](const auto& a, const auto& b) {
                                             return edits(a, word) < edits(b, word);
                                           });
-    std::string known;
-    for (const std::string& word : asked_) known += (known.empty() ? "" : ", ") + word;
     const bool is_near =
         nearest != asked_.end() &&
         edits(*nearest, key.str()) <= std::max<std::size_t>(2, key.str().size() / 3);
     throw SceneError(at(file_, key.source()) + name_ + " has the unknown key " +
                      std::string(key.str()) + (is_near ? ": did you mean " + *nearest + "?" : ":") +
-                     " Known are " + known);
+                     " Known are " + listed(asked_));
   }
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/model/listed.h"
 #include "game/model/scene.h"
 
 namespace rink::game {
@@ -75,14 +76,11 @@ class SceneTable {
   template <class Value>
   bool choice(const char* key, Value& into,
               std::initializer_list<std::pair<std::string_view, Value>> choices) {
-    std::string expected;
-    for (const auto& [word, value] : choices)
-      expected += (expected.empty() ? "" : ", ") + std::string(word);
     std::string word;
     if (!text(key, word)) return false;
     for (const auto& [name, value] : choices)
       if (name == word) return into = value, true;
-    refuse(key, "one of " + expected);
+    refuse(key, "one of " + listed(choices, [](const auto& each) { return each.first; }));
   }
 
   void require_number(const char* key, double& into, const Range& range) {

@@ -7,6 +7,7 @@
 
 #include "game/apps/command.h"
 #include "game/control/key_log_file.h"
+#include "game/model/listed.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"
@@ -42,12 +43,6 @@ struct Options {
   double view_fraction = 0.05, view_area = 0.0, view_margin = 0.3, start_s = 0.0, duration_s = 10.0,
          warm_up_s = 0.0, patience_s = 30.0;
 };
-
-std::string player_names() {
-  std::string names;
-  for (const std::string& name : game::player_kinds()) names += (names.empty() ? "" : ", ") + name;
-  return names;
-}
 
 /// What recording one latency costs on this machine [ns]: the mean over 100,000.
 double histogram_ns_per_record() {
@@ -112,7 +107,8 @@ void add_options(game::Flags& flags, Options& options) {
       .check(existing_file());
   flags
       .option("--players", options.players,
-              "who plays: random, by the plan; or by what they see of the game, " + player_names())
+              "who plays: random, by the plan; or by what they see of the game, " +
+                  game::listed(game::player_kinds()))
       .check(one_of([] {
         auto kinds = game::player_kinds();
         kinds.push_back("random");

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "game/model/byte_hash.h"
+#include "game/model/listed.h"
 #include "game/net/peer/meeting/greetings.h"
 #include "game/net/relevant_kinds.h"
 #include "game/players/player_kinds.h"
@@ -96,7 +97,7 @@ void read_setting(ExperimentReader& reader, Experiment& result, const std::files
   reader.choice<KeySource>("keys", result.keys,
                            {{"replay", KeySource::replay}, {"live", KeySource::live}});
   reader.text("players", result.players,
-              "random, " + joined(game::player_kinds()) +
+              "random, " + game::listed(game::player_kinds()) +
                   ", or the path of a recorded key log, relative to the experiment's folder",
               [&file](const std::string& name) {
                 return game::is_player_kind(name) ||
@@ -116,7 +117,7 @@ void read_baseline(ExperimentReader& reader, Experiment& result) {
     };
     if (!is_compared(name)) name = compared.front();
     try {
-      reader.text(key, name, "one that is compared: " + joined(compared), is_compared);
+      reader.text(key, name, "one that is compared: " + game::listed(compared), is_compared);
     } catch (const ExperimentError& error) {
       throw BaselineError(error.what());
     }
@@ -154,7 +155,7 @@ void expect_baseline(const ExperimentReader& reader, const Experiment& experimen
     const CellKey* key = key_called(name);
     if (!key || !key->set(any, value))
       throw BaselineError(file + ": baseline." + name + " = " + value + ": " +
-                          (key ? "no value of that key" : "allowed are " + joined(names)));
+                          (key ? "no value of that key" : "allowed are " + game::listed(names)));
   }
   const std::vector<Cell> cells = cells_of(experiment);
   // A cell that lacks a parameter is the partner of all of its values, and so of one that is not
@@ -251,7 +252,7 @@ void expect_use_of_always(const Experiment& experiment, const std::string& file)
       }))
     return;
   if (!has(experiment.also_relevant, [](const std::string& more) { return more == "always"; }))
-    throw ExperimentError(file + ": always = " + joined(experiment.always) +
+    throw ExperimentError(file + ": always = " + game::listed(experiment.always) +
                           " changes nothing: neither schemes nor also_relevant name always");
 }
 

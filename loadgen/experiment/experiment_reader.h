@@ -15,17 +15,12 @@
 #include <utility>
 #include <vector>
 
+#include "game/model/listed.h"
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/experiment/parameter.h"
 #include "rti/schemes.h"
 
 namespace rink::loadgen {
-
-inline std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 /// A value as the user wrote it, for messages.
 inline std::string written(const toml::node& node) {
@@ -54,7 +49,7 @@ class ExperimentReader {
 
   void choose(const char* key, std::vector<std::string>& into,
               const std::vector<std::string>& allowed) {
-    read_list(key, into, "one or more of " + joined(allowed),
+    read_list(key, into, "one or more of " + game::listed(allowed),
               [&allowed](const toml::node& node) -> std::optional<std::string> {
                 auto word = node.value_exact<std::string>();
                 if (word && std::find(allowed.begin(), allowed.end(), *word) == allowed.end())
@@ -159,7 +154,7 @@ class ExperimentReader {
       words.push_back(name);
       if (word && *word == name) return void(into = meaning);
     }
-    refuse(key, *node, "one of " + joined(words));
+    refuse(key, *node, "one of " + game::listed(words));
   }
 
   /// The whole number of `key`, if it is there.
@@ -234,7 +229,7 @@ class ExperimentReader {
       if (taken_.contains(std::string(key.str()))) continue;
       const std::vector<std::string> known(taken_.begin(), taken_.end());
       throw ExperimentError(place(key.source().begin.line) + "unknown key " + prefix_ +
-                            std::string(key.str()) + ": allowed are " + joined(known));
+                            std::string(key.str()) + ": allowed are " + game::listed(known));
     }
   }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "game/model/listed.h"
 #include "loadgen/experiment/cell_key.h"
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/experiment/parameter.h"
@@ -87,7 +88,7 @@ std::optional<Cell> baseline_among(std::span<const Cell> cells, const Cell& cell
 std::string Baseline::words() const {
   std::string text =
       scheme.empty() || policy.empty() ? scheme + policy : scheme + " with " + policy;
-  for (const auto& [name, value] : others) text += (text.empty() ? "" : ", ") + name + " " + value;
+  for (const auto& [name, value] : others) game::add_to_list(text, name + " " + value);
   return text;
 }
 
@@ -160,10 +161,9 @@ std::string name_of(const Cell& cell) {
 }
 
 std::string variant_of(const Cell& cell) {
-  std::string words;
-  for (const Variation& variation : variations_of(cell))
-    words += (words.empty() ? "" : ", ") + (variation.before + variation.value + variation.after);
-  return words;
+  return game::listed(variations_of(cell), [](const Variation& variation) {
+    return variation.before + variation.value + variation.after;
+  });
 }
 
 std::string game_of(const Cell& cell, Population population) {

@@ -14,6 +14,7 @@
 
 #include "loadgen/experiment/parameter.h"
 
+#include "game/model/listed.h"
 #include "loadgen/experiment/cell_key.h"
 #include "loadgen/experiment/csv_number.h"
 #include "loadgen/measure/assertion_syntax.h"
@@ -99,18 +100,15 @@ std::vector<Cell> distinct_cells(const Experiment& experiment) {
 
 void check(const std::string& text, const Node& figure, const std::vector<Cell>& cells) {
   const std::string where = "--assert '" + text + "': ";
-  if (!reading_called(figure.name)) {
-    std::string known;
-    for (const Figure& f : figures()) known += (known.empty() ? "" : ", ") + std::string(f.name);
-    throw ExperimentError(where + "no figure is called " + figure.name + "; there are " + known +
+  if (!reading_called(figure.name))
+    throw ExperimentError(where + "no figure is called " + figure.name + "; there are " +
+                          game::listed(figures(), [](const Figure& known) { return known.name; }) +
                           ", each also with _low, _high, _sd, _min, _max");
-  }
   for (const auto& [key, value] : figure.selection) {
     const CellKey* known = key_called(key);
-    std::string keys;
-    for (const CellKey& k : cell_keys()) keys += (keys.empty() ? "" : ", ") + k.name;
     if (!known)
-      throw ExperimentError(where + "no key of a cell is called " + key + "; there are " + keys);
+      throw ExperimentError(where + "no key of a cell is called " + key + "; there are " +
+                            game::listed(cell_keys(), [](const CellKey& k) { return k.name; }));
     Cell probe;
     if (!known->set(probe, value))
       throw ExperimentError(where + key + " = " + value + " is not a value that " + key +
@@ -120,13 +118,12 @@ void check(const std::string& text, const Node& figure, const std::vector<Cell>&
     return is_in(cells, selected(figure, context));
   });
   if (exists) return;
-  std::string names;
-  for (const Cell& cell : cells) {
+  const auto seedless = [](const Cell& cell) {
     const std::string name = name_of(cell);
-    names += (names.empty() ? "" : ", ") + name.substr(0, name.rfind("-seed"));
-  }
+    return name.substr(0, name.rfind("-seed"));
+  };
   throw ExperimentError(where + "the experiment has no cell for " + figure.text + "; it has " +
-                        names);
+                        game::listed(cells, seedless));
 }
 
 using Values = std::map<const Node*, std::optional<double>>;
@@ -206,7 +203,7 @@ std::string values_text(const std::vector<const Node*>& figures, const std::vect
     const std::string name = name_of(choice[i]), one = figures[i]->name + " of " +
                                                        name.substr(0, name.rfind("-seed")) + " = " +
                                                        value_text(values.at(figures[i]));
-    if (said.insert(one).second) text += (text.empty() ? "" : ", ") + one;
+    if (said.insert(one).second) game::add_to_list(text, one);
   }
   return text;
 }

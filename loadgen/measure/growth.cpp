@@ -10,6 +10,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "game/model/listed.h"
 #include "loadgen/experiment/csv_number.h"
 
 namespace rink::loadgen {
@@ -53,8 +54,8 @@ std::string held_text(const RunRecord& run, const GrowthFactor& factor) {
   for (const GrowthFactor& other : growth_factors) {
     if (other.number == factor.number) continue;
     const std::uint32_t number = run.cell.*other.number;
-    text += (text.empty() ? "" : ", ") +
-            (number == 0 ? std::string("the scene's ") : std::to_string(number) + " ") + other.name;
+    game::add_to_list(text,
+                      (number == 0 ? "the scene's " : std::to_string(number) + " ") + other.name);
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "game/model/listed.h"
 #include "loadgen/measure/modes_table.h"
 #include "loadgen/measure/summary.h"
 #include "loadgen/report/exhibits/gains.h"
@@ -41,17 +42,13 @@ std::string agreement_paragraph(std::span<const RunRecord> runs) {
 std::string view_text(const Experiment& experiment) {
   if (experiment.view_area > 0.0)
     return "each client sees " + short_number(experiment.view_area) + " m\xC2\xB2";
-  std::string text;
-  for (const double fraction : experiment.view_fractions)
-    text += (text.empty() ? "" : ", ") + short_number(100.0 * fraction) + " %";
-  return "each client sees " + text + " of the field";
+  const auto percentage = [](double fraction) { return short_number(100.0 * fraction) + " %"; };
+  return "each client sees " + game::listed(experiment.view_fractions, percentage) +
+         " of the field";
 }
 
 std::string rates_text(const Experiment& experiment) {
-  std::string text;
-  for (const double rate : experiment.tick_rates_hz)
-    text += (text.empty() ? "" : ", ") + short_number(rate);
-  return text;
+  return game::listed(experiment.tick_rates_hz, [](double rate) { return short_number(rate); });
 }
 
 std::string transport_text(const Experiment& experiment) {

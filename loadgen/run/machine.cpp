@@ -6,6 +6,8 @@
 #include <map>
 #include <sstream>
 
+#include "game/model/listed.h"
+
 namespace rink::loadgen {
 namespace {
 
@@ -74,7 +76,7 @@ std::string packages(const std::filesystem::path& root, std::span<const char* co
   std::string text;
   for (const char* each : names)
     if (const auto found = versions.find(each); found != versions.end())
-      text += (text.empty() ? "" : ", ") + found->first + " " + found->second;
+      game::add_to_list(text, found->first + " " + found->second);
   return text.empty() ? "unknown" : text;
 }
 

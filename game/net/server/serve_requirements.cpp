@@ -5,6 +5,7 @@
 
 #include "game/control/match_flow.h"
 #include "game/control/replay.h"
+#include "game/model/listed.h"
 #include "game/model/scene_file.h"
 #include "game/net/fom_file.h"
 #include "game/net/record_file.h"
@@ -36,7 +37,7 @@ void require_cells(const ServeOptions& options) {
   if (options.cell_size == 0.0 || im::takes_cell_size(options.scheme)) return;
   std::string having;
   for (const std::string& name : im::filter_names())
-    if (im::takes_cell_size(name)) having += (having.empty() ? "" : ", ") + name;
+    if (im::takes_cell_size(name)) add_to_list(having, name);
   throw std::runtime_error("--cell-size: the scheme " + options.scheme +
                            " has no cells whose size it leaves open; schemes with cells are " +
                            having);

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "game/model/listed.h"
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/plots/line_plot.h"
 #include "loadgen/report/plots/text.h"
@@ -122,9 +123,8 @@ void add_plot(Exhibit& exhibit, const Discovered& kind, const std::vector<DrawnD
     std::vector<PlotPoint> points = stairs(each, low, high);
     const std::size_t last = points.size();
     if (each.delays->never() > 0)
-      never += (never.empty() ? "" : ", ") + each.line.name + " " +
-               std::to_string(each.delays->never()) + " of " +
-               std::to_string(each.delays->samples());
+      game::add_to_list(never, each.line.name + " " + std::to_string(each.delays->never()) +
+                                   " of " + std::to_string(each.delays->samples()));
     plot.lines.push_back({each.line.name, each.line.style, std::move(points), last});
     for (const SampleDistribution::Point& point : each.points) {
       auto row = cell_values(each.line, each.group);

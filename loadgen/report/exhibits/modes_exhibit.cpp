@@ -1,6 +1,7 @@
 // With and without a server: who carries what, and for what.
 #include <algorithm>
 
+#include "game/model/listed.h"
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/plots/bar_plot.h"
 #include "loadgen/report/plots/line_plot.h"
@@ -131,8 +132,7 @@ Exhibit modes_exhibit(const Findings& findings) {
       "among peers each carries its own.</p>\n<div class=\"plots\">\n"};
   std::string absences;
   for (const Shown& shown : against_clients)
-    if (!add_plot(exhibit, findings, shown))
-      absences += std::string(absences.empty() ? "" : ", ") + shown.title;
+    if (!add_plot(exhibit, findings, shown)) game::add_to_list(absences, shown.title);
   exhibit.html += "</div>\n";
   if (!absences.empty())
     exhibit.add_absence("Not measured in any cell's every run, so without a plot: " + absences +

@@ -1,4 +1,5 @@
 // Box plots over replications, so that a mean is not taken for more than it is.
+#include "game/model/listed.h"
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/plots/box_plot.h"
 #include "loadgen/report/plots/text.h"
@@ -65,8 +66,7 @@ Exhibit replication_exhibit(const Findings& findings) {
       "class=\"plots\">\n"};
   std::string absences;
   for (const BoxedFigure& figure : boxed_figures) {
-    if (!add_box_plot(exhibit, findings, figure))
-      absences += std::string(absences.empty() ? "" : ", ") + figure.title;
+    if (!add_box_plot(exhibit, findings, figure)) game::add_to_list(absences, figure.title);
   }
   exhibit.html += "</div>\n";
   if (!absences.empty())
