@@ -2,11 +2,39 @@
 // one or lists them.
 #pragma once
 
+#include <concepts>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
 
 #include "loadgen/measure/run_record.h"
 
 namespace rink::loadgen {
+
+/// Calls `part.field(key, value)` for each figure.
+template <class Part, class Figures>
+requires std::same_as<std::remove_const_t<Figures>, Percentiles>
+void visit_fields(Part& part, Figures& percentiles) {
+  part.field("p50", percentiles.p50);
+  part.field("p90", percentiles.p90);
+  part.field("p95", percentiles.p95);
+  part.field("p99", percentiles.p99);
+  part.field("p999", percentiles.p999);
+  part.field("max", percentiles.max);
+}
+
+template <class Part, class Figures>
+requires std::same_as<std::remove_const_t<Figures>, ErrorFigures>
+void visit_fields(Part& part, Figures& error) {
+  part.field("rms", error.rms);
+  part.field("p50", error.p50);
+  part.field("p90", error.p90);
+  part.field("p99", error.p99);
+  part.field("max", error.max);
+  part.field("replaced_samples", error.replaced_samples);
+  part.field("replaced_rms", error.replaced_rms);
+}
 
 /// Calls `line.field(key, value)` for each figure of `truth`, and `line.text_or_null(key, text)`
 /// for texts that are null when empty.
@@ -32,6 +60,7 @@ void visit_truth(Line& line, Truth& truth) {
 
 /// Likewise for a whole record, which is a RunRecord or a const one.
 template <class Line, class Record>
+requires std::same_as<std::remove_const_t<Record>, RunRecord>
 void visit_fields(Line& line, Record& run) {
   line.field("mode", run.cell.mode);
   line.field("scheme", run.cell.scheme);
@@ -104,5 +133,10 @@ void visit_fields(Line& line, Record& run) {
 
 /// One line of runs.jsonl, keys in the documented order.
 nlohmann::ordered_json to_json(const RunRecord& record);
+
+/// What `to_json(record)` wrote, so that writing it again gives the same line. Nothing, and a
+/// `complaint` that names the key, if it is something else; keys that a record does not have are
+/// passed over.
+std::optional<RunRecord> run_record_from_json(const nlohmann::json& line, std::string& complaint);
 
 }  // namespace rink::loadgen

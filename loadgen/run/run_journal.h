@@ -12,11 +12,6 @@
 
 namespace rink::loadgen {
 
-/// What `to_json(record)` wrote, so that writing it again gives the same line. Nothing, and a
-/// `complaint` that names the key, if it is something else; keys that a record does not have are
-/// passed over.
-std::optional<RunRecord> run_record_from_json(const nlohmann::json& line, std::string& complaint);
-
 /// Sixteen hexadecimal digits that change with the experiment's text, its scene's file and its
 /// recorded keys (FNV-1a).
 std::string identity_of(const Experiment& experiment);

@@ -144,22 +144,4 @@ std::optional<Histogram> Histogram::from_json(const nlohmann::json& written) {
   return result;
 }
 
-nlohmann::ordered_json percentiles_json(const Percentiles& percentiles) {
-  nlohmann::ordered_json result;
-  const auto put = [&result](const char* key, const std::optional<double>& value) {
-    if (value) {
-      result[key] = *value;
-    } else {
-      result[key] = nullptr;
-    }
-  };
-  put("p50", percentiles.p50);
-  put("p90", percentiles.p90);
-  put("p95", percentiles.p95);
-  put("p99", percentiles.p99);
-  put("p999", percentiles.p999);
-  put("max", percentiles.max);
-  return result;
-}
-
 }  // namespace rink::loadgen

@@ -69,7 +69,4 @@ class Histogram {
   double max_s_ = 0.0;
 };
 
-/// `{"p50", "p90", "p95", "p99", "p999", "max"}` in this order, null where there is no value.
-nlohmann::ordered_json percentiles_json(const Percentiles& percentiles);
-
 }  // namespace rink::loadgen
