@@ -15,6 +15,7 @@
 #include "game/apps/peer_ranks.h"
 #include "game/apps/peer_report.h"
 #include "game/control/key_log_file.h"
+#include "game/model/report_fields.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"
@@ -99,7 +100,7 @@ ExitStatus report(const PeerOptions& options, const SharedGame& shared, const Me
                   const Viewing& viewing, const PlayedPart& part, double playing_s) {
   Json report = report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s);
   if (viewing.viewer) report["view"] = report_of(*viewing.viewer);
-  report["transport"] = report_of(meeting.transported());
+  report[report::transport] = report_of(meeting.transported());
   if (!part.has_left) add_hash(report, part);
   if (!options.report.empty()) write_file(options.report, report.dump(2));
   else std::printf("%s\n", report.dump(2).c_str());

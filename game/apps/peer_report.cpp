@@ -38,7 +38,7 @@ SharedGame game_of(const PeerOptions& options) {
 void add_hash(nlohmann::ordered_json& report, const PlayedPart& part) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, part.hash);
-  report["hash"] = hash;
+  report[report::hash.key] = hash;
 }
 
 }  // namespace rink::game

@@ -10,6 +10,7 @@
 #include "game/apps/serve_flags.h"
 #include "game/apps/server_process.h"
 #include "game/control/key_log_file.h"
+#include "game/model/report_fields.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"
 #include "game/net/fom_file.h"
@@ -75,11 +76,11 @@ ExitStatus serve(ServeOptions& options) {
   const KeyLog log = options.record.empty() || !options.hosted.empty()
                          ? KeyLog{}
                          : record_of(played, process.server());
-  if (report["lost_federates"] != 0 || report["dropped_connections"] != 0)
-    warn(report["lost_federates"].get<std::uint64_t>(), " federates were lost, ",
-         report["dropped_connections"].get<std::uint64_t>(), " connections dropped");
-  if (report["keys_over_limit"] != 0)
-    warn(report["keys_over_limit"].get<std::uint64_t>(),
+  if (report[report::lost_federates.key] != 0 || report[report::dropped_connections.key] != 0)
+    warn(report[report::lost_federates.key].get<std::uint64_t>(), " federates were lost, ",
+         report[report::dropped_connections.key].get<std::uint64_t>(), " connections dropped");
+  if (report[report::keys_over_limit.key] != 0)
+    warn(report[report::keys_over_limit.key].get<std::uint64_t>(),
          " key changes above --key-limit were not felt");
   process.end();
   add_totals(report, process.totals());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "game/apps/command.h"
+#include "game/model/report_fields.h"
 #include "game/model/scene_file.h"
 #include "game/net/gate.h"
 #include "game/net/interrupt.h"
@@ -221,28 +222,28 @@ Json ServerProcess::report() const {
   std::string why_invalid = server_.trouble();
   if (is_interrupted) why_invalid = "interrupted";
   if (why_invalid.empty() && costs_.ticks == 0) why_invalid = "no tick was measured";
-  Json report{{"mode", "client-server"},
-              {"scheme", options_.scheme},
-              {"policy", options_.policy},
-              {"threshold", options_.threshold},
-              {"clients", options_.clients},
-              {"seed", options_.seed},
-              {"tick_rate_hz", options_.rate_hz},
+  Json report{{report::mode, "client-server"},
+              {report::scheme, options_.scheme},
+              {report::policy, options_.policy},
+              {report::threshold, options_.threshold},
+              {report::clients, options_.clients},
+              {report::seed, options_.seed},
+              {report::tick_rate_hz, options_.rate_hz},
               {"pace", options_.pace},
               {"time_managed", options_.is_time_managed},
-              {"ticks", costs_.ticks},
-              {"ticks_on_time_fraction", static_cast<double>(costs_.ticks_on_time) / ticks},
-              {"physics_us_per_tick", 1e6 * costs_.physics_s / ticks},
-              {"filter_us_per_tick", 1e6 * costs_.filter_s / ticks},
-              {"send_us_per_tick", 1e6 * costs_.send_s / ticks},
+              {report::ticks, costs_.ticks},
+              {report::ticks_on_time_fraction, static_cast<double>(costs_.ticks_on_time) / ticks},
+              {report::physics_us_per_tick, 1e6 * costs_.physics_s / ticks},
+              {report::filter_us_per_tick, 1e6 * costs_.filter_s / ticks},
+              {report::send_us_per_tick, 1e6 * costs_.send_s / ticks},
               {"send_us_max", 1e6 * costs_.send_max_s},
               {"spread", options_.spread},
               {"burst_bytes_max", stagger_.burst_bytes_max()},
-              {"server_rss_bytes", resident_bytes()},
-              {"evidence_bytes", serving_.evidence_bytes()},
-              {"measured_s", costs_.span_s},
-              {"valid", why_invalid.empty()},
-              {"why_invalid", why_invalid}};
+              {report::server_rss_bytes, resident_bytes()},
+              {report::evidence_bytes, serving_.evidence_bytes()},
+              {report::measured_s, costs_.span_s},
+              {report::valid, why_invalid.empty()},
+              {report::why_invalid, why_invalid}};
   report.update(counted_report(serving_, costs_.begin, costs_.end));
   return report;
 }

@@ -8,6 +8,7 @@
 #include "game/apps/command.h"
 #include "game/control/key_log_file.h"
 #include "game/model/listed.h"
+#include "game/model/report_fields.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"
@@ -263,8 +264,8 @@ game::ExitStatus play(const Options& options) {
   for (const double until_s = now_s() + 0.1; !game::is_interrupted && now_s() < until_s;)
     crowd.run_once();  // the kernel's count lags by an acknowledgement
   Json written = loadgen::bots_report(crowd, why_invalid(options, crowd));
-  written["cpu_share"] = load.share() ? Json(*load.share()) : Json(nullptr);
-  written["histogram_ns_per_record"] = histogram_ns;
+  written[game::report::cpu_share.key] = load.share() ? Json(*load.share()) : Json(nullptr);
+  written[game::report::histogram_ns_per_record.key] = histogram_ns;
   const game::ExitStatus result = status(crowd);
   crowd.resign();
   if (const auto evidence = crowd.evidence()) loadgen::write_evidence(options.evidence, *evidence);

@@ -7,10 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "game/model/report_fields.h"
 #include "loadgen/measure/truth/classification.h"
 
 namespace rink::loadgen {
 namespace {
+
+namespace report = game::report;
 
 constexpr double count_mismatch_max = 0.01;
 constexpr double in_flight_bytes_max =
@@ -29,7 +32,7 @@ class ReportReader {
         accepts_null_(accepts_null),
         complaints_(complaints) {}
 
-  std::optional<double> number(const char* key) {
+  std::optional<double> operator()(game::AmountField key) {
     const nlohmann::json* value = find(key);
     if (value && value->is_number() && std::isfinite(value->get<double>()) &&
         value->get<double>() >= 0.0)
@@ -37,11 +40,11 @@ class ReportReader {
     return complain(key, "a number that is not negative");
   }
   /// For figures that a run may do without: absent or of another type is no complaint.
-  std::optional<double> number_if_there(const char* key) {
+  std::optional<double> if_there(game::AmountField key) {
     const nlohmann::json* value = find(key);
     return value && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
   }
-  std::vector<double> numbers_if_there(const char* key) {
+  std::vector<double> if_there(game::AmountsField key) {
     const nlohmann::json* value = find(key);
     std::vector<double> numbers;
     if (!value || !value->is_array()) return numbers;
@@ -49,7 +52,7 @@ class ReportReader {
       numbers.push_back(element.is_number() ? element.get<double>() : 0.0);
     return numbers;
   }
-  std::optional<std::uint64_t> count(const char* key) {
+  std::optional<std::uint64_t> operator()(game::CountField key) {
     const nlohmann::json* value = find(key);
     if (value && value->is_number_integer() &&
         (value->is_number_unsigned() || value->get<std::int64_t>() >= 0))
@@ -57,30 +60,30 @@ class ReportReader {
     complain(key, "a count");
     return std::nullopt;
   }
-  std::string text(const char* key) {
+  std::string operator()(game::TextField key) {
     const nlohmann::json* value = find(key);
     if (value && value->is_string()) return value->get<std::string>();
     complain(key, "a text");
     return {};
   }
-  Percentiles percentiles(const char* key) {
+  Percentiles operator()(game::DurationsField key) {
     const nlohmann::json* value = find(key);
     const auto histogram = value ? Histogram::from_json(*value) : std::nullopt;
     if (histogram) return histogram->percentiles_ms();
     complain(key, "a histogram");
     return {};
   }
-  std::optional<std::uint64_t> samples_if_there(const char* key) {
+  std::optional<std::uint64_t> samples_if_there(game::DurationsField key) {
     const nlohmann::json* value = find(key);
     const auto histogram = value ? Histogram::from_json(*value) : std::nullopt;
     return histogram ? std::optional(histogram->count()) : std::nullopt;
   }
   void verdict() {
-    const nlohmann::json* value = find("valid");
+    const nlohmann::json* value = find(report::valid);
     if (!value || !value->is_boolean()) {
-      complain("valid", "true or false");
+      complain(report::valid, "true or false");
     } else if (!value->get<bool>()) {
-      complaints_.push_back("the " + who_ + ": " + text("why_invalid"));
+      complaints_.push_back("the " + who_ + ": " + (*this)(report::why_invalid));
     }
   }
 
@@ -142,10 +145,10 @@ struct Sent {
   std::optional<double> bytes, segments, acknowledgements;
 
   explicit Sent(ReportReader& report)
-      : bytes(report.number("bytes_sent")),
-        segments(report.number("segments_sent")),
-        acknowledgements(report.number("acknowledgements_sent")) {
-    const auto kernel_segments = report.number("kernel_segments_sent");
+      : bytes(report(report::bytes_sent)),
+        segments(report(report::segments_sent)),
+        acknowledgements(report(report::acknowledgements_sent)) {
+    const auto kernel_segments = report(report::kernel_segments_sent);
     // Where the kernel's segments are larger than Ethernet's their receiver acknowledges fewer: one
     // of each further two is missing.
     if (acknowledgements && segments && kernel_segments)
@@ -158,32 +161,32 @@ struct Sent {
 };
 
 void fill_from_server(RunRecord& record, ReportReader& server) {
-  record.entities = server.count("entities");
-  record.ticks = server.count("ticks");
-  record.ticks_on_time_fraction = server.number("ticks_on_time_fraction");
-  record.physics_us_per_tick = server.number("physics_us_per_tick");
-  record.filter_us_per_tick = server.number("filter_us_per_tick");
-  record.send_us_per_tick = server.number("send_us_per_tick");
-  record.server_rss_bytes = server.count("server_rss_bytes");
-  record.state_hash = server.text("state_hash");
-  record.measured_s = server.number("measured_s");
-  record.messages_per_s = per(server.number("messages_sent"), record.measured_s);
-  record.writes_per_s = per(server.number("writes_sent"), record.measured_s);
+  record.entities = server(report::entities);
+  record.ticks = server(report::ticks);
+  record.ticks_on_time_fraction = server(report::ticks_on_time_fraction);
+  record.physics_us_per_tick = server(report::physics_us_per_tick);
+  record.filter_us_per_tick = server(report::filter_us_per_tick);
+  record.send_us_per_tick = server(report::send_us_per_tick);
+  record.server_rss_bytes = server(report::server_rss_bytes);
+  record.state_hash = server(report::state_hash);
+  record.measured_s = server(report::measured_s);
+  record.messages_per_s = per(server(report::messages_sent), record.measured_s);
+  record.writes_per_s = per(server(report::writes_sent), record.measured_s);
 }
 
 void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
   const double clients = record.cell.clients;
   const Sent by_server(server), by_bots(bots);
-  const auto down = by_server.bytes, up = server.number("bytes_received");
-  const auto bots_measured_s = bots.number("measured_s");
+  const auto down = by_server.bytes, up = server(report::bytes_received);
+  const auto bots_measured_s = bots(report::measured_s);
   const auto wire_down_per_s = per(by_server.with_headers(), record.measured_s),
              wire_up_per_s = per(by_bots.with_headers(), bots_measured_s);
   record.down_bytes_per_client_per_s = per(per(down, record.measured_s), clients);
   record.up_bytes_per_client_per_s = per(per(up, record.measured_s), clients);
   if (wire_down_per_s && wire_up_per_s)
     record.wire_bytes_per_client_per_s = (*wire_down_per_s + *wire_up_per_s) / clients;
-  const auto states = server.number_if_there("state_bytes_sent"),
-             keys = server.number_if_there("key_bytes_received");
+  const auto states = server.if_there(report::state_bytes_sent),
+             keys = server.if_there(report::key_bytes_received);
   if (down && up && *down + *up > 0.0 && states && keys)
     record.truth.control_bytes_fraction = std::max(0.0, 1.0 - (*states + *keys) / (*down + *up));
   const auto both = [](std::optional<double> down_per_s, std::optional<double> up_per_s) {
@@ -199,45 +202,43 @@ void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
 /// bore.
 void fill_nodes(RunRecord& record, ReportReader& server) {
   const bool are_peers = record.cell.mode == peer_mode;
-  const auto down = server.number_if_there("bytes_sent"),
-             up = server.number_if_there("bytes_received");
+  const auto down = server.if_there(report::bytes_sent),
+             up = server.if_there(report::bytes_received);
   const auto rate = [&](std::optional<double> bytes) {
     return per(per(bytes, record.measured_s), record.cell.clients);
   };
   if (are_peers) {
-    record.traffic = {rate(server.number_if_there("halo_bytes")),
-                      rate(server.number_if_there("claims_bytes")),
-                      rate(server.number_if_there("agreement_bytes")),
-                      rate(server.number_if_there("interest_bytes")),
-                      rate(server.number_if_there("updates_bytes")),
-                      rate(server.number_if_there("keys_bytes"))};
+    const auto [halo, claims, agreement, interest, updates, keys] = report::traffic_bytes;
+    record.traffic = {rate(server.if_there(halo)),      rate(server.if_there(claims)),
+                      rate(server.if_there(agreement)), rate(server.if_there(interest)),
+                      rate(server.if_there(updates)),   rate(server.if_there(keys))};
     record.nodes.busiest_bytes_per_s =
-        per(server.number_if_there("busiest_node_bytes"), record.measured_s);
+        per(server.if_there(report::busiest_node_bytes), record.measured_s);
   } else {
-    const auto states = server.number_if_there("state_bytes_sent"),
-               keys = server.number_if_there("key_bytes_received");
+    const auto states = server.if_there(report::state_bytes_sent),
+               keys = server.if_there(report::key_bytes_received);
     record.traffic.updates = rate(states), record.traffic.keys = rate(keys);
     if (down && up && states && keys)
       record.traffic.interest = rate(std::max(0.0, *down + *up - *states - *keys));
     if (down && up) record.nodes.busiest_bytes_per_s = per(*down + *up, record.measured_s);
   }
   record.nodes.busiest_events_per_s =
-      per(server.number_if_there(are_peers ? "busiest_node_events" : "physics_events"),
+      per(server.if_there(are_peers ? report::busiest_node_events : report::physics_events),
           record.measured_s);
 }
 
 void fill_from_bots(RunRecord& record, ReportReader& bots) {
-  record.update_age_ms = bots.percentiles("update_age_ms");
-  record.update_age_samples = bots.samples_if_there("update_age_ms");
-  record.key_to_effect_ms = bots.percentiles("key_to_effect_ms");
-  record.keys_due = bots.count("keys_due");
-  record.keys_sent = bots.count("keys_sent");
-  record.late_sends_fraction = bots.number("late_sends_fraction");
-  record.keys_trouble = bots.text("schedule_trouble");
+  record.update_age_ms = bots(report::update_age_ms);
+  record.update_age_samples = bots.samples_if_there(report::update_age_ms);
+  record.key_to_effect_ms = bots(report::key_to_effect_ms);
+  record.keys_due = bots(report::keys_due);
+  record.keys_sent = bots(report::keys_sent);
+  record.late_sends_fraction = bots(report::late_sends_fraction);
+  record.keys_trouble = bots(report::schedule_trouble);
   if (!record.keys_trouble.empty()) record.key_to_effect_ms = {};
-  record.health.bots_cpu_share = bots.number_if_there("cpu_share");
-  record.health.histogram_ns_per_record = bots.number_if_there("histogram_ns_per_record");
-  record.truth.fairness_jain = jain_index(bots.numbers_if_there("bytes_received_by_bot"));
+  record.health.bots_cpu_share = bots.if_there(report::cpu_share);
+  record.health.histogram_ns_per_record = bots.if_there(report::histogram_ns_per_record);
+  record.truth.fairness_jain = jain_index(bots.if_there(report::bytes_received_by_bot));
 }
 
 /// Whether the server has the planned keys itself and applies each at its instant, so that the game
@@ -250,25 +251,25 @@ void check(const RunRecord& record, ReportReader& server, ReportReader& bots,
            std::vector<std::string>& complaints) {
   server.verdict();
   bots.verdict();
-  expect_equal("the server's clients", server.number("clients"), record.cell.clients, complaints);
-  expect_equal("the bots' clients", bots.number("clients"), record.cell.clients, complaints);
-  expect_equal("the server's tick_rate_hz", server.number("tick_rate_hz"),
+  expect_equal("the server's clients", server(report::clients), record.cell.clients, complaints);
+  expect_equal("the bots' clients", bots(report::clients), record.cell.clients, complaints);
+  expect_equal("the server's tick_rate_hz", server(report::tick_rate_hz),
                record.cell.parameters.tick_rate_hz, complaints);
-  expect_none("clients lost by the server", server.count("lost_federates"), complaints);
-  expect_none("connections dropped by the server", server.count("dropped_connections"), complaints);
-  expect_none("clients lost by the bots", bots.count("federates_lost"), complaints);
+  expect_none("clients lost by the server", server(report::lost_federates), complaints);
+  expect_none("connections dropped by the server", server(report::dropped_connections), complaints);
+  expect_none("clients lost by the bots", bots(report::federates_lost), complaints);
   if (!record.keys_trouble.empty() && !is_plan_applied(record))
     complaints.push_back("the bots could not keep their schedule: " + record.keys_trouble);
   // Through shared memory no byte goes by the kernel, which has nothing to say then.
   if (record.transport != "shm") {
-    compare_counts("sent by the server", server.number("total_bytes_sent"),
-                   server.number("kernel_bytes_sent"), record.cell.clients, complaints);
-    compare_counts("received by the server", server.number("total_bytes_received"),
-                   server.number("kernel_bytes_received"), record.cell.clients, complaints);
-    compare_counts("sent by the bots", bots.number("total_bytes_sent"),
-                   bots.number("kernel_bytes_sent"), record.cell.clients, complaints);
-    compare_counts("received by the bots", bots.number("total_bytes_received"),
-                   bots.number("kernel_bytes_received"), record.cell.clients, complaints);
+    compare_counts("sent by the server", server(report::total_bytes_sent),
+                   server(report::kernel_bytes_sent), record.cell.clients, complaints);
+    compare_counts("received by the server", server(report::total_bytes_received),
+                   server(report::kernel_bytes_received), record.cell.clients, complaints);
+    compare_counts("sent by the bots", bots(report::total_bytes_sent),
+                   bots(report::kernel_bytes_sent), record.cell.clients, complaints);
+    compare_counts("received by the bots", bots(report::total_bytes_received),
+                   bots(report::kernel_bytes_received), record.cell.clients, complaints);
   }
   if (record.keys_due && record.keys_sent && *record.keys_sent < *record.keys_due) {
     complaints.push_back("only " + std::to_string(*record.keys_sent) + " of " +

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "game/control/game_state.h"
+#include "game/model/report_fields.h"
 #include "game/model/scene_file.h"
 #include "game/net/fom_file.h"
 #include "game/net/server/serve_report.h"
@@ -240,22 +241,23 @@ Json VirtualRun::server_report() const {
   const std::string why = !server_.trouble().empty() ? server_.trouble()
                           : ticks_ == 0              ? "no tick was measured"
                                                      : "";
-  Json report{{"mode", cell_.mode},
-              {"scheme", cell_.scheme},
-              {"policy", cell_.policy},
-              {"threshold", cell_.parameters.threshold},
-              {"clients", cell_.clients},
-              {"seed", cell_.seed},
-              {"tick_rate_hz", cell_.parameters.tick_rate_hz},
-              {"ticks", ticks_},
-              {"ticks_on_time_fraction", nullptr},
-              {"physics_us_per_tick", nullptr},
-              {"filter_us_per_tick", nullptr},
-              {"send_us_per_tick", nullptr},
-              {"server_rss_bytes", nullptr},
-              {"measured_s", 1e-9 * static_cast<double>(measured_until_ns_ - measured_from_ns_)},
-              {"valid", why.empty()},
-              {"why_invalid", why}};
+  Json report{{game::report::mode, cell_.mode},
+              {game::report::scheme, cell_.scheme},
+              {game::report::policy, cell_.policy},
+              {game::report::threshold, cell_.parameters.threshold},
+              {game::report::clients, cell_.clients},
+              {game::report::seed, cell_.seed},
+              {game::report::tick_rate_hz, cell_.parameters.tick_rate_hz},
+              {game::report::ticks, ticks_},
+              {game::report::ticks_on_time_fraction, nullptr},
+              {game::report::physics_us_per_tick, nullptr},
+              {game::report::filter_us_per_tick, nullptr},
+              {game::report::send_us_per_tick, nullptr},
+              {game::report::server_rss_bytes, nullptr},
+              {game::report::measured_s,
+               1e-9 * static_cast<double>(measured_until_ns_ - measured_from_ns_)},
+              {game::report::valid, why.empty()},
+              {game::report::why_invalid, why}};
   report.update(counted_report(serving_, begin_, end_));
   if (experiment_.network_is_modelled) {
     const rti::NetworkCounters& counted = model_.counters();
@@ -277,7 +279,8 @@ Json VirtualRun::bots_report() const {
   else if (measured.keys_sent < measured.keys_due)
     why = std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
   Json report = loadgen::bots_report(crowd_, why);
-  report["kernel_bytes_received"] = report["kernel_bytes_sent"] = nullptr;
+  report[game::report::kernel_bytes_received.key] = report[game::report::kernel_bytes_sent.key] =
+      nullptr;
   return report;
 }
 

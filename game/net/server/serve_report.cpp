@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "game/model/report_fields.h"
 #include "game/model/report_schema.h"
 
 namespace rink::game {
@@ -28,44 +29,45 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
   const Server& server = serving.server();
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, server.game().hash());
-  Json report{{"schema", report_schema},
-              {"entities", server.game().entities().size()},
-              {"state_hash", hash},
-              {"bytes_sent", last.transport.bytes_sent - first.transport.bytes_sent},
-              {"bytes_received", last.transport.bytes_received - first.transport.bytes_received},
-              {"writes_sent", last.transport.writes - first.transport.writes},
-              {"segments_sent", last.transport.segments_sent - first.transport.segments_sent},
-              {"state_bytes_sent", end.update_bytes_sent - begin.update_bytes_sent +
-                                       end.entry_bytes_sent - begin.entry_bytes_sent},
-              {"entry_bytes_sent",
-               end.entry_bytes_sent -
-                   begin.entry_bytes_sent},  // of these, the states of what came into scope
-              {"updates_put_off", end.updates_put_off - begin.updates_put_off},
-              {"updates_caught_up", end.updates_caught_up - begin.updates_caught_up},
-              {"key_bytes_received",
-               end.interaction_bytes_sent -
-                   begin.interaction_bytes_sent},  // the RTI hands them on to the server
-              {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent -
-                                    begin.interactions_sent},
-              {"scope_entries", end.scope_entries - begin.scope_entries},
-              {"scope_exits", end.scope_exits - begin.scope_exits},
-              {"physics_events", last.physics.events() - first.physics.events()},
-              {"filter_regions_moved", last.filter.regions_moved - first.filter.regions_moved},
-              {"filter_pairs_tested", last.filter.pairs_tested - first.filter.pairs_tested},
-              {"lost_federates", server.counters().federates_lost},
-              {"dropped_connections",
-               std::accumulate(now.drops.begin(), now.drops.end(), std::uint64_t{0}) +
-                   serving.host().closed_by_full_queue()},
-              {"keys_received", server.counters().keys_received},
-              {"keys_applied", server.counters().keys_applied},
-              {"keys_refused", server.counters().keys_refused},
-              {"keys_over_limit", server.counters().keys_over_limit}};
-  report["acknowledgements_sent"] =
+  Json report{
+      {"schema", report_schema},
+      {report::entities, server.game().entities().size()},
+      {report::state_hash, hash},
+      {report::bytes_sent, last.transport.bytes_sent - first.transport.bytes_sent},
+      {report::bytes_received, last.transport.bytes_received - first.transport.bytes_received},
+      {report::writes_sent, last.transport.writes - first.transport.writes},
+      {report::segments_sent, last.transport.segments_sent - first.transport.segments_sent},
+      {report::state_bytes_sent, end.update_bytes_sent - begin.update_bytes_sent +
+                                     end.entry_bytes_sent - begin.entry_bytes_sent},
+      {"entry_bytes_sent",
+       end.entry_bytes_sent -
+           begin.entry_bytes_sent},  // of these, the states of what came into scope
+      {"updates_put_off", end.updates_put_off - begin.updates_put_off},
+      {"updates_caught_up", end.updates_caught_up - begin.updates_caught_up},
+      {report::key_bytes_received,
+       end.interaction_bytes_sent -
+           begin.interaction_bytes_sent},  // the RTI hands them on to the server
+      {report::messages_sent,
+       end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
+      {"scope_entries", end.scope_entries - begin.scope_entries},
+      {"scope_exits", end.scope_exits - begin.scope_exits},
+      {report::physics_events, last.physics.events() - first.physics.events()},
+      {"filter_regions_moved", last.filter.regions_moved - first.filter.regions_moved},
+      {"filter_pairs_tested", last.filter.pairs_tested - first.filter.pairs_tested},
+      {report::lost_federates, server.counters().federates_lost},
+      {report::dropped_connections,
+       std::accumulate(now.drops.begin(), now.drops.end(), std::uint64_t{0}) +
+           serving.host().closed_by_full_queue()},
+      {"keys_received", server.counters().keys_received},
+      {"keys_applied", server.counters().keys_applied},
+      {"keys_refused", server.counters().keys_refused},
+      {report::keys_over_limit, server.counters().keys_over_limit}};
+  report[report::acknowledgements_sent.key] =
       last.transport.acknowledgements_sent - first.transport.acknowledgements_sent;
   const auto segments = [](const rti::TransportCounters& counters) {
     return counters.kernel_segments_sent.value_or(counters.segments_sent);
   };
-  report["kernel_segments_sent"] =
+  report[report::kernel_segments_sent.key] =
       segments(last.transport) -
       segments(first.transport);  // without a kernel as many as by our own count
   // Stages are in the order in which they stand; of two of a kind each has its own entry.
@@ -83,10 +85,10 @@ void add_totals(Json& report, const rti::TransportCounters& total) {
   const auto or_null = [](const std::optional<std::uint64_t>& count) {
     return count ? Json(*count) : Json(nullptr);
   };
-  report["total_bytes_sent"] = total.bytes_sent;
-  report["total_bytes_received"] = total.bytes_received;
-  report["kernel_bytes_sent"] = or_null(total.kernel_bytes_sent);
-  report["kernel_bytes_received"] = or_null(total.kernel_bytes_received);
+  report[report::total_bytes_sent.key] = total.bytes_sent;
+  report[report::total_bytes_received.key] = total.bytes_received;
+  report[report::kernel_bytes_sent.key] = or_null(total.kernel_bytes_sent);
+  report[report::kernel_bytes_received.key] = or_null(total.kernel_bytes_received);
 }
 
 }  // namespace rink::game

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "game/model/report_fields.h"
 #include "loadgen/report/report.h"
 
 namespace rink::loadgen {
@@ -33,8 +34,9 @@ std::vector<CellLatencies> latencies_in(const std::filesystem::path& cells,
     const nlohmann::json report = nlohmann::json::parse(stream, nullptr, false);
     if (!report.is_object()) continue;
     CellLatencies& entry = entry_for(result, run.cell);
-    merge_from(entry.update_age, report, "update_age_ms");
-    if (run.keys_trouble.empty()) merge_from(entry.key_to_effect, report, "key_to_effect_ms");
+    merge_from(entry.update_age, report, game::report::update_age_ms);
+    if (run.keys_trouble.empty())
+      merge_from(entry.key_to_effect, report, game::report::key_to_effect_ms);
     merge_from(entry.late_entry, report, "late_entry_ms");
   }
   return result;

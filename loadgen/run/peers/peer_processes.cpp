@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "game/model/report_fields.h"
 #include "game/net/evidence_lines.h"
 #include "game/net/peer/meeting/seating.h"
 #include "game/net/peer/peer_evidence.h"
@@ -147,9 +148,9 @@ void PeerProcesses::read() {
     std::ifstream stream(file_of(k, ".json"));
     if (!stream) throw Failure{"peer process " + std::to_string(k) + " wrote no report"};
     reports_.push_back(nlohmann::json::parse(stream, nullptr, false));
-    if (!reports_.back().is_object() || !reports_.back().contains("hash"))
+    if (!reports_.back().is_object() || !reports_.back().contains(game::report::hash.key))
       throw Failure{"peer process " + std::to_string(k) + " wrote a report that is none"};
-    if (reports_.back()["hash"] != reports_.front()["hash"])
+    if (reports_.back()[game::report::hash.key] != reports_.front()[game::report::hash.key])
       throw Failure{"peer processes 0 and " + std::to_string(k) + " end in different states"};
     try {
       evidence_.push_back(game::read_peer_evidence(file_of(k, ".jsonl")));
@@ -186,7 +187,7 @@ PeerTotals PeerProcesses::totals() const {
   PeerTotals totals;
   totals.windows = last_window(experiment_, cell_);
   totals.measured_windows = loadgen::measured_windows(experiment_, cell_);
-  totals.state_hash = reports_.front().at("hash");
+  totals.state_hash = reports_.front().at(game::report::hash.key);
   TrafficTotals begin;
   std::uint64_t kernel_sent = 0, kernel_received = 0, busiest_rss = 0;
   bool has_kernel = true;
@@ -195,22 +196,27 @@ PeerTotals PeerProcesses::totals() const {
     totals.measured.add(own.end), begin.add(own.begin);
     totals.measured_s +=
         (own.end.instant_s - own.begin.instant_s) / static_cast<double>(evidence_.size());
-    const nlohmann::json &report = reports_[k], &transport = report.at("transport");
+    const nlohmann::json &report = reports_[k], &transport = report.at(game::report::transport);
     peer::PeerCounters counters;
-    counters.windows = report.at("windows"), counters.repeats = report.at("repeats");
-    counters.own_events = report.at("own_events"),
-    counters.ghost_events = report.at("ghost_events");
-    counters.hand_overs = report.at("hand_overs"), counters.held_max = report.at("held_max");
-    counters.ghost_windows = static_cast<std::uint64_t>(std::llround(
-        report.at("mean_ghosts").get<double>() * static_cast<double>(counters.windows + 1)));
+    counters.windows = report.at(game::report::windows.key),
+    counters.repeats = report.at(game::report::repeats.key);
+    counters.own_events = report.at(game::report::own_events.key),
+    counters.ghost_events = report.at(game::report::ghost_events.key);
+    counters.hand_overs = report.at(game::report::hand_overs.key),
+    counters.held_max = report.at(game::report::held_max.key);
+    counters.ghost_windows = static_cast<std::uint64_t>(
+        std::llround(report.at(game::report::mean_ghosts.key).get<double>() *
+                     static_cast<double>(counters.windows + 1)));
     totals.counters += counters;
-    totals.whole.bytes += transport.at("bytes_sent").get<std::uint64_t>();
-    totals.whole_received += transport.at("bytes_received").get<std::uint64_t>();
-    has_kernel = has_kernel && transport.at("kernel_bytes_sent").is_number();
+    totals.whole.bytes += transport.at(game::report::bytes_sent.key).get<std::uint64_t>();
+    totals.whole_received += transport.at(game::report::bytes_received.key).get<std::uint64_t>();
+    has_kernel = has_kernel && transport.at(game::report::kernel_bytes_sent.key).is_number();
     if (has_kernel)
-      kernel_sent += transport.at("kernel_bytes_sent").get<std::uint64_t>(),
-          kernel_received += transport.at("kernel_bytes_received").get<std::uint64_t>();
-    busiest_rss = std::max(busiest_rss, report.at("rss_bytes").get<std::uint64_t>());
+      kernel_sent += transport.at(game::report::kernel_bytes_sent.key).get<std::uint64_t>(),
+          kernel_received +=
+          transport.at(game::report::kernel_bytes_received.key).get<std::uint64_t>();
+    busiest_rss =
+        std::max(busiest_rss, report.at(game::report::rss_bytes.key).get<std::uint64_t>());
   }
   totals.measured = totals.measured - begin;
   totals.busiest_rss = busiest_rss;

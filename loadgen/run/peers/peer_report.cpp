@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "game/model/report_fields.h"
 #include "game/model/report_schema.h"
 #include "loadgen/run/peers/peer_station.h"
 
@@ -76,83 +77,85 @@ Json peers_report(const Cell& cell, const PeerTotals& totals) {
     busiest = std::max(busiest, measured.sent[k] + measured.received[k]);
   Json report{
       {"schema", game::report_schema},
-      {"mode", cell.mode},
-      {"scheme", cell.scheme},
-      {"policy", cell.policy},
-      {"clients", cell.clients},
-      {"seed", cell.seed},
-      {"tick_rate_hz", cell.parameters.tick_rate_hz},
-      {"ticks", totals.measured_windows},
-      {"ticks_on_time_fraction", totals.known == 0 ? Json(nullptr)
-                                                   : Json(static_cast<double>(totals.on_time) /
-                                                          static_cast<double>(totals.known))},
-      {"physics_us_per_tick", nullptr},
-      {"filter_us_per_tick", nullptr},
-      {"send_us_per_tick", nullptr},
-      {"server_rss_bytes", or_null(totals.busiest_rss)},
-      {"measured_s", totals.measured_s},
-      {"valid", totals.measured_windows > 0},
-      {"why_invalid", totals.measured_windows > 0 ? "" : "no window was measured"},
-      {"entities", totals.entities},
-      {"state_hash", totals.state_hash},
-      {"bytes_sent", measured.bytes},
-      {"bytes_received", measured.bytes},
-      {"writes_sent", measured.writes},
-      {"segments_sent", measured.segments},
-      {"acknowledgements_sent", measured.acknowledgements},
-      {"kernel_segments_sent", measured.kernel_segments},
-      {"state_bytes_sent",
+      {game::report::mode, cell.mode},
+      {game::report::scheme, cell.scheme},
+      {game::report::policy, cell.policy},
+      {game::report::clients, cell.clients},
+      {game::report::seed, cell.seed},
+      {game::report::tick_rate_hz, cell.parameters.tick_rate_hz},
+      {game::report::ticks, totals.measured_windows},
+      {game::report::ticks_on_time_fraction,
+       totals.known == 0
+           ? Json(nullptr)
+           : Json(static_cast<double>(totals.on_time) / static_cast<double>(totals.known))},
+      {game::report::physics_us_per_tick, nullptr},
+      {game::report::filter_us_per_tick, nullptr},
+      {game::report::send_us_per_tick, nullptr},
+      {game::report::server_rss_bytes, or_null(totals.busiest_rss)},
+      {game::report::measured_s, totals.measured_s},
+      {game::report::valid, totals.measured_windows > 0},
+      {game::report::why_invalid, totals.measured_windows > 0 ? "" : "no window was measured"},
+      {game::report::entities, totals.entities},
+      {game::report::state_hash, totals.state_hash},
+      {game::report::bytes_sent, measured.bytes},
+      {game::report::bytes_received, measured.bytes},
+      {game::report::writes_sent, measured.writes},
+      {game::report::segments_sent, measured.segments},
+      {game::report::acknowledgements_sent, measured.acknowledgements},
+      {game::report::kernel_segments_sent, measured.kernel_segments},
+      {game::report::state_bytes_sent,
        2 * (of(Traffic::halo) + of(Traffic::updates))},  // each byte goes both down and up
-      {"key_bytes_received", 2 * of(Traffic::keys)},
-      {"messages_sent", measured.messages},
-      {"busiest_node_bytes", busiest},
-      {"busiest_node_events",
+      {game::report::key_bytes_received, 2 * of(Traffic::keys)},
+      {game::report::messages_sent, measured.messages},
+      {game::report::busiest_node_bytes, busiest},
+      {game::report::busiest_node_events,
        measured.events.empty() ? 0
                                : *std::max_element(measured.events.begin(), measured.events.end())},
-      {"windows", totals.windows},
+      {game::report::windows, totals.windows},
       {"repeated_windows", totals.counters.repeats},
-      {"own_events", totals.counters.own_events},
-      {"ghost_events", totals.counters.ghost_events},
-      {"hand_overs", totals.counters.hand_overs},
-      {"mean_ghosts", static_cast<double>(totals.counters.ghost_windows) /
-                          static_cast<double>(std::max<std::uint64_t>(1, totals.counters.windows))},
-      {"lost_federates", 0},
-      {"dropped_connections", 0},
-      {"total_bytes_sent", totals.whole.bytes},
-      {"total_bytes_received", totals.whole_received},
-      {"kernel_bytes_sent", or_null(totals.kernel_sent)},
-      {"kernel_bytes_received", or_null(totals.kernel_received)}};
+      {game::report::own_events, totals.counters.own_events},
+      {game::report::ghost_events, totals.counters.ghost_events},
+      {game::report::hand_overs, totals.counters.hand_overs},
+      {game::report::mean_ghosts,
+       static_cast<double>(totals.counters.ghost_windows) /
+           static_cast<double>(std::max<std::uint64_t>(1, totals.counters.windows))},
+      {game::report::lost_federates, 0},
+      {game::report::dropped_connections, 0},
+      {game::report::total_bytes_sent, totals.whole.bytes},
+      {game::report::total_bytes_received, totals.whole_received},
+      {game::report::kernel_bytes_sent, or_null(totals.kernel_sent)},
+      {game::report::kernel_bytes_received, or_null(totals.kernel_received)}};
   for (std::size_t k = 0; k < game::traffic_count; ++k)
-    report[std::string(game::traffic_names[k]) + "_bytes"] = measured.by_subject[k];
+    report[game::report::traffic_bytes[k].key] = measured.by_subject[k];
   return report;
 }
 
 Json players_report(const Cell& cell, const PeerTotals& totals, const Measurements& measured) {
-  return {
-      {"clients", cell.clients},
-      {"measured_s", totals.measured_s},
-      {"bytes_received", totals.measured.bytes},
-      {"bytes_sent", totals.measured.bytes},
-      {"segments_sent", totals.measured.segments},
-      {"acknowledgements_sent", totals.measured.acknowledgements},
-      {"kernel_segments_sent", totals.measured.kernel_segments},
-      {"update_age_ms", measured.update_age.to_json()},
-      {"key_to_effect_ms", measured.key_to_effect.to_json()},
-      {"keys_due", measured.keys_due},
-      {"keys_sent", measured.keys_sent},
-      {"keys_unanswered", totals.keys_unanswered},
-      {"late_sends_fraction", static_cast<double>(measured.late_sends) /
-                                  std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
-      {"send_lateness_ms", measured.send_lateness.to_json()},
-      {"schedule_trouble", measured.schedule_trouble()},
-      {"federates_lost", 0},
-      {"bytes_received_by_bot", totals.measured.received},
-      {"total_bytes_received", totals.whole_received},
-      {"total_bytes_sent", totals.whole.bytes},
-      {"kernel_bytes_received", or_null(totals.kernel_received)},
-      {"kernel_bytes_sent", or_null(totals.kernel_sent)},
-      {"valid", totals.trouble.empty()},
-      {"why_invalid", totals.trouble}};
+  return {{game::report::clients, cell.clients},
+          {game::report::measured_s, totals.measured_s},
+          {game::report::bytes_received, totals.measured.bytes},
+          {game::report::bytes_sent, totals.measured.bytes},
+          {game::report::segments_sent, totals.measured.segments},
+          {game::report::acknowledgements_sent, totals.measured.acknowledgements},
+          {game::report::kernel_segments_sent, totals.measured.kernel_segments},
+          {game::report::update_age_ms, measured.update_age.to_json()},
+          {game::report::key_to_effect_ms, measured.key_to_effect.to_json()},
+          {game::report::keys_due, measured.keys_due},
+          {game::report::keys_sent, measured.keys_sent},
+          {game::report::keys_unanswered, totals.keys_unanswered},
+          {game::report::late_sends_fraction,
+           static_cast<double>(measured.late_sends) /
+               std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
+          {game::report::send_lateness_ms, measured.send_lateness.to_json()},
+          {game::report::schedule_trouble, measured.schedule_trouble()},
+          {game::report::federates_lost, 0},
+          {game::report::bytes_received_by_bot, totals.measured.received},
+          {game::report::total_bytes_received, totals.whole_received},
+          {game::report::total_bytes_sent, totals.whole.bytes},
+          {game::report::kernel_bytes_received, or_null(totals.kernel_received)},
+          {game::report::kernel_bytes_sent, or_null(totals.kernel_sent)},
+          {game::report::valid, totals.trouble.empty()},
+          {game::report::why_invalid, totals.trouble}};
 }
 
 }  // namespace rink::loadgen

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "game/model/report_fields.h"
 #include "game/net/peer/meeting/seating.h"
 #include "game/net/view.h"
 #include "im/filter.h"
@@ -67,17 +68,17 @@ nlohmann::ordered_json report_of(const rti::TransportCounters& counters) {
   const auto or_null = [](const std::optional<std::uint64_t>& count) {
     return count ? nlohmann::ordered_json(*count) : nlohmann::ordered_json(nullptr);
   };
-  return {{"bytes_sent", counters.bytes_sent},
-          {"bytes_received", counters.bytes_received},
-          {"kernel_bytes_sent", or_null(counters.kernel_bytes_sent)},
-          {"kernel_bytes_received", or_null(counters.kernel_bytes_received)}};
+  return {{report::bytes_sent, counters.bytes_sent},
+          {report::bytes_received, counters.bytes_received},
+          {report::kernel_bytes_sent, or_null(counters.kernel_bytes_sent)},
+          {report::kernel_bytes_received, or_null(counters.kernel_bytes_received)}};
 }
 
 nlohmann::ordered_json report_of(const Viewer& viewer) {
   nlohmann::ordered_json report;
   for (const Traffic about : {Traffic::interest, Traffic::updates, Traffic::keys}) {
     const auto k = static_cast<std::size_t>(about);
-    report[std::string(traffic_names[k]) + "_bytes"] = viewer.sent()[k];
+    report[report::traffic_bytes[k].key] = viewer.sent()[k];
     report[std::string(traffic_names[k]) + "_messages"] = viewer.messages_sent()[k];
   }
   report["in_view"] = viewer.in_view();
