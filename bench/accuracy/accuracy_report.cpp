@@ -6,7 +6,7 @@
 
 #include "bench/accuracy/tables.h"
 #include "loadgen/report/page.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::accuracy {
@@ -39,11 +39,11 @@ std::string title_of(const Series& series, const Point& point) {
          " ms, p90 " + metres(point.error.p90) + " m, max " + metres(point.error.max) + " m";
 }
 
-loadgen::LinePlot plot_of(const Panel& panel) {
-  loadgen::LinePlot plot;
+loadgen::Chart plot_of(const Panel& panel) {
+  loadgen::Chart plot;
   plot.title = panel.trial.trial.name;
-  plot.x_title = "run time, ms (median; bars: fastest and slowest)",
-  plot.y_title = "position error, 90th percentile, m";
+  plot.x = {"run time, ms (median; bars: fastest and slowest)", true};
+  plot.y = {"position error, 90th percentile, m", true};
   plot.alternative =
       "Run time against position error for each engine: " + panel.trial.trial.about + ".";
   plot.width = 620.0, plot.frame_height = 340.0;

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "loadgen/report/exhibits/exhibit.h"
-#include "loadgen/report/plots/bar_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -19,8 +19,8 @@ constexpr FigureOf on_time{[](const RunRecord& run) { return run.ticks_on_time_f
 
 constexpr FigureOf parts[] = {physics, filter, send};
 
-std::optional<BarPlot::Bar> bar_of(const CellGroup& group) {
-  BarPlot::Bar bar{std::to_string(group.cell.clients), {}, ""};
+std::optional<Bar> bar_of(const CellGroup& group) {
+  Bar bar{std::to_string(group.cell.clients), {}, ""};
   for (const FigureOf part : parts) {
     const auto mean = group.mean(part);
     if (!mean) return std::nullopt;
@@ -47,18 +47,17 @@ Exhibit cost_exhibit(const Findings& findings) {
       table.columns.push_back(std::string(part) + suffix);
   }
   table.columns.push_back("ticks_on_time_fraction");
-  std::vector<BarPlot> plots;
+  std::vector<Chart> plots;
   double highest = 0.0;
   for (const CellLine& line : plotted_lines(findings)) {
-    BarPlot plot{line.name,
-                 "clients",
-                 "us per tick",
-                 "Physics, filter and send, stacked, for each client count.",
-                 {"physics", "filter", "send"},
-                 {},
-                 {},
-                 budget_us,
-                 "budget of a tick"};
+    Chart plot{.title = line.name,
+               .x = {"clients"},
+               .y = {"us per tick"},
+               .alternative = "Physics, filter and send, stacked, for each client count.",
+               .width = 380.0,
+               .frame_height = 190.0,
+               .part_names = {"physics", "filter", "send"},
+               .mark = {{budget_us, "budget of a tick"}}};
     for (const CellGroup& group : line.groups) {
       const auto bar = bar_of(group);
       if (!bar) continue;
@@ -85,8 +84,9 @@ Exhibit cost_exhibit(const Findings& findings) {
                             : ", so the line where the server saturates lies beyond these plots.") +
                   " A note above a bar says that fewer than 99 % of its ticks were on "
                   "time.</p>\n<div class=\"plots small\">\n";
-  for (BarPlot& plot : plots) {
-    plot.y_high = has_mark ? std::max(highest, budget_us) : highest;
+  const Axis shared = axis_around(0.0, has_mark ? std::max(highest, budget_us) : highest, false);
+  for (Chart& plot : plots) {
+    plot.y.range = {shared.low, shared.high};
     exhibit.add_panel(table.name, to_svg(plot), "");
   }
   exhibit.html += "</div>\n" + to_details(table);

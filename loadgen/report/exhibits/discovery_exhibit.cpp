@@ -6,7 +6,7 @@
 
 #include "game/model/listed.h"
 #include "loadgen/report/exhibits/exhibit.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -100,18 +100,10 @@ void add_plot(Exhibit& exhibit, const Discovered& kind, const std::vector<DrawnD
     }
   low = std::min(0.9 * low, 0.1 * high);
   const std::uint32_t clients = drawn.front().group.cell.clients;
-  LinePlot plot{std::string(kind.title) + ", " + std::to_string(clients) +
-                    (clients == 1 ? " client" : " clients") + (part.empty() ? "" : ", " + part),
-                "delay, ms",
-                "fraction discovered within",
-                "",
-                true,
-                false,
-                {},
-                {},
-                {},
-                {{low, high}},
-                {}};
+  Chart plot{.title = std::string(kind.title) + ", " + std::to_string(clients) +
+                      (clients == 1 ? " client" : " clients") + (part.empty() ? "" : ", " + part),
+             .x = {.title = "delay, ms", .is_logarithmic = true, .range = {{low, high}}},
+             .y = {"fraction discovered within"}};
   PlotTable table{kind.name + (part.empty() ? "" : "-" + part),
                   std::string(kind.title) +
                       ": the fraction of the sample that was discovered within the delay, all "
@@ -135,7 +127,7 @@ void add_plot(Exhibit& exhibit, const Discovered& kind, const std::vector<DrawnD
       table.rows.push_back(std::move(row));
     }
   }
-  plot.y_range = fractions_shown(plot.lines);
+  plot.y.range = fractions_shown(plot.lines);
   plot.alternative = std::string(kind.meaning) +
                      "Higher and farther left is better; the gap between a curve's right end and 1 "
                      "is what was never discovered" +

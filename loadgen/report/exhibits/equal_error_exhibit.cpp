@@ -7,7 +7,8 @@
 #include "loadgen/measure/equal_error.h"
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/exhibits/run_figures.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
+#include "loadgen/report/plots/lines.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -111,18 +112,10 @@ struct Curves {
 
 void add_plot(Exhibit& exhibit, const Curves& of, const std::vector<const RunRecord*>& runs,
               const char* what, const char* name, FigureOf bytes) {
-  LinePlot plot{
-      std::string(what) + " against displayed error, " + shortest(of.delay_ms) + " ms of delay",
-      "displayed error, RMS [mm]",
-      "bytes per second and client",
-      "",
-      true,
-      true,
-      {},
-      {},
-      {},
-      {},
-      {}};
+  Chart plot{.title = std::string(what) + " against displayed error, " + shortest(of.delay_ms) +
+                      " ms of delay",
+             .x = {"displayed error, RMS [mm]", true},
+             .y = {"bytes per second and client", true}};
   PlotTable table{std::string(name) + "-delay" + shortest(of.delay_ms),
                   "Settings of each policy, at the smallest margin, that no other of its settings "
                   "beats in both error and bytes",

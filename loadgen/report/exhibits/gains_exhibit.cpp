@@ -5,7 +5,8 @@
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/exhibits/gains.h"
 #include "loadgen/report/exhibits/run_figures.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
+#include "loadgen/report/plots/lines.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -16,17 +17,9 @@ constexpr FigureOf matched_rms = [](const RunRecord& run) {
 };
 
 void add_scatter(Exhibit& exhibit, const Findings& findings) {
-  LinePlot plot{"Payload against displayed error",
-                "displayed error, RMS [mm]",
-                "bytes per second and client",
-                "",
-                true,
-                true,
-                {},
-                {},
-                {},
-                {},
-                {}};
+  Chart plot{.title = "Payload against displayed error",
+             .x = {"displayed error, RMS [mm]", true},
+             .y = {"bytes per second and client", true}};
   PlotTable table{"bytes-against-error",
                   "Payload to each client beside the error of displayed positions: means over "
                   "replications with their 95 % intervals",

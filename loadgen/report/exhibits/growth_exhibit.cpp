@@ -7,7 +7,7 @@
 #include "loadgen/measure/growth.h"
 #include "loadgen/measure/server_cores.h"
 #include "loadgen/report/exhibits/exhibit.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -77,17 +77,9 @@ void add_plot(Exhibit& exhibit, const Findings& findings, const GrowthFactor& fa
   if (sweeps.empty()) return;
   std::set<std::string> short_names;
   for (const Sweep& sweep : sweeps) short_names.insert(sweep_name(factor, sweep, false));
-  LinePlot plot{std::string("Cost of a tick against ") + factor.name,
-                factor.name,
-                "us per tick, all parts",
-                "",
-                true,
-                true,
-                {},
-                {},
-                {},
-                {},
-                {}};
+  Chart plot{.title = std::string("Cost of a tick against ") + factor.name,
+             .x = {factor.name, true},
+             .y = {"us per tick, all parts", true}};
   PlotTable table{
       std::string("growth-over-") + factor.name,
       "Physics, filter and send together per tick: mean over replications and its 95 % interval",

@@ -6,8 +6,8 @@
 
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/exhibits/run_figures.h"
-#include "loadgen/report/plots/bar_plot.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
+#include "loadgen/report/plots/lines.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -32,8 +32,8 @@ constexpr ByteKind byte_kinds[] = {
     {"keys", "keys_bytes_per_client_per_s", [](const RunRecord& run) { return run.traffic.keys; }},
     {"headers, acknowledgements", "headers_bytes_per_client_per_s", header_bytes}};
 
-std::optional<BarPlot::Bar> bytes_bar_of(const CellGroup& group) {
-  BarPlot::Bar bar{group.cell.scheme, {}, ""};
+std::optional<Bar> bytes_bar_of(const CellGroup& group) {
+  Bar bar{group.cell.scheme, {}, ""};
   double sum = 0.0;
   for (const ByteKind& kind : byte_kinds) {
     const auto mean = group.mean(kind.of);
@@ -72,7 +72,7 @@ Exhibit bytes_by_kind_exhibit(const Findings& findings) {
   for (const ByteKind& kind : byte_kinds)
     for (const char* suffix : {"", "_low_95", "_high_95"})
       table.columns.push_back(std::string(kind.column) + suffix);
-  std::vector<BarPlot> panels;
+  std::vector<Chart> panels;
   std::vector<std::string> policies;
   for (const CellLine& line : largest_crowds(plotted_lines(findings))) {
     const CellGroup& group = line.groups.front();
@@ -82,15 +82,13 @@ Exhibit bytes_by_kind_exhibit(const Findings& findings) {
     auto place = std::ranges::find(policies, policy);
     if (place == policies.end()) {
       place = policies.insert(place, policy);
-      panels.push_back({policy + ", " + std::to_string(group.cell.clients) + " clients",
-                        "filter",
-                        "bytes per second and client",
-                        "Bytes on the wire by what they are about, stacked, for each filter.",
-                        {},
-                        {},
-                        {},
-                        {},
-                        ""});
+      panels.push_back(
+          {.title = policy + ", " + std::to_string(group.cell.clients) + " clients",
+           .x = {"filter"},
+           .y = {"bytes per second and client"},
+           .alternative = "Bytes on the wire by what they are about, stacked, for each filter.",
+           .width = 380.0,
+           .frame_height = 190.0});
       for (const ByteKind& kind : byte_kinds) panels.back().part_names.push_back(kind.name);
     }
     panels[static_cast<std::size_t>(place - policies.begin())].bars.push_back(*bar);
@@ -105,7 +103,7 @@ Exhibit bytes_by_kind_exhibit(const Findings& findings) {
       "Ethernet, IPv4 and TCP and acknowledgements included; the number above a bar is its sum. "
       "Each panel has a scale of its own." +
       escaped(largest_crowd_words(findings)) + "</p>\n<div class=\"plots small\">\n";
-  for (const BarPlot& panel : panels) exhibit.add_panel(table.name, to_svg(panel), "");
+  for (const Chart& panel : panels) exhibit.add_panel(table.name, to_svg(panel), "");
   exhibit.html += "</div>\n" + to_details(table);
   exhibit.tables.push_back(std::move(table));
   return exhibit;
@@ -114,17 +112,9 @@ Exhibit bytes_by_kind_exhibit(const Findings& findings) {
 void add_error_distribution(Exhibit& exhibit, const Findings& findings) {
   constexpr double least_mm = 0.1;
   double high = 10.0 * least_mm;
-  LinePlot plot{"Displayed error as a distribution",
-                "displayed error, mm",
-                "fraction within",
-                "",
-                true,
-                false,
-                {},
-                {},
-                {},
-                {},
-                {{0.0, 1.03}}};
+  Chart plot{.title = "Displayed error as a distribution",
+             .x = {"displayed error, mm", true},
+             .y = {.title = "fraction within", .range = {{0.0, 1.03}}}};
   PlotTable table{"displayed-error-distribution",
                   "The fraction of displayed positions that err by at most so much, all valid "
                   "replications together",
@@ -154,7 +144,7 @@ void add_error_distribution(Exhibit& exhibit, const Findings& findings) {
     if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
   }
   if (!has_points(plot)) return;
-  plot.x_range = {least_mm, high};
+  plot.x.range = {least_mm, high};
   plot.alternative = "Higher and farther left is better. Errors below " + plain_number(least_mm) +
                      " mm stand at the left edge; pucks put back at a face-off that the client had "
                      "no news of are left out." +
@@ -163,17 +153,9 @@ void add_error_distribution(Exhibit& exhibit, const Findings& findings) {
 }
 
 void add_recall_against_delay(Exhibit& exhibit, const Findings& findings) {
-  LinePlot plot{"Recall against delay",
-                "delay from end to end, ms",
-                "recall of what clients held",
-                "",
-                false,
-                false,
-                {},
-                {},
-                {},
-                {},
-                {}};
+  Chart plot{.title = "Recall against delay",
+             .x = {"delay from end to end, ms"},
+             .y = {"recall of what clients held"}};
   PlotTable table{"recall-against-delay",
                   "Recall of what clients held by the delay of the experiment's parts, in virtual "
                   "time: means over replications with their 95 % intervals",
@@ -216,11 +198,11 @@ void add_recall_against_delay(Exhibit& exhibit, const Findings& findings) {
   }
   if (!has_points(plot)) return;
   for (PlotLine& line : plot.lines) std::ranges::stable_sort(line.points, {}, &PlotPoint::x);
-  plot.y_range = zoomed(lowest, 1.0);
+  plot.y.range = zoomed(lowest, 1.0);
   plot.alternative =
       "What a region declares is old by the delay when it takes effect, and so is what it lets "
       "through. The axis of recall begins at " +
-      plain_number(plot.y_range->first, 4) + ".";
+      plain_number(plot.y.range->first, 4) + ".";
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 

@@ -4,7 +4,8 @@
 #include <limits>
 
 #include "loadgen/report/exhibits/exhibit.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
+#include "loadgen/report/plots/lines.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -108,20 +109,12 @@ const Histogram* histogram_of(const Findings& findings, const Cell& cell, const 
   return nullptr;
 }
 
-LinePlot panel(const Findings& findings, const Latency& kind, std::uint32_t clients,
-               PlotTable& table, Range& range) {
-  LinePlot plot{std::string(kind.title) + ", " + std::to_string(clients) +
-                    (clients == 1 ? " client" : " clients"),
-                "percentile",
-                "ms",
-                "",
-                false,
-                true,
-                {},
-                {},
-                {},
-                {},
-                {}};
+Chart panel(const Findings& findings, const Latency& kind, std::uint32_t clients, PlotTable& table,
+            Range& range) {
+  Chart plot{.title = std::string(kind.title) + ", " + std::to_string(clients) +
+                      (clients == 1 ? " client" : " clients"),
+             .x = {"percentile"},
+             .y = {"ms", true}};
   plot.width = 400.0;
   plot.frame_height = 210.0;
   plot.alternative = kind.meaning;
@@ -154,18 +147,18 @@ bool add_latency(Exhibit& exhibit, const Findings& findings, const Latency& kind
       cell_columns()};
   table.columns.insert(table.columns.end(), {"fraction", "ms", "samples"});
   Range range;
-  std::vector<LinePlot> plots;
+  std::vector<Chart> plots;
   for (const std::uint32_t clients : thinned(client_counts(findings.lines), panels_max)) {
-    LinePlot plot = panel(findings, kind, clients, table, range);
+    Chart plot = panel(findings, kind, clients, table, range);
     if (has_points(plot)) plots.push_back(std::move(plot));
   }
   if (plots.empty()) return false;
   const Axis shared = axis_around(range.low, range.high, true);
   Exhibit figures;
-  for (LinePlot& plot : plots) {
-    plot.y_range = {shared.low, shared.high};
-    plot.x_range = {0.0, range.most_nines + 0.05};
-    plot.x_ticks = nines(range.most_nines);
+  for (Chart& plot : plots) {
+    plot.y.range = {shared.low, shared.high};
+    plot.x.range = {0.0, range.most_nines + 0.05};
+    plot.x.ticks = nines(range.most_nines);
     figures.add_panel(table.name, to_svg(plot), "");
   }
   exhibit.html += std::string("<h3>") + kind.heading + "</h3>\n<p class=\"faint\">" + kind.meaning +

@@ -3,8 +3,8 @@
 
 #include "game/model/listed.h"
 #include "loadgen/report/exhibits/exhibit.h"
-#include "loadgen/report/plots/bar_plot.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
+#include "loadgen/report/plots/lines.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -55,7 +55,7 @@ constexpr Shown against_clients[] = {
 };
 
 bool add_plot(Exhibit& exhibit, const Findings& findings, const Shown& shown) {
-  LinePlot plot{shown.title, "clients", shown.unit, "", true, true, {}, {}, {}, {}, {}};
+  Chart plot{.title = shown.title, .x = {"clients", true}, .y = {shown.unit, true}};
   PlotTable table{shown.name,
                   std::string(shown.title) + ", " + shown.unit +
                       ": mean over replications and its 95 % interval",
@@ -92,20 +92,17 @@ void add_bars(Exhibit& exhibit, const Findings& findings) {
   for (const Subject& subject : subjects)
     table.columns.push_back(std::string(subject.name) + "_bytes_per_client_per_s");
   for (const CellLine& line : findings.lines) {
-    BarPlot plot{
-        line.name,
-        "clients",
-        "bytes per second and client",
-        "Bodies' states, what proves windows, and control, stacked, for each client count.",
-        {"halo and updates", "claims and agreement", "interest and keys"},
-        {},
-        {},
-        {},
-        "",
-        380.0,
-        190.0};
+    Chart plot{
+        .title = line.name,
+        .x = {"clients"},
+        .y = {"bytes per second and client"},
+        .alternative =
+            "Bodies' states, what proves windows, and control, stacked, for each client count.",
+        .width = 380.0,
+        .frame_height = 190.0,
+        .part_names = {"halo and updates", "claims and agreement", "interest and keys"}};
     for (const CellGroup& group : line.groups) {
-      BarPlot::Bar bar{std::to_string(group.cell.clients), {0.0, 0.0, 0.0}, ""};
+      Bar bar{std::to_string(group.cell.clients), {0.0, 0.0, 0.0}, ""};
       auto row = cell_values(line, group);
       for (const Subject& subject : subjects) {
         const auto mean = group.mean(subject.of);

@@ -4,7 +4,8 @@
 
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/exhibits/run_figures.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
+#include "loadgen/report/plots/lines.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -27,7 +28,7 @@ ReferenceCurve equal_score(double score, double recall_least, double precision_l
 
 void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, FigureOf recall,
               const std::string& name, const std::string& title) {
-  LinePlot plot{title, "recall", "precision", "", false, false, {}, {}, {}, {}, {}};
+  Chart plot{.title = title, .x = {"recall"}, .y = {"precision"}};
   PlotTable table{name, title + ": means over replications with their 95 % intervals",
                   cell_columns()};
   table.columns.insert(table.columns.end(), {"recall", "recall_low_95", "recall_high_95",
@@ -54,15 +55,15 @@ void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, Fi
   if (!has_points(plot))
     return exhibit.add_absence(title +
                                ": no run was held against truth in this, so there is no plot.");
-  plot.x_range = zoomed(low_recall, 1.0), plot.y_range = zoomed(low_precision, 1.0);
+  plot.x.range = zoomed(low_recall, 1.0), plot.y.range = zoomed(low_precision, 1.0);
   for (const double score : {0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.98})
-    plot.references.push_back(equal_score(score, plot.x_range->first, plot.y_range->first));
+    plot.references.push_back(equal_score(score, plot.x.range->first, plot.y.range->first));
   plot.alternative =
       "The upper right corner is perfect: nothing relevant is missing, nothing irrelevant is sent. "
       "Faint curves join points of equal F1, the harmonic mean of both. The axes show where the "
       "data are: recall from " +
-      plain_number(plot.x_range->first, 4) + ", precision from " +
-      plain_number(plot.y_range->first, 4) + " on." + largest_crowd_words(findings);
+      plain_number(plot.x.range->first, 4) + ", precision from " +
+      plain_number(plot.y.range->first, 4) + " on." + largest_crowd_words(findings);
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 

@@ -1,7 +1,7 @@
 // Box plots over replications, so that a mean is not taken for more than it is.
 #include "game/model/listed.h"
 #include "loadgen/report/exhibits/exhibit.h"
-#include "loadgen/report/plots/box_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -26,15 +26,13 @@ constexpr BoxedFigure boxed_figures[] = {
 };
 
 bool add_box_plot(Exhibit& exhibit, const Findings& findings, const BoxedFigure& figure) {
-  BoxPlot plot{figure.title,
-               figure.unit,
-               "One row per filter and client count; every dot is a run.",
-               true,
-               {}};
+  Chart plot{.title = figure.title,
+             .x = {figure.unit, true},
+             .alternative = "One row per filter and client count; every dot is a run."};
   PlotTable table{figure.name, std::string(figure.title) + " of every valid run", cell_columns()};
   table.columns.insert(table.columns.end(), {"seed", figure.unit});
   for (const std::uint32_t clients : thinned(client_counts(findings.lines), groups_max)) {
-    BoxPlot::Group drawn{std::to_string(clients) + (clients == 1 ? " client" : " clients"), {}};
+    BoxGroup drawn{std::to_string(clients) + (clients == 1 ? " client" : " clients"), {}};
     for (const CellLine& line : plotted_lines(findings)) {
       for (const CellGroup& group : line.groups) {
         const auto values =

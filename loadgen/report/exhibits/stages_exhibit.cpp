@@ -5,7 +5,8 @@
 
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/exhibits/run_figures.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
+#include "loadgen/report/plots/lines.h"
 #include "loadgen/report/plots/share_range.h"
 #include "loadgen/report/plots/text.h"
 
@@ -78,11 +79,11 @@ std::vector<Curve> curves_of(const Findings& findings) {
   return curves;
 }
 
-LinePlot plot_of(const std::vector<Curve>& curves, const std::string& title, const char* axis,
-                 FigureOf figure, bool is_logarithmic) {
-  LinePlot plot{
-      title, axis, "payload, bytes per second and client", "", is_logarithmic, true, {}, {}, {},
-      {},    {}};
+Chart plot_of(const std::vector<Curve>& curves, const std::string& title, const char* axis,
+              FigureOf figure, bool is_logarithmic) {
+  Chart plot{.title = title,
+             .x = {axis, is_logarithmic},
+             .y = {"payload, bytes per second and client", true}};
   double least = 1.0;
   for (const Curve& curve : curves) {
     PlotLine drawn{curve.line.name, curve.line.style, {}};
@@ -98,7 +99,7 @@ LinePlot plot_of(const std::vector<Curve>& curves, const std::string& title, con
     for (const PlotPoint& point : drawn.points) least = std::min(least, point.x);
     if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
   }
-  if (!is_logarithmic) plot.x_range = share_range(least);
+  if (!is_logarithmic) plot.x.range = share_range(least);
   return plot;
 }
 
@@ -167,10 +168,10 @@ bool has_expressions_of_one_form(const Findings& findings) {
 Exhibit stages_exhibit(const Findings& findings) {
   Exhibit exhibit;
   const std::vector<Curve> curves = curves_of(findings);
-  LinePlot by_error = plot_of(curves, "Bytes against displayed error", "displayed error, RMS [mm]",
-                              displayed_rms, true);
-  LinePlot by_recall = plot_of(curves, "Bytes against delivered recall",
-                               "recall of what clients held", delivered_recall, false);
+  Chart by_error = plot_of(curves, "Bytes against displayed error", "displayed error, RMS [mm]",
+                           displayed_rms, true);
+  Chart by_recall = plot_of(curves, "Bytes against delivered recall", "recall of what clients held",
+                            delivered_recall, false);
   if (!has_points(by_error) && !has_points(by_recall)) {
     exhibit.add_absence("No run was held against truth, so bytes cannot be drawn against error.");
     return exhibit;

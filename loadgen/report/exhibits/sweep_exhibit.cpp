@@ -6,7 +6,7 @@
 #include "loadgen/experiment/parameter.h"
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/exhibits/run_figures.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
 #include "loadgen/report/plots/share_range.h"
 #include "loadgen/report/plots/text.h"
 
@@ -79,11 +79,11 @@ std::pair<double, double> range_of(const std::vector<CellLine>& curves, FigureOf
 
 using Label = std::function<std::string(const Cell&)>;
 
-LinePlot plot_of(const std::vector<CellLine>& curves, const Quantity& x, const Quantity& y,
-                 const std::string& title, const Label& label) {
-  LinePlot plot{title, x.name, y.name, "", false, !y.is_share, {}, {}, {}, {}, {}};
-  plot.x_range = range_of(curves, x.of);
-  if (y.is_share) plot.y_range = range_of(curves, y.of);
+Chart plot_of(const std::vector<CellLine>& curves, const Quantity& x, const Quantity& y,
+              const std::string& title, const Label& label) {
+  Chart plot{.title = title, .x = {x.name}, .y = {y.name, !y.is_share}};
+  plot.x.range = range_of(curves, x.of);
+  if (y.is_share) plot.y.range = range_of(curves, y.of);
   for (const CellLine& curve : curves) {
     PlotLine drawn{curve.name, curve.style, {}};
     for (const CellGroup& group : curve.groups) {
@@ -146,10 +146,10 @@ std::string html_of(const std::vector<CellLine>& curves, const ParameterKind& ki
 
 void add_bytes(Exhibit& exhibit, const std::vector<CellLine>& curves, const std::string& along,
                const Label& label, PlotTable table) {
-  LinePlot by_recall =
+  Chart by_recall =
       plot_of(curves, recall_of_decisions, bytes, "Bytes against recall" + along, label);
   by_recall.alternative = "Lower right is better: nothing relevant missing for few bytes.";
-  LinePlot by_precision =
+  Chart by_precision =
       plot_of(curves, precision_of_decisions, bytes, "Bytes against precision" + along, label);
   by_precision.alternative =
       "What is sent beside what is wanted costs bytes; a scheme that lies below another at the "
@@ -168,8 +168,8 @@ void add_sweep(Exhibit& exhibit, const Findings& findings, const ParameterKind& 
   const Label label = [&kind](const Cell& cell) {
     return kind.has(cell) ? value_text(kind, cell) : std::string();
   };
-  LinePlot both = plot_of(curves, recall_of_decisions, precision_of_decisions,
-                          "Precision against recall" + along, label);
+  Chart both = plot_of(curves, recall_of_decisions, precision_of_decisions,
+                       "Precision against recall" + along, label);
   both.alternative =
       "The upper right corner is perfect. A curve is a scheme, its marks the parameter's values; a "
       "lone mark is a scheme that has no such parameter.";

@@ -3,7 +3,8 @@
 
 #include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/exhibits/run_figures.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/chart_svg.h"
+#include "loadgen/report/plots/lines.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -58,8 +59,7 @@ std::string extremes(const std::vector<CellLine>& lines, FigureOf figure) {
 
 void add_plot(Exhibit& exhibit, const Traffic& traffic, FigureOf figure, const std::string& name,
               const std::string& title, const std::string& reading) {
-  LinePlot plot{title, "clients", "bytes per second and client", "", true, true, {}, {}, {},
-                {},    {}};
+  Chart plot{.title = title, .x = {"clients", true}, .y = {"bytes per second and client", true}};
   PlotTable table{
       name, title + ": bytes per second and client, mean over replications and its 95 % interval",
       cell_columns()};

@@ -13,9 +13,9 @@
 
 #include "loadgen/report/plot_table.h"
 #include "loadgen/report/plots/axis.h"
-#include "loadgen/report/plots/bar_plot.h"
-#include "loadgen/report/plots/box_plot.h"
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/boxes.h"
+#include "loadgen/report/plots/chart_svg.h"
+#include "loadgen/report/plots/lines.h"
 #include "loadgen/report/plots/style.h"
 #include "loadgen/report/plots/svg.h"
 #include "loadgen/report/plots/text.h"
@@ -97,9 +97,8 @@ TEST(Plot, WordsThatDoNotFitLoseTheirMiddle) {
       << "letters stay whole";
 }
 
-LinePlot three_decades() {
-  LinePlot plot;
-  plot.title = "t";
+Chart three_decades() {
+  Chart plot{.title = "t", .x = {"", true}, .y = {"", true}};
   PlotLine line{"a", {}, {}};
   for (const double x : {10.0, 100.0, 1000.0}) line.points.push_back({x, x / 2.0, {}, {}, "here"});
   plot.lines = {line};
@@ -115,14 +114,14 @@ TEST(Plot, TicksOfANarrowRangeHaveTheDigitsThatTellThemApart) {
 }
 
 TEST(Plot, ReferenceCurveOfWhichNoMoreThanAPointIsSeenIsNotNamed) {
-  LinePlot plot = three_decades();
+  Chart plot = three_decades();
   plot.references = {{"seen", {{20.0, 20.0}, {200.0, 30.0}}},
                      {"unseen", {{0.1, 20.0}, {20.0, 20.0}}}};
   EXPECT_THAT(to_svg(plot), AllOf(HasSubstr(">seen<"), Not(HasSubstr("unseen"))));
 }
 
 TEST(Plot, ALogarithmicAxisPutsEqualRatiosAtEqualDistances) {
-  LinePlot plot = three_decades();
+  Chart plot = three_decades();
   const auto marks = marks_of(to_svg(plot));
   ASSERT_EQ(marks.size(), 3u);
   EXPECT_NEAR(marks[1].first - marks[0].first, marks[2].first - marks[1].first, 0.2);
@@ -130,7 +129,7 @@ TEST(Plot, ALogarithmicAxisPutsEqualRatiosAtEqualDistances) {
 }
 
 TEST(Plot, WhatALogarithmicAxisCannotShowIsLeftOut) {
-  LinePlot plot = three_decades();
+  Chart plot = three_decades();
   plot.lines[0].points[1].y = 0.0;
   plot.lines[0].points[2].y_interval = {-3.0, 900.0};
   const std::string svg = to_svg(plot);
@@ -143,7 +142,7 @@ TEST(Plot, WhatALogarithmicAxisCannotShowIsLeftOut) {
 
 TEST(Plot, AnIntervalThatGoesOnBeyondTheAxisHasNoCapThere) {
   const auto strokes_of = [](std::pair<double, double> interval) {
-    LinePlot plot = three_decades();
+    Chart plot = three_decades();
     plot.lines[0].points[1].y_interval = interval;
     const std::string svg = to_svg(plot);
     const std::size_t end = svg.find("class=\"whisker");
@@ -157,7 +156,7 @@ TEST(Plot, AnIntervalThatGoesOnBeyondTheAxisHasNoCapThere) {
 }
 
 TEST(Plot, LinesDifferInMoreThanColour) {
-  LinePlot plot = three_decades();
+  Chart plot = three_decades();
   plot.lines.push_back(plot.lines[0]);
   plot.lines[1].style = {0, 1, 1};
   const std::string svg = to_svg(plot);
@@ -186,7 +185,7 @@ TEST(Plot, ALegendShowsWhichLinesAreDashed) {
 }
 
 TEST(Plot, NamesOfCurvesThatBeginAtOnePlaceStandApart) {
-  LinePlot plot = three_decades();
+  Chart plot = three_decades();
   std::vector<std::pair<double, double>> diagonal;
   for (int i = 0; i <= 40; ++i)
     diagonal.emplace_back(10.0 * std::pow(100.0, i / 40.0), 5.0 * std::pow(100.0, i / 40.0));
@@ -207,7 +206,7 @@ TEST(Plot, NamesOfCurvesThatBeginAtOnePlaceStandApart) {
 }
 
 TEST(Plot, ATitleAndALegendThatAreTooLongStayWithinThePlot) {
-  LinePlot plot = three_decades();
+  Chart plot = three_decades();
   plot.title = plot.lines[0].name = long_name + ", " + long_name;
   plot.has_legend = true;
   const std::string svg = to_svg(plot);
@@ -235,7 +234,7 @@ TEST(BoxPlot, HingesAreMediansOfTheHalvesAndFarValuesLieOutside) {
 }
 
 TEST(BoxPlot, FewReplicationsAreDotsWithoutABox) {
-  BoxPlot plot{"t", "x", "", true, {{"10 clients", {{"a", {}, {1, 2, 3, 4}}}}}};
+  Chart plot{.title = "t", .x = {"x", true}, .groups = {{"10 clients", {{"a", {}, {1, 2, 3, 4}}}}}};
   EXPECT_THAT(to_svg(plot),
               AllOf(HasSubstr("class=\"dot s0\""), Not(HasSubstr("class=\"box s0\""))));
   plot.groups[0].rows[0].values.push_back(5);
@@ -243,8 +242,9 @@ TEST(BoxPlot, FewReplicationsAreDotsWithoutABox) {
 }
 
 TEST(BoxPlot, LongNamesStandInFullAboveTheirRows) {
-  BoxPlot plot{
-      "t", "x", "", true, {{"10 clients", {{"none", {}, {1, 2}}, {long_name, {}, {3, 4}}}}}};
+  Chart plot{.title = "t",
+             .x = {"x", true},
+             .groups = {{"10 clients", {{"none", {}, {1, 2}}, {long_name, {}, {3, 4}}}}}};
   EXPECT_THAT(to_svg(plot), AllOf(HasSubstr(">none<"), HasSubstr(">" + long_name + "<")));
   EXPECT_THAT(texts_beyond(to_svg(plot), plot.width), ElementsAre());
   plot.groups[0].rows[1].name += ", " + long_name;
@@ -252,8 +252,13 @@ TEST(BoxPlot, LongNamesStandInFullAboveTheirRows) {
 }
 
 TEST(BarPlot, NamesThatAreWiderThanTheirPlacesAreNumberedAndListedBelow) {
-  BarPlot plot{"t", "x", "y", "", {"states"}, {{"none", {1.0}, ""}, {"region", {2.0}, ""}},
-               {},  {},  ""};
+  Chart plot{.title = "t",
+             .x = {"x"},
+             .y = {"y"},
+             .width = 380.0,
+             .frame_height = 190.0,
+             .part_names = {"states"},
+             .bars = {{"none", {1.0}, ""}, {"region", {2.0}, ""}}};
   EXPECT_THAT(to_svg(plot), AllOf(HasSubstr("class=\"tick middle\">none<"),
                                   HasSubstr("class=\"tick middle\">region<")));
   plot.bars.push_back({long_name, {3.0}, ""});
@@ -264,10 +269,16 @@ TEST(BarPlot, NamesThatAreWiderThanTheirPlacesAreNumberedAndListedBelow) {
 }
 
 TEST(BarPlot, PartsStackToTheirSumAndTheBudgetIsDrawnOnlyWithinReach) {
-  BarPlot plot{"t", "x", "y",     "", {"physics", "filter", "send"}, {{"10", {1.0, 2.0, 3.0}, ""}},
-               {},  6.0, "budget"};
+  Chart plot{.title = "t",
+             .x = {"x"},
+             .y = {"y"},
+             .width = 380.0,
+             .frame_height = 190.0,
+             .part_names = {"physics", "filter", "send"},
+             .bars = {{"10", {1.0, 2.0, 3.0}, ""}},
+             .mark = {{6.0, "budget"}}};
   EXPECT_THAT(to_svg(plot), HasSubstr("mark-line"));
-  plot.mark = 60.0;
+  plot.mark->value = 60.0;
   EXPECT_THAT(to_svg(plot), Not(HasSubstr("mark-line")));
 }
 

@@ -1,6 +1,6 @@
 // Draws reference curves, error bars, lines, marks and their labels, in this order, so that data
 // cover what is said about them.
-#include "loadgen/report/plots/line_plot.h"
+#include "loadgen/report/plots/lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,22 +9,24 @@
 #include <utility>
 #include <vector>
 
+#include "loadgen/report/plots/chart_sheet.h"
+
 namespace rink::loadgen {
 namespace {
 
-bool is_shown(const LinePlot& plot, double x, double y) {
-  return std::isfinite(x) && std::isfinite(y) && (!plot.is_x_logarithmic || x > 0.0) &&
-         (!plot.is_y_logarithmic || y > 0.0);
+bool is_shown(const Chart& chart, double x, double y) {
+  return std::isfinite(x) && std::isfinite(y) && (!chart.x.is_logarithmic || x > 0.0) &&
+         (!chart.y.is_logarithmic || y > 0.0);
 }
 
-Axis fitted_axis(const LinePlot& plot, bool is_x) {
-  const auto& fixed = is_x ? plot.x_range : plot.y_range;
-  const bool is_logarithmic = is_x ? plot.is_x_logarithmic : plot.is_y_logarithmic;
-  if (fixed) return {fixed->first, fixed->second, 0.0, 1.0, is_logarithmic};
+Axis fitted_axis(const Chart& chart, bool is_x) {
+  const ChartAxis& wanted = is_x ? chart.x : chart.y;
+  const bool is_logarithmic = wanted.is_logarithmic;
+  if (wanted.range) return {wanted.range->first, wanted.range->second, 0.0, 1.0, is_logarithmic};
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const PlotLine& line : plot.lines) {
+  for (const PlotLine& line : chart.lines) {
     for (const PlotPoint& point : line.points) {
-      if (!is_shown(plot, point.x, point.y)) continue;
+      if (!is_shown(chart, point.x, point.y)) continue;
       const double value = is_x ? point.x : point.y;
       const auto& interval = is_x ? point.x_interval : point.y_interval;
       // An interval may reach to 0 and beyond, which a logarithmic axis would follow for ever: a
@@ -72,14 +74,14 @@ std::string error_bars(const PlotPoint& point, const std::string& colour, const 
   return path.empty() ? "" : svg_path(path, classes);
 }
 
-std::string data_of(const LinePlot& plot, const Axis& x, const Axis& y) {
+std::string data_of(const Chart& chart, const Axis& x, const Axis& y) {
   std::string lines, marks;
-  for (const PlotLine& line : plot.lines) {
+  for (const PlotLine& line : chart.lines) {
     const std::string colour = "s" + std::to_string(line.style.colour % colour_count);
     std::string path;
     for (std::size_t i = 0; i < line.points.size(); ++i) {
       const PlotPoint& point = line.points[i];
-      if (!is_shown(plot, point.x, point.y)) continue;
+      if (!is_shown(chart, point.x, point.y)) continue;
       path += (path.empty() ? "M" : "L") + coordinate(x.clamped_at(point.x)) + " " +
               coordinate(y.clamped_at(point.y));
       marks += error_bars(point, colour, x, y);
@@ -118,11 +120,11 @@ bool takes_place(const Box& box, const Axis& x, const Axis& y, std::vector<Box>&
 
 /// Aslant of its mark, where no error bar runs, or else beside it, wherever nothing stands yet;
 /// left out if all places are taken.
-std::string labels_of(const LinePlot& plot, const Axis& x, const Axis& y, std::vector<Box> taken) {
+std::string labels_of(const Chart& chart, const Axis& x, const Axis& y, std::vector<Box> taken) {
   const auto for_each_shown = [&](const auto& visit) {
-    for (const PlotLine& line : plot.lines)
+    for (const PlotLine& line : chart.lines)
       for (const PlotPoint& point : line.points)
-        if (is_shown(plot, point.x, point.y))
+        if (is_shown(chart, point.x, point.y))
           visit(x.clamped_at(point.x), y.clamped_at(point.y), point.label);
   };
   for_each_shown([&](double px, double py, const std::string&) {
@@ -149,14 +151,14 @@ std::string labels_of(const LinePlot& plot, const Axis& x, const Axis& y, std::v
 
 /// Each curve's name stands where it begins or, if another's does already, farther along it; left
 /// out if there is no place at all.
-std::string references_of(const LinePlot& plot, const Axis& x, const Axis& y,
+std::string references_of(const Chart& chart, const Axis& x, const Axis& y,
                           std::vector<Box>& taken) {
   std::string svg;
-  for (const ReferenceCurve& curve : plot.references) {
+  for (const ReferenceCurve& curve : chart.references) {
     std::string path;
     std::vector<std::pair<double, double>> places;
     for (const auto& [value_x, value_y] : curve.points) {
-      if (!is_shown(plot, value_x, value_y) || value_x < x.low || value_x > x.high ||
+      if (!is_shown(chart, value_x, value_y) || value_x < x.low || value_x > x.high ||
           value_y < y.low || value_y > y.high)
         continue;
       const double px = x.at(value_x), py = y.at(value_y);
@@ -176,32 +178,29 @@ std::string references_of(const LinePlot& plot, const Axis& x, const Axis& y,
 
 }  // namespace
 
-bool has_points(const LinePlot& plot) {
-  return std::any_of(plot.lines.begin(), plot.lines.end(), [&plot](const PlotLine& line) {
-    return std::any_of(line.points.begin(), line.points.end(), [&plot](const PlotPoint& point) {
-      return is_shown(plot, point.x, point.y);
+bool has_points(const Chart& chart) {
+  return std::any_of(chart.lines.begin(), chart.lines.end(), [&chart](const PlotLine& line) {
+    return std::any_of(line.points.begin(), line.points.end(), [&chart](const PlotPoint& point) {
+      return is_shown(chart, point.x, point.y);
     });
   });
 }
 
-std::string to_svg(const LinePlot& plot) {
+std::string svg_of_lines(const Chart& chart) {
   std::vector<LegendEntry> entries;
-  for (const PlotLine& line : plot.lines) {
-    if (plot.has_legend) entries.push_back({line.name, line.style, ""});
+  for (const PlotLine& line : chart.lines) {
+    if (chart.has_legend) entries.push_back({line.name, line.style, ""});
   }
-  double above = 52.0;
-  const std::string legend = svg_legend(entries, 0.0, plot.width, 34.0, above);
-  const Frame frame{50.0, plot.width - 14.0, above, above + plot.frame_height};
-  Axis x = fitted_axis(plot, true), y = fitted_axis(plot, false);
-  x.from = frame.left, x.to = frame.right;
-  y.from = frame.bottom, y.to = frame.top;
-  std::string svg =
-      svg_opening(plot.width, frame.bottom + 42.0, plot.title, plot.alternative) + legend;
-  svg += svg_y_axis(frame, y, ticks_of(y, 26.0), plot.y_title);
-  svg += svg_x_axis(frame, x, plot.x_ticks ? *plot.x_ticks : ticks_of(x, 40.0), plot.x_title);
+  constexpr double top = 52.0;
+  ChartSheet sheet(chart, entries, {50.0, chart.width - 14.0, top, top + chart.frame_height},
+                   fitted_axis(chart, true), fitted_axis(chart, false));
+  sheet.draw_y_axis();
+  sheet.draw_x_axis();
   std::vector<Box> taken;
-  svg += references_of(plot, x, y, taken);
-  return svg + data_of(plot, x, y) + labels_of(plot, x, y, taken) + "</svg>\n";
+  sheet.draw(references_of(chart, sheet.x(), sheet.y(), taken));
+  sheet.draw(data_of(chart, sheet.x(), sheet.y()));
+  sheet.draw(labels_of(chart, sheet.x(), sheet.y(), taken));
+  return sheet.finished();
 }
 
 }  // namespace rink::loadgen

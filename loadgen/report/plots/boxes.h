@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "loadgen/report/plots/svg.h"
+#include "loadgen/report/plots/chart.h"
 
 namespace rink::loadgen {
 
@@ -19,25 +19,8 @@ struct BoxFigures {
 /// `sample` must not be empty.
 BoxFigures box_of(std::vector<double> sample);
 
-/// Rows in groups. Every value is a dot; a box is drawn around five or more, since fewer are told
-/// by their dots alone.
-struct BoxPlot {
-  static constexpr std::size_t least_for_box = 5;
-  struct Row {
-    std::string name;
-    Style style;
-    std::vector<double> values;
-  };
-  struct Group {
-    std::string name;
-    std::vector<Row> rows;
-  };
-  std::string title, x_title;
-  std::string alternative;  ///< what the picture shows, for those who cannot see it
-  bool is_logarithmic = true;
-  std::vector<Group> groups;
-  double width = 480.0;
-};
-std::string to_svg(const BoxPlot& plot);
+inline constexpr std::size_t least_for_box = 5;
+
+std::string svg_of_boxes(const Chart& chart);
 
 }  // namespace rink::loadgen

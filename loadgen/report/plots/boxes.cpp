@@ -1,11 +1,12 @@
 // Tukey's five figures and their drawing.
-#include "loadgen/report/plots/box_plot.h"
+#include "loadgen/report/plots/boxes.h"
 
 #include <algorithm>
 #include <cassert>
 #include <limits>
 #include <span>
 
+#include "loadgen/report/plots/chart_sheet.h"
 #include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
@@ -18,11 +19,11 @@ double median_of(std::span<const double> sorted) {
   return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
 }
 
-std::string svg_row(const BoxPlot::Row& row, const Axis& x, double y) {
+std::string svg_row(const BoxRow& row, const Axis& x, double y) {
   if (row.values.empty()) return "";
   const std::string colour = "s" + std::to_string(row.style.colour % colour_count);
   std::string svg;
-  if (row.values.size() >= BoxPlot::least_for_box) {
+  if (row.values.size() >= least_for_box) {
     const BoxFigures box = box_of(row.values);
     svg += svg_line(x.clamped_at(box.low_whisker), y, x.clamped_at(box.high_whisker), y,
                     "whisker " + colour);
@@ -41,19 +42,19 @@ std::string svg_row(const BoxPlot::Row& row, const Axis& x, double y) {
   return svg;
 }
 
-Axis value_axis(const BoxPlot& plot) {
+Axis value_axis(const Chart& chart) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const BoxPlot::Group& group : plot.groups) {
-    for (const BoxPlot::Row& row : group.rows) {
+  for (const BoxGroup& group : chart.groups) {
+    for (const BoxRow& row : group.rows) {
       for (const double value : row.values) {
-        if (plot.is_logarithmic && value <= 0.0) continue;
+        if (chart.x.is_logarithmic && value <= 0.0) continue;
         low = std::min(low, value);
         high = std::max(high, value);
       }
     }
   }
-  return high < low ? axis_around(1.0, 10.0, plot.is_logarithmic)
-                    : axis_around(low, high, plot.is_logarithmic, 4.0);
+  return high < low ? axis_around(1.0, 10.0, chart.x.is_logarithmic)
+                    : axis_around(low, high, chart.x.is_logarithmic, 4.0);
 }
 
 }  // namespace
@@ -76,36 +77,36 @@ BoxFigures box_of(std::vector<double> sample) {
   return box;
 }
 
-std::string to_svg(const BoxPlot& plot) {
+std::string svg_of_boxes(const Chart& chart) {
   double names_width = 0.0, height = 4.0, rows = 0.0;
-  for (const BoxPlot::Group& group : plot.groups) {
+  for (const BoxGroup& group : chart.groups) {
     height += group.name.empty() ? 6.0 : group_height;
-    for (const BoxPlot::Row& row : group.rows)
+    for (const BoxRow& row : group.rows)
       ++rows, names_width = std::max(names_width, text_width(row.name));
   }
   const bool are_names_above =
-      names_width + 14.0 > 0.6 * plot.width;  // long ones would leave no room for the data
+      names_width + 14.0 > 0.6 * chart.width;  // long ones would leave no room for the data
   const double above = are_names_above ? name_height : 0.0;
   height += rows * (row_height + above);
-  const Frame frame{are_names_above ? 14.0 : names_width + 14.0, plot.width - 14.0, 28.0,
-                    28.0 + height};
-  Axis x = value_axis(plot);
-  x.from = frame.left, x.to = frame.right;
-  std::string svg = svg_opening(plot.width, frame.bottom + 42.0, plot.title, plot.alternative) +
-                    svg_x_axis(frame, x, ticks_of(x, 40.0), plot.x_title, true);
+  ChartSheet sheet(
+      chart, {},
+      {are_names_above ? 14.0 : names_width + 14.0, chart.width - 14.0, 28.0, 28.0 + height},
+      value_axis(chart), {});
+  const Frame& frame = sheet.frame();
+  sheet.draw_x_axis(true);
   double y = frame.top + 4.0;
-  for (const BoxPlot::Group& group : plot.groups) {
+  for (const BoxGroup& group : chart.groups) {
     y += group.name.empty() ? 6.0 : group_height;
-    if (!group.name.empty()) svg += svg_text(0.0, y - 6.0, "axis", group.name);
-    for (const BoxPlot::Row& row : group.rows) {
-      svg += are_names_above
-                 ? svg_text(0.0, y + 11.0, "tick", fitted(row.name, plot.width))
-                 : svg_text(frame.left - 8.0, y + 0.5 * row_height + 4.0, "tick end", row.name);
-      svg += svg_row(row, x, y + above + 0.5 * row_height);
+    if (!group.name.empty()) sheet.draw(svg_text(0.0, y - 6.0, "axis", group.name));
+    for (const BoxRow& row : group.rows) {
+      sheet.draw(are_names_above ? svg_text(0.0, y + 11.0, "tick", fitted(row.name, chart.width))
+                                 : svg_text(frame.left - 8.0, y + 0.5 * row_height + 4.0,
+                                            "tick end", row.name));
+      sheet.draw(svg_row(row, sheet.x(), y + above + 0.5 * row_height));
       y += row_height + above;
     }
   }
-  return svg + "</svg>\n";
+  return sheet.finished();
 }
 
 }  // namespace rink::loadgen
