@@ -304,10 +304,6 @@ TEST(Layers, HeadersWithTheirSourcesFormNoCircle) {
   const std::vector<SourceFile> sources =
       read_sources({"im", "rti", "game", "loadgen"}, code_extensions);
   EXPECT_EQ(joined(circle_in(includes_between(sources, component_of))),
-TEST(Layers, HeadersWithTheirSourcesFormNoCircle) {
-  const std::vector<SourceFile> sources =
-      read_sources({"im", "rti", "game", "loadgen"}, code_extensions);
-  EXPECT_EQ(joined(circle_in(includes_between(sources, component_of))),
             "");
 }
 
