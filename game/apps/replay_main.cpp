@@ -1,7 +1,5 @@
 // rink replay: plays a recorded game again and says whether it ends as it did.
 #include <chrono>
-#include <cinttypes>
-#include <cstdio>
 #include <exception>
 #include <iostream>
 
@@ -9,18 +7,13 @@
 #include "game/control/key_log_file.h"
 #include "game/control/replay.h"
 #include "game/version/version.h"
+#include "im/basics/hexadecimal.h"
 
 namespace {
 
 using namespace rink;
 
 constexpr int other_hash = 1, bad_input = 2;
-
-std::string hash_text(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016" PRIx64, hash);
-  return text;
-}
 
 int replay(const std::string& file) {
   const game::KeyLog log = game::read_key_log(std::filesystem::path(file));
@@ -30,13 +23,13 @@ int replay(const std::string& file) {
   const std::uint64_t hash = game::replay(log, scene);
   const double wall_s = game::now_s() - start_s;
   if (hash != *log.hash) {
-    game::complain(file, ": after ", *log.until, " s the game ends in the hash ", hash_text(hash),
-                   ", but ", hash_text(*log.hash), " was recorded");
+    game::complain(file, ": after ", *log.until, " s the game ends in the hash ", hexadecimal(hash),
+                   ", but ", hexadecimal(*log.hash), " was recorded");
     return other_hash;
   }
   std::cout << "scene " << log.scene << ", seed " << log.seed << ", " << scene.bodies.bats.size()
             << " bats, " << log.events.size() << " keys, " << *log.until << " s: hash "
-            << hash_text(hash) << " as recorded (" << wall_s << " s)\n";
+            << hexadecimal(hash) << " as recorded (" << wall_s << " s)\n";
   return 0;
 }
 

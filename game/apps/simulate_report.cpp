@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "game/model/byte_hash.h"
 #include "game/model/report_schema.h"
+#include "im/basics/hexadecimal.h"
 
 namespace rink::game {
 namespace {

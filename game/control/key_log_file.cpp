@@ -12,7 +12,8 @@
 #include <streambuf>
 
 #include "game/control/key_log_packed.h"
-#include "game/model/byte_hash.h"
+#include "im/basics/fnv_hash.h"
+#include "im/basics/hexadecimal.h"
 
 namespace rink::game {
 namespace {
@@ -59,7 +60,7 @@ class LineChecksum {
   std::uint64_t value() const { return hash_.value(); }
 
  private:
-  ByteHash hash_;
+  Fnv64 hash_;
 };
 
 std::string first_line_expected() {

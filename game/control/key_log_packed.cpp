@@ -10,8 +10,9 @@
 #include <istream>
 #include <ostream>
 
-#include "game/model/byte_hash.h"
 #include "game/model/time_grid.h"
+#include "im/basics/fnv_hash.h"
+#include "im/basics/varint.h"
 
 namespace rink::game {
 namespace {
@@ -42,8 +43,9 @@ class PackedWriter {
 
   void byte(unsigned value) { bytes_ += static_cast<char>(static_cast<unsigned char>(value)); }
   void varint(std::uint64_t value) {
-    for (; value >= 0x80; value >>= 7) byte(static_cast<unsigned>(value & 0x7f) | 0x80u);
-    byte(static_cast<unsigned>(value));
+    std::array<std::byte, varint_size_max> raw;
+    bytes_.append(reinterpret_cast<const char*>(raw.data()),
+                  static_cast<std::size_t>(put_varint(raw.data(), value) - raw.data()));
   }
   template <class Number>
   void whole(Number number) {
@@ -158,11 +160,9 @@ class PackedReader {
   unsigned byte() { return static_cast<unsigned char>(take(1).front()); }
   std::uint64_t varint() {
     std::uint64_t value = 0;
-    for (unsigned shift = 0; shift < 64; shift += 7) {
-      const unsigned next = byte();
-      value |= static_cast<std::uint64_t>(next & 0x7f) << shift;
-      if (next < 0x80) return value;
-    }
+    const std::size_t size = get_varint(std::as_bytes(std::span(bytes_)), value);
+    if (size > 0) return take(size), value;
+    if (bytes_.size() < varint_size_max) refuse("ends in the middle of a value");
     refuse("has a number that is too long");
   }
   std::uint32_t small() {

@@ -8,8 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "game/control/game_state.h"
-#include "game/model/byte_hash.h"
 #include "game/net/evidence_lines.h"
+#include "im/basics/fnv_hash.h"
+#include "im/basics/hexadecimal.h"
 
 namespace rink::game {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "game/model/byte_hash.h"
+#include "im/basics/fnv_hash.h"
 
 namespace rink::game {
 
@@ -33,7 +33,7 @@ class EvidenceWriter {
   std::string file_;
   std::ofstream stream_;
   std::uint64_t lines_ = 0;
-  ByteHash hash_;
+  Fnv64 hash_;
 };
 
 /// Reads what EvidenceWriter wrote, whole or not at all.

@@ -1,13 +1,13 @@
 // The hash of a world's bodies, told one after the other.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
 
 #include "game/physics/body_state.h"
 #include "game/physics/real.h"
+#include "im/basics/fnv_hash.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -24,21 +24,16 @@ class BodyHash {
     mix(lasting);
     if (spin) mix(*spin);
   }
-  std::uint64_t value() const { return value_; }
+  std::uint64_t value() const { return hash_.value(); }
 
  private:
   void mix(Real value) {
-    mix_double(static_cast<double>(value));
+    hash_.add_number(static_cast<double>(value));
     if constexpr (sizeof(Real) > sizeof(double))
-      mix_double(static_cast<double>(value - static_cast<Real>(static_cast<double>(value))));
-  }
-  void mix_double(double value) {
-    auto bits = std::bit_cast<std::uint64_t>(value);
-    for (int byte = 0; byte < 8; ++byte, bits >>= 8)
-      value_ = (value_ ^ (bits & 0xff)) * 0x100000001b3ULL;
+      hash_.add_number(static_cast<double>(value - static_cast<Real>(static_cast<double>(value))));
   }
 
-  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+  Fnv64 hash_;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "im/basics/fnv_hash.h"
+
 namespace rink::physics {
 
 /// What writer and reader share: how a value is made of 64-bit words. Derived has `bool
@@ -77,8 +79,9 @@ class SnapshotStream {
 
 /// FNV-1a of 64 bits; of 4 bytes: its halves folded onto each other.
 inline std::uint64_t checksum(std::span<const std::uint8_t> bytes, int byte_count = 8) {
-  std::uint64_t sum = 0xcbf29ce484222325ULL;
-  for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x100000001b3ULL;
+  Fnv64 hash;
+  for (const std::uint8_t byte : bytes) hash.add(byte);
+  const std::uint64_t sum = hash.value();
   return byte_count == 8 ? sum : (sum ^ sum >> 32) & 0xffffffffULL;
 }
 

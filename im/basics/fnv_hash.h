@@ -13,6 +13,10 @@ namespace rink {
 template <std::unsigned_integral Word>
 requires(sizeof(Word) == 4 || sizeof(Word) == 8) class FnvHash {
  public:
+  constexpr FnvHash() = default;
+  /// Goes on from the value of another.
+  constexpr explicit FnvHash(Word value) : value_(value) {}
+
   constexpr void add(std::uint8_t byte) { value_ = (value_ ^ byte) * prime; }
   constexpr void add(std::string_view bytes) {
     for (const char byte : bytes) add(static_cast<std::uint8_t>(byte));

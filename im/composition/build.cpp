@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "im/basics/fnv_hash.h"
+#include "im/basics/hexadecimal.h"
 #include "im/composition/combination.h"
 #include "im/composition/expression.h"
 #include "im/composition/pair_states.h"
@@ -344,12 +346,7 @@ std::string file_name_of(const std::string& expression) {
   for (const char c : expression) name += c == ' ' ? '_' : c == '(' ? '[' : c == ')' ? ']' : c;
   constexpr std::size_t size_max = 100;  // a file's name has 255, and more belongs to it
   if (name.size() <= size_max) return name;
-  std::uint64_t digest = 0xcbf29ce484222325u;  // FNV-1a (Fowler, Noll, Vo 1991)
-  for (const char c : name) digest = (digest ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  std::array<char, 16> digits;
-  char* const end = digits.data() + digits.size();
-  const std::string shown(digits.data(), std::to_chars(digits.data(), end, digest, 16).ptr);
-  return name.substr(0, size_max - 17) + "-" + std::string(16 - shown.size(), '0') + shown;
+  return name.substr(0, size_max - 17) + "-" + hexadecimal(hash_of(name));
 }
 
 }  // namespace rink::im

@@ -1,8 +1,9 @@
 // The names that experiments and their reports go by.
 #include "loadgen/experiment/experiment.h"
 
-#include "game/model/byte_hash.h"
 #include "game/replication/update_policy.h"
+#include "im/basics/fnv_hash.h"
+#include "im/basics/hexadecimal.h"
 
 namespace rink::loadgen {
 
@@ -21,7 +22,7 @@ const char* to_string(TransportKind kind) {
 }
 
 std::string kept_log_name(const std::string& as_named) {
-  return "recorded-" + game::hexadecimal(game::hash_of(as_named)) + ".keys";
+  return "recorded-" + hexadecimal(hash_of(as_named)) + ".keys";
 }
 
 std::vector<std::string> known_policies() { return game::update_policy_names(); }

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <sstream>
 
-#include "game/model/byte_hash.h"
 #include "game/model/listed.h"
 #include "game/net/peer/meeting/greetings.h"
 #include "game/net/relevant_kinds.h"

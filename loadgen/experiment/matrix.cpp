@@ -1,11 +1,11 @@
 // The matrix that an experiment spans, and how its points are called.
 #include <algorithm>
 #include <iterator>
-#include <random>
 #include <string_view>
 #include <utility>
 
 #include "game/model/listed.h"
+#include "im/basics/seeded_stream.h"
 #include "loadgen/experiment/cell_key.h"
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/experiment/parameter.h"
@@ -141,11 +141,11 @@ std::vector<Cell> running_order(const Experiment& experiment) {
     const auto last = std::find_if(first, cells.end(), [&](const Cell& cell) {
       return replication(cell) != replication(*first);
     });
-    std::mt19937_64 random(first->seed);
+    SeededStream random(first->seed);
     for (auto place = last - first; place > 1; --place)
       std::iter_swap(
           first + (place - 1),
-          first + static_cast<std::ptrdiff_t>(random() % static_cast<std::uint64_t>(place)));
+          first + static_cast<std::ptrdiff_t>(random.below(static_cast<std::uint32_t>(place))));
     first = last;
   }
   return cells;

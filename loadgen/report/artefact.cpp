@@ -9,10 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "game/model/byte_hash.h"
 #include "game/model/report_schema.h"
 #include "game/model/scene_file.h"
 #include "game/version/version.h"
+#include "im/basics/fnv_hash.h"
+#include "im/basics/hexadecimal.h"
 #include "loadgen/experiment/experiment_file.h"
 #include "loadgen/measure/run_fields.h"
 
@@ -29,7 +30,7 @@ struct Seal {
 
 Seal seal_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  game::ByteHash hash;
+  Fnv64 hash;
   Seal seal;
   std::array<char, 1 << 16> block;
   while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
@@ -37,7 +38,7 @@ Seal seal_of(const std::filesystem::path& file) {
     hash.add(std::string_view(block.data(), count));
     seal.bytes += count;
   }
-  seal.hash = game::hexadecimal(hash.value());
+  seal.hash = hexadecimal(hash.value());
   return seal;
 }
 

@@ -8,8 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "game/model/byte_hash.h"
 #include "game/model/report_schema.h"
+#include "im/basics/fnv_hash.h"
+#include "im/basics/hexadecimal.h"
 #include "loadgen/measure/results.h"
 #include "loadgen/measure/run_fields.h"
 
@@ -37,7 +38,7 @@ std::string identity_of(const Experiment& experiment) {
       content << std::ifstream(file, std::ios::binary).rdbuf();
     all += '\0' + content.str();
   }
-  return game::hexadecimal(game::hash_of(all));
+  return hexadecimal(hash_of(all));
 }
 
 nlohmann::ordered_json to_json(const JournalHead& head) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "im/basics/fnv_hash.h"
 #include "rti/wire/message.h"
 
 namespace rink::rti {
@@ -23,10 +24,8 @@ std::uint64_t key_of(InteractionClassHandle interaction_class, std::uint32_t reg
 }  // namespace
 
 void RegionBook::sign(std::string_view federate_name) {
-  std::uint32_t hash = 2166136261u;  // FNV-1a
-  for (const char letter : federate_name)
-    hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619u;
-  mark_ = hash % ((1u << (32 - number_bits)) - 1);  // never all ones, as the empty handle's is
+  mark_ = hash_of<Fnv32>(federate_name) %
+          ((1u << (32 - number_bits)) - 1);  // never all ones, as the empty handle's is
 }
 
 std::string RegionBook::name(RegionHandle region) {

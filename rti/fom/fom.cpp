@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "im/basics/fnv_hash.h"
 #include "rti/fom/attribute_codec.h"
 #include "rti/fom/quantised_codec.h"
 #include "rti/wire/stream.h"
@@ -67,8 +68,9 @@ void Fom::use_codec(std::string_view data_type, std::shared_ptr<const AttributeC
   if (!is_used)
     throw FileError("object model '" + name_ + "': no attribute is of type '" +
                     std::string(data_type) + "'");
-  for (const char letter : "codec " + std::string(data_type) + " " + codec->name() + "\n")
-    hash_ = (hash_ ^ static_cast<unsigned char>(letter)) * 1099511628211ull;
+  Fnv64 hash(hash_);
+  hash.add("codec " + std::string(data_type) + " " + codec->name() + "\n");
+  hash_ = hash.value();
 }
 
 std::optional<ObjectClassHandle> Fom::object_class(std::string_view name) const {

@@ -3,18 +3,13 @@
 
 #include <algorithm>
 
+#include "im/basics/fnv_hash.h"
 #include "rti/fom/attribute_codec.h"
 #include "rti/fom/quantised_codec.h"
 
 namespace rink::rti {
 
 namespace {
-
-std::uint32_t hash_of(const std::string& text) {
-  std::uint32_t hash = 2166136261u;
-  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619u;
-  return hash;
-}
 
 struct Element {
   std::string name, content;
@@ -99,7 +94,7 @@ std::vector<Element> elements_of(const Fom& fom) {
 std::vector<FomDigestEntry> digest(const Fom& fom) {
   std::vector<FomDigestEntry> entries;
   for (const Element& each : elements_of(fom))
-    entries.push_back({hash_of(each.name), hash_of(each.content)});
+    entries.push_back({hash_of<Fnv32>(each.name), hash_of<Fnv32>(each.content)});
   return entries;
 }
 
@@ -108,9 +103,10 @@ std::string difference(const Fom& own, std::span<const FomDigestEntry> other) {
   std::vector<std::string> differences;
   std::size_t shared = 0;
   for (const Element& each : elements) {
-    const auto found = std::ranges::find(other, hash_of(each.name), &FomDigestEntry::name);
+    const auto found = std::ranges::find(other, hash_of<Fnv32>(each.name), &FomDigestEntry::name);
     if (found == other.end()) differences.push_back(each.name + " is unknown to the federation");
-    else if (found->content != hash_of(each.content)) differences.push_back(each.name + " differs");
+    else if (found->content != hash_of<Fnv32>(each.content))
+      differences.push_back(each.name + " differs");
     shared += found != other.end();
   }
   if (shared < other.size())

@@ -4,6 +4,7 @@
 #include <map>
 #include <pugixml.hpp>
 
+#include "im/basics/fnv_hash.h"
 #include "rti/fom/data_types.h"
 #include "rti/fom/fom.h"
 #include "rti/fom/fom_modules.h"
@@ -271,11 +272,8 @@ Handle FomReader::add_class(std::vector<Class>& classes, Class read, const Node&
 }
 
 std::uint64_t FomReader::hash() const {
-  std::uint64_t value = 14695981039346656037ull;
-  const auto mix = [&](const std::string& word) {
-    for (const char letter : word + "\n")
-      value = (value ^ static_cast<unsigned char>(letter)) * 1099511628211ull;
-  };
+  Fnv64 hash;
+  const auto mix = [&](const std::string& word) { hash.add(word + "\n"); };
   const auto mix_number = [&](std::uint64_t number) { mix(std::to_string(number)); };
   const auto mix_member = [&](const auto& member) {
     mix(member.name), mix(member.data_type), mix_number(member.size.value_or(0xffffffffu));
@@ -304,7 +302,7 @@ std::uint64_t FomReader::hash() const {
       if (attribute.baselines) mix("baselines " + each.name + " " + attribute.name);
   if (const std::string switches = fom_.switches_.text(); !switches.empty())
     mix("switches " + switches);
-  return value;
+  return hash.value();
 }
 
 Fom Fom::parse(std::span<const FomModule> modules) {

@@ -10,32 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "im/basics/varint.h"
 #include "rti/wire/bytes.h"
 
 namespace rink::rti {
 
 static_assert(std::endian::native == std::endian::little,
               "the wire is little-endian and values are copied as they lie in memory");
-
-/// Numbers whose small values are short: seven bits a byte, least significant first, the top bit
-/// set in all but the last.
-inline constexpr std::size_t varint_size_max = 10;
-inline std::byte* put_varint(std::byte* at, std::uint64_t value) {
-  for (; value >= 0x80; value >>= 7) *at++ = static_cast<std::byte>(value | 0x80);
-  *at++ = static_cast<std::byte>(value);
-  return at;
-}
-inline std::size_t varint_size(std::uint64_t value) {
-  return (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7;
-}
-
-/// Numbers of any sign as numbers that are small near zero: 0, -1, 1, -2, 2 become 0, 1, 2, 3, 4.
-inline std::uint64_t zigzag(std::int64_t value) {
-  return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
-}
-inline std::int64_t from_zigzag(std::uint64_t value) {
-  return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
-}
 
 /// Appends to a buffer; asserts the ranges, for what we write is ours.
 class Writer {
@@ -116,15 +97,11 @@ class Reader {
   template <class Number>
   bool varint(Number& value) {
     std::uint64_t whole = 0;
-    for (unsigned shift = 0; shift < 64 && shift / 7 < bytes_.size(); shift += 7) {
-      const auto byte = static_cast<std::uint64_t>(bytes_[shift / 7]);
-      whole |= (byte & 0x7f) << shift;
-      if (byte >= 0x80) continue;
-      bytes_ = bytes_.subspan(shift / 7 + 1);
-      value = static_cast<Number>(whole);
-      return value == whole;
-    }
-    return false;
+    const std::size_t size = get_varint(bytes_, whole);
+    if (size == 0) return false;
+    bytes_ = bytes_.subspan(size);
+    value = static_cast<Number>(whole);
+    return value == whole;
   }
   bool part(std::uint64_t& value, std::size_t size) {
     if (size > sizeof value || bytes_.size() < size) return false;

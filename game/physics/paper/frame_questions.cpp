@@ -1,9 +1,9 @@
 // Questions about all bodies at once, answered at now() and changing nothing.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "game/physics/paper/frame_simulator.h"
+#include "im/basics/fnv_hash.h"
 
 namespace rink::physics::paper {
 
@@ -99,12 +99,8 @@ double FrameSimulator::max_overlap() const {
 
 /// FNV-1a of the last states: equal for equal histories, wherever advance() stopped on the way.
 std::uint64_t FrameSimulator::hash() const {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  const auto mix = [&](double value) {
-    auto bits = std::bit_cast<std::uint64_t>(value);
-    for (int byte = 0; byte < 8; ++byte, bits >>= 8)
-      hash = (hash ^ (bits & 0xff)) * 0x100000001b3ULL;
-  };
+  Fnv64 hash;
+  const auto mix = [&](double value) { hash.add_number(value); };
   for (const Body& body : bodies_) {
     for (const double value : {body.start.position.x(), body.start.position.y(),
                                body.start.velocity.x(), body.start.velocity.y(), body.start_time})
@@ -112,7 +108,7 @@ std::uint64_t FrameSimulator::hash() const {
     mix(body.is_in_play ? 1.0 : 0.0);
     if (spec_.surface_friction) mix(body.spin);
   }
-  return hash;
+  return hash.value();
 }
 
 }  // namespace rink::physics::paper

@@ -6,13 +6,14 @@
 #include <cstdint>
 #include <string_view>
 
+#include "im/basics/seeded_stream.h"
+
 namespace rink::rti {
 
-/// SplitMix64 (Steele, Lea and Flood 2014). Streams with different keys are independent.
-class LinkStream {
+/// Streams with different keys are independent.
+class LinkStream : public SeededStream {
  public:
-  LinkStream() = default;
-  explicit LinkStream(std::uint64_t key) : state_(key) {}
+  using SeededStream::SeededStream;
 
   /// `key` with `part` mixed in: seed, listener, link, direction and property one after the other
   /// make the key of a stream.
@@ -25,12 +26,6 @@ class LinkStream {
     return key;
   }
 
-  /// Within [0, 1), a multiple of 2^-53.
-  double uniform() {
-    return static_cast<double>(mixed(state_ += 0x9e3779b97f4a7c15u) >> 11) * 0x1p-53;
-  }
-  /// True with `probability`.
-  bool coin(double probability) { return uniform() < probability; }
   /// Of mean 1, at most 36.8. The logarithm is summed here, for the library's differs between
   /// libraries.
   double exponential() {
@@ -43,14 +38,6 @@ class LinkStream {
     constexpr double logarithm_of_2 = 0.693147180559945309417;
     return -(2.0 * z * sum + exponent * logarithm_of_2);
   }
-
- private:
-  static std::uint64_t mixed(std::uint64_t bits) {
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-    return bits ^ (bits >> 31);
-  }
-  std::uint64_t state_ = 0;
 };
 
 }  // namespace rink::rti

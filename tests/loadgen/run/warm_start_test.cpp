@@ -13,9 +13,9 @@
 #include "game/control/game.h"
 #include "game/control/game_state.h"
 #include "game/control/key_log_file.h"
-#include "game/model/byte_hash.h"
 #include "game/net/evidence.h"
 #include "game/net/evidence_lines.h"
+#include "im/basics/hexadecimal.h"
 #include "loadgen/experiment/experiment_file.h"
 #include "loadgen/run/cell_runner.h"
 #include "loadgen/run/game_plan.h"
@@ -62,7 +62,7 @@ class WarmStart : public testing::Test {
     game::Game game(scene_of(experiment_, cell()));
     for (const game::InputEvent& key : keys()) game.submit(key);
     game.advance(experiment_.start_s + (experiment_.warm_up_s + experiment_.duration_s));
-    return game::hexadecimal(game.hash());
+    return hexadecimal(game.hash());
   }
   std::size_t keys_within(double from_s, double until_s) const {
     const auto all = keys();

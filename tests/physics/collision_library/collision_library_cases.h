@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "game/physics/collision/shapes.h"
+#include "im/basics/seeded_stream.h"
 
 namespace rink::physics::collision::reference {
 
@@ -21,23 +22,13 @@ inline constexpr Difficulty difficulties[] = {
 inline constexpr const char* difficulty_names[] = {"random", "grazing", "distant", "near",
                                                    "tiny",   "huge",    "far"};
 
-/// SplitMix64 (Steele, Lea and Flood 2014).
-struct Seeded {
-  std::uint64_t state;
-  std::uint64_t bits() {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  }
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53;
-  }
+struct Seeded : SeededStream {
+  using SeededStream::SeededStream;
   /// Uniform in the exponent.
   double magnitude(double low, double high) {
     return low * std::pow(high / low, uniform(0.0, 1.0));
   }
-  double sign() { return bits() % 2 == 0 ? -1.0 : 1.0; }
+  double sign() { return next() % 2 == 0 ? -1.0 : 1.0; }
   Vector<double> direction() {
     const double angle = uniform(0.0, 6.283185307179586);
     return {std::cos(angle), std::sin(angle)};

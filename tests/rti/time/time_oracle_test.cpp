@@ -3,6 +3,7 @@
 #include <cmath>
 #include <queue>
 
+#include "im/basics/seeded_stream.h"
 #include "tests/rti/time/relaxed_time.h"
 #include "tests/rti/time/timed_federation.h"
 
@@ -16,12 +17,7 @@ std::uint64_t below(Random& random, std::uint64_t count) { return random() % cou
 double fraction(Random& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 /// A number that anybody can work out from another, for the model's federates must answer alike in
 /// both runs.
-std::uint64_t scattered(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-  return x ^ x >> 31;
-}
+std::uint64_t scattered(std::uint64_t x) { return SeededStream(x).next(); }
 
 /// A model in which every message causes at most one more, anywhere, later: what each federate
 /// hears in which order depends on nothing else (PHOLD, Fujimoto 1990).
