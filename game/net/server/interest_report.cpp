@@ -18,7 +18,7 @@ void cut(InterestSeen& seen) {
   exchange(measurer, seen);
   std::size_t bytes = measurer.size(), count = 0;
   for (std::uint32_t before = 0; count < heard.size(); before = heard[count++]) {
-    bytes += rti::varint_size(heard[count] - before);
+    bytes += varint_size(heard[count] - before);
     if (bytes > interest_bytes_max) break;
   }
   heard.resize(count);
