@@ -16,6 +16,7 @@
 #include "game/apps/command.h"
 #include "game/model/listed.h"
 #include "game/net/interrupt.h"
+#include "game/physics/simulator_choice.h"
 #include "game/version/version.h"
 #include "loadgen/report/provenance.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bench/accuracy/tables.h"
+#include "game/physics/simulator_choice.h"
 #include "loadgen/report/page.h"
 #include "loadgen/report/plots/chart_svg.h"
 #include "loadgen/report/plots/text.h"

@@ -52,7 +52,7 @@ class PeerWorld : public physics::Simulator {
   bool is_free(const Vector2& centre, double radius) const final;
   bool is_free(const Vector2& centre, const Vector2& half_extent) const final;
 
-  physics::Counters counters() const final { return counters_; }
+  const physics::Counters& counters() const final { return counters_; }
   double kinetic_energy() const final;
   Vector2 momentum() const final;
   double max_overlap() const final;

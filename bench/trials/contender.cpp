@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bench/peers/peers.h"
+#include "game/physics/simulator_choice.h"
 
 namespace rink::accuracy {
 namespace {

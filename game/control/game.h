@@ -12,7 +12,8 @@
 #include "game/control/bat_controller.h"
 #include "game/model/scene.h"
 #include "game/model/state_hash.h"
-#include "game/physics/simulator.h"
+#include "game/physics/simulator_choice.h"
+#include "game/physics/world.h"
 
 namespace rink::game {
 

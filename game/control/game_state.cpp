@@ -75,7 +75,7 @@ bool exchange_world(physics::SnapshotReader& reader,
     if (!reader.number(byte)) return false;
   std::optional<physics::World> world = physics::World::restore(bytes);
   if (!world) return false;
-  simulator = physics::exact_simulator(std::move(*world));
+  simulator = std::make_unique<physics::World>(std::move(*world));
   return true;
 }
 

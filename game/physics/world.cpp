@@ -106,6 +106,11 @@ std::optional<World> World::restore(std::span<const std::uint8_t> bytes) {
   if (!engine) return std::nullopt;
   return World(std::move(engine));
 }
+std::unique_ptr<Simulator> World::copy() const {
+  std::optional<World> world = restore(save());
+  assert(world);
+  return std::make_unique<World>(std::move(*world));
+}
 
 const WorldSpec& World::spec() const { return engine_->spec_; }
 const Counters& World::counters() const { return engine_->counters_; }

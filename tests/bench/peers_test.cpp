@@ -6,6 +6,7 @@
 #include "bench/accuracy/diagram.h"
 #include "bench/peers/overlap.h"
 #include "bench/peers/peers.h"
+#include "game/physics/simulator_choice.h"
 
 namespace rink::peers {
 namespace {

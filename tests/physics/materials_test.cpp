@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "game/physics/simulator.h"
+#include "game/physics/simulator_choice.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics::test {

@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "game/physics/simulator.h"
+#include "game/physics/simulator_choice.h"
 #include "tests/physics/play.h"
 #include "tests/physics/scenes.h"
 

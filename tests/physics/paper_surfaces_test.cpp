@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "game/physics/simulator.h"
+#include "game/physics/simulator_choice.h"
 #include "tests/physics/play.h"
 #include "tests/physics/scenes.h"
 
@@ -26,7 +26,7 @@ TEST(PapersEngineWithFriction, StopsAPuckWhereItShouldAsFramesShrink) {
           simulator->add(PuckSpec{.position = {1.0, 1.0}, .velocity = {speed, 0.0}});
       play(*simulator, 3.0);
       EXPECT_EQ(simulator->velocity(puck), Vector2(0.0, 0.0)) << integrator;
-      EXPECT_EQ(simulator->counters().of(EventKind::stop), 1u) << integrator;
+      EXPECT_EQ(Counters(simulator->counters()).of(EventKind::stop), 1u) << integrator;
       return std::abs(simulator->position(puck).x() - 1.0 - distance);
     };
     EXPECT_LT(error(1.0 / 60), 0.03) << integrator;

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "game/physics/simulator.h"
+#include "game/physics/simulator_choice.h"
 
 namespace rink::physics::test {
 

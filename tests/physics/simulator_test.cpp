@@ -1,5 +1,5 @@
 // The choice among engines, and that the interface adds nothing to the exact one.
-#include "game/physics/simulator.h"
+#include "game/physics/simulator_choice.h"
 
 #include <gmock/gmock.h>
 
@@ -71,7 +71,7 @@ class Lost final : public Simulator {
   Vector2 velocity(BodyId) const override { return {0.0, 0.0}; }
   bool is_free(const Vector2&, double) const override { return true; }
   bool is_free(const Vector2&, const Vector2&) const override { return true; }
-  Counters counters() const override { return {}; }
+  const Counters& counters() const override { return counters_; }
   double kinetic_energy() const override { return 0.0; }
   Vector2 momentum() const override { return {0.0, 0.0}; }
   double max_overlap() const override { return 0.0; }
@@ -81,6 +81,7 @@ class Lost final : public Simulator {
 
  private:
   std::vector<Vector2> places_;
+  Counters counters_;
   WorldSpec spec_ = test::rink_of(4.0, 1.0);
 };
 

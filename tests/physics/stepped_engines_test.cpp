@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "game/physics/simulator.h"
+#include "game/physics/simulator_choice.h"
 #include "tests/physics/play.h"
 #include "tests/physics/scenes.h"
 

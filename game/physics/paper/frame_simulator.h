@@ -46,7 +46,7 @@ class FrameSimulator : public Simulator {
   bool is_free(const Vector2& centre, double radius) const override;
   bool is_free(const Vector2& centre, const Vector2& half_extent) const override;
 
-  Counters counters() const override { return counters_; }
+  const Counters& counters() const override { return counters_; }
   double spin(BodyId body) const override { return bodies_[body.index].spin; }
   double kinetic_energy() const override;
   double energy_introduced() const override { return spec_.accounts_energy ? introduced_ : 0.0; }
