@@ -33,7 +33,7 @@ std::vector<Encounter> encounters(const Target& target) {
   for (std::size_t i = 0; i < pair_count; ++i) {
     // As a broad phase leaves them: about half of the pairs meet.
     Encounter e = encounter(seeded, Difficulty::random, target);
-    if (seeded.bits() % 2 == 0)
+    if (seeded.next() % 2 == 0)
       e.velocity_a = e.velocity_b + e.velocity().norm() * seeded.direction();
     all.push_back(e);
   }

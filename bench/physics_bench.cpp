@@ -26,6 +26,7 @@ using rink::physics::WorldSpec;
 
 /// The same scenes everywhere.
 struct Seeded : rink::physics::collision::reference::Seeded {
+  using rink::physics::collision::reference::Seeded::Seeded;
   /// Isotropic, mean 1 m/s.
   Vector2 velocity() {
     const double angle = uniform(0.0, 2.0 * std::numbers::pi),
@@ -257,9 +258,9 @@ void two_player_step(benchmark::State& state) {
   std::uint64_t frame = 0;
   for (auto _ : state) {
     if (frame++ % 6 == 0) {
-      const auto axis = [&] { return 6.0 * (static_cast<double>(seeded.bits() % 3) - 1.0); };
+      const auto axis = [&] { return 6.0 * (static_cast<double>(seeded.next() % 3) - 1.0); };
       const double x = axis(), y = axis();
-      world.set_thrust(bats[seeded.bits() % 2], {x, y});
+      world.set_thrust(bats[seeded.next() % 2], {x, y});
     }
     const double until = world.now() + 1.0 / 60.0;
     while (world.advance(until)) {
@@ -300,9 +301,9 @@ void crowd(benchmark::State& state) {
   for (auto _ : state)
     for (int key = 0; key < 1000; ++key) {
       world.advance(world.now() + 1e-3);
-      const auto axis = [&] { return 6.0 * (static_cast<double>(seeded.bits() % 3) - 1.0); };
+      const auto axis = [&] { return 6.0 * (static_cast<double>(seeded.next() % 3) - 1.0); };
       const double x = axis(), y = axis();
-      world.set_thrust(bats[seeded.bits() % bats.size()], {x, y});
+      world.set_thrust(bats[seeded.next() % bats.size()], {x, y});
     }
   state.SetItemsProcessed(static_cast<std::int64_t>(world.counters().disc_impacts - before));
   state.counters["cpu_share"] =

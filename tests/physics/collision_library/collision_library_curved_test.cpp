@@ -25,7 +25,7 @@ Motion driven(Seeded& seeded, const Point& position, double scale) {
   m.position = position;
   m.velocity = Point(seeded.uniform(-3.0, 3.0), seeded.uniform(-3.0, 3.0)) * scale;
   m.acceleration = Point(seeded.uniform(-6.0, 6.0), seeded.uniform(-6.0, 6.0)) * scale;
-  m.drag = Point::Constant(seeded.bits() % 4 == 0 ? 0.0 : seeded.magnitude(1e-3, 5.0));
+  m.drag = Point::Constant(seeded.next() % 4 == 0 ? 0.0 : seeded.magnitude(1e-3, 5.0));
   return m;
 }
 
@@ -106,7 +106,7 @@ void judge_driven_edge(Errors& errors, Seeded& seeded, Difficulty difficulty) {
   Point half = scale_of(difficulty) * Point(seeded.uniform(-0.2, 0.2), seeded.uniform(0.02, 0.2));
   const Pair pair(seeded, difficulty, 1.01 * half.norm());
   const Curved flight{pair.a, pair.b};
-  if (seeded.bits() % 4 != 0 && cross<double>(pair.a.position - pair.b.position, half) > 0.0)
+  if (seeded.next() % 4 != 0 && cross<double>(pair.a.position - pair.b.position, half) > 0.0)
     half = -half;  // mostly from outside
   const QuadPoint from = exact(half), along = -2 * from, out{along.y, -along.x};
   const Quad length = root(dot(along, along));
@@ -134,8 +134,9 @@ void judge_many(const char* name, int count, bool is_table, const Judge& judge_o
     Errors errors;
     Seeded seeded{7};
     for (int i = 0; i < count; ++i) {
-      SCOPED_TRACE(std::string(name) + ", " + difficulty_names[static_cast<int>(difficulty)] +
-                   ", seed " + std::to_string(seeded.state));
+      SCOPED_TRACE(testing::Message()
+                   << name << ", " << difficulty_names[static_cast<int>(difficulty)] << ", seed "
+                   << seeded.state());
       judge_one(errors, seeded, difficulty);
     }
     EXPECT_GT(errors.hits, count / 20);

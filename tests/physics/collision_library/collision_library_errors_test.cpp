@@ -253,8 +253,8 @@ std::vector<Row> tally_all(int count) {
     for (int i = 0; i < difficulty_count; ++i) {
       Seeded seeded{static_cast<std::uint64_t>(i)};
       for (int k = 0; k < count; ++k) {
-        SCOPED_TRACE(std::string(subject.name) + ", " + difficulty_names[i] + ", seed " +
-                     std::to_string(seeded.state));
+        SCOPED_TRACE(testing::Message()
+                     << subject.name << ", " << difficulty_names[i] << ", seed " << seeded.state());
         row[static_cast<std::size_t>(i)].add(subject.judge(seeded, difficulties[i]));
       }
     }
@@ -281,14 +281,14 @@ TEST(TimesOfImpact, OfPucksThatSkimAFaceAreNeverLostAtTheSeamWithTheCorner) {
   Seeded seeded{17};
   Tally tally;
   for (int i = 0; i < 3000; ++i) {
-    SCOPED_TRACE("seed " + std::to_string(seeded.state));
+    SCOPED_TRACE("seed " + std::to_string(seeded.state()));
     const double radius = seeded.magnitude(0.01, 1.0);
     Point extent = random_extent(seeded, Difficulty::random);
     Encounter e{{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
     e.position_a = {-(extent.x() + seeded.uniform(1.0, 3.0) * radius),
                     (extent.y() + radius) * (1.0 + seeded.sign() * seeded.magnitude(1e-17, 1e-12))};
     e.velocity_a.y() = seeded.sign() * seeded.magnitude(1e-17, 1e-9);
-    if (seeded.bits() % 2 == 0)
+    if (seeded.next() % 2 == 0)
       for (Point* p : {&e.position_a, &e.velocity_a, &extent}) *p = Point(p->y(), p->x());
     tally.add(judge(e, {exact(extent), radius},
                     time_disc_meets_rounded_box(Disc<double>{e.position_a, radius}, e.velocity_a,
