@@ -8,7 +8,7 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64")
 endif()
 
 # The asan preset adds -Wno-maybe-uninitialized: under its instrumentation GCC 12 warns of std::regex's own code (GCC bug 105562). The bench preset leaves out what GCC 12 warns of in
-# its own std::string and std::vector at -O3 (GCC bugs 105329, 105651, 107852); every other preset compiles the same sources with these warnings.
+# its own std::string, std::vector and std::optional at -O3 (GCC bugs 105329, 105651, 107852); every other preset compiles the same sources with these warnings.
 add_library(rink_options INTERFACE)
 target_compile_options(rink_options INTERFACE -Wall -Wextra -Wconversion $<$<BOOL:${RINK_WARNINGS_AS_ERRORS}>:-Werror>)
 
