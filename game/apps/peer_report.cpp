@@ -3,11 +3,9 @@
 
 #include <sys/resource.h>
 
-#include <cinttypes>
-#include <cstdio>
-
 #include "game/control/key_log_file.h"
 #include "game/net/scene_choice.h"
+#include "im/basics/hexadecimal.h"
 
 namespace rink::game {
 
@@ -36,9 +34,7 @@ SharedGame game_of(const PeerOptions& options) {
 }
 
 void add_hash(nlohmann::ordered_json& report, const PlayedPart& part) {
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016" PRIx64, part.hash);
-  report[report::hash.key] = hash;
+  report[report::hash.key] = hexadecimal(part.hash);
 }
 
 }  // namespace rink::game

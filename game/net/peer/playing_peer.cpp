@@ -2,7 +2,6 @@
 #include "game/net/peer/playing_peer.h"
 
 #include <chrono>
-#include <cinttypes>
 #include <cstdio>
 #include <random>
 
@@ -13,6 +12,7 @@
 #include "game/net/peer/hand_player.h"
 #include "game/net/peer/interest/viewing_options.h"
 #include "game/net/peer/meeting/listening_place.h"
+#include "im/basics/hexadecimal.h"
 
 namespace rink::game {
 
@@ -167,8 +167,8 @@ void PlayingPeer::end(const PlayedPart& part) {
                                                       ? "nobody was left to go on"
                                                       : "all that this peer had is with others");
   char words[160];
-  std::snprintf(words, sizeof words, "The game is over at %g s: hash %016" PRIx64 ", %zu keys",
-                part.time, part.hash, part.keys.size());
+  std::snprintf(words, sizeof words, "The game is over at %g s: hash %s, %zu keys", part.time,
+                hexadecimal(part.hash).c_str(), part.keys.size());
   std::string trouble;
   try {
     write_record(part);

@@ -1,14 +1,13 @@
 // Differences of counters, under the names of the report.
 #include "game/net/server/serve_report.h"
 
-#include <cinttypes>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
 #include "game/model/report_fields.h"
 #include "game/model/report_schema.h"
+#include "im/basics/hexadecimal.h"
 
 namespace rink::game {
 
@@ -27,12 +26,10 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
   const rti::FederationCounters now =
       serving.execution().counters();  // who is dropped after the span is dropped, too
   const Server& server = serving.server();
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016" PRIx64, server.game().hash());
   Json report{
       {"schema", report_schema},
       {report::entities, server.game().entities().size()},
-      {report::state_hash, hash},
+      {report::state_hash, hexadecimal(server.game().hash())},
       {report::bytes_sent, last.transport.bytes_sent - first.transport.bytes_sent},
       {report::bytes_received, last.transport.bytes_received - first.transport.bytes_received},
       {report::writes_sent, last.transport.writes - first.transport.writes},

@@ -3,8 +3,6 @@
 #include "loadgen/run/peers/peer_run.h"
 
 #include <algorithm>
-#include <cinttypes>
-#include <cstdio>
 #include <cstring>
 #include <deque>
 #include <limits>
@@ -15,6 +13,7 @@
 #include "game/net/peer/meeting/seating.h"
 #include "game/net/relevant_kinds.h"
 #include "game/net/view.h"
+#include "im/basics/hexadecimal.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/peers/peer_judgement.h"
 #include "loadgen/run/peers/peer_station.h"
@@ -330,11 +329,8 @@ std::string PeerRun::state_hash() const {
   const auto world =
       peer::hash_of_whole(game_.start().world().spec(), game_.start().world().body_count(), parts);
   if (!world) throw Failure{"not every body has one owner in the end"};
-  char text[17];
-  std::snprintf(
-      text, sizeof text, "%016" PRIx64,
+  return hexadecimal(
       game_.hash(*world, static_cast<double>(last_window()) / cell_.parameters.tick_rate_hz));
-  return text;
 }
 
 PeerTotals PeerRun::totals() const {

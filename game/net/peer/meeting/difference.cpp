@@ -1,24 +1,13 @@
 // The words for each difference.
 #include "game/net/peer/meeting/difference.h"
 
-#include <cinttypes>
-#include <cstdio>
+#include "im/basics/hexadecimal.h"
 
 namespace rink::game {
 
-namespace {
-
-std::string in_hexadecimal(std::uint64_t number) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016" PRIx64, number);
-  return text;
-}
-
-}  // namespace
-
 std::optional<std::string> difference(const Luggage& theirs, const Luggage& ours) {
   const auto both = [](std::uint64_t a, std::uint64_t b) {
-    return in_hexadecimal(a) + ", here it is " + in_hexadecimal(b);
+    return hexadecimal(a) + ", here it is " + hexadecimal(b);
   };
   if (theirs.scene != ours.scene)
     return "it has another scene: its fingerprint is " + both(theirs.scene, ours.scene);
