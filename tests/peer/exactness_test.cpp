@@ -299,6 +299,12 @@ TEST(SharedSimulation, EqualsOneEngineWhereRowsCrossAndAreStruckAtOneInstant) {
   expect_same_crossing_rows(0, 50, 12);
 }
 
+/// A lossless column out of which one puck slides sideways, and at whose ends friction stops who
+/// moves at 4e-16 m/s: they rattled 6e-16 s apart, in which nobody got anywhere, without end.
+TEST(SharedSimulation, EqualsOneEngineWhereAColumnRattlesAtSpeedsOfRoundings) {
+  expect_same_crossing_rows(1058, 1059, 40);
+}
+
 /// A thousand in ten parts.
 class CrossingRowsLong : public testing::TestWithParam<std::uint64_t> {};
 

@@ -248,6 +248,7 @@ class Engine {
   void visit_partners(std::uint32_t body, Visit&& visit);
   bool is_pressed_hard(std::uint32_t body, Partner partner, Real approach, Real time) const;
   bool hop(const Contact& contact, Real approach, Real pressing, Real time);
+  bool is_rattling(Real approach) const;
   void gather(const Contact& contact, Real speed_max, Real time);
   void add_contact(std::uint32_t place, Partner partner, Real speed_max, Real time);
   std::uint32_t place_in_cluster(std::uint32_t body, Real time);

@@ -19,6 +19,9 @@ constexpr int sweeps_max = 500;
 constexpr double glancing_part = 16.0;     // of contact_time
 constexpr std::uint32_t long_series = 64;  // of hops
 constexpr double loose_gaps = 8.0;
+/// The least speed at which a hop parts contacts, relative to the speeds around: less than a few
+/// roundings would be none. Its energy, 1e-24 of what there is, is below rounding.
+constexpr Real parting_min = 1e-12 * fineness;
 constexpr double creep_speed = 1e-9;  // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
 
@@ -44,7 +47,8 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
   for (const Touch& contact : touches_) given_back = std::min(given_back, contact.restitution);
   const Real pressure = std::max(thrust_max, pressing);
   if (touches_.size() < 2 && (pressure <= 0.0 || approach >= rest_speed_)) return false;
-  if (pressure <= 0.0 && given_back == 1.0 && !is_hemmed_in(c)) return false;
+  if (pressure <= 0.0 && given_back == 1.0 && !is_rattling(approach) && !is_hemmed_in(c))
+    return false;
   note(EventKind::hop, time, c.body, c.partner);
   bool may_freeze = thrust_max > 0.0;
   for (const std::uint32_t body : joint_) {
@@ -69,9 +73,7 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
   if (thrust_max == 0.0 && speed < still_speed()) {
     std::fill(joint_velocities_.begin(), joint_velocities_.end(), RealVector(0.0, 0.0));
   } else {
-    // Less than a few roundings of the speeds would be none; its energy, 1e-24 of what there is, is
-    // below rounding.
-    const Real least = 1e-12 * fineness * speed;
+    const Real least = parting_min * speed;
     const Real driven = std::max(
                    least, std::clamp<Real>(0.5 * pressure * contact_time_, 0.0, 0.5 * rest_speed_)),
                sum = driven * static_cast<Real>(touches_.size());
@@ -88,6 +90,15 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
     bodies_[joint_[place]].vy = joint_velocities_[place].y();
   }
   return true;
+}
+
+/// Whether friction may stop those of the cluster between two impacts at `approach`, which is a
+/// rounding of how fast they are: lossless impacts would go on for ever then, a few roundings of
+/// the clock apart, in which nobody gets anywhere.
+bool Engine::is_rattling(Real approach) const {
+  return is_slowed() && std::any_of(joint_.begin(), joint_.end(), [&](std::uint32_t body) {
+           return approach <= Real(parting_min) * velocity_of(body).norm();
+         });
 }
 
 /// The strongest thrust in the cluster [m/s^2].
