@@ -205,7 +205,8 @@ void add_options(Flags& flags, PeerOptions& options) {
       "--transport mpi --scene arena --until 5\n"
       "Exit status: 0 done, 1 failed or a peer that said what cannot be, 2 bad flag or file, 10 "
       "address in use, 11 no peer there, 12 wrong protocol version, 14 not let in,\n"
-      "16 a peer is gone, 130 interrupted.");
+      "16 a peer is gone, 19 this peer went on alone and the other may have done so too, 130 "
+      "interrupted.");
 }
 
 }  // namespace rink::game

@@ -431,7 +431,7 @@ UP = {
     51: lambda r: ["refuse_keyframe %d" % r.u16()],
     52: lambda r: ["create_region_over %d %x" % (r.u32(), r.u64())],
     53: Reader.ranges,
-    54: lambda r: ["%s %s %s" % (r.object_class(r.u16()), ("unsubscribe", "subscribe", "request")[r.u8()], r.pairs())],
+    54: lambda r: ["%s %s %s" % (r.object_class(r.u16()), ("unsubscribe", "subscribe", "request", "subscribe_passively")[r.u8()], r.pairs())],
     55: lambda r: ["subscribe_interaction_within %s %d %s" % (r.interaction_class(), r.u8(), r.handles())],
     56: lambda r: ["associate_regions %d %d %s" % (r.u32(), r.u8(), r.pairs())],
     57: lambda r: ["send_within %s %s %s %s" % (r.interaction_class(), r.read_stamp(), r.handles(), r.short_bytes())],

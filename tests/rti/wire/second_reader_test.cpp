@@ -121,6 +121,8 @@ void negotiate(Session& session) {
   session.tick();
   watchman.ambassador.request_attribute_value_update_with_regions(vessel, pairs);
   watchman.say(line_of("Vessel", "request", "1:" + std::to_string(wire_number(strip))));
+  watchman.ambassador.subscribe_object_class_attributes_with_regions(vessel, pairs, false);
+  watchman.say(line_of("Vessel", "subscribe_passively", "1:" + std::to_string(wire_number(strip))));
   session.tick();
 
   watchman.ambassador.attribute_ownership_acquisition(boat, pace, bytes_of("mine"));
