@@ -37,7 +37,7 @@ game::Scene resting(std::uint32_t count, std::uint32_t moving) {
     scene.bodies.pucks.push_back(puck);
   }
   const double fence = 0.2 * pen + 0.1;
-  for (double along = 0.05; along < fence; along += 0.12)
+  for (double along = 0.05; along < fence - 0.1; along += 0.12)
     for (const physics::Vector2& position :
          {physics::Vector2(fence, along), physics::Vector2(along, fence)}) {
       game::Post post;
@@ -45,6 +45,10 @@ game::Scene resting(std::uint32_t count, std::uint32_t moving) {
       post.body.radius = 0.05;
       scene.bodies.posts.push_back(post);
     }
+  game::Post corner;
+  corner.body.position = {fence, fence};
+  corner.body.radius = 0.05;
+  scene.bodies.posts.push_back(corner);
   return scene;
 }
 
