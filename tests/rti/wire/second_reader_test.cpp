@@ -123,6 +123,7 @@ void negotiate(Session& session) {
   watchman.say(line_of("Vessel", "request", "1:" + std::to_string(wire_number(strip))));
   watchman.ambassador.subscribe_object_class_attributes_with_regions(vessel, pairs, false);
   watchman.say(line_of("Vessel", "subscribe_passively", "1:" + std::to_string(wire_number(strip))));
+  pilot.heard.push_back("class_relevance Vessel position -");
   session.tick();
 
   watchman.ambassador.attribute_ownership_acquisition(boat, pace, bytes_of("mine"));
