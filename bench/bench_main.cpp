@@ -54,7 +54,7 @@ bool translate(const std::vector<std::string>& arguments, Arguments& result) {
       continue;
     }
     translated.push_back((is_filter ? "--benchmark_filter=" : "--benchmark_out=") + arguments[i]);
-    if (is_json) translated.push_back("--benchmark_out_format=json");
+    if (is_json) translated.emplace_back("--benchmark_out_format=json");
   }
   return true;
 }

@@ -104,6 +104,7 @@ std::uint64_t dominated(std::vector<Corner> a, std::vector<Corner> b) {
   const auto by_x = [](const Corner& p, const Corner& q) { return p.x < q.x; };
   std::sort(a.begin(), a.end(), by_x), std::sort(b.begin(), b.end(), by_x);
   std::vector<double> heights;
+  heights.reserve(a.size());
   for (const Corner& corner : a) heights.push_back(corner.y);
   std::sort(heights.begin(), heights.end());
   Fenwick seen(heights.size());

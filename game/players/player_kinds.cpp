@@ -43,7 +43,7 @@ constexpr Kind kinds[] = {{"chaser", chaser<club_skill>},
 const std::vector<std::string>& player_kinds() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Kind& kind : kinds) all.push_back(kind.name);
+    for (const Kind& kind : kinds) all.emplace_back(kind.name);
     return all;
   }();
   return names;

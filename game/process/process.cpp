@@ -76,6 +76,7 @@ Process::Process(const std::filesystem::path& executable, const std::vector<std:
   std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   cpu_set_t set;

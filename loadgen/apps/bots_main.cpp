@@ -226,7 +226,7 @@ rti::FederationFile federation_of(const Options& options) {
 
 game::ExitStatus play(const Options& options) {
   const rti::FederationFile file = federation_of(options);
-  const auto [address, port] = std::pair(file.nodes.front().address, file.nodes.front().port);
+  const auto& node = file.nodes.front();
   game::require_writable("--report", options.report);
   game::require_writable("--evidence", options.evidence);
   const rti::Fom fom = game::load_rink_fom(file.fom);
@@ -253,7 +253,7 @@ game::ExitStatus play(const Options& options) {
   loadgen::BotCrowd crowd(fom, gate, settings, options.count, plan, now_s);
   if (!options.evidence.empty()) crowd.collect_evidence(options.seed);
   const double histogram_ns = histogram_ns_per_record();
-  crowd.connect([&](std::uint32_t) { return transport.connect(address, port); });
+  crowd.connect([&](std::uint32_t) { return transport.connect(node.address, node.port); });
   const double give_up_s = now_s() + options.patience_s;
   ProcessorLoad load;
   while (!game::is_interrupted && !crowd.is_over() &&

@@ -160,7 +160,7 @@ void expect_baseline(const ExperimentReader& reader, const Experiment& experimen
   // A cell that lacks a parameter is the partner of all of its values, and so of one that is not
   // there at all.
   for (const auto& [name, value] : experiment.baseline_others) {
-    const auto has_it = [&name, &value](const Cell& cell) {
+    const auto has_it = [&name = name, &value = value](const Cell& cell) {
       Cell with_it = cell;
       return key_called(name)->set(with_it, value) && with_it == cell;
     };

@@ -59,7 +59,8 @@ std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) 
   return sizeof length + length;
 }
 
-void Fom::use_codec(std::string_view data_type, std::shared_ptr<const AttributeCodec> codec) {
+void Fom::use_codec(std::string_view data_type,
+                    const std::shared_ptr<const AttributeCodec>& codec) {
   bool is_used = false;
   for (ObjectClass& object_class : object_classes_)
     for (Attribute& attribute : object_class.attributes)

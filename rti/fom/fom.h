@@ -80,7 +80,7 @@ class Fom {
 
   /// From now on values of `data_type` travel as `codec` says. Before the model is handed to
   /// anybody. Throws `FileError` if no attribute is of that type.
-  void use_codec(std::string_view data_type, std::shared_ptr<const AttributeCodec> codec);
+  void use_codec(std::string_view data_type, const std::shared_ptr<const AttributeCodec>& codec);
 
   const std::string& name() const { return name_; }
   const std::vector<ObjectClass>& object_classes() const { return object_classes_; }

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Has clang-tidy check the sources by the rules of .clang-tidy: the Kth of N shares of those that the work folder of alone.py compiles. Fails with what it finds.
+"""Has clang-tidy check the sources by the rules of .clang-tidy, all but those of tests and benchmarks. In two steps: --configure makes the work folder, --part K/N then checks the
+Kth of N shares of what it compiles. Sources of a target are checked several at a time, which reads their headers once. Fails with what it finds.
 Prints "skipped: ..." where there is no clang-tidy."""
 import argparse
 import json
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -13,24 +13,39 @@ import zlib
 
 arguments = argparse.ArgumentParser(description=__doc__)
 arguments.add_argument("--root", type=pathlib.Path, required=True, help="the folder of Rink's sources")
-arguments.add_argument("--work", type=pathlib.Path, required=True, help="a folder that alone.py has configured")
+arguments.add_argument("--work", type=pathlib.Path, required=True, help="a folder to configure in")
+arguments.add_argument("--cmake", default="cmake")
+arguments.add_argument("--compiler", default="g++")
+arguments.add_argument("--configure", action="store_true", help="make the work folder and end")
 arguments.add_argument("--part", default="0/1", metavar="K/N", help="only files whose path's CRC-32 modulo N is K")
-arguments.add_argument("--only", type=re.compile, default=re.compile("^(im|rti|game|loadgen|bench)/"), metavar="REGEX",
-                       help="only files whose path from the root matches (default: all but tests)")
 options = arguments.parse_args()
+
+if options.configure:
+    subprocess.run([options.cmake, "-G", "Ninja", "-S", options.root, "-B", options.work, "-DRINK_UNITY=ON", "-DRINK_PRECOMPILED=OFF", "-DCMAKE_BUILD_TYPE=None",
+                    "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", f"-DCMAKE_CXX_COMPILER={options.compiler}", "-DCMAKE_CXX_FLAGS="], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([options.cmake, "--build", options.work, "--target", "build-facts"], check=True, stdout=subprocess.DEVNULL)
+    sys.exit()
 
 tidy = shutil.which("clang-tidy")
 if not tidy:
     print("skipped: there is no clang-tidy")
     sys.exit()
+
+
+def place(file):
+    """The path from the root or, of files that include several sources, from the work folder."""
+    return os.path.relpath(file, options.work if pathlib.Path(file).is_relative_to(options.work) else options.root)
+
+
 share, shares = map(int, options.part.split("/"))
-paths = sorted({os.path.relpath(command["file"], options.root) for command in json.loads((options.work / "compile_commands.json").read_text())})
-chosen = [path for path in paths if options.only.search(path) and zlib.crc32(path.encode()) % shares == share]
+files = {command["file"] for command in json.loads((options.work / "compile_commands.json").read_text())}
+chosen = sorted(file for file in files if not place(file).startswith(("tests/", "bench/")) and zlib.crc32(place(file).encode()) % shares == share)
 findings = 0
-for path in chosen:
-    done = subprocess.run([tidy, "-p", options.work, "--quiet", options.root / path], cwd=options.root, capture_output=True, text=True)
+for file in chosen:
+    done = subprocess.run([tidy, "-p", options.work, "--quiet", f"--config-file={options.root}/.clang-tidy", "--checks=-bugprone-suspicious-include",
+                           f"--header-filter={options.root}/(im|rti|game|loadgen)/.*", file], cwd=options.root, capture_output=True, text=True)
     if done.returncode:
         findings += 1
-        print(f"{path}:\n{done.stdout}{done.stderr if not done.stdout else ''}")
-print(f"{len(chosen)} sources, {findings} with findings")
+        print(f"{place(file)}:\n{done.stdout}{done.stderr if not done.stdout else ''}")
+print(f"{len(chosen)} files, {findings} with findings")
 sys.exit(findings > 0)

@@ -86,7 +86,7 @@ rti::FederationSettings federation_of(const ServeOptions& options, const Scene& 
   settings.match_worker = worker;
   settings.federation = federation;
   settings.members = options.members;
-  if (!settings.members.empty()) settings.members.push_back("server");  // our own federate
+  if (!settings.members.empty()) settings.members.emplace_back("server");  // our own federate
   return settings;
 }
 

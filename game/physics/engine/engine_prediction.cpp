@@ -301,7 +301,7 @@ void Engine::predict_curved_crossing(std::uint32_t body) {
   const CellGrid::Place place = grid_.place(body);
   const Motion still, moving = motion(body);
   const Real start = std::max(bodies_[body].time, now_);
-  const auto leave = [&](Real edge, RealVector normal, CellGrid::Direction direction) {
+  const auto leave = [&](Real edge, const RealVector& normal, CellGrid::Direction direction) {
     if (std::abs(edge) == infinity) return;
     const Real limit = std::min(slot.impact_time, slot.crossing_time);
     const auto time =

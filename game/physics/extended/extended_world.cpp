@@ -11,6 +11,7 @@ namespace rink::physics {
 static_assert(std::is_same_v<Real, long double>);
 
 struct ExtendedWorld::Inside {
+  explicit Inside(World begun) : world(std::move(begun)) {}
   World world;
 };
 

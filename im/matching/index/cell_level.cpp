@@ -41,8 +41,8 @@ double crowding(std::span<const FloatBox> boxes, double width, double height) {
   const CellAxis x = axis(squares_across, width), y = axis(squares_across, height);
   std::array<std::uint32_t, squares_across * squares_across> counts{};
   for (std::size_t i = 0; i < boxes.size(); i += boxes.size() / sample_max + 1)
-    ++counts[static_cast<std::size_t>(y.cell(boxes[i].low_y) * squares_across +
-                                      x.cell(boxes[i].low_x))];
+    ++counts[static_cast<std::size_t>(y.cell(boxes[i].low_y)) * squares_across +
+             static_cast<std::size_t>(x.cell(boxes[i].low_x))];
   double pairs = 0.0, sampled = 0.0;
   for (const double count : counts) pairs += count * (count - 1.0), sampled += count;
   return sampled > 1.0 ? std::max(1.0, pairs / (sampled * (sampled - 1.0)) *

@@ -231,7 +231,7 @@ void LineIndex::visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& vi
       Edges offset = coding.offset(first, row);
       std::uint32_t line = level.first_cell + static_cast<std::uint32_t>(row) * level.columns() +
                            static_cast<std::uint32_t>(first);
-      const std::size_t begin = visits.size(), count = static_cast<std::size_t>(last - first + 1);
+      const std::size_t begin = visits.size(), count = static_cast<std::size_t>(last - first) + 1;
       visits.resize(begin + count);
       for (Visit *visit = visits.data() + begin, *end = visit + count; visit != end;
            ++visit, ++line, offset += step) {
