@@ -84,7 +84,7 @@ struct Rink {
 void tick_among_resting(benchmark::State& state, std::uint32_t count, const std::string& policy) {
   constexpr std::uint32_t moving = 100;
   static std::string name;
-  static std::unique_ptr<Rink> rink;  // to make a million entities takes seconds
+  static std::unique_ptr<Rink> rink;  // to make so many entities takes seconds
   if (const std::string wanted = std::to_string(count) + policy; name != wanted) {
     rink.reset();
     rink = std::make_unique<Rink>(count, moving, policy);
@@ -108,7 +108,7 @@ void tick_among_resting(benchmark::State& state, std::uint32_t count, const std:
 
 const bool registered = [] {
   for (const char* policy : {"on-event", "snapshot"})
-    for (const std::uint32_t count : {1'000u, 1'000'000u}) {
+    for (const std::uint32_t count : {1'000u, 250'000u}) {
       char name[96];
       std::snprintf(name, sizeof name, "replication/tick/%s/resting:%u/moving:100", policy, count);
       benchmark::RegisterBenchmark(
