@@ -44,7 +44,8 @@ findings = 0
 for file in chosen:
     done = subprocess.run([tidy, "-p", options.work, "--quiet", f"--config-file={options.root}/.clang-tidy", "--checks=-bugprone-suspicious-include",
                            f"--header-filter={options.root}/(im|rti|game|loadgen)/.*", file], cwd=options.root, capture_output=True, text=True)
-    if done.returncode:
+    # What is an error to the compiler in clang-tidy alone is none: version 14 lacks parts of C++20 that g++ 12 has.
+    if "-warnings-as-errors]" in done.stdout or done.returncode and not done.stdout:
         findings += 1
         print(f"{place(file)}:\n{done.stdout}{done.stderr if not done.stdout else ''}")
 print(f"{len(chosen)} files, {findings} with findings")

@@ -274,8 +274,8 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests,
   if (terms.is_seated && terms.peer_count > start_.player_count())
     throw peer::ProtocolError(
         "there are more peers than bats, and each is to have one in its zone");
-  const Guest self =
-      guests[number];  // while a newcomer waits to be let in, others come, and the list grows
+  // A copy: while a newcomer waits to be let in, others come, and the list grows.
+  const Guest self = guests[number];  // NOLINT(performance-unnecessary-copy-initialization)
   if (manner.members.empty()) settings.players = players(terms, guests);
   std::optional<peer::Session> made;
   if (manner.members.empty())
