@@ -36,19 +36,16 @@ game::Scene resting(std::uint32_t count, std::uint32_t moving) {
       puck.body.velocity = {random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0)};
     scene.bodies.pucks.push_back(puck);
   }
+  const auto add_post = [&](double x, double y) {
+    game::Post post;
+    post.body.position = {x, y};
+    post.body.radius = 0.05;
+    scene.bodies.posts.push_back(post);
+  };
   const double fence = 0.2 * pen + 0.1;
   for (double along = 0.05; along < fence - 0.1; along += 0.12)
-    for (const physics::Vector2& position :
-         {physics::Vector2(fence, along), physics::Vector2(along, fence)}) {
-      game::Post post;
-      post.body.position = position;
-      post.body.radius = 0.05;
-      scene.bodies.posts.push_back(post);
-    }
-  game::Post corner;
-  corner.body.position = {fence, fence};
-  corner.body.radius = 0.05;
-  scene.bodies.posts.push_back(corner);
+    add_post(fence, along), add_post(along, fence);
+  add_post(fence, fence);
   return scene;
 }
 
