@@ -92,9 +92,9 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
   return true;
 }
 
-/// Whether friction may stop those of the cluster between two impacts at `approach`, which is a
-/// rounding of how fast they are: lossless impacts would go on for ever then, a few roundings of
-/// the clock apart, in which nobody gets anywhere.
+/// Whether friction may stop bodies of the cluster between impacts whose closing speed `approach`
+/// [m/s] is a rounding of a body's speed. Lossless impacts would then go on for ever, a few
+/// roundings of the clock apart, and no place would change.
 bool Engine::is_rattling(Real approach) const {
   return is_slowed() && std::any_of(joint_.begin(), joint_.end(), [&](std::uint32_t body) {
            return approach <= Real(parting_min) * velocity_of(body).norm();
