@@ -25,6 +25,18 @@ int status_of(Process& process, std::chrono::seconds patience) {
   return process.ending() ? process.ending()->exit_status : -1;
 }
 
+/// Whether the server at `place` has so many federates, its own among them, within `patience`.
+bool has_federates(const std::string& place, int count, std::chrono::seconds patience) {
+  Process status(command("serve"), {"--status", place, "--every", "0.05"}, {});
+  const std::string words = std::to_string(count) + " federates";
+  const auto limit = std::chrono::steady_clock::now() + patience;
+  while (!status.ending() && std::chrono::steady_clock::now() < limit) {
+    status.attend(20ms);
+    if (status.take_output().find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
 struct AHost : testing::Test {
   AHost() {
     host = std::make_unique<Process>(
@@ -42,20 +54,20 @@ struct AHost : testing::Test {
 TEST_F(AHost, RecordsAMatchThatItsPlayersLeaveAndTheRecordReplaysToTheSameHash) {
   ASSERT_TRUE(place) << host->last_words();
   Process duel(command("duel"), {"--connect", *place, "--duration", "2.5"}, {});
-  EXPECT_EQ(status_of(duel, 10s), 0) << duel.last_words();
+  EXPECT_EQ(status_of(duel, 20s), 0) << duel.last_words();
   host->stop(5s);
   EXPECT_EQ(host->ending()->exit_status, 130) << host->last_words();
   Process replay(command("replay"), {(folder / "match-1.keys").string()}, {});
-  EXPECT_EQ(status_of(replay, 10s), 0) << replay.last_words();
+  EXPECT_EQ(status_of(replay, 20s), 0) << replay.last_words();
 }
 
 TEST_F(AHost, ThatIsKilledIsMissedByItsPlayersAtOnce) {
   ASSERT_TRUE(place) << host->last_words();
   Process duel(command("duel"), {"--connect", *place, "--duration", "60"}, {});
-  for (int i = 0; i < 25; ++i) duel.attend(20ms);
+  ASSERT_TRUE(has_federates(*place, 3, 20s)) << duel.last_words();
   ASSERT_FALSE(duel.ending()) << duel.last_words();
   host.reset();
-  EXPECT_EQ(status_of(duel, 3s), 16);
+  EXPECT_EQ(status_of(duel, 3s), 16) << duel.last_words();
   EXPECT_THAT(duel.last_words(), HasSubstr("closed by peer"));
 }
 
@@ -74,7 +86,7 @@ TEST(ServeMatch, GoesOnWhereNoRecordCanBeWrittenAndSaysItOnce) {
   ASSERT_TRUE(place) << host.last_words();
   for (int round = 0; round < 2; ++round) {
     Process duel(command("duel"), {"--connect", *place, "--duration", "1"}, {});
-    EXPECT_EQ(status_of(duel, 10s), 0) << duel.last_words();
+    EXPECT_EQ(status_of(duel, 20s), 0) << duel.last_words();
   }
   host.attend(20ms);
   EXPECT_FALSE(host.ending());
