@@ -16,6 +16,7 @@
 #include "tests/physics/collision_library/collision_library_cases.h"
 #include "tests/physics/collision_library/collision_library_reference.h"
 
+namespace rink::bench::collision_bench {
 namespace {
 
 using namespace rink::physics::collision;
@@ -219,3 +220,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::collision_bench

@@ -11,6 +11,7 @@
 #include "bench/im_crowd.h"
 #include "im/filter.h"
 
+namespace rink::bench::im_bench {
 namespace {
 
 using namespace rink;
@@ -100,3 +101,4 @@ const bool is_registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::im_bench

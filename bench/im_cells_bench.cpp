@@ -13,6 +13,7 @@
 
 #include "im/filter.h"
 
+namespace rink::bench::im_cells_bench {
 namespace {
 
 using namespace rink;
@@ -151,3 +152,4 @@ const bool is_registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::im_cells_bench

@@ -14,6 +14,7 @@
 #include "bench/im_crowd.h"
 #include "im/stages/priority_order.h"
 
+namespace rink::bench::im_composed_bench {
 namespace {
 
 using namespace rink;
@@ -345,3 +346,4 @@ const bool is_registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::im_composed_bench

@@ -16,6 +16,7 @@
 #include "im/schemes/overlap_filter.h"
 #include "rti/second_core.h"
 
+namespace rink::bench::im_matching_bench {
 namespace {
 
 using namespace rink;
@@ -336,3 +337,4 @@ const bool is_registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::im_matching_bench

@@ -15,6 +15,7 @@
 #include "im/schemes/overlap_filter.h"
 #include "rti/second_core.h"
 
+namespace rink::bench::im_second_core_bench {
 namespace {
 
 using namespace rink;
@@ -157,3 +158,4 @@ const bool is_registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::im_second_core_bench

@@ -14,6 +14,7 @@
 #include "game/peer/protocol.h"
 #include "tests/peer/thread_mail.h"
 
+namespace rink::bench::peer_bench {
 namespace {
 
 namespace peer = rink::peer;
@@ -197,3 +198,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::peer_bench

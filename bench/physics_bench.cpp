@@ -13,6 +13,7 @@
 #include "game/physics/world.h"
 #include "tests/physics/collision_library/collision_library_cases.h"
 
+namespace rink::bench::physics_bench {
 namespace {
 
 using rink::physics::BatSpec;
@@ -351,3 +352,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::physics_bench

@@ -9,6 +9,7 @@
 #include "game/replication/trajectory_codec.h"
 #include "loadgen/duel/feel.h"
 
+namespace rink::bench::play_bench {
 namespace {
 
 using namespace rink;
@@ -60,3 +61,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::play_bench

@@ -12,6 +12,7 @@
 #include "game/net/server/serving.h"
 #include "game/replication/trajectory_codec.h"
 
+namespace rink::bench::publish_bench {
 namespace {
 
 using namespace rink;
@@ -117,3 +118,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::publish_bench

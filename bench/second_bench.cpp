@@ -10,6 +10,7 @@
 #include "bench/trials/contender.h"
 #include "bench/trials/diagram_trials.h"
 
+namespace rink::bench::second_bench {
 namespace {
 
 using rink::accuracy::at_frame;
@@ -61,3 +62,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::second_bench

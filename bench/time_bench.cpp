@@ -21,6 +21,7 @@
 #include "rti/transport/shared_memory/shared_memory.h"
 #include "rti/transport/tcp/tcp.h"
 
+namespace rink::bench::time_bench {
 namespace {
 
 using namespace rink::rti;
@@ -243,3 +244,4 @@ BENCHMARK(time_advance_in_process)
     ->MinTime(0.5);
 
 }  // namespace
+}  // namespace rink::bench::time_bench

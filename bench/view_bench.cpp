@@ -14,6 +14,7 @@
 #include "game/view/render/offscreen.h"
 #include "game/view/render/renderer.h"
 
+namespace rink::bench::view_bench {
 namespace {
 
 using namespace rink;
@@ -275,3 +276,4 @@ void view_cut(benchmark::State& state) {
 BENCHMARK(view_cut)->Name("view/cut")->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
+}  // namespace rink::bench::view_bench

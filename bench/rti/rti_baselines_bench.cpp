@@ -12,6 +12,7 @@
 #include "rti/ambassador.h"
 #include "rti/federation_execution.h"
 
+namespace rink::bench::rti_baselines_bench {
 namespace {
 
 using namespace rink::rti;
@@ -213,3 +214,4 @@ BENCHMARK_CAPTURE(tell, baselines, Telling::baselines)
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
+}  // namespace rink::bench::rti_baselines_bench

@@ -19,6 +19,7 @@
 #include "rti/transport/in_process.h"
 #include "rti/transport/tcp/tcp.h"
 
+namespace rink::bench::rti_bench {
 namespace {
 
 using namespace rink::rti;
@@ -204,3 +205,4 @@ BENCHMARK(rink_tick_send)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
+}  // namespace rink::bench::rti_bench

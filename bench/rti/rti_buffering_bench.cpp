@@ -6,6 +6,7 @@
 
 #include "rti/buffering/newest_state.h"
 
+namespace rink::bench::rti_buffering_bench {
 namespace {
 
 using namespace rink::rti;
@@ -51,3 +52,4 @@ BENCHMARK(collect)->Name("rti/buffering/collect")->UseRealTime();
 BENCHMARK(judge)->Name("rti/buffering/judge")->UseRealTime();
 
 }  // namespace
+}  // namespace rink::bench::rti_buffering_bench

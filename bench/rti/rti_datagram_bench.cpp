@@ -24,6 +24,7 @@
 #include "rti/transport/udp/datagram_socket.h"
 #include "rti/transport/udp/udp.h"
 
+namespace rink::bench::rti_datagram_bench {
 namespace {
 
 using namespace rink::rti;
@@ -269,3 +270,4 @@ BENCHMARK(rink_udp_tick_send)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
+}  // namespace rink::bench::rti_datagram_bench

@@ -9,6 +9,7 @@
 
 #include "rti/distribution/interest.h"
 
+namespace rink::bench::rti_distribution_bench {
 namespace {
 
 using namespace rink;
@@ -158,3 +159,4 @@ BENCHMARK(distribution_match)
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
+}  // namespace rink::bench::rti_distribution_bench

@@ -4,6 +4,7 @@
 
 #include "rti/groups/member_lists.h"
 
+namespace rink::bench::rti_groups_bench {
 namespace {
 
 using namespace rink::rti;
@@ -43,3 +44,4 @@ BENCHMARK_CAPTURE(reach, from_within, 250u)->Name("rti/groups/reach/from_within"
 BENCHMARK(come_and_go)->Name("rti/groups/come_and_go/federates:1000")->UseRealTime();
 
 }  // namespace
+}  // namespace rink::bench::rti_groups_bench

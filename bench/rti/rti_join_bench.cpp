@@ -19,6 +19,7 @@
 #include "rti/transport/federation_host.h"
 #include "rti/transport/socket_transport.h"
 
+namespace rink::bench::rti_join_bench {
 namespace {
 
 using namespace rink::rti;
@@ -137,3 +138,4 @@ BENCHMARK_CAPTURE(join, udp, "udp")
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
+}  // namespace rink::bench::rti_join_bench

@@ -16,6 +16,7 @@
 #include "rti/transport/in_process.h"
 #include "rti/transport/tcp/tcp.h"
 
+namespace rink::bench::rti_ownership_bench {
 namespace {
 
 using namespace rink::rti;
@@ -173,3 +174,4 @@ const bool are_registered = [] {
 }();
 
 }  // namespace
+}  // namespace rink::bench::rti_ownership_bench

@@ -18,6 +18,7 @@
 #include "rti/transport/shared_memory/shared_memory.h"
 #include "rti/transport/tcp/tcp.h"
 
+namespace rink::bench::rti_round_trip_bench {
 namespace {
 
 using namespace rink::rti;
@@ -185,3 +186,4 @@ BENCHMARK_CAPTURE(tcp_round_trip, spinning, 50us)
 BENCHMARK(shared_memory_round_trip)->Name("rti/round_trip/rink_shm")->UseRealTime()->MinTime(0.5);
 
 }  // namespace
+}  // namespace rink::bench::rti_round_trip_bench

@@ -11,6 +11,7 @@
 #include "rti/ambassador.h"
 #include "rti/federation_execution.h"
 
+namespace rink::bench::rti_tick_bench {
 namespace {
 
 using namespace rink;
@@ -160,3 +161,4 @@ BENCHMARK_CAPTURE(crowd_tick, region, "region")
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
+}  // namespace rink::bench::rti_tick_bench

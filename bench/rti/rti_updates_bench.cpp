@@ -20,6 +20,7 @@
 #include "rti/transport/federation_host.h"
 #include "rti/transport/tcp/tcp.h"
 
+namespace rink::bench::rti_updates_bench {
 namespace {
 
 using namespace rink::rti;
@@ -281,3 +282,4 @@ BENCHMARK(rink_updates)
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
+}  // namespace rink::bench::rti_updates_bench
