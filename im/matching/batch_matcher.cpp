@@ -1,6 +1,8 @@
 // Bins both sides and joins them.
 #include "im/matching/batch_matcher.h"
 
+#include <cassert>
+
 #include "im/matching/region_history.h"
 
 namespace rink::im {
@@ -12,6 +14,7 @@ struct ExactRegions {
 
 Verdict judge(const void* context, std::uint32_t subscription, std::uint32_t update) {
   const auto& exact = *static_cast<const ExactRegions*>(context);
+  assert(update < exact.updates.size() && subscription < exact.subscriptions.size());
   return overlap(exact.updates[update], exact.subscriptions[subscription]) ? Verdict::match
                                                                            : Verdict::no;
 }
@@ -35,6 +38,8 @@ void BatchMatcher::stage(std::span<const Region> regions, Subject subject, BoxIn
 }
 
 void BatchMatcher::match(std::span<const Region> updates, std::span<const Region> subscriptions) {
+  // Places are ids, whose top bit is taken.
+  assert(updates.size() <= RegionHistory::id_max && subscriptions.size() <= RegionHistory::id_max);
   rejections_.clear(), other_rejections_.clear();
   join_.clear();
   Worker* const worker = for_regions(worker_, updates.size() + subscriptions.size());
@@ -48,6 +53,9 @@ void BatchMatcher::match(std::span<const Region> updates, std::span<const Region
   const ExactRegions exact{updates, subscriptions};
   join_.add_overlaps(updates_, subscriptions_,
                      {!(updates_.is_exact() && subscriptions_.is_exact()), judge, &exact});
+  assert(join_.asker_count() == subscriptions_.size());
+  assert(updates_.size() + subscriptions_.size() + rejections_.size() ==
+         updates.size() + subscriptions.size());
 }
 
 }  // namespace rink::im

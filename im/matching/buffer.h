@@ -1,12 +1,17 @@
 // A growing array of plain values that are not initialised, on huge pages once it is large.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstring>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <type_traits>
 #include <utility>
+
+#include "im/checked.h"
 
 namespace rink::im {
 
@@ -38,6 +43,8 @@ class Buffer {
   /// Keeps what there is.
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
+    // A difference that went below zero asks for nearly all memory.
+    assert(count <= std::numeric_limits<std::size_t>::max() / (2 * sizeof(Value)));
     const std::size_t capacity = count + count / 2;
     auto* data = reinterpret_cast<Value*>(allocate_buffer(capacity * sizeof(Value)));
     if (size_ > 0) std::memcpy(static_cast<void*>(data), data_, size_ * sizeof(Value));
@@ -54,6 +61,7 @@ class Buffer {
     for (std::size_t i = 0; i < count; ++i) data_[i] = value;
   }
   void push_back(const Value& value) {
+    assert(size_ < capacity_ || !holds(&value));  // the memory that it is in goes
     reserve(size_ + 1);
     data_[size_++] = value;
   }
@@ -64,11 +72,23 @@ class Buffer {
   std::size_t size() const { return size_; }
   std::size_t capacity() const { return capacity_; }
   bool empty() const { return size_ == 0; }
-  Value& operator[](std::size_t i) { return data_[i]; }
-  const Value& operator[](std::size_t i) const { return data_[i]; }
+  // Up to the size, where the sanitizer itself looks no further than the capacity.
+  Value& operator[](std::size_t i) {
+    assert(!checks_whole_structures || i < size_);
+    return data_[i];
+  }
+  const Value& operator[](std::size_t i) const {
+    assert(!checks_whole_structures || i < size_);
+    return data_[i];
+  }
   std::span<const Value> span() const { return {data_, size_}; }
 
  private:
+  bool holds(const Value* value) const {
+    const std::less<const Value*> is_below;
+    return !is_below(value, data_) && is_below(value, data_ + size_);
+  }
+
   Value* data_ = nullptr;
   std::size_t size_ = 0, capacity_ = 0;
 };

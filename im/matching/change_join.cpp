@@ -2,8 +2,11 @@
 #include "im/matching/change_join.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <initializer_list>
+
+#include "im/checked.h"
 
 namespace rink::im {
 namespace {
@@ -57,6 +60,7 @@ Judge moved_judge(Question question) {
 }
 template <Region Motion::*place>
 Judge standing_judge(Question question) {
+  assert(question != Question::rectangles);  // which lines are asked about
   return question == Question::of_discs ? judge_standing<Question::of_discs, place>
                                         : judge_standing<Question::about_discs, place>;
 }
@@ -74,6 +78,7 @@ Region with_area(Region world) {
     low = middle - half, high = middle + half;
   };
   widen(world.low_x, world.high_x), widen(world.low_y, world.high_y);
+  assert(is_valid(world) && world.low_x < world.high_x && world.low_y < world.high_y);
   return world;
 }
 
@@ -86,6 +91,11 @@ std::span<const Change> ChangeJoin::find(const RegionHistory& entities,
                                          std::span<const std::uint32_t> moved_entities,
                                          const RegionHistory& subscribers,
                                          std::span<const std::uint32_t> moved_subscribers) {
+  assert(moved_entities.size() <= entities.size() &&
+         moved_subscribers.size() <= subscribers.size());
+  assert(!checks_whole_structures ||
+         (std::is_sorted(moved_entities.begin(), moved_entities.end()) &&
+          std::is_sorted(moved_subscribers.begin(), moved_subscribers.end())));
   changes_.clear();
   const std::size_t moved = moved_entities.size() + moved_subscribers.size();
   if (moved == 0) return {};
@@ -94,6 +104,7 @@ std::span<const Change> ChangeJoin::find(const RegionHistory& entities,
   if (moved * few_means_one_in > entities.size() + subscribers.size())
     join_everyone(entity_side, subscriber_side);
   else join_movers(entity_side, subscriber_side);
+  if constexpr (checks_whole_structures) check();
   return changes_.ordered(subscribers.size());
 }
 
@@ -126,6 +137,7 @@ void ChangeJoin::place(const Side& side) {
     return;
   stage(side);
   standing.swept.build();
+  assert(standing.swept.size() == side.regions.present_count());
   const std::span<const std::uint32_t> ids = standing.swept.ids();
   standing.order.resize(ids.size());
   std::copy(ids.begin(), ids.end(), standing.order.data());
@@ -180,6 +192,7 @@ void ChangeJoin::list(const Side& movers) {
 /// where they are.
 template <Region Motion::*place>
 void ChangeJoin::ask_lines(const Side& askers, const Side& asked, bool is_by_entity) {
+  assert(shape_ == Shape::rectangle && probes_.size() == askers.moved.size());
   LineIndex& lines = asked.standing.lines;
   if (!asked.standing.is_live || lines.is_outgrown()) lines.build(world_, asked.regions, place);
   asked.standing.is_live = true;
@@ -206,6 +219,7 @@ void ChangeJoin::ask_lines(const Side& askers, const Side& asked, bool is_by_ent
 
 template <Region Motion::*place>
 void ChangeJoin::ask_live(const Side& askers, const Side& asked, Question question) {
+  assert(shape_ == Shape::disc && probes_.size() == askers.moved.size());
   LiveIndex& live = asked.standing.live;
   if (!asked.standing.is_live || live.is_outgrown()) live.build(world_, asked.regions, place);
   asked.standing.is_live = true;
@@ -220,6 +234,9 @@ void ChangeJoin::put(const Side& movers) {
   if (!movers.standing.is_live) return;
   if (shape_ == Shape::rectangle) movers.standing.lines.put(probes_);
   else movers.standing.live.put(movers.moved, movers.regions);
+  assert(
+      (shape_ == Shape::rectangle ? movers.standing.lines.size() : movers.standing.live.size()) ==
+      movers.regions.present_count());
 }
 
 void ChangeJoin::Standing::forget(std::uint32_t id, const Region& place) {
@@ -257,6 +274,15 @@ void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
     side->standing.is_ordered = side->standing.is_ordered &&
                                 std::none_of(side->moved.begin(), side->moved.end(), is_newcomer);
   }
+}
+
+void ChangeJoin::check() const { entities_.check(shape_), subscribers_.check(shape_); }
+
+void ChangeJoin::Standing::check([[maybe_unused]] Shape shape) const {
+  assert(!is_placed || (is_ordered && swept.size() == order.size()));
+  if (!is_live) return;
+  assert(shape != Shape::rectangle || lines.is_built());
+  assert(shape != Shape::disc || !lines.is_built());
 }
 
 std::size_t ChangeJoin::bytes() const {

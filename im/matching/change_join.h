@@ -42,6 +42,8 @@ class ChangeJoin {
     subscribers_.forget(subscriber, place);
   }
 
+  /// Asserts that what is kept of either set from match to match agrees.
+  void check() const;
   std::uint64_t pairs_tested() const { return pairs_tested_; }
   std::size_t bytes() const;
 
@@ -56,6 +58,7 @@ class ChangeJoin {
     BoxIndex swept;               // everyone, if everyone was joined at the last match
     bool is_placed = false;       // `swept` holds all who were somewhere before, where they were
     void forget(std::uint32_t id, const Region& place);
+    void check(Shape shape) const;
     std::size_t bytes() const {
       return lines.bytes() + live.bytes() + sizeof(std::uint32_t) * order.capacity() +
              swept.bytes();

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
+
+#include "im/checked.h"
 
 namespace rink::im {
 namespace {
@@ -12,6 +15,7 @@ constexpr unsigned digit_bits_max = 12;
 
 /// The last bit is the transition: it does not decide the order of pairs.
 std::uint64_t key(std::uint32_t subscriber, std::uint32_t entity, bool is_entered) {
+  assert((entity & entered_bit) == 0 && (subscriber & entered_bit) == 0);
   return std::uint64_t{subscriber} << 32 | entity << 1 | (is_entered ? 1u : 0u);
 }
 
@@ -43,6 +47,7 @@ void ChangeList::add_by_subscriber(const Join& join) {
       keys_[count++] = key(join.asker(i), found & ~entered_bit, (found & entered_bit) != 0);
     sort_run(keys_.data() + first, keys_.data() + count);
   }
+  assert(count == keys_.size());  // every answer has an asker
 }
 
 void ChangeList::add_by_entity(const Join& join) {
@@ -51,6 +56,7 @@ void ChangeList::add_by_entity(const Join& join) {
   for (std::size_t i = 0; i < join.asker_count(); ++i)
     for (const std::uint32_t found : join.found(i))
       keys_[count++] = key(found & ~entered_bit, join.asker(i), (found & entered_bit) != 0);
+  assert(count == keys_.size());
 }
 
 void ChangeList::add_by_subscriber(std::span<const std::uint64_t> found) {
@@ -70,6 +76,7 @@ void ChangeList::add_by_entity(std::span<const std::uint64_t> found) {
 /// digits are as wide as makes the fewest steps: over the keys twice for each digit, over its
 /// values once.
 void ChangeList::sort_by_digits() {
+  assert(!keys_.empty());
   std::uint64_t varying = 0;
   for (const std::uint64_t key : keys_.span()) varying |= key ^ keys_[0];
   const auto low_bits = static_cast<unsigned>(std::bit_width(varying & 0xFFFFFFFFu)),
@@ -105,6 +112,7 @@ void ChangeList::sort(std::size_t subscriber_count) {
   starts_.fill(subscriber_count + 1, 0);
   for (const std::uint64_t key : keys_.span()) ++starts_[(key >> 32) + 1];
   for (std::size_t i = 1; i <= subscriber_count; ++i) starts_[i] += starts_[i - 1];
+  assert(starts_[subscriber_count] == keys_.size());
   sorted_.resize(keys_.size());
   // Afterwards a start is where its run ends. Runs from one join are in order already.
   for (const std::uint64_t key : keys_.span()) sorted_[starts_[key >> 32]++] = key;
@@ -115,6 +123,7 @@ void ChangeList::sort(std::size_t subscriber_count) {
 
 std::span<const Change> ChangeList::ordered(std::size_t subscriber_count) {
   sort(subscriber_count);
+  assert(keys_.empty() || keys_[keys_.size() - 1] >> 32 < subscriber_count);
   changes_.resize(keys_.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < keys_.size(); ++i) {
@@ -122,7 +131,17 @@ std::span<const Change> ChangeList::ordered(std::size_t subscriber_count) {
     if (i > 0 && (keys_[i] ^ keys_[i - 1]) == 1) count -= 2;
   }
   changes_.resize(count);
+  if constexpr (checks_whole_structures) check();
   return changes_.span();
+}
+
+void ChangeList::check() const {
+  assert(std::is_sorted(keys_.data(), keys_.data() + keys_.size()));
+  assert(changes_.size() <= keys_.size() && (keys_.size() - changes_.size()) % 2 == 0);
+  for (std::size_t i = 1; i < changes_.size(); ++i)
+    assert(changes_[i - 1].subscriber < changes_[i].subscriber ||
+           (changes_[i - 1].subscriber == changes_[i].subscriber &&
+            changes_[i - 1].entity < changes_[i].entity));
 }
 
 }  // namespace rink::im

@@ -24,6 +24,8 @@ class ChangeList {
   /// Orders the changes of subscribers below `subscriber_count`. A pair that is there twice entered
   /// and left, and is left out. Valid until the next call.
   std::span<const Change> ordered(std::size_t subscriber_count);
+  /// Asserts that what was given out last is in order, each pair once.
+  void check() const;
 
   std::size_t bytes() const {
     return sizeof(std::uint64_t) * (keys_.capacity() + sorted_.capacity()) +

@@ -2,6 +2,7 @@
 #include "im/matching/disc.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "im/matching/region_history.h"
@@ -37,6 +38,7 @@ struct Distance {
 bool touches_disc(const Region& subscription, const Region& box) {
   if (!overlap(subscription, box)) return false;
   const Distance<double> near(subscription, box);
+  assert(near.diameter >= 0.0);
   const double lengths = near.x + near.y + near.diameter,
                error = 0x1p-48 * lengths *
                            (lengths + std::abs(near.middle_x) + std::abs(near.middle_y)) +

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 namespace rink::im {
 namespace {
@@ -22,6 +23,7 @@ void Join::clear() { own_.clear(); }
 template <class Index, class Askers, class Find>
 void Join::Part::add(const Index& index, const Askers& all, std::size_t begin, std::size_t end,
                      const TieJudge& judge, Scan scan, const Find& find) {
+  assert(begin <= end && end <= all.size());
   const Candidates candidates = index.candidates();
   std::array<Probe, block_size> probes;
   std::array<std::uint32_t, block_size> block_ends;
@@ -42,12 +44,14 @@ void Join::Part::add(const Index& index, const Askers& all, std::size_t begin, s
     found.reserve(found_before + block_candidates + 8);
     const std::size_t found_now = scan(candidates, {probes.data(), count}, stretches.data(), judge,
                                        found.data() + found_before, block_ends.data());
+    assert(found_now <= block_candidates && block_ends[count - 1] == found_now);
     found.resize(found_before + found_now);
     for (std::size_t i = 0; i < count; ++i, ++place) {
       askers[place] = probes[i].id;
       ends[place] = found_before + block_ends[i];
     }
   }
+  assert(place == askers.size());
 }
 
 void Join::Part::append(const Part& other) {
@@ -60,6 +64,8 @@ void Join::Part::append(const Part& other) {
   ends.resize(place + other.ends.size());
   for (std::size_t i = 0; i < other.ends.size(); ++i)
     ends[place + i] = found_before + other.ends[i];
+  assert(ends.size() == askers.size());
+  assert(ends.empty() || ends[ends.size() - 1] == found.size());
 }
 
 template <class Index, class Askers, class Find>

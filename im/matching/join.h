@@ -1,6 +1,7 @@
 // Asks an index on behalf of the boxes of another, a block at a time, and gathers the answers.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 
 #include "im/matching/index/box_index.h"
@@ -30,6 +31,7 @@ class Join {
   std::size_t asker_count() const { return own_.askers.size(); }
   std::uint32_t asker(std::size_t i) const { return own_.askers[i]; }
   std::span<const std::uint32_t> found(std::size_t i) const {
+    assert(i < asker_count());
     const std::size_t first = i == 0 ? 0 : own_.ends[i - 1];
     return {own_.found.data() + first, own_.ends[i] - first};
   }

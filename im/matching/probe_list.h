@@ -1,6 +1,8 @@
 // Moved boxes that ask an index, in an order of the caller's.
 #pragma once
 
+#include <cassert>
+
 #include "im/matching/buffer.h"
 #include "im/matching/index/scan.h"
 #include "im/matching/projection.h"
@@ -31,6 +33,7 @@ class ProbeList {
     probes_.clear();
   }
   void add(std::uint32_t id, const Motion& motion) {
+    assert(!is_nowhere(motion.now));
     const ProjectedMotion projected = project(projection_, motion, is_exact_);
     probes_.push_back({projected.before, projected.now, id, 0});
   }

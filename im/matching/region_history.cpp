@@ -2,7 +2,10 @@
 #include "im/matching/region_history.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
+
+#include "im/checked.h"
 
 namespace rink::im {
 
@@ -30,6 +33,7 @@ void RegionHistory::list(std::uint32_t id) {
 }
 
 void RegionHistory::grow(std::size_t count) {
+  assert(count > motions_.size());
   const std::size_t old_count = motions_.size(), old_words = listed_.size();
   motions_.resize(count);
   std::fill(motions_.data() + old_count, motions_.data() + count, Motion{});
@@ -68,15 +72,37 @@ std::span<const std::uint32_t> RegionHistory::take_moved() {
   // Whoever moves everything does so in order; then there is nothing to sort.
   if (!std::is_sorted(moved_.data(), moved_.data() + moved_.size()))
     std::sort(moved_.data(), moved_.data() + moved_.size());
+  if constexpr (checks_whole_structures) check();
   return moved_.span();
 }
 
 void RegionHistory::settle() {
+  assert(settled_.empty());  // `take_moved` has brought those up to date that settled before
   if (moved_.size() > listed_.size()) listed_.fill(listed_.size(), 0);
   else
     for (const std::uint32_t id : moved_.span()) unlist(id);
   settled_.clear();
   std::swap(moved_, settled_);
+  if constexpr (checks_whole_structures) check();
+}
+
+void RegionHistory::check() const {
+  assert(listed_.size() == (motions_.size() + 63) / 64);
+  [[maybe_unused]] std::size_t listed = 0, absent = 0, out_of_date = 0;
+  for (const std::uint64_t word : listed_.span())
+    listed += static_cast<std::size_t>(std::popcount(word));
+  assert(listed == moved_.size());
+  for ([[maybe_unused]] const std::uint32_t id : moved_.span()) {
+    assert(is_listed(id));
+    assert(has_removed_ || !is_nowhere(motions_[id].now));
+  }
+  for (std::uint32_t id = 0; id < motions_.size(); ++id) {
+    const Motion& motion = motions_[id];
+    absent += is_nowhere(motion.now) ? 1u : 0u;
+    assert(!is_nowhere(motion.now) || is_nowhere(motion.before));  // its past is forgotten too
+    out_of_date += !is_listed(id) && motion.before != motion.now ? 1u : 0u;
+  }
+  assert(absent == absent_count_ && out_of_date <= settled_.size());
 }
 
 }  // namespace rink::im

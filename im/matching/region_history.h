@@ -72,6 +72,8 @@ class RegionHistory {
   /// Asks the processor for a motion that will be wanted soon.
   void prefetch(std::uint32_t id) const { __builtin_prefetch(&motions_[id]); }
 
+  /// Asserts that the list of movers, their marks and the count of those absent agree.
+  void check() const;
   std::size_t bytes() const {
     return sizeof(Motion) * motions_.capacity() + sizeof(std::uint64_t) * listed_.capacity() +
            sizeof(std::uint32_t) * (moved_.capacity() + settled_.capacity());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "im/matching/index/cell_level.h"
@@ -20,6 +21,7 @@ struct Ring {
         y(0.5f * now.low_y + 0.5f * now.high_y),
         outer(radius(now)),
         inner(-1.0f) {
+    assert(now.low_x <= now.high_x && now.low_y <= now.high_y);
     float size = std::abs(x) + std::abs(y) + longer_side(now);
     if (before.low_x <= before.high_x) {
       const float way_x = x - (0.5f * before.low_x + 0.5f * before.high_x),
@@ -74,6 +76,7 @@ struct RingQuery {
  private:
   /// Of a circle at so much from its middle. As a product it loses nothing near its ends.
   static float half_width(float radius, float distance) {
+    assert(0.0f <= distance && distance <= radius);
     return std::sqrt((radius - distance) * (radius + distance));
   }
 };

@@ -286,6 +286,7 @@ TEST(BoxIndex, KeepsBoxesInTheirCellsWhileTheyAreNear) {
     regions.settle();
     tell(0.01);
     ASSERT_TRUE(index.follow(regions)) << "after " << tick;
+    index.check();
     for (int question = 0; question < 100; ++question) {
       const float x = static_cast<float>(between(random, 0.0, side)),
                   y = static_cast<float>(between(random, 0.0, side));

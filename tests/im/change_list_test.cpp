@@ -47,6 +47,7 @@ void order(std::uint64_t seed, std::size_t count, std::uint32_t subscriber_count
     wanted.push_back({pair.first, pair.second, transition});
   const std::span<const Change> changes = list.ordered(subscriber_count);
   ASSERT_TRUE(std::equal(changes.begin(), changes.end(), wanted.begin(), wanted.end()));
+  list.check();
 }
 
 TEST(ChangeList, OrdersByDigitsBySubscribersAndByComparing) {

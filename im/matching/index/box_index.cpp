@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "im/checked.h"
 #include "im/matching/ring.h"
 
 namespace rink::im {
@@ -27,6 +28,7 @@ constexpr std::uint32_t follow_max = 100;
 
 void BoxIndex::begin(const Region& world, std::size_t count_max, bool is_moving) {
   assert(world.low_x < world.high_x && world.low_y < world.high_y);
+  assert(is_valid(world) && count_max <= RegionHistory::id_max);
   world_ = world;
   projection_ = Projection(world.low_x, world.low_y);
   is_moving_ = is_moving;
@@ -71,6 +73,7 @@ void BoxIndex::sort() {
   std::uint32_t end = 0;
   for (std::size_t cell = 0; cell < starts_.size(); ++cell) starts_[cell] = end += starts_[cell];
   const std::size_t count = staged_count_;
+  assert(end == count);  // each box was counted in one cell
   ids_.reserve(count + BoxStore::readable_past_the_end);
   ids_.resize(count);
   for (std::size_t i = 0; i < BoxStore::readable_past_the_end; ++i) ids_.data()[count + i] = 0;
@@ -82,6 +85,7 @@ void BoxIndex::sort() {
     now_.set(place, staged_now_[i]);
     if (is_moving_) before_.set(place, staged_before_[i]);
   }
+  assert(starts_[0] == 0 && starts_[starts_.size() - 1] == count);
 }
 
 void BoxIndex::build() {
@@ -90,10 +94,11 @@ void BoxIndex::build() {
   sort();
   follow_count_ = 0;
   may_follow_ = true;
+  if constexpr (checks_whole_structures) check();
 }
 
 bool BoxIndex::follow(const RegionHistory& regions, Instructions instructions) {
-  assert(is_moving_);
+  assert(is_moving_ && regions.present_count() == size());
   if (++follow_count_ > follow_max || !may_follow_) return false;
   std::swap(before_, now_);
   const Advancing boxes{ids_.data(), regions, projection_, std::as_const(before_).columns(),
@@ -115,10 +120,14 @@ bool BoxIndex::follow(const RegionHistory& regions, Instructions instructions) {
     };
     may_follow_ = may_follow_ && leaves_room(level.x, built.x) && leaves_room(level.y, built.y);
   }
+  if constexpr (checks_whole_structures) check();
   return true;
 }
 
 void BoxIndex::take_up(const Advanced& advanced, CellLevel& level) {
+  assert(advanced.widest_x >= 0.0f && advanced.widest_y >= 0.0f);
+  assert(advanced.shift_x >= 0.0f && advanced.shift_y >= 0.0f);
+  assert(advanced.begun_x >= 0.0f && advanced.begun_y >= 0.0f);
   is_exact_ = is_exact_ && advanced.is_exact;
   level.has_newcomers = false;
   level.x.widest = advanced.widest_x, level.y.widest = advanced.widest_y;
@@ -132,6 +141,7 @@ void BoxIndex::take_up(const Advanced& advanced, CellLevel& level) {
 template <class Query>
 std::size_t BoxIndex::collect(const CellLevel& level, const Query& query,
                               Buffer<Stretch>& stretches) const {
+  assert(query.rows.first <= query.rows.last);
   std::size_t count = stretches.size(), candidates = 0;
   stretches.reserve(count + 2 * static_cast<std::size_t>(query.rows.last - query.rows.first + 1));
   Stretch* out = stretches.data();
@@ -166,6 +176,37 @@ std::size_t BoxIndex::find_disc_changes(const Probe& probe, Buffer<Stretch>& str
   for (const CellLevel& level : levels_)
     candidates += collect(level, RingQuery(level, ring), stretches);
   return candidates;
+}
+
+void BoxIndex::check() const {
+  levels_.check();
+  assert(starts_.size() == levels_.cell_count() + std::size_t{1});
+  assert(starts_[0] == 0 && starts_[starts_.size() - 1] == ids_.size());
+  assert(std::is_sorted(starts_.data(), starts_.data() + starts_.size()));
+  assert(ids_.size() == staged_count_);
+  // A rearrangement of those staged has their sum, of the ids and of a function of them.
+  [[maybe_unused]] std::uint64_t staged = 0, held = 0;
+  for (std::size_t i = 0; i < staged_count_; ++i) {
+    staged += (std::uint64_t{staged_ids_[i]} << 32) + staged_ids_[i] % 65'521u;
+    held += (std::uint64_t{ids_[i]} << 32) + ids_[i] % 65'521u;
+  }
+  assert(staged == held);
+  for (const CellLevel& level : levels_) check(level);
+}
+
+/// Whoever asks from where a box is finds its cell.
+void BoxIndex::check(const CellLevel& level) const {
+  for (std::uint32_t cell = 0; cell < level.cell_count(); ++cell)
+    for (std::uint32_t i = starts_[level.first_cell + cell];
+         i < starts_[level.first_cell + cell + 1]; ++i) {
+      const FloatBox box = is_moving_ ? hull_of(before_[i], now_[i]) : now_[i];
+      assert(box.high_x - box.low_x <= level.x.widest && box.high_y - box.low_y <= level.y.widest);
+      [[maybe_unused]] const CellQuery query = cells_touched(level, box);
+      [[maybe_unused]] const auto column = static_cast<std::int32_t>(cell % level.columns()),
+                                  row = static_cast<std::int32_t>(cell / level.columns());
+      assert(query.columns.first <= column && column <= query.columns.last);
+      assert(query.rows.first <= row && row <= query.rows.last);
+    }
 }
 
 std::size_t BoxIndex::bytes() const {

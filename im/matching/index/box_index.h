@@ -2,6 +2,7 @@
 // often, thrown away.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 
@@ -56,8 +57,11 @@ class BoxIndex {
   std::size_t find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
 
   std::size_t bytes() const;
+  /// Asserts that every box is in a cell, all of those staged are there, and each finds itself.
+  void check() const;
 
  private:
+  void check(const CellLevel& level) const;
   void count_cells();
   template <class LevelOf>
   void count_cells(const LevelOf& level_of);
@@ -85,6 +89,7 @@ class BoxIndex {
 };
 
 inline void BoxIndex::stage(std::uint32_t id, const Region& region) {
+  assert(!is_moving_ && staged_count_ < staged_ids_.size());
   const FloatBox box = projection_(region);
   if (is_exact_) is_exact_ = projection_.is_exact(region, box);
   sizes_.count(longer_side(box));
@@ -93,6 +98,8 @@ inline void BoxIndex::stage(std::uint32_t id, const Region& region) {
 }
 
 inline void BoxIndex::stage(std::uint32_t id, const Motion& motion) {
+  assert(is_moving_ && staged_count_ < staged_ids_.size());
+  assert(!is_nowhere(motion.now));
   const ProjectedMotion projected = project(projection_, motion, is_exact_);
   sizes_.count(longer_side(hull_of(projected.before, projected.now)));
   staged_ids_[staged_count_] = id;

@@ -2,6 +2,9 @@
 #include "im/matching/index/cell_level.h"
 
 #include <array>
+#include <cassert>
+
+#include "im/checked.h"
 
 namespace rink::im {
 namespace {
@@ -13,6 +16,7 @@ constexpr double cells_across_max = 0x1p24;
 
 /// Finite also for a world that is tiny.
 CellAxis axis(double cells, double length) {
+  assert(length > 0.0 && !std::isnan(cells));
   const double bounded = std::min(std::max(1.0, std::floor(cells)), cells_across_max);
   return {static_cast<float>(std::min(bounded / length, static_cast<double>(float_max))),
           static_cast<std::int32_t>(bounded) - 1, 0.0f};
@@ -20,6 +24,7 @@ CellAxis axis(double cells, double length) {
 
 CellLevel lay_out(std::size_t box_count, double width, double height, double crowding,
                   const CellShape& shape) {
+  assert(crowding >= 1.0);  // no denser than even is even
   const double boxes = std::max(1.0, static_cast<double>(box_count));
   const double squares =
       std::min({boxes * crowding / shape.boxes_per_square,
@@ -54,7 +59,9 @@ double crowding(std::span<const FloatBox> boxes, double width, double height) {
 
 void CellLevels::choose(SizeLevels& sizes, std::span<const FloatBox> boxes, const Region& world,
                         const CellShape& shape) {
+  assert(is_valid(world));
   sizes.choose();
+  assert(sizes.size() >= 1);
   const double width = world.high_x - world.low_x, height = world.high_y - world.low_y,
                crowd = crowding(boxes, width, height);
   levels_.clear();
@@ -62,6 +69,21 @@ void CellLevels::choose(SizeLevels& sizes, std::span<const FloatBox> boxes, cons
     const std::uint32_t first = levels_.empty() ? 0 : cell_count();
     levels_.push_back(lay_out(sizes.population(i), width, height, crowd, shape));
     levels_.back().first_cell = first;
+  }
+  if constexpr (checks_whole_structures) check();
+}
+
+void CellLevels::check() const {
+  assert(!levels_.empty() && levels_.size() <= SizeLevels::level_max);
+  [[maybe_unused]] std::uint64_t first = 0;
+  for (const CellLevel& level : levels_) {
+    assert(level.first_cell == first);
+    assert(level.x.last >= 0 && level.y.last >= 0);
+    assert(level.x.cells_per_metre >= 0.0f && level.y.cells_per_metre >= 0.0f);
+    assert(level.x.widest >= 0.0f && level.y.widest >= 0.0f);
+    assert(level.x.drift >= 0.0f && level.y.drift >= 0.0f);
+    first += std::uint64_t{level.columns()} * (static_cast<std::uint64_t>(level.y.last) + 1);
+    assert(first <= std::numeric_limits<std::uint32_t>::max());  // cells are counted in 32 bits
   }
 }
 

@@ -2,6 +2,7 @@
 // the cells that can hold answers.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -44,11 +45,13 @@ struct CellAxis {
   }
   /// Below and above all edges in a cell and what reaches out of it.
   float lowest_in(std::int32_t cell) const {
+    assert(0 <= cell && cell <= last);
     return cell == 0
                ? -std::numeric_limits<float>::infinity()
                : static_cast<float>(cell) / cells_per_metre * (1.0f - 0x1p-20f) - drift * 1.01f;
   }
   float highest_in(std::int32_t cell) const {
+    assert(0 <= cell && cell <= last);
     return cell == last ? std::numeric_limits<float>::infinity()
                         : (static_cast<float>(cell) + 1.0f) / cells_per_metre * (1.0f + 0x1p-20f) +
                               (widest + drift) * 1.01f;
@@ -101,6 +104,7 @@ class CellLevels {
 
   std::size_t size() const { return levels_.size(); }
   std::uint32_t cell_count() const {
+    assert(!levels_.empty());  // `choose` was called
     return levels_.back().first_cell + levels_.back().cell_count();
   }
   CellLevel& operator[](std::size_t i) { return levels_[i]; }
@@ -108,7 +112,12 @@ class CellLevels {
     return levels_[levels_.size() == 1 ? 0 : sizes.level(longer_side(box))];
   }
   /// Of one level.
-  void replace_only(const CellLevel& level) { levels_[0] = level; }
+  void replace_only(const CellLevel& level) {
+    assert(levels_.size() == 1 && level.cell_count() == levels_[0].cell_count());
+    levels_[0] = level;
+  }
+  /// Asserts that the cells of the levels follow each other and are of a positive size.
+  void check() const;
   auto begin() const { return levels_.begin(); }
   auto end() const { return levels_.end(); }
   const CellLevel& operator[](std::size_t i) const { return levels_[i]; }
@@ -130,6 +139,7 @@ struct CellQuery {
   void for_each_part(const Visit& visit) const {
     for (std::int32_t row = rows.first; row <= rows.last; ++row) {
       if (has_inner(row)) {
+        assert(columns.first <= inner_columns.first && inner_columns.last <= columns.last);
         if (columns.first < inner_columns.first) visit(row, columns.first, inner_columns.first - 1);
         if (inner_columns.last < columns.last) visit(row, inner_columns.last + 1, columns.last);
       } else {

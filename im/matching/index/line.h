@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 
 #include "im/matching/projection.h"
@@ -111,10 +112,12 @@ struct alignas(64) Line {
     for (unsigned i = 0; i < 4; ++i) edges[i][lane] = static_cast<std::uint8_t>(packed >> 8 * i);
   }
   void set(std::uint32_t lane, std::uint32_t id, std::uint32_t packed) {
+    assert(lane < lanes && id <= nobody);
     set(lane, packed);
     ids[lane] = (ids[lane] & ~id_mask) | id;
   }
   void set_count(std::uint32_t count) {
+    assert(count <= lanes);
     for (std::uint32_t i = 0; i < 4; ++i)
       ids[4 + i] = (ids[4 + i] & id_mask) | (count >> i & 1u) << 31;
   }

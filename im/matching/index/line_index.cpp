@@ -6,6 +6,7 @@
 #include <bit>
 #include <cassert>
 
+#include "im/checked.h"
 #include "im/matching/index/line_scan.h"
 
 namespace rink::im {
@@ -17,26 +18,14 @@ namespace {
 constexpr CellShape line_cell_shape{4.0, 1.0, 2.0};
 /// With more columns or rows, edges would not fit into 32 bits; the last ones are wide then.
 constexpr std::int32_t last_max = (1 << 21) - 1;
+static_assert(std::int64_t{last_max} * EdgeCoding::steps < (1 << 30));
 /// How many movers are in flight, and lines at most before they are read.
 constexpr std::size_t in_flight_max = 32, visit_max = 512;
 
 }  // namespace
 
-EdgeCoding::EdgeCoding(float cells_per_metre_x, float cells_per_metre_y, float widest_x,
-                       float widest_y) {
-  // The high edges of the boxes in a cell range over the cell and the widest of them.
-  const auto high_steps = [](float cells_per_metre, float widest) {
-    const float cells = cells_per_metre * widest;
-    return cells < steps ? std::max(1, static_cast<std::int32_t>(steps / (1.0f + cells))) : 1;
-  };
-  high_steps_x_ = high_steps(cells_per_metre_x, widest_x),
-  high_steps_y_ = high_steps(cells_per_metre_y, widest_y);
-  scale_ = FourFloats{cells_per_metre_x * steps, cells_per_metre_y * steps,
-                      cells_per_metre_x * static_cast<float>(high_steps_x_),
-                      cells_per_metre_y * static_cast<float>(high_steps_y_)};
-}
-
 void LineIndex::build(const Region& world, const RegionHistory& regions, Region Motion::*place) {
+  assert(world.low_x < world.high_x && world.low_y < world.high_y);
   projection_ = Projection(world.low_x, world.low_y);
   is_built_ = true;
   has_grown_ = false;
@@ -68,6 +57,7 @@ void LineIndex::build(const Region& world, const RegionHistory& regions, Region 
   for (std::size_t i = 0; i < staged_.size(); ++i)
     insert(staged_ids_[i], place_of(level_of(staged_[i]), staged_[i]));
   size_ = built_size_ = staged_.size();
+  if constexpr (checks_whole_structures) check();
 }
 
 LineIndex::Place LineIndex::place_of(std::size_t level, const FloatBox& box) const {
@@ -82,6 +72,7 @@ LineIndex::Place LineIndex::place_of(std::size_t level, const FloatBox& box) con
 
 /// Lines of no cell; `size` is a power of two.
 std::uint32_t LineIndex::take_run(std::uint32_t size) {
+  assert(std::has_single_bit(size));
   Buffer<std::uint32_t>& runs = free_[static_cast<std::size_t>(std::countr_zero(size))];
   if (!runs.empty()) {
     const std::uint32_t run = runs[runs.size() - 1];
@@ -96,6 +87,7 @@ std::uint32_t LineIndex::take_run(std::uint32_t size) {
 
 /// Of a full line, to a further one.
 void LineIndex::copy(std::uint32_t from, std::uint32_t to) {
+  assert(lines_[from].count() == lanes && to >= levels_.cell_count());
   lines_[to] = lines_[from];
   for (std::uint32_t lane = 0; lane < lanes; ++lane)
     further_place_of_[lines_[to].id(lane)] = to * lanes + lane;
@@ -113,6 +105,7 @@ void LineIndex::grow_run(std::uint32_t cell) {
 }
 
 void LineIndex::insert(std::uint32_t id, const Place& place) {
+  assert(id < Line::nobody && place.cell < runs_.size());
   if (id >= further_place_of_.size()) further_place_of_.resize(id + std::size_t{1});
   std::uint32_t count = lines_[place.cell].count();
   if (count == lanes) {
@@ -127,6 +120,7 @@ void LineIndex::insert(std::uint32_t id, const Place& place) {
 }
 
 void LineIndex::remove(std::uint32_t id, std::uint32_t cell) {
+  assert(cell < runs_.size());
   Line& line = lines_[cell];
   if (line.count() == 0) {
     assert(line.has_more());
@@ -160,6 +154,7 @@ void LineIndex::move(std::uint32_t id, std::uint32_t from, const Place& to) {
 }
 
 void LineIndex::put(const ProbeList& moved) {
+  assert(is_built_);
   constexpr std::uint32_t nowhere_yet = 0xFFFFFFFF;
   std::array<std::uint32_t, in_flight_max> from;
   std::array<Place, in_flight_max> to;
@@ -187,9 +182,11 @@ void LineIndex::put(const ProbeList& moved) {
       else insert(id, to[i]), ++size_;
     }
   }
+  if constexpr (checks_whole_structures) check();
 }
 
 void LineIndex::remove(std::uint32_t id, const Region& place) {
+  assert(is_built_ && size_ > 0 && !is_nowhere(place));
   const FloatBox box = projection_(place);
   remove(id, levels_[level_of(box)].cell(box.low_x, box.low_y));
   --size_;
@@ -352,9 +349,39 @@ void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::si
 void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end,
                              const TieJudge& judge, const RegionHistory& regions,
                              Instructions instructions, Answers& answers) const {
+  assert(is_built_ && begin <= end && end <= askers.size());
+  assert(answers.visits.empty() && answers.doubts.empty());  // the last question was answered
   if (instructions == Instructions::scalar)
     find_changes<OneByOne>(askers, begin, end, judge, regions, answers);
   else find_changes<BySse2>(askers, begin, end, judge, regions, answers);
+}
+
+void LineIndex::check() const {
+  levels_.check();
+  const std::uint32_t cells = levels_.cell_count();
+  assert(runs_.size() == cells && codings_.size() == levels_.size());
+  [[maybe_unused]] std::size_t boxes = 0, run_lines = 0;
+  for (std::uint32_t cell = 0; cell < cells; ++cell)
+    boxes += check(cell), run_lines += runs_[cell].capacity;
+  assert(boxes == size_);
+  for (std::size_t power = 0; power < free_.size(); ++power)
+    run_lines += free_[power].size() << power;
+  assert(lines_.size() == cells + run_lines);  // each line is of a cell, of its run, or free
+}
+
+/// Returns how many boxes there are in the cell.
+std::size_t LineIndex::check(std::uint32_t cell) const {
+  const Line& line = lines_[cell];
+  const Run& run = runs_[cell];
+  assert(line.count() <= lanes);
+  assert(line.has_more() == (run.size != 0) && run.size <= run.capacity);
+  assert(run.capacity == 0 || (std::has_single_bit(run.capacity) && run.first >= runs_.size()));
+  for (std::uint32_t lane = 0; lane < lanes; ++lane)
+    assert((line.id(lane) == Line::nobody) == (lane >= line.count()));
+  for (std::uint32_t further = run.first; further < run.first + run.size; ++further)
+    for (std::uint32_t lane = 0; lane < lanes; ++lane)
+      assert(further_place_of_[lines_[further].id(lane)] == further * lanes + lane);
+  return line.count() + std::size_t{run.size} * lanes;
 }
 
 std::size_t LineIndex::bytes() const {

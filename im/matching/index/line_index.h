@@ -62,6 +62,7 @@ class LineIndex {
   void remove(std::uint32_t id, const Region& place);
 
   bool is_built() const { return is_built_; }
+  std::size_t size() const { return size_; }
   /// True if it was never built, or so much came or grew since that it is worth building anew.
   bool is_outgrown() const;
   /// All of which an overlap with one of the askers changed while those went from where they were
@@ -71,6 +72,9 @@ class LineIndex {
                     const TieJudge& judge, const RegionHistory& regions, Instructions instructions,
                     Answers& answers) const;
   std::size_t bytes() const;
+  /// Asserts that lines and runs hold each box once, where its id is looked for, and no other
+  /// memory is lost.
+  void check() const;
 
  private:
   using Visit = Answers::Visit;
@@ -96,6 +100,7 @@ class LineIndex {
   void copy(std::uint32_t from, std::uint32_t to);
   void grow_run(std::uint32_t cell);
   std::uint32_t take_run(std::uint32_t size);
+  std::size_t check(std::uint32_t cell) const;
   template <class Compare>
   void find_changes(const ProbeList& askers, std::size_t begin, std::size_t end,
                     const TieJudge& judge, const RegionHistory& regions, Answers& answers) const;

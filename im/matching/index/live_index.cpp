@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 
+#include "im/checked.h"
 #include "im/matching/ring.h"
 
 namespace rink::im {
@@ -18,6 +19,7 @@ constexpr std::size_t movers_ahead = 8;
 }  // namespace
 
 void LiveIndex::build(const Region& world, const RegionHistory& regions, Region Motion::*place) {
+  assert(world.low_x < world.high_x && world.low_y < world.high_y);
   projection_ = Projection(world.low_x, world.low_y);
   is_built_ = true;
   has_grown_ = false;
@@ -43,6 +45,7 @@ void LiveIndex::build(const Region& world, const RegionHistory& regions, Region 
     insert(levels_.of(sizes_, staged_[i]).cell(staged_[i].low_x, staged_[i].low_y), staged_ids_[i],
            staged_[i]);
   size_ = built_size_ = staged_.size();
+  if constexpr (checks_whole_structures) check();
 }
 
 FloatBox LiveIndex::box(std::uint32_t place) const {
@@ -85,6 +88,7 @@ void LiveIndex::empty(std::uint32_t block) {
 
 /// Blocks of no cell; `size` is a power of two.
 std::uint32_t LiveIndex::take_run(std::uint32_t size) {
+  assert(std::has_single_bit(size));
   Buffer<std::uint32_t>& runs = free_[static_cast<std::size_t>(std::countr_zero(size))];
   if (!runs.empty()) {
     const std::uint32_t run = runs[runs.size() - 1];
@@ -119,6 +123,7 @@ void LiveIndex::grow_run(std::uint32_t cell) {
 }
 
 void LiveIndex::insert(std::uint32_t cell, std::uint32_t id, const FloatBox& box) {
+  assert(cell < heads_.size() && id < place_of_.size() && !holds(id));
   if (heads_[cell].count == lanes) {
     grow_run(cell);
     copy_boxes(cell, blocks_[cell].run + blocks_[cell].run_size++);
@@ -150,6 +155,7 @@ void LiveIndex::put(std::uint32_t id, const Region& region) {
 }
 
 void LiveIndex::put(std::span<const std::uint32_t> ids, const RegionHistory& regions) {
+  assert(is_built_);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (i + 2 * movers_ahead < ids.size() && ids[i + 2 * movers_ahead] < place_of_.size())
       __builtin_prefetch(&place_of_[ids[i + 2 * movers_ahead]]);
@@ -161,14 +167,17 @@ void LiveIndex::put(std::span<const std::uint32_t> ids, const RegionHistory& reg
           __builtin_prefetch(
               reinterpret_cast<const char*>(&blocks_[place_of_[next] / lanes]) + part, 1);
     }
+    assert(regions.contains(ids[i]));
     put(ids[i], regions[ids[i]].now);
   }
+  if constexpr (checks_whole_structures) check();
 }
 
 void LiveIndex::remove(std::uint32_t id) {
   if (!holds(id)) return;
   const std::uint32_t cell = blocks_[place_of_[id] / lanes].cell;
   if (heads_[cell].count == 0) {
+    assert(blocks_[cell].run_size > 0);
     copy_boxes(blocks_[cell].run + --blocks_[cell].run_size, cell);
     heads_[cell] = {lanes, blocks_[cell].run_size != 0};
   }
@@ -184,6 +193,7 @@ bool LiveIndex::is_outgrown() const {
 }
 
 Candidates LiveIndex::candidates() const {
+  assert(is_built_);
   const Block& first = blocks_[0];
   const BoxColumns columns{first.low_x, first.low_y, first.high_x, first.high_y};
   return {columns, columns, first.ids, stride};
@@ -225,6 +235,45 @@ std::size_t LiveIndex::find_disc_changes(const Probe& probe, Buffer<Stretch>& st
             ? collect(level, RingQuery(level, ring), stretches)
             : collect(level, cells_touched(level, hull_of(probe.before, probe.now)), stretches);
   return candidates;
+}
+
+void LiveIndex::check() const {
+  levels_.check();
+  const std::uint32_t cells = levels_.cell_count();
+  assert(heads_.size() == cells);
+  [[maybe_unused]] std::size_t boxes = 0, run_blocks = 0, known = 0;
+  for (std::uint32_t cell = 0; cell < cells; ++cell)
+    boxes += check(cell), run_blocks += blocks_[cell].run_capacity;
+  for (const std::uint32_t place : place_of_.span()) known += place != none ? 1u : 0u;
+  assert(boxes == size_ && known == size_);
+  for (std::size_t power = 0; power < free_.size(); ++power)
+    run_blocks += free_[power].size() << power;
+  assert(blocks_.size() == cells + run_blocks);  // each is of a cell, of its run, or free
+}
+
+/// Returns how many boxes there are in the cell.
+std::size_t LiveIndex::check(std::uint32_t cell) const {
+  const Block& head = blocks_[cell];
+  const std::uint32_t count = heads_[cell].count;
+  assert(head.cell == cell && count <= lanes);
+  assert((heads_[cell].has_more != 0) == (head.run_size != 0));
+  assert(head.run_size <= head.run_capacity);
+  for (std::uint32_t lane = 0; lane < count; ++lane) check_place(cell * lanes + lane, cell);
+  for (std::uint32_t lane = count; lane < lanes; ++lane)
+    assert(head.ids[lane] == nobody && head.low_x[lane] > head.high_x[lane]);
+  for (std::uint32_t place = head.run * lanes; place < (head.run + head.run_size) * lanes; ++place)
+    check_place(place, cell);
+  return count + std::size_t{head.run_size} * lanes;
+}
+
+void LiveIndex::check_place(std::uint32_t place, [[maybe_unused]] std::uint32_t cell) const {
+  const FloatBox at = box(place);
+  [[maybe_unused]] const CellLevel& level =
+      levels_[levels_.size() == 1 ? 0 : sizes_.level(longer_side(at))];
+  assert(blocks_[place / lanes].cell == cell);
+  assert(place_of_[blocks_[place / lanes].ids[place % lanes]] == place);
+  assert(level.cell(at.low_x, at.low_y) == cell);
+  assert(at.high_x - at.low_x <= level.x.widest && at.high_y - at.low_y <= level.y.widest);
 }
 
 std::size_t LiveIndex::bytes() const {

@@ -31,6 +31,7 @@ class LiveIndex {
 
   /// True if it was never built, or so much came or grew since that it is worth building anew.
   bool is_outgrown() const;
+  std::size_t size() const { return size_; }
   Candidates candidates() const;
   /// Appends where boxes may have an overlap with `probe` that changed; returns how many boxes
   /// those are.
@@ -38,6 +39,9 @@ class LiveIndex {
   /// The same for who asks what touches his disc.
   std::size_t find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
   std::size_t bytes() const;
+  /// Asserts that blocks hold each box once, in its cell and where its id says, and no other memory
+  /// is lost.
+  void check() const;
 
  private:
   static constexpr std::uint32_t lanes = scan_width, none = 0xFFFFFFFF;
@@ -72,6 +76,8 @@ class LiveIndex {
   void insert(std::uint32_t cell, std::uint32_t id, const FloatBox& box);
   void put(std::uint32_t id, const Region& region);
   std::uint32_t cell_for(const FloatBox& box);
+  std::size_t check(std::uint32_t cell) const;
+  void check_place(std::uint32_t place, std::uint32_t cell) const;
   bool holds(std::uint32_t id) const { return id < place_of_.size() && place_of_[id] != none; }
 
   Projection projection_;

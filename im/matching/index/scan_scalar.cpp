@@ -1,5 +1,6 @@
 // Scans one candidate after the other, without branches on the outcome; and chooses between this
 // and wider instructions.
+#include <cassert>
 #include <cmath>
 
 #include "im/matching/disc_error.h"
@@ -27,6 +28,7 @@ std::size_t scan(const Candidates& candidates, std::span<const Probe> probes,
   std::size_t count = 0, stretch = 0;
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const Probe probe = probes[p];
+    assert(stretch <= probe.stretches_end);
     for (; stretch < probe.stretches_end; ++stretch)
       for (std::size_t eight = stretches[stretch].first; eight < stretches[stretch].end;
            eight += candidates.stride)

@@ -1,6 +1,11 @@
 // Chooses the size levels greedily from the largest boxes down.
 #include "im/matching/index/size_levels.h"
 
+#include <algorithm>
+#include <functional>
+
+#include "im/checked.h"
+
 namespace rink::im {
 namespace {
 
@@ -38,6 +43,18 @@ void SizeLevels::choose() {
   }
   close_level();
   if (size_ == 0) populations_[size_++] = 0;
+  if constexpr (checks_whole_structures) check();
+}
+
+void SizeLevels::check() const {
+  assert(1 <= size_ && size_ <= level_max);
+  assert(run_length_ == 0);  // all sides are in the counts
+  assert(std::is_sorted(level_of_.begin(), level_of_.end(), std::greater<>()));
+  assert(level_of_.front() < size_);
+  std::array<std::size_t, level_max> populations{};
+  for (std::size_t bucket = 0; bucket < counts_.size(); ++bucket)
+    populations[level_of_[bucket]] += counts_[bucket];
+  assert(std::equal(populations.begin(), populations.begin() + size_, populations_.begin()));
 }
 
 }  // namespace rink::im

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 
 namespace rink::im {
@@ -19,6 +20,7 @@ class SizeLevels {
   }
   /// Sides alike come one after the other; counting each in memory would wait for the one before.
   void count(float side) {
+    assert(side >= 0.0f);
     const std::uint32_t bucket = bucket_of(side);
     if (bucket != run_bucket_) end_run(bucket);
     ++run_length_;
@@ -29,8 +31,16 @@ class SizeLevels {
   void choose();
 
   std::size_t size() const { return size_; }
-  std::size_t level(float side) const { return level_of_[bucket_of(side)]; }
-  std::size_t population(std::size_t level) const { return populations_[level]; }
+  std::size_t level(float side) const {
+    assert(size_ > 0);  // `choose` was called
+    return level_of_[bucket_of(side)];
+  }
+  std::size_t population(std::size_t level) const {
+    assert(level < size_);
+    return populations_[level];
+  }
+  /// Asserts that each size has a level, larger ones an earlier one, and populations add up.
+  void check() const;
 
  private:
   void close_level();
