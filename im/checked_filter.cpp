@@ -1,8 +1,11 @@
 // Knows who is there and judges regions before the filter sees them.
 #include "im/checked_filter.h"
 
+#include <cassert>
 #include <cmath>
 #include <initializer_list>
+
+#include "im/matching/region_history.h"
 
 namespace rink::im {
 namespace {
@@ -35,7 +38,14 @@ std::optional<Rejection> check(const FilterSettings& settings) {
   return std::nullopt;
 }
 
+CheckedFilter::CheckedFilter(std::unique_ptr<Filter> filter, std::uint32_t id_limit)
+    : filter_(std::move(filter)), id_limit_(id_limit) {
+  assert(filter_ != nullptr && id_limit_ <= RegionHistory::id_max);
+}
+
 void CheckedFilter::hand_in(Subject subject, std::uint32_t id, const Region& region) {
+  assert(subject == Subject::update_region || subject == Subject::subscription_region);
+  assert(id < id_limit_ && is_valid(region));
   if (subject == Subject::update_region) filter_->set_update_region(id, region);
   else filter_->set_subscription_region(id, region);
 }

@@ -24,8 +24,7 @@ class CheckedFilter {
  public:
   /// Ids are less than `id_limit`: memory grows with the largest one, so a stranger may not choose
   /// as he likes.
-  CheckedFilter(std::unique_ptr<Filter> filter, std::uint32_t id_limit)
-      : filter_(std::move(filter)), id_limit_(id_limit) {}
+  CheckedFilter(std::unique_ptr<Filter> filter, std::uint32_t id_limit);
 
   /// Rejected if it is there already, its id is not below the limit, or its region is bad.
   std::optional<Rejection> add_entity(Entity entity, const Region& region) {

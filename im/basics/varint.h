@@ -3,6 +3,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,7 @@ inline std::size_t varint_size(std::uint64_t value) {
 
 /// Writes to where `varint_size(value)` bytes are free; returns their end.
 inline std::byte* put_varint(std::byte* at, std::uint64_t value) {
+  assert(at != nullptr);
   for (; value >= 0x80; value >>= 7) *at++ = static_cast<std::byte>(value | 0x80);
   *at++ = static_cast<std::byte>(value);
   return at;

@@ -1,6 +1,7 @@
 // Judges expressions and builds the filters that they say.
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -121,6 +122,10 @@ bool looks_at_places(const Expression& expression) {
 /// is taken as false.
 void flatten(const Expression& expression, const FilterSettings& settings, bool is_negated,
              std::vector<std::unique_ptr<Filter>>& operands, std::vector<Step>& steps) {
+  assert(expression.operands.size() == (expression.kind == Kind::negation ? 1u
+                                        : expression.kind == Kind::scheme ? 0u
+                                        : expression.kind == Kind::stage  ? 1u
+                                                                          : 2u));
   if (is_operand(expression)) {
     steps.push_back(static_cast<Step>(operands.size()));
     if (is_negated && looks_at_places(expression))
@@ -140,6 +145,7 @@ std::unique_ptr<Filter> build_combination(const Expression& expression,
   std::vector<std::unique_ptr<Filter>> operands;
   std::vector<Step> steps;
   flatten(expression, settings, false, operands, steps);
+  assert(operands.size() < PairStates::filter_max);  // `none` may join them
   if (follow(steps, 0, true)) {
     // True where no operand is: it has to hear of every pair there is.
     steps.push_back(static_cast<Step>(operands.size()));
@@ -158,6 +164,7 @@ const Expression* swept_in(const Expression& expression) {
 }
 
 std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSettings& settings) {
+  assert(stage.kind == Kind::stage && stage.operands.size() == 1);
   const Expression& inner = stage.operands.front();
   const auto build_inner = [&] { return build_filter(inner, settings); };
   if (stage.name == "hysteresis") {
@@ -171,6 +178,7 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
                       stage.parameter("drag", settings.drag), stage.parameter("disc", 0.0) != 0.0);
   if (stage.name == "priority")
     return make_priority(build_inner(), static_cast<std::size_t>(stage.parameter("budget", 0.0)));
+  assert(stage.name == "tiers");
   // Rings measure where those who fly are now, if what they stand behind knows of flights.
   const Expression* const swept = swept_in(inner);
   const auto make_ring = [&] {
@@ -265,12 +273,15 @@ std::string judge_expression(const Expression& expression, Expression::Place* pl
 }
 
 std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterSettings& settings) {
+  assert(judge_own(expression).empty() && judge_settings(settings).empty());
   if (expression.kind == Kind::stage) return build_stage(expression, settings);
   if (expression.kind != Kind::scheme) return build_combination(expression, settings);
   FilterSettings own = settings;
   own.cell_size = expression.parameter("cell_size", settings.cell_size);
   own.half_angle_deg = expression.parameter("half_angle", settings.half_angle_deg);
-  return make_scheme(expression.name, own);
+  auto scheme = make_scheme(expression.name, own);
+  assert(scheme != nullptr);  // judged names are registered
+  return scheme;
 }
 
 std::string usage_of(const std::string& name) {

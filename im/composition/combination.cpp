@@ -11,10 +11,24 @@
 namespace rink::im {
 namespace {
 
+/// True if no step takes more than there is, one answer is left, and every operand exists.
+[[maybe_unused]] bool are_sound(const std::vector<Step>& steps, std::size_t operand_count) {
+  std::size_t depth = 0;
+  for (const Step step : steps) {
+    const bool takes_two = step == Step::conjunction || step == Step::alternative;
+    if (depth < (takes_two ? 2u : step == Step::negation ? 1u : 0u)) return false;
+    if (step < Step::conjunction && static_cast<std::size_t>(step) >= operand_count) return false;
+    if (takes_two) --depth;
+    else if (step != Step::negation) ++depth;
+  }
+  return depth == 1;
+}
+
 class Combination final : public ReviewedParts {
  public:
   Combination(std::vector<std::unique_ptr<Filter>> operands, std::vector<Step> steps)
       : ReviewedParts(std::move(operands)), steps_(std::move(steps)) {
+    assert(are_sound(steps_, parts_.size()));
     assert(parts_.size() <= PairStates::filter_max && !follow(steps_, 0, true) &&
            !follow(steps_, 0, false));
     minds_sweeps_ = std::find(steps_.begin(), steps_.end(), Step::is_still) != steps_.end();

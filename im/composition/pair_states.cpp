@@ -35,6 +35,7 @@ void PairStates::touch_subscriber(Subscriber subscriber) {
 }
 
 void PairStates::take(std::size_t k, std::span<const Change> changes) {
+  assert(k < filter_max);
   const auto bit = static_cast<Says>(1u << k);
   for (const Change& change : changes) {
     if (change.transition == Transition::entered)
@@ -58,6 +59,17 @@ void PairStates::join_news() {
     }
   }
   news_.resize(kept);
+}
+
+void PairStates::check() const {
+  for (const Buffer<Entry>& entries : entries_) {
+    for (std::size_t i = 1; i < entries.size(); ++i)
+      assert(entries[i - 1].entity < entries[i].entity);
+    for (const Entry& entry : entries.span()) {
+      assert(entry.says != 0 || entry.level != 0);
+      assert(entry.level <= filter_max);
+    }
+  }
 }
 
 }  // namespace rink::im

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "im/checked.h"
 #include "im/filter.h"
 #include "im/matching/buffer.h"
 
@@ -35,6 +37,8 @@ class PairStates {
   /// was taken, and appends what changed to `changes`, ordered. Returns how many it asked about.
   template <class Decide>
   std::size_t review(const Decide& decide, Buffer<Change>& changes);
+  /// Asserts that lists are in order and keep no pair of which nobody says anything.
+  void check() const;
 
  private:
   struct Entry {
@@ -65,8 +69,11 @@ template <class Decide>
 void PairStates::look(const News& news, Entry entry, const Decide& decide,
                       Buffer<Change>& changes) {
   const Level was = entry.level;
+  // A filter says what changed: not twice that one entered, nor that one left who was not in.
+  assert((entry.says & news.on) == 0 && (news.off & ~entry.says) == 0);
   entry.says = static_cast<Says>((entry.says | news.on) & ~news.off);
   entry.level = decide(news.subscriber, news.entity, entry.says, was);
+  assert(entry.level <= filter_max);
   const auto tier = static_cast<std::uint8_t>(entry.level == 0 ? 0 : entry.level - 1);
   if ((was == 0) != (entry.level == 0))
     changes.push_back(
@@ -98,6 +105,7 @@ std::size_t PairStates::review(const Decide& decide, Buffer<Change>& changes) {
   }
   const std::size_t count = news_.size();
   news_.clear();
+  if constexpr (checks_whole_structures) check();
   return count;
 }
 

@@ -1,7 +1,28 @@
 // Hands on, and adds up.
 #include "im/composition/parts.h"
 
+#include <algorithm>
+#include <cassert>
+
+#include "im/checked.h"
+
 namespace rink::im {
+namespace {
+
+/// True if pairs ascend, each there once.
+[[maybe_unused]] bool are_ordered(std::span<const Change> changes) {
+  const auto is_out_of_order = [](const Change& a, const Change& b) {
+    return a.subscriber != b.subscriber ? a.subscriber > b.subscriber : a.entity >= b.entity;
+  };
+  return std::adjacent_find(changes.begin(), changes.end(), is_out_of_order) == changes.end();
+}
+
+}  // namespace
+
+Parts::Parts(std::vector<std::unique_ptr<Filter>> parts) : parts_(std::move(parts)) {
+  assert(!parts_.empty());
+  assert(std::find(parts_.begin(), parts_.end(), nullptr) == parts_.end());
+}
 
 void Parts::set_update_region(Entity entity, const Region& region) {
   for (const auto& part : parts_) part->set_update_region(entity, region);
@@ -68,6 +89,7 @@ void Parts::list_counts(std::vector<StageCount>& counts) const {
 }
 
 std::span<const Change> Parts::reported(std::span<const Change> changes) {
+  assert(!checks_whole_structures || are_ordered(changes));
   counters_.regions_moved = 0;
   counters_.pairs_tested = pairs_tested_;
   for (const auto& part : parts_) {

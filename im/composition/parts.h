@@ -14,7 +14,8 @@ namespace rink::im {
 /// What combinations and stages derive from; they override what concerns them.
 class Parts : public Filter {
  public:
-  explicit Parts(std::vector<std::unique_ptr<Filter>> parts) : parts_(std::move(parts)) {}
+  /// At least one, and none is null.
+  explicit Parts(std::vector<std::unique_ptr<Filter>> parts);
 
   void set_update_region(Entity entity, const Region& region) override;
   void remove_entity(Entity entity) override;

@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include <cassert>
 #include <memory>
 #include <span>
 #include <utility>
@@ -16,7 +17,9 @@ namespace rink::im {
 /// what it was.
 class ReviewedParts : public Parts {
  public:
-  explicit ReviewedParts(std::vector<std::unique_ptr<Filter>> parts) : Parts(std::move(parts)) {}
+  explicit ReviewedParts(std::vector<std::unique_ptr<Filter>> parts) : Parts(std::move(parts)) {
+    assert(parts_.size() <= PairStates::filter_max);
+  }
 
   void remove_entity(Entity entity) override {
     Parts::remove_entity(entity);

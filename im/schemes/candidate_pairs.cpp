@@ -19,11 +19,13 @@ std::size_t bytes_of(const std::vector<List>& lists) {
 }  // namespace
 
 void CandidatePairs::add(Subscriber subscriber, Entity entity) {
+  assert(entity >> 31 == 0);  // a key has a bit beside it
   make_room(subscribers_, entity);
   subscribers_[entity].push_back(subscriber);
 }
 
 void CandidatePairs::forget(Subscriber subscriber, Entity entity) {
+  assert(entity < subscribers_.size());
   Buffer<Subscriber>& near = subscribers_[entity];
   Subscriber* const place = std::find(near.data(), near.data() + near.size(), subscriber);
   assert(place != near.data() + near.size());
@@ -70,6 +72,28 @@ void CandidatePairs::wake(Subscriber subscriber) {
 void CandidatePairs::touch_near(Entity entity) {
   if (entity >= subscribers_.size() || touched_.size() == entries_.size()) return;
   for (const Subscriber subscriber : subscribers_[entity].span()) touch(subscriber);
+}
+
+void CandidatePairs::check() const {
+  // Sums of a function of each pair, which the same pairs have in any order.
+  const auto mark = [](std::uint64_t subscriber, std::uint64_t entity) {
+    return (subscriber << 32 | entity) * 0x9e3779b97f4a7c15u >> 16;
+  };
+  [[maybe_unused]] std::uint64_t by_subscriber = 0, by_entity = 0;
+  for (std::size_t subscriber = 0; subscriber < entries_.size(); ++subscriber) {
+    const std::span<const Entry> entries = entries_[subscriber].span();
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      assert(i == 0 || entity_of(entries[i - 1]) < entity_of(entries[i]));
+      by_subscriber += mark(subscriber, entity_of(entries[i]));
+    }
+  }
+  for (std::size_t entity = 0; entity < subscribers_.size(); ++entity)
+    for (const Subscriber subscriber : subscribers_[entity].span())
+      by_entity += mark(subscriber, entity);
+  assert(by_subscriber == by_entity);
+  assert(touched_.size() <= is_touched_.size());
+  for ([[maybe_unused]] const Subscriber subscriber : touched_.span())
+    assert(is_touched_[subscriber]);
 }
 
 std::size_t CandidatePairs::bytes() const {

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "im/checked.h"
 #include "im/filter.h"
 #include "im/matching/buffer.h"
 
@@ -37,6 +38,8 @@ class CandidatePairs {
   void review(std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes);
 
   std::size_t bytes() const;
+  /// Asserts that lists are in order and that both directions hold the same pairs.
+  void check() const;
 
  private:
   /// An entity and, in the lowest bit, whether it is relevant.
@@ -69,7 +72,9 @@ void CandidatePairs::review(std::span<const Change> box_changes, const Decide& d
     box_changes = box_changes.subspan(merge(subscriber, box_changes, decide, changes));
     is_touched_[subscriber] = false;
   }
+  assert(box_changes.empty());  // they were ordered, and each was of somebody touched
   touched_.clear();
+  if constexpr (checks_whole_structures) check();
 }
 
 /// Returns how many of `box_changes`, the first, were of `subscriber`.
@@ -98,6 +103,7 @@ std::size_t CandidatePairs::merge(Subscriber subscriber, std::span<const Change>
   }
   const auto enter_below = [&](std::uint64_t end) {
     for (; has_change() && box_changes[next].entity < end; ++next) {
+      assert(box_changes[next].transition == Transition::entered);
       add(subscriber, box_changes[next].entity);
       merged_.push_back(
           looked_at({box_changes[next].entity << 1, -std::numeric_limits<float>::infinity()}));
@@ -118,6 +124,7 @@ std::size_t CandidatePairs::merge(Subscriber subscriber, std::span<const Change>
     ++next;
   }
   enter_below(std::uint64_t{1} << 32);
+  assert(!has_change());
   entries.resize(merged_.size());
   std::copy(merged_.span().begin(), merged_.span().end(), entries.data());
   return next;

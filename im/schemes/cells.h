@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -19,6 +20,7 @@ inline constexpr double cells_across = 32.0;
 
 /// The side that `settings` give, or one that suits their world [m].
 inline double cell_size_of(const FilterSettings& settings) {
+  assert(is_valid(settings.world) && std::isfinite(settings.cell_size));
   if (settings.cell_size > 0.0) return settings.cell_size;
   const double width = settings.world.high_x - settings.world.low_x,
                height = settings.world.high_y - settings.world.low_y;
@@ -43,6 +45,7 @@ inline double cell_of(double coordinate, double origin, double size) {
 
 /// The cells that a region touches, first and last along each axis.
 inline Region cells_of(const Region& region, const Region& world, double size) {
+  assert(size > 0.0);
   return {cell_of(region.low_x, world.low_x, size), cell_of(region.low_y, world.low_y, size),
           cell_of(region.high_x, world.low_x, size), cell_of(region.high_y, world.low_y, size)};
 }

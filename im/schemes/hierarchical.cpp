@@ -1,5 +1,7 @@
 // The scheme `hierarchical`: like `grid`, but an entity is in a cell of its own size, so that a
 // large one is not known by its centre alone.
+#include <cassert>
+
 #include "im/schemes/cells.h"
 #include "im/schemes/overlap_filter.h"
 
@@ -38,6 +40,7 @@ class HierarchicalFilter final : public OverlapFilter {
     const double longer =
         std::min(std::max(region.high_x - region.low_x, region.high_y - region.low_y) + longer_by,
                  largest / 4.0);
+    assert(longer >= 0.0 && cell_size_ > 0.0);
     double size = cell_size_;
     while (size < longer) size *= 2.0;
     const Region cell = cells_of(centre_of(region), world_, size);

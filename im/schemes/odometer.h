@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -21,6 +22,7 @@ class Odometer {
       if (const Motion& motion = regions[id]; !is_nowhere(motion.before)) add(id, step(motion));
   }
   void add(std::uint32_t id, double length) {
+    assert(length >= 0.0);  // a bound on ways never shrinks
     way_[id] += length * (1.0 + 0x1p-40) + way_[id] * 0x1p-52;
   }
   double operator[](std::uint32_t id) const { return way_[id]; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -127,6 +128,7 @@ class PredicateFilter : public OverlapFilter {
     ++counters_.pairs_tested;
     const Region &mine = subscribers_[subscriber].now, &its = entities_[entity].now;
     const Judgement is = judgement(relevant_(Party{subscriber, mine}, Party{entity, its}));
+    assert(!(is.slack < 0.0));
     const double slack = is.slack > 0.0 ? is.slack - rounding(mine) - rounding(its) : 0.0;
     // Rounded down; where nothing is known it is always over.
     const auto until = static_cast<float>(std::min(way + slack, 1e30));

@@ -1,6 +1,8 @@
 // The stage `dwell`: who enters stays for some matches at least, however soon he is gone.
 #include <algorithm>
+#include <cassert>
 
+#include "im/checked.h"
 #include "im/composition/parts.h"
 #include "im/stages/stages.h"
 
@@ -12,7 +14,9 @@ namespace {
 class Dwell final : public Parts {
  public:
   Dwell(std::vector<std::unique_ptr<Filter>> inner, std::uint32_t matches)
-      : Parts(std::move(inner)), matches_(matches), due_(matches + std::size_t{1}) {}
+      : Parts(std::move(inner)), matches_(matches), due_(matches + std::size_t{1}) {
+    assert(matches_ >= 1);
+  }
 
   void remove_entity(Entity entity) override {
     Parts::remove_entity(entity);
@@ -28,6 +32,7 @@ class Dwell final : public Parts {
     changes_.clear();
     for (const Change& change : parts_.front()->match()) take(change);
     release();
+    if constexpr (checks_whole_structures) check();
     return reported(changes_.span());
   }
   void list_counts(std::vector<StageCount>& counts) const override {
@@ -68,15 +73,33 @@ class Dwell final : public Parts {
     entries[at] = entry;
   }
 
+  /// Asserts that entries are in order and that nobody stays whose time was up.
+  void check() const {
+    for (const Buffer<Entry>& entries : entries_) {
+      for (std::size_t i = 1; i < entries.size(); ++i)
+        assert(entries[i - 1].entity < entries[i].entity);
+      for ([[maybe_unused]] const Entry& entry : entries.span()) {
+        assert(entry.since <= now_);
+        assert(!entry.is_leaving || now_ < entry.since + matches_);
+      }
+    }
+    assert(due_[now_ % due_.size()].empty());
+  }
+
   void take(const Change& change) {
+    assert(change.transition != Transition::tier_changed);  // `tiers` comes after
     if (change.subscriber >= entries_.size()) entries_.resize(change.subscriber + std::size_t{1});
     Buffer<Entry>& entries = entries_[change.subscriber];
     Entry* const entry = find(entries, change.entity);
     if (change.transition == Transition::entered) {
+      assert(!entry || entry->is_leaving);  // who enters was not in
       if (entry) return void((entry->is_leaving = false, ++called_off_));
       insert(entries, {change.entity, false, now_});
       changes_.push_back(change);
-    } else if (now_ - entry->since >= matches_) {
+      return;
+    }
+    assert(entry && !entry->is_leaving);  // who leaves was in
+    if (now_ - entry->since >= matches_) {
       erase(entries, entry);
       changes_.push_back(change);
     } else {

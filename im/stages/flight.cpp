@@ -2,6 +2,7 @@
 #include "im/stages/flight.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -29,6 +30,7 @@ WarpedSpan either(const WarpedSpan& a, const WarpedSpan& b) {
 
 /// |offset + speed s| <= half.
 WarpedSpan within(double offset, double speed, double half) {
+  assert(half >= 0.0);
   if (speed == 0.0) return std::abs(offset) <= half ? WarpedSpan{} : never;
   const double one = (-half - offset) / speed, other = (half - offset) / speed;
   return {std::min(one, other), std::max(one, other)};
@@ -37,6 +39,7 @@ WarpedSpan within(double offset, double speed, double half) {
 /// |(x, y) + (u, v) s| <= radius. The discriminant is factored as in the design's time of impact,
 /// for b^2 - a c cancels, and so does one of the two sums of roots.
 WarpedSpan within_disc(double x, double y, double u, double v, double radius) {
+  assert(radius >= 0.0);
   const double square = u * u + v * v, gap = x * x + y * y - radius * radius,
                closing = -(x * u + y * v), miss = std::abs(x * v - y * u),
                reach = radius * std::sqrt(square);
@@ -66,6 +69,7 @@ struct Approach {
     return {unwarped(ahead.first, drag), ahead.last >= end ? infinite : unwarped(ahead.last, drag)};
   }
   double unwarped(double warped, double drag) const {
+    assert(!(drag * warped > 1.0));  // warped time ends where motion comes to rest
     return start + (drag > 0.0 ? -std::log1p(-drag * warped) / drag : warped);
   }
 };
@@ -73,6 +77,7 @@ struct Approach {
 }  // namespace
 
 Flight at_time(const Flight& flight, double time, double drag) {
+  assert(drag >= 0.0);
   const double passed = time - flight.time;
   if (!(passed > 0.0)) return flight;
   const double warped = drag > 0.0 ? -std::expm1(-drag * passed) / drag : passed,

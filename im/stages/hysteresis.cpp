@@ -1,6 +1,7 @@
 // The stage `hysteresis`: who is in stays in until he is out of a larger region, so that nobody
 // flaps at an edge.
 #include <algorithm>
+#include <cassert>
 
 #include "im/composition/reviewed_parts.h"
 #include "im/schemes/cells.h"
@@ -18,7 +19,9 @@ Region grown(const Region& region, double margin) {
 class Hysteresis final : public ReviewedParts {
  public:
   Hysteresis(std::vector<std::unique_ptr<Filter>> enter_and_stay, double margin)
-      : ReviewedParts(std::move(enter_and_stay)), margin_(margin) {}
+      : ReviewedParts(std::move(enter_and_stay)), margin_(margin) {
+    assert(parts_.size() == 2 && margin_ >= 0.0);
+  }
 
   void set_subscription_region(Subscriber subscriber, const Region& region) override {
     parts_[0]->set_subscription_region(subscriber, region);

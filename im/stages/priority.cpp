@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "im/checked.h"
 #include "im/composition/parts.h"
 #include "im/stages/priority_order.h"
 #include "im/stages/stages.h"
@@ -86,6 +87,7 @@ void PriorityOrder::take(std::span<const Change> changes) {
     if (change.subscriber >= entries_.size()) entries_.resize(change.subscriber + std::size_t{1});
     Buffer<Entry>& entries = entries_[change.subscriber];
     Entry* const entry = find(change.subscriber, change.entity);
+    assert((entry == nullptr) == (change.transition == Transition::entered));
     if (change.transition == Transition::tier_changed) {
       entry->tier = change.tier;
     } else if (change.transition == Transition::left) {
@@ -98,6 +100,18 @@ void PriorityOrder::take(std::span<const Change> changes) {
         std::swap(entries[i], entries[i - 1]);
     }
   }
+  if constexpr (checks_whole_structures) check();
+}
+
+void PriorityOrder::check() const {
+  for (const Buffer<Entry>& entries : entries_) {
+    for (std::size_t i = 1; i < entries.size(); ++i)
+      assert(entries[i - 1].entity < entries[i].entity);
+    for (const Entry& entry : entries.span()) {
+      assert(entry.entity < entities_.size());
+      assert(entry.sent <= now_);
+    }
+  }
 }
 
 // Halved, as everywhere: the differences of the largest numbers have no double.
@@ -107,6 +121,7 @@ PriorityOrder::Watch::Watch(const Region& own)
       reach(std::min(0.5 * own.high_x - 0.5 * own.low_x, 0.5 * own.high_y - 0.5 * own.low_y)) {}
 
 double PriorityOrder::urgency(const Watch& watch, const Entry& entry) const {
+  assert(entry.entity < entities_.size() && entry.sent <= now_);
   const Region& at = entities_[entry.entity];
   const double x = (0.25 * at.low_x + 0.25 * at.high_x) - watch.x,
                y = (0.25 * at.low_y + 0.25 * at.high_y) - watch.y;
@@ -114,7 +129,8 @@ double PriorityOrder::urgency(const Watch& watch, const Entry& entry) const {
                weight =
                    watch.reach > 0.0 ? 1.0 / (1.0 + std::min(distance / watch.reach, 1e9)) : 1.0;
   const double waited = static_cast<double>(now_ - entry.sent) + (entry.is_state ? 1.0 : 0.0);
-  constexpr unsigned tier_max = 31;  // there are at most 15
+  assert(0.0 < weight && weight <= 1.0);  // a heap of what is not a number has no order
+  constexpr unsigned tier_max = 31;       // there are at most 15
   return waited * weight / static_cast<double>(1u << std::min<unsigned>(entry.tier, tier_max));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -63,6 +64,8 @@ class PriorityOrder {
   void remove_entity(Entity entity);
   void remove_subscriber(Subscriber subscriber);
   void take(std::span<const Change> changes);
+  /// Asserts that lists are in order and hold nobody without a place or sent in time to come.
+  void check() const;
 
  private:
   struct Entry {
@@ -106,6 +109,8 @@ std::size_t PriorityOrder::rank(Subscriber subscriber, const BytesOf& bytes_of) 
   ranked_.clear();
   if (subscriber >= entries_.size()) return 0;
   Buffer<Entry>& entries = entries_[subscriber];
+  assert(entries.empty() || subscriber < subscribers_.size());
+  if (entries.empty()) return 0;
   const Watch watch(subscribers_[subscriber]);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     Entry& entry = entries.data()[i];
@@ -144,6 +149,7 @@ std::span<const PriorityOrder::Item> PriorityOrder::fill(Subscriber subscriber, 
   if (are_updates_first) take(first_update, last);
   take(first_state, first_update);
   if (!are_updates_first) take(first_update, last);
+  assert(filled_.size() + put_off_.size() == ranked_.size());
   counts_.put_off += put_off_.size();
   return filled_.span();
 }

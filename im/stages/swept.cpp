@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "im/checked.h"
 #include "im/composition/parts.h"
 #include "im/schemes/candidate_pairs.h"
 #include "im/stages/flight.h"
@@ -60,6 +61,7 @@ class Flights {
   /// flight any more goes off the list and costs nothing from then on.
   template <class HandOn>
   std::size_t sweep(double now, double horizon, double drag, const HandOn& hand_on) {
+    assert(horizon >= 0.0 && drag >= 0.0);
     std::size_t kept = 0, swept = 0;
     for (const std::uint32_t id : flying_.span()) {
       Own& own = all_[id];
@@ -79,7 +81,18 @@ class Flights {
     for (const std::uint32_t id : news_.span()) all_[id].is_news = false;
     news_.clear();
   }
-  const Own& operator[](std::uint32_t id) const { return all_[id]; }
+  const Own& operator[](std::uint32_t id) const {
+    assert(id < all_.size());
+    return all_[id];
+  }
+  /// Asserts that the lists hold those, once each, who say that they are in them.
+  void check() const {
+    [[maybe_unused]] std::size_t listed = 0, news = 0;
+    for (const Own& own : all_) listed += own.is_listed ? 1u : 0u, news += own.is_news ? 1u : 0u;
+    assert(listed == flying_.size() && news == news_.size());
+    for ([[maybe_unused]] const std::uint32_t id : flying_.span()) assert(all_[id].is_listed);
+    for ([[maybe_unused]] const std::uint32_t id : news_.span()) assert(all_[id].is_news);
+  }
 
  private:
   void mark(std::uint32_t id) {
@@ -104,13 +117,17 @@ class Flights {
 class Swept final : public Parts {
  public:
   Swept(std::vector<std::unique_ptr<Filter>> inner, double horizon, double drag, bool is_disc)
-      : Parts(std::move(inner)), horizon_(horizon), drag_(drag), is_disc_(is_disc) {}
+      : Parts(std::move(inner)), horizon_(horizon), drag_(drag), is_disc_(is_disc) {
+    assert(horizon_ >= 0.0 && drag_ >= 0.0);
+  }
 
   void set_update_region(Entity entity, const Region& region) override {
+    assert(is_valid(region));
     entities_.put(entity, region, now_);
     Parts::set_update_region(entity, region);
   }
   void set_subscription_region(Subscriber subscriber, const Region& region) override {
+    assert(is_valid(region));
     subscribers_.put(subscriber, region, now_);
     Parts::set_subscription_region(subscriber, region);
   }
@@ -162,6 +179,7 @@ class Swept final : public Parts {
           return look(subscriber, entity, was);
         },
         changes_);
+    if constexpr (checks_whole_structures) entities_.check(), subscribers_.check();
     entities_.settle();
     subscribers_.settle();
     return reported(changes_.span());
@@ -177,6 +195,7 @@ class Swept final : public Parts {
  private:
   bool look(Subscriber subscriber, Entity entity, bool was) {
     const Flights::Own &s = subscribers_[subscriber], &e = entities_[entity];
+    assert(s.is_known && e.is_known);  // who is gone is in no pair
     if ((!was || s.is_news || e.is_news) && (s.is_told || e.is_told)) {
       const TimeSpan span =
           is_disc_ ? touching_disc(e.flight, e.half, s.flight, std::min(s.half.x, s.half.y), drag_)

@@ -2,6 +2,7 @@
 // often.
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "im/composition/reviewed_parts.h"
 #include "im/stages/stages.h"
@@ -23,7 +24,10 @@ Region ring_of(const Region& region, double fraction) {
 class Tiers final : public ReviewedParts {
  public:
   Tiers(std::vector<std::unique_ptr<Filter>> parts, std::vector<double> fractions)
-      : ReviewedParts(std::move(parts)), fractions_(std::move(fractions)) {}
+      : ReviewedParts(std::move(parts)), fractions_(std::move(fractions)) {
+    assert(parts_.size() == 1 + fractions_.size() && !fractions_.empty());
+    assert(std::is_sorted(fractions_.begin(), fractions_.end()) && fractions_.front() > 0.0);
+  }
 
   void set_subscription_region(Subscriber subscriber, const Region& region) override {
     parts_[0]->set_subscription_region(subscriber, region);

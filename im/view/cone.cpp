@@ -19,6 +19,7 @@ class Views {
 
   /// False if `subscriber` looks there already.
   bool look(Subscriber subscriber, const Heading& heading, bool is_told) {
+    assert(subscriber < views_.size());
     View& view = views_[subscriber];
     const bool is_news = view.heading != heading;
     if (is_news) view.heading = heading, view.wedge = Wedge(heading, half_angle_deg_);
@@ -27,7 +28,10 @@ class Views {
   }
   bool is_told(Subscriber subscriber) const { return views_[subscriber].is_told; }
   Heading heading(Subscriber subscriber) const { return views_[subscriber].heading; }
-  void set_swept(Subscriber subscriber, bool is_swept) { views_[subscriber].is_swept = is_swept; }
+  void set_swept(Subscriber subscriber, bool is_swept) {
+    assert(subscriber < views_.size());
+    views_[subscriber].is_swept = is_swept;
+  }
   /// Whether it moved from one place to another since it moved last. To be asked once for each
   /// move.
   bool has_way(Subscriber subscriber) {

@@ -1,6 +1,8 @@
 // Adds and multiplies expansions, part by part.
 #include "im/view/exact.h"
 
+#include "im/checked.h"
+
 namespace rink::im {
 namespace {
 
@@ -28,6 +30,14 @@ void Exact::add(double number) {
   append(carried);
 }
 
+void Exact::check() const {
+  assert(count_ <= part_max);
+  for (std::size_t i = 0; i < count_; ++i) assert(std::isfinite(parts_[i]) && parts_[i] != 0.0);
+  // Not overlapping, they add up to the greater of two.
+  for (std::size_t i = 1; i < count_; ++i) assert(parts_[i] + parts_[i - 1] != parts_[i - 1]);
+  for (std::size_t i = 1; i < count_; ++i) assert(std::abs(parts_[i - 1]) < std::abs(parts_[i]));
+}
+
 Exact Exact::negated() const {
   Exact result;
   for (std::size_t i = 0; i < count_; ++i) result.append(-parts_[i]);
@@ -37,6 +47,7 @@ Exact Exact::negated() const {
 Exact operator+(const Exact& a, const Exact& b) {
   Exact result = a;
   for (std::size_t i = 0; i < b.count_; ++i) result.add(b.parts_[i]);
+  if constexpr (checks_whole_structures) result.check();
   return result;
 }
 
@@ -50,6 +61,7 @@ Exact operator*(const Exact& a, const Exact& b) {
       result.add(std::fma(a.parts_[i], b.parts_[j], -product));
       result.add(product);
     }
+  if constexpr (checks_whole_structures) result.check();
   return result;
 }
 

@@ -52,6 +52,8 @@ class Exact {
   friend Exact operator*(const Exact& a, const Exact& b);
 
   /// -1, 0 or 1: that of the greatest part.
+  /// Asserts that no part is zero and each is beyond the rounding of the next.
+  void check() const;
   int sign() const { return count_ == 0 ? 0 : parts_[count_ - 1] > 0.0 ? 1 : -1; }
 
  private:
@@ -88,6 +90,7 @@ int sign_of(const std::array<double, count>& numbers, const Polynomial& polynomi
   const auto each = std::make_index_sequence<count>();
   const Approximate first = polynomial(as(Approximate(0.0), each));
   if (std::abs(first.value) > first.error) return first.value > 0.0 ? 1 : -1;
+  for ([[maybe_unused]] const double number : numbers) assert(number == plain(number));
   return polynomial(as(Exact(0.0), each)).sign();
 }
 

@@ -3,6 +3,7 @@
 #include "im/view/sector.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <initializer_list>
 
@@ -103,12 +104,15 @@ double least_left_of(const Heading& line, double low_x, double low_y, double hig
 }  // namespace
 
 Heading scaled(Heading heading) {
+  assert(std::isfinite(heading.x) && std::isfinite(heading.y));
   const double longer = std::max(std::abs(heading.x), std::abs(heading.y));
   if (longer == 0.0) return heading;
   const int exponent = std::ilogb(longer);
   heading = {std::scalbn(heading.x, -exponent), std::scalbn(heading.y, -exponent)};
   for (double* component : {&heading.x, &heading.y})
     if (std::abs(*component) < 0x1p-100) *component = 0.0;
+  assert(std::abs(heading.x) < 2.0 && std::abs(heading.y) < 2.0);
+  assert(std::abs(heading.x) >= 1.0 || std::abs(heading.y) >= 1.0);
   return heading;
 }
 
@@ -119,6 +123,7 @@ double Wedge::clearance(const Region& subscription, const Region& box) const {
   const Eye eye(subscription);
   const double radius = 0.5 * std::min(subscription.high_x - subscription.low_x,
                                        subscription.high_y - subscription.low_y);
+  assert(radius >= 0.0);
   const double low_x = box.low_x - eye.x, low_y = box.low_y - eye.y, high_x = box.high_x - eye.x,
                high_y = box.high_y - eye.y;
   const double error = 1e-12 * (std::abs(eye.x) + std::abs(eye.y) + radius + std::abs(low_x) +
@@ -147,6 +152,7 @@ double Wedge::clearance(const Region& subscription, const Region& box) const {
 }
 
 Wedge::Wedge(const Heading& ahead, double half_angle_deg) : ahead_(scaled(ahead)) {
+  assert(0.0 <= half_angle_deg && half_angle_deg <= 180.0);
   if ((ahead_.x == 0.0 && ahead_.y == 0.0) || half_angle_deg >= 180.0) return;
   width_ = half_angle_deg <= 90.0 ? Width::at_most_half : Width::more_than_half;
   const Heading turn = turned(half_angle_deg);
@@ -158,6 +164,7 @@ Wedge::Wedge(const Heading& ahead, double half_angle_deg) : ahead_(scaled(ahead)
 /// not on an edge of the wedge, it is the rectangle's own nearest one: the distance has no other
 /// least value on a convex set. So it suffices to look there and where the edges come in.
 bool Wedge::touches(const Region& subscription, const Region& box) const {
+  assert(subscription == plain(subscription) && box == plain(box));
   const Eye eye(subscription);
   const Seen point{nearest(eye.x, box.low_x, box.high_x), eye.x,
                    nearest(eye.y, box.low_y, box.high_y), eye.y};

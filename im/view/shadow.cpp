@@ -3,6 +3,7 @@
 #include "im/view/shadow.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "im/view/exact.h"
@@ -51,6 +52,7 @@ double distance_to_way(const Disc& post, const Eye& eye, double x, double y) {
 /// The way to one point of the box that is free shows it, and stays free while neither of its ends
 /// has come so far; the ways to all corners must pass through to hide it.
 double shadow_clearance(const Disc& post, const Eye& eye, const Region& box) {
+  assert(post.radius >= 0.0 && is_valid(box));
   const double sizes = std::abs(post.x) + std::abs(post.y) + post.radius + std::abs(eye.x) +
                        std::abs(eye.y) + std::abs(box.low_x) + std::abs(box.low_y) +
                        std::abs(box.high_x) + std::abs(box.high_y);
@@ -69,6 +71,7 @@ double shadow_clearance(const Disc& post, const Eye& eye, const Region& box) {
 }
 
 bool hides(const Disc& post, const Eye& eye, const Region& box) {
+  assert(post.radius >= 0.0 && box == plain(box));
   // What reaches to the other side of the eye than the post is on is not behind it; most pairs end
   // here. Strictly: then the rounding of the post's edge cannot matter.
   if ((box.low_x < eye.x && eye.x < post.x - post.radius) ||
