@@ -1,8 +1,11 @@
 // Which of two values of an object was said later, when they came by different ways.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
+
+#include "im/checked.h"
 
 #include "rti/fom/fom.h"
 #include "rti/objects/object_map.h"
@@ -21,7 +24,10 @@ class ArrivalOrder {
     }
   }
 
-  AttributeSet best_effort(std::uint16_t object_class) const { return best_effort_[object_class]; }
+  AttributeSet best_effort(std::uint16_t object_class) const {
+    assert(object_class < best_effort_.size());
+    return best_effort_[object_class];
+  }
   /// True if some class has such attributes.
   bool has_best_effort() const { return stride_ > 0; }
   bool contains(ObjectHandle object) const { return places_.find(object) != nullptr; }
@@ -38,6 +44,18 @@ class ArrivalOrder {
     if (place == nullptr) return;
     free_.push_back(*place);
     places_.erase(object);
+    if constexpr (checks_whole_structures) check();
+  }
+  /// Asserts that each place is free or one object's.
+  void check() const {
+    std::vector<bool> is_taken(stride_ == 0 ? 0 : newest_.size() / stride_);
+    const auto take = [&is_taken](std::uint32_t place) {
+      assert(place < is_taken.size() && !is_taken[place]);
+      is_taken[place] = true;
+    };
+    places_.for_each([&](ObjectHandle, std::uint32_t place) { take(place); });
+    for (const std::uint32_t place : free_) take(place);
+    assert(places_.size() + free_.size() == is_taken.size());
   }
   /// Notes that values of `set` were said at `order`, and returns those that are not older than
   /// what is known; none of an object that is not in scope.

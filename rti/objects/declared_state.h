@@ -2,6 +2,7 @@
 // them, and what is kept back because nobody does.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -45,6 +46,7 @@ struct DeclaredState {
            !(attributes & spared.in_class(object_class)).is_empty();
   }
   void note_sent(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp) {
+    assert(object_class.value < objects.size());
     AttributeSet& sent = objects[object_class.value].sent;
     sent = sent | attributes;
     newest = stamp;

@@ -2,11 +2,14 @@
 // handle.
 #pragma once
 
+#include <bit>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
+
+#include "im/checked.h"
 
 #include "rti/handles.h"
 
@@ -56,6 +59,21 @@ class ObjectMap {
     }
     slots_[hole] = {};
     --size_;
+    assert(!checks_whole_structures || find(object) == nullptr);
+  }
+
+  /// Asserts that every key is found, that there are as many as counted, and room for probes to
+  /// end.
+  void check() const {
+    assert(slots_.empty() || std::has_single_bit(slots_.size()));
+    assert(4 * size_ <= 3 * slots_.size());
+    [[maybe_unused]] std::size_t count = 0;
+    for (std::size_t at = 0; at < slots_.size(); ++at) {
+      if (slots_[at].key == nobody) continue;
+      assert(place_of(slots_[at].key) == at);
+      ++count;
+    }
+    assert(count == size_);
   }
 
   /// Calls `visit(ObjectHandle, const Value&)` for each, in no particular order.
@@ -92,6 +110,7 @@ class ObjectMap {
     old.swap(slots_);
     for (Slot& slot : old)
       if (slot.key != nobody) slots_[place_of(slot.key)] = std::move(slot);
+    if constexpr (checks_whole_structures) check();
   }
 
   std::vector<Slot> slots_;  ///< a power of two of them

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "im/checked.h"
 #include "rti/fom/coded_values.h"
 #include "rti/wire/message.h"
 
@@ -30,7 +31,8 @@ ObjectTable::ObjectTable(const Fom& fom) : fom_(fom) {
 
 ObjectSlot ObjectTable::insert(ObjectHandle handle, std::uint32_t owner, std::uint16_t object_class,
                                std::string_view name) {
-  assert(!was_registered(handle));
+  assert(handle && !was_registered(handle));  // handles are not used twice
+  assert(object_class < layouts_.size());
   ObjectSlot slot = slot_count();
   if (free_.empty()) {
     objects_.emplace_back();
@@ -39,6 +41,7 @@ ObjectSlot ObjectTable::insert(ObjectHandle handle, std::uint32_t owner, std::ui
     free_.pop_back();
   }
   Object& object = objects_[slot];
+  assert(!object.is_alive && object.negotiation == Object::no_negotiation);
   object.handle = handle;
   object.owner = owner;
   object.object_class = object_class;
@@ -58,10 +61,12 @@ ObjectSlot ObjectTable::insert(ObjectHandle handle, std::uint32_t owner, std::ui
 }
 
 void ObjectTable::erase(ObjectSlot slot) {
+  assert(slot < slot_count());
   Object& object = objects_[slot];
   assert(object.is_alive);
   object.is_alive = false;
   Block& block = block_of(object.handle);
+  assert(find(object.handle) == slot && block.alive > 0);
   block.slots[object.handle.value % object_block] = no_object;
   if (--block.alive == 0 && block.is_closed) block.slots = {};
   leaving_.push_back(slot);
@@ -75,6 +80,7 @@ ObjectTable::Block& ObjectTable::block_of(ObjectHandle handle) {
 }
 
 void ObjectTable::pass_over(ObjectHandle handle) {
+  assert(!was_registered(handle));
   block_of(handle).registered = handle.value % object_block + 1;
 }
 
@@ -88,6 +94,26 @@ void ObjectTable::recycle() {
   for (const ObjectSlot slot : leaving_) objects_[slot] = {};  // with its name and values
   free_.insert(free_.end(), leaving_.begin(), leaving_.end());
   leaving_.clear();
+  if constexpr (checks_whole_structures) check();
+}
+
+void ObjectTable::check() const {
+  [[maybe_unused]] std::size_t alive = 0;
+  for (ObjectSlot slot = 0; slot < slot_count(); ++slot) {
+    if (!objects_[slot].is_alive) continue;
+    ++alive;
+    assert(find(objects_[slot].handle) == slot);
+    assert(objects_[slot].object_class < layouts_.size());
+  }
+  assert(alive == size_ && alive + free_.size() + leaving_.size() == objects_.size());
+  for (const Block& block : blocks_) {
+    [[maybe_unused]] std::size_t in_block = 0;
+    for (const ObjectSlot slot : block.slots) in_block += slot != no_object ? 1u : 0u;
+    assert(in_block == block.alive && block.registered <= object_block);
+    assert(block.slots.size() <= block.registered);
+  }
+  for ([[maybe_unused]] const ObjectSlot slot : free_)
+    assert(!objects_[slot].is_alive && objects_[slot].valued.is_empty());
 }
 
 ObjectSlot ObjectTable::find(ObjectHandle handle) const {
@@ -103,6 +129,7 @@ bool ObjectTable::was_registered(ObjectHandle handle) const {
 }
 
 void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes coded) {
+  assert(slot < slot_count());
   Object& object = objects_[slot];
   const Layout& layout = layouts_[object.object_class];
   const ObjectClass& object_class = fom_.object_classes()[object.object_class];
@@ -112,6 +139,7 @@ void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes coded) {
     std::size_t size = 0;
     if (is_fixed(attribute)) {
       size = *attribute.size;
+      assert(size <= coded.size());
       if (size != 0) std::memcpy(object.fixed.data() + layout.offsets[index], coded.data(), size);
     } else {
       const AttributeSet one(1u << index);
@@ -123,10 +151,12 @@ void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes coded) {
     }
     coded = coded.subspan(size);
   }
+  assert(coded.empty());
   object.valued = object.valued | set;
 }
 
 std::size_t ObjectTable::size_of(ObjectSlot slot, AttributeSet set) const {
+  assert(slot < slot_count());
   const Object& object = objects_[slot];
   std::size_t size = 0;
   set.for_each([&](AttributeHandle each) {

@@ -76,6 +76,9 @@ class ObjectTable {
   void append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const;
   /// How many bytes that would append.
   std::size_t size_of(ObjectSlot slot, AttributeSet set) const;
+  /// Asserts that handles and slots lead to each other, that each slot is alive, leaving or free,
+  /// and that counts are right.
+  void check() const;
 
  private:
   struct Block {

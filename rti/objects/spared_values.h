@@ -2,6 +2,7 @@
 // somebody does.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,7 @@ class SparedValues {
   /// Attributes of the class that some object may have values of here: the bit test before each
   /// update.
   AttributeSet in_class(ObjectClassHandle object_class) const {
+    assert(object_class.value < in_class_.size());
     return in_class_[object_class.value].attributes;
   }
   bool is_empty() const { return objects_.size() == 0; }
@@ -43,6 +45,8 @@ class SparedValues {
   std::vector<ObjectHandle> list(ObjectClassHandle object_class, AttributeSet attributes) const;
 
   std::size_t memory_bytes() const;
+  /// Asserts that every entry has a value and is counted in its class.
+  void check() const;
 
  private:
   const Fom& fom_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "im/checked.h"
+
 namespace rink::rti {
 
 namespace {
@@ -26,10 +28,12 @@ AttributeSet Ownership::all(ObjectSlot object) const {
 
 const Ownership::Record* Ownership::find(ObjectSlot object) const {
   const std::uint32_t record = objects_[object].negotiation;
+  assert(record == Object::no_negotiation || records_[record].object == object);
   return record == Object::no_negotiation ? nullptr : &records_[record];
 }
 
 AttributeSet Ownership::owned_by(std::uint32_t federate, ObjectSlot object) const {
+  assert(federate != no_federate && object < objects_.slot_count());
   if (objects_[object].owner != no_federate)
     return objects_[object].owner == federate ? all(object) : AttributeSet();
   for (const Share& each : find(object)->shares)
@@ -39,6 +43,7 @@ AttributeSet Ownership::owned_by(std::uint32_t federate, ObjectSlot object) cons
 
 AttributeSet Ownership::unowned(ObjectSlot object) const {
   if (objects_[object].owner != no_federate) return {};
+  assert(find(object) != nullptr);  // who owns what is in its record
   return all(object).without(union_of(find(object)->shares));
 }
 
@@ -80,6 +85,7 @@ Bytes Ownership::offer_tag(ObjectSlot object) const {
 Ownership::Record& Ownership::open(ObjectSlot object) {
   events_.clear();
   Object& opened = objects_[object];
+  assert(opened.is_alive);
   if (opened.negotiation != Object::no_negotiation) return records_[opened.negotiation];
   if (free_.empty()) {
     free_.push_back(static_cast<std::uint32_t>(records_.size()));
@@ -88,6 +94,8 @@ Ownership::Record& Ownership::open(ObjectSlot object) {
   opened.negotiation = free_.back();
   free_.pop_back();
   Record& record = records_[opened.negotiation];
+  assert(record.object == no_object && record.shares.empty() && record.claims.empty());
+  assert(opened.owner != no_federate);
   record.object = object;
   record.shares.push_back(
       {opened.owner, all(object)});  // without a record there is one owner of all
@@ -99,6 +107,7 @@ void Ownership::close_if_settled(Record& record) {
   const bool is_whole =
       record.shares.size() == 1 && record.shares.front().attributes == all(record.object);
   object.owner = is_whole ? record.shares.front().federate : no_federate;
+  if constexpr (checks_whole_structures) check(record);
   if (!is_whole || !record.offered.is_empty() || !record.claims.empty()) return;
   forget(record.object);
 }
@@ -114,6 +123,38 @@ void Ownership::forget(ObjectSlot object) {
   record.offered = record.confirming = {};
   free_.push_back(negotiation);
   negotiation = Object::no_negotiation;
+}
+
+void Ownership::check() const {
+  [[maybe_unused]] std::size_t open_count = 0;
+  for (const Record& record : records_) {
+    if (record.object == no_object) continue;
+    ++open_count;
+    assert(&record == find(record.object));
+    check(record);
+  }
+  assert(open_count == record_count());
+  for ([[maybe_unused]] const std::uint32_t each : free_)
+    assert(records_[each].object == no_object);
+}
+
+void Ownership::check(const Record& record) const {
+  AttributeSet owned;
+  [[maybe_unused]] const AttributeSet wanted = union_of(record.claims);
+  for (const Share& each : record.shares) {
+    assert(each.federate != no_federate && !each.attributes.is_empty());
+    assert((owned & each.attributes).is_empty());  // an attribute has one owner
+    owned = owned | each.attributes;
+  }
+  assert(all(record.object).includes(owned));
+  assert(owned.includes(record.offered));  // what is unowned is not offered and has no claim
+  assert(owned.includes(wanted));
+  assert(record.confirming == (record.offered & wanted));
+  for ([[maybe_unused]] const Claim& each : record.claims) {
+    assert(!each.attributes.is_empty());
+    assert((each.attributes & owned_by(each.federate, record.object)).is_empty());
+    assert(!each.is_if_available || record.offered.includes(each.attributes));
+  }
 }
 
 void Ownership::tell(Kind kind, std::uint32_t federate, AttributeSet attributes) {
@@ -174,7 +215,9 @@ void Ownership::drop_empty_claims(Record& record) {
   record.confirming = record.confirming & union_of(record.claims);
 }
 
-Ownership::Events Ownership::divest(std::uint32_t, ObjectSlot object, AttributeSet attributes) {
+Ownership::Events Ownership::divest([[maybe_unused]] std::uint32_t federate, ObjectSlot object,
+                                    AttributeSet attributes) {
+  assert(owned_by(federate, object).includes(attributes));
   Record& record = open(object);
   const AttributeSet rest = attributes.without(give_to_claimants(record, attributes));
   transfer(record, rest, no_federate);
@@ -185,6 +228,7 @@ Ownership::Events Ownership::divest(std::uint32_t, ObjectSlot object, AttributeS
 
 Ownership::Events Ownership::offer(std::uint32_t federate, ObjectSlot object,
                                    AttributeSet attributes, Bytes tag) {
+  assert(owned_by(federate, object).includes(attributes));
   Record& record = open(object);
   record.offered = record.offered | attributes;
   record.tag.assign(tag.begin(), tag.end());
@@ -198,6 +242,7 @@ Ownership::Events Ownership::offer(std::uint32_t federate, ObjectSlot object,
 
 Ownership::Events Ownership::withdraw_offer(std::uint32_t federate, ObjectSlot object,
                                             AttributeSet attributes) {
+  assert(owned_by(federate, object).includes(attributes));
   Record& record = open(object);
   record.offered = record.offered.without(attributes);
   end_claims(record, attributes, false);
@@ -207,15 +252,18 @@ Ownership::Events Ownership::withdraw_offer(std::uint32_t federate, ObjectSlot o
   return events_;
 }
 
-Ownership::Events Ownership::deny_release(std::uint32_t, ObjectSlot object,
-                                          AttributeSet attributes) {
+Ownership::Events Ownership::deny_release([[maybe_unused]] std::uint32_t federate,
+                                          ObjectSlot object, AttributeSet attributes) {
+  assert(owned_by(federate, object).includes(attributes));
   Record& record = open(object);
   end_claims(record, attributes, true);
   close_if_settled(record);
   return events_;
 }
 
-Ownership::Events Ownership::give(std::uint32_t, ObjectSlot object, AttributeSet attributes) {
+Ownership::Events Ownership::give([[maybe_unused]] std::uint32_t federate, ObjectSlot object,
+                                  AttributeSet attributes) {
+  assert(owned_by(federate, object).includes(attributes));
   Record& record = open(object);
   give_to_claimants(record, attributes);
   close_if_settled(record);
@@ -224,6 +272,7 @@ Ownership::Events Ownership::give(std::uint32_t, ObjectSlot object, AttributeSet
 
 Ownership::Events Ownership::acquire(std::uint32_t federate, ObjectSlot object,
                                      AttributeSet attributes) {
+  assert(all(object).includes(attributes));
   Record& record = open(object);
   attributes = attributes.without(owned_by(federate, object));
   for (Claim& each : record.claims) {
@@ -246,6 +295,7 @@ Ownership::Events Ownership::acquire(std::uint32_t federate, ObjectSlot object,
 
 Ownership::Events Ownership::acquire_if_available(std::uint32_t federate, ObjectSlot object,
                                                   AttributeSet attributes) {
+  assert(all(object).includes(attributes));
   Record& record = open(object);
   attributes = attributes.without(owned_by(federate, object)).without(sought_by(federate, object));
   const AttributeSet free = attributes & unowned(object), waiting = attributes & record.offered;
@@ -281,6 +331,7 @@ void Ownership::forget_claims(std::uint32_t federate) {
     drop_empty_claims(record);
     close_if_settled(record);
   }
+  if constexpr (checks_whole_structures) check();
 }
 
 }  // namespace rink::rti

@@ -2,6 +2,7 @@
 // 1516.1-2010 as one state machine, without messages.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -55,7 +56,9 @@ class Ownership {
   /// Calls `visit(federate)` for each owner of a divided object.
   template <class Visit>
   void for_each_owner(ObjectSlot object, Visit visit) const {
-    for (const Share& each : find(object)->shares) visit(each.federate);
+    const Record* record = find(object);
+    assert(record != nullptr);
+    for (const Share& each : record->shares) visit(each.federate);
   }
   AttributeSet offered(ObjectSlot object) const;
   /// Of those: whose owner was asked to confirm, since somebody takes them.
@@ -92,6 +95,8 @@ class Ownership {
       if (each.object != no_object) visit(each.object);
   }
   std::size_t record_count() const { return records_.size() - free_.size(); }
+  /// Asserts the invariants above of all records, and that objects and records lead to each other.
+  void check() const;
 
  private:
   struct Share {
@@ -111,6 +116,7 @@ class Ownership {
     std::vector<std::byte> tag;
   };
   const Record* find(ObjectSlot object) const;
+  void check(const Record& record) const;
   Record& open(ObjectSlot object);
   void close_if_settled(Record& record);
   void tell(OwnershipEvent::Kind kind, std::uint32_t federate, AttributeSet attributes);

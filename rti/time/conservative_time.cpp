@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
+
+#include "im/checked.h"
 
 namespace rink::rti {
 
@@ -42,6 +45,7 @@ bool ConservativeTime::enable_regulation(std::uint32_t federate, double lookahea
         heard,
         mine.heard);  // else somebody could answer it at an instant of which it has heard all
   mine.floor = std::max(heard, mine.enabling + lookahead);
+  assert(mine.enabling >= mine.time && mine.floor >= mine.enabling);
   weigh(federate);
   return true;
 }
@@ -139,6 +143,7 @@ void ConservativeTime::withdraw(std::uint32_t federate, const TimedEntry& entry)
 
 /// The time that a federate would be granted if nobody sent to it meanwhile.
 double ConservativeTime::goal(const Clock& clock) {
+  assert(clock.is_advancing);
   return is_next_message(clock.kind) ? std::min(clock.asked, clock.queue.next_time()) : clock.asked;
 }
 
@@ -155,6 +160,12 @@ double ConservativeTime::need(const Clock& clock) const {
 /// Enters what follows from a federate's clock into the trees.
 void ConservativeTime::weigh(std::uint32_t federate) {
   const Clock& mine = clocks_[federate];
+  assert(is_valid_time(mine.time) && is_valid_lookahead(mine.lookahead));
+  assert(!mine.is_advancing || mine.asked >= mine.time);
+  assert(!mine.awaits_regulation || (mine.is_regulating && mine.enabling >= mine.time));
+  assert(!mine.is_regulating || mine.floor >= mine.time);
+  assert(!mine.is_constrained || (mine.heard >= mine.time && !mine.awaits_constraint));
+  assert(!mine.is_constrained || mine.queue.next_time() >= mine.heard);
   const bool may_be_lowered = mine.is_regulating && awaits_message(mine);
   double bound = time_unbounded;
   if (mine.is_regulating)
@@ -184,6 +195,7 @@ double ConservativeTime::least_of_others(std::uint32_t federate, double bound) c
                  std::max(floors_.node(node), bound + lookaheads_.node(node))) >= least)
       continue;
     if (node < bounds_.width()) {
+      assert(count + 2 <= std::size(open));
       open[count++] = 2 * node + 1;
       open[count++] = 2 * node;
     } else if (node - bounds_.width() != federate) {
@@ -215,11 +227,27 @@ void ConservativeTime::settle(TimeListener& listener) {
                slowest = static_cast<std::uint32_t>(bounds_.where());
     if (can_serve(first)) serve(first, listener);
     else if (slowest != first && can_serve(slowest)) serve(slowest, listener);
-    else return;
+    else break;
+  }
+  if constexpr (checks_whole_structures) check();
+}
+
+void ConservativeTime::check() const {
+  for (const LeastTree* tree : {&bounds_, &floors_, &lookaheads_, &needs_}) {
+    tree->check();
+    assert(tree->width() == bounds_.width());  // their nodes correspond
+  }
+  assert(clocks_.size() <= bounds_.width());
+  for (std::size_t i = 0; i < clocks_.size(); ++i) {
+    clocks_[i].queue.check();
+    assert(bounds_[i] == time_unbounded || clocks_[i].is_regulating);
+    assert(bounds_[i] >= floors_[i] || floors_[i] == time_unbounded);
+    assert(needs_[i] == need(clocks_[i]));
   }
 }
 
 void ConservativeTime::serve(std::uint32_t federate, TimeListener& listener) {
+  assert(federate < clocks_.size());
   Clock& mine = clocks_[federate];
   const double bound = galt(federate);
   if (!mine.is_constrained) deliver(federate, time_unbounded, listener);
@@ -247,6 +275,7 @@ void ConservativeTime::advance(std::uint32_t federate, double galt, TimeListener
     granted = std::max(mine.time, std::min({mine.asked, mine.queue.next_time(), galt}));
   else if (mine.is_constrained && (is_complete(mine.kind) ? granted >= galt : granted > galt))
     return;
+  assert(mine.time <= granted && granted <= mine.asked);  // never back, nor too far
   deliver(federate, mine.kind == AdvanceKind::flush_queue ? time_unbounded : granted, listener);
   mine.is_advancing = false;
   mine.time = granted;

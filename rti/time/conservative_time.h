@@ -33,6 +33,8 @@ class ConservativeTime final : public TimeManagement {
   double galt(std::uint32_t federate) const override;
   double lits(std::uint32_t federate) const override;
   double time(std::uint32_t federate) const override;
+  /// Asserts that the trees hold what follows from the clocks.
+  void check() const;
 
  private:
   struct Clock {

@@ -1,6 +1,7 @@
 // The preconditions of clause 8, in the order of its services.
 #include "rti/time/federate_clock.h"
 
+#include <cassert>
 #include <cstdio>
 #include <string>
 
@@ -101,6 +102,7 @@ void FederateClock::ask_asynchronous(bool is_wanted) {
 }
 
 double FederateClock::earliest() const {
+  assert(!is_advancing_ || asked_ >= time_);
   return is_advancing_ ? std::max(floor_, earliest_stamp(asked_, lookahead_, kind_)) : floor_;
 }
 
@@ -119,6 +121,7 @@ void FederateClock::check_send(double time) const {
 }
 
 std::uint64_t FederateClock::ask_send(double time) {
+  assert(is_regulating());
   check_send(time);
   return sent_count_++;
 }

@@ -1,10 +1,14 @@
 // The least of many numbers that change one at a time.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <limits>
 #include <vector>
+
+#include "im/checked.h"
 
 namespace rink::rti {
 
@@ -27,6 +31,7 @@ class LeastTree {
     return node - width();
   }
   void set(std::size_t index, double value) {
+    assert(value == value);  // what is not a number is neither less nor greater
     if (index >= width()) widen(index + 1);
     std::size_t node = width() + index;
     if (nodes_[node] == value) return;
@@ -48,6 +53,13 @@ class LeastTree {
                                      nodes_.end());
     nodes_.assign(2 * std::bit_ceil(count), none);
     for (std::size_t i = 0; i < leaves.size(); ++i) set(i, leaves[i]);
+    if constexpr (checks_whole_structures) check();
+  }
+  /// Asserts that each inner node holds the lesser of its two children.
+  void check() const {
+    assert(std::has_single_bit(nodes_.size()));
+    for (std::size_t node = 1; node < width(); ++node)
+      assert(nodes_[node] == std::min(nodes_[2 * node], nodes_[2 * node + 1]));
   }
 
  private:

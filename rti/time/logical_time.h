@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -45,6 +46,7 @@ inline bool is_complete(AdvanceKind kind) {
 /// lookahead is zero, or so small that the sum is rounded to the time. Both ends compute it so:
 /// they must agree to the last bit.
 inline double earliest_stamp(double time, double lookahead, AdvanceKind kind) {
+  assert(lookahead >= 0.0);
   const double sum = time + lookahead;
   return is_complete(kind) ? std::max(sum, just_after(time)) : sum;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <functional>
 #include <vector>
 
@@ -18,17 +19,29 @@ class TimeQueue {
   std::size_t size() const { return waiting_.size(); }
   /// Time stamp of the next entry, infinite if there is none.
   double next_time() const { return waiting_.empty() ? time_unbounded : waiting_.front().time; }
-  void push(const TimedEntry& entry) { push(waiting_, entry); }
+  void push(const TimedEntry& entry) {
+    assert(is_valid_time(entry.time));
+    push(waiting_, entry);
+  }
   /// The queue must not be empty.
   TimedEntry pop() {
+    assert(!is_empty());
     const TimedEntry entry = pop(waiting_);
     strike_out();
     return entry;
   }
   /// The entry must be waiting.
   void withdraw(const TimedEntry& entry) {
+    assert(withdrawn_.size() < waiting_.size());
     push(withdrawn_, entry);
     strike_out();
+  }
+  /// Asserts the order of both heaps, and that the next entry was not withdrawn.
+  void check() const {
+    assert(std::is_heap(waiting_.begin(), waiting_.end(), std::greater<>()));
+    assert(std::is_heap(withdrawn_.begin(), withdrawn_.end(), std::greater<>()));
+    assert(withdrawn_.size() <= waiting_.size());
+    assert(withdrawn_.empty() || waiting_.front() < withdrawn_.front());
   }
 
  private:
@@ -44,6 +57,7 @@ class TimeQueue {
     return entry;
   }
   void strike_out() {
+    assert(withdrawn_.size() <= waiting_.size());
     while (!withdrawn_.empty() && waiting_.front() == withdrawn_.front()) {
       pop(waiting_);
       pop(withdrawn_);

@@ -29,6 +29,7 @@ TEST(ObjectMap, HoldsWhatAnOrderedMapHoldsAfterAnyInsertionsAndErasures) {
       if (value != nullptr) {
         ASSERT_EQ(*value, found->second);
       }
+      if (step % 500 == 0) map.check();
     }
     ASSERT_EQ(map.size(), expected.size());
     for (const auto& [number, value] : expected) {

@@ -231,6 +231,8 @@ TEST(Ownership, AgreesWithOneThatGoesAttributeByAttributeOverRandomRequests) {
       ledgers.step(operation, federate, object, AttributeSet(low));
       ASSERT_EQ(ledgers.told, ledgers.expected) << "step " << i << ", operation " << operation;
       ASSERT_NO_FATAL_FAILURE(ledgers.compare()) << "step " << i << ", operation " << operation;
+      ledgers.ownership.check();
+      ledgers.table.check();
       ledgers.told.clear();
       ledgers.expected.clear();
     }
