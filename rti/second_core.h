@@ -2,6 +2,7 @@
 // spare.
 #pragma once
 
+#include <cassert>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -27,6 +28,7 @@ class SecondCore final : public im::Worker {
   void start(void (*task)(void* context), void* context) override {
     {
       const std::lock_guard lock(mutex_);
+      assert(task != nullptr && task_ == nullptr);  // one at a time
       task_ = task, context_ = context;
       ++task_count_;
     }

@@ -1,6 +1,8 @@
 // What each end says next.
 #include "rti/admission/handshake.h"
 
+#include <cassert>
+
 #include "rti/wire/admission_messages.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/membership_messages.h"
@@ -10,10 +12,12 @@ namespace rink::rti {
 Handshake::Handshake(const SharedKey& key, Role role, std::string_view federation,
                      const Nonce& nonce)
     : key_(key), role_(role), federation_(federation), ours_(nonce) {
+  assert(federation.size() <= text_max);
   if (role == Role::federate) say(HelloMessage{protocol_version, nonce, federation});
 }
 
 ProofBasis Handshake::basis() const {
+  assert(theirs_);  // a proof is bound to what both have drawn
   return role_ == Role::federate ? ProofBasis{ours_, *theirs_, federation_}
                                  : ProofBasis{*theirs_, ours_, federation_};
 }
@@ -24,9 +28,11 @@ void Handshake::say(Message message) {
   if (role_ == Role::rti && said_ + frame.size() > heard_) return;
   said_ += frame.size();
   outgoing_.insert(outgoing_.end(), frame.begin(), frame.end());
+  assert(role_ == Role::federate || said_ <= heard_);
 }
 
 void Handshake::fail(std::string_view why) {
+  assert(state_ == State::going_on && !why.empty());
   state_ = State::failed;
   why_ = why;
 }
@@ -49,6 +55,7 @@ Handshake::State Handshake::receive(Bytes& bytes) {
 }
 
 void Handshake::take_frame(Bytes frame) {
+  assert(!frame.empty());
   const auto kind = static_cast<MessageKind>(frame.front());
   const Bytes body = frame.subspan(1);
   if (role_ == Role::rti && !theirs_)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 
 namespace rink::rti {
 
@@ -13,11 +14,14 @@ class TokenBucket {
   /// False if there is not enough for `count` at `now_s`, which never decreases; then nothing is
   /// taken.
   bool take(double count, double now_s) {
+    assert(count >= 0.0);
     if (rate_ <= 0.0) return true;
+    assert(now_s >= filled_s_);
     level_ = std::min(rate_, level_ + rate_ * (now_s - filled_s_));
     filled_s_ = now_s;
     if (count > level_) return false;
     level_ -= count;
+    assert(0.0 <= level_ && level_ <= rate_);
     return true;
   }
 

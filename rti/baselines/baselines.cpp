@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "im/checked.h"
 #include "rti/fom/fom.h"
 #include "rti/wire/baseline_messages.h"
 
@@ -45,6 +46,7 @@ Baselines::Baselines(const Fom& fom, std::uint32_t keyframe_period)
 }
 
 const QuantisedCodec* Baselines::codec_of(const UpdateRun& run) const {
+  assert(run.object_class < fom_.object_classes().size());
   if (std::popcount(run.attributes.bits) != 1) return nullptr;
   return fom_.object_classes()[run.object_class]
       .attributes[static_cast<std::size_t>(std::countr_zero(run.attributes.bits))]
@@ -54,6 +56,7 @@ const QuantisedCodec* Baselines::codec_of(const UpdateRun& run) const {
 void Baselines::begin(std::span<const UpdateRun> runs, std::size_t federate_slots) {
   is_keyframe_ = false;
   if (stride_ == 0) return;
+  assert(run_count_ == 0 && block_count_ == 0);  // the flush before has ended
   if (periodic_.size() < runs.size()) periodic_.resize(runs.size());
   if (receivers_.size() < federate_slots) receivers_.resize(federate_slots);
   run_count_ = runs.size();
@@ -77,11 +80,13 @@ void Baselines::begin(std::span<const UpdateRun> runs, std::size_t federate_slot
 }
 
 void Baselines::end() {
+  if constexpr (checks_whole_structures) check();
   run_count_ = 0;
   block_count_ = 0;
 }
 
 void Baselines::read(const UpdateRun& run, Periodic& periodic) {
+  assert(periodic.codec->fields().size() <= stride_);
   const std::size_t count = run.records.size();
   periodic.counts.resize(count * stride_);
   periodic.is_full.assign(count, false);
@@ -94,6 +99,8 @@ void Baselines::read(const UpdateRun& run, Periodic& periodic) {
 }
 
 void Baselines::keep(const UpdateRun& run, const Periodic& periodic) {
+  assert(run.slots.size() == run.records.size());
+  assert(periodic.is_full.size() == run.records.size());
   Keyframe& keyframe = keyframes_[number_ % keyframe_window];
   for (std::size_t i = 0; i < run.slots.size(); ++i) {
     const ObjectSlot slot = run.slots[i];
@@ -107,12 +114,14 @@ void Baselines::keep(const UpdateRun& run, const Periodic& periodic) {
 }
 
 std::optional<std::uint16_t> Baselines::usable(std::uint32_t federate) const {
+  assert(federate < receivers_.size());
   const std::optional<std::uint16_t>& acknowledged = receivers_[federate].acknowledged;
   return acknowledged && is_recent(*acknowledged, number_) ? acknowledged : std::nullopt;
 }
 
 const DeltaBlock& Baselines::block(const UpdateRun& run, std::size_t index,
                                    std::uint32_t federate) {
+  assert(covers(index) && periodic_[index].is_full.size() == run.records.size());
   const std::optional<std::uint16_t> keyframe = usable(federate);
   for (std::size_t i = 0; i < block_count_; ++i)
     if (blocks_[i].run == index && blocks_[i].keyframe == keyframe) return blocks_[i];
@@ -183,6 +192,8 @@ void Baselines::encode(DeltaBlock& block, const UpdateRun& run) const {
                              static_cast<std::uint32_t>(bits.at() - at), is_difference});
   }
   write_end(bits);
+  assert(block.records.size() == run.records.size());
+  assert(block.difference_count == 0 || block.header.has_baseline);
 }
 
 /// False, and nothing is written, if there is no baseline or the absolute state is no longer.
@@ -204,6 +215,7 @@ bool Baselines::append_difference(BitWriter& bits, const DeltaBlock& block, cons
 
 void Baselines::append_absolute(BitWriter& bits, const UpdateRun& run, std::size_t index,
                                 std::size_t record) const {
+  assert(covers(index) && record < periodic_[index].is_full.size());
   bits.flag(true);
   append_bits(bits, run.values(record), 0,
               periodic_[index].codec->coded_bits(periodic_[index].is_full[record]));
@@ -215,6 +227,7 @@ std::uint64_t Baselines::known(std::uint32_t federate, std::size_t word) const {
 }
 
 void Baselines::tell(std::uint32_t federate, std::size_t word, std::uint64_t objects) {
+  assert(is_keyframe_ && federate < receivers_.size());
   Receiver& receiver = receivers_[federate];
   receiver.sent.resize(keyframe_window);
   Receiver::Sent& sent = receiver.sent[number_ % keyframe_window];
@@ -244,6 +257,23 @@ void Baselines::refuse(std::uint32_t federate) {
 
 void Baselines::forget(std::uint32_t federate) {
   if (federate < receivers_.size()) receivers_[federate] = {};
+}
+
+void Baselines::check() const {
+  for (std::size_t i = 0; i < keyframes_.size(); ++i) {
+    [[maybe_unused]] const Keyframe& keyframe = keyframes_[i];
+    assert(!keyframe.number || *keyframe.number % keyframe_window == i);
+    assert(keyframe.counts.size() == keyframe.records.size() * stride_);
+  }
+  for (const Receiver& receiver : receivers_) {
+    assert(receiver.sent.empty() || receiver.sent.size() == keyframe_window);
+    assert(!receiver.acknowledged || !receiver.sent.empty());
+    for (std::size_t i = 0; i < receiver.sent.size(); ++i)
+      assert(!receiver.sent[i].number || *receiver.sent[i].number % keyframe_window == i);
+  }
+  for (std::size_t i = 0; i < block_count_; ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      assert(blocks_[i].run != blocks_[k].run || blocks_[i].keyframe != blocks_[k].keyframe);
 }
 
 }  // namespace rink::rti

@@ -2,6 +2,7 @@
 // blocks of differences that are encoded once for all who have the same.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -57,7 +58,10 @@ class Baselines {
   /// What stands for a record whose baseline is not known.
   void append_absolute(BitWriter& bits, const UpdateRun& run, std::size_t index,
                        std::size_t record) const;
-  const QuantisedCodec& codec(std::size_t run) const { return *periodic_[run].codec; }
+  const QuantisedCodec& codec(std::size_t run) const {
+    assert(covers(run));
+    return *periodic_[run].codec;
+  }
 
   void acknowledge(std::uint32_t federate, std::uint16_t number);
   /// The federate lacks a baseline: it gets absolute states until it acknowledges a keyframe that
@@ -66,6 +70,9 @@ class Baselines {
   /// Somebody else takes the slot.
   void forget(std::uint32_t federate);
 
+  /// Asserts that keyframes and what federates were sent of them lie where their numbers say, and
+  /// that no block is there twice.
+  void check() const;
   const BaselineCounters& counters() const { return counters_; }
   BaselineCounters& counters() { return counters_; }
 
@@ -107,6 +114,7 @@ class Baselines {
   bool append_difference(BitWriter& bits, const DeltaBlock& block, const UpdateRun& run,
                          std::size_t record) const;
   std::span<const std::int64_t> counts_of(const Periodic& periodic, std::size_t record) const {
+    assert(record < periodic.is_full.size());
     return std::span(periodic.counts).subspan(record * stride_, periodic.codec->fields().size());
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -25,6 +26,7 @@ struct DeltaHeader {
 };
 template <class Stream>
 bool exchange(Stream& stream, DeltaHeader& header, std::size_t field_count) {
+  assert(field_count <= QuantisedCodec::field_max);
   if (!stream.flag(header.has_baseline)) return false;
   if (!header.has_baseline) return true;
   bool is_whole = stream.bits(header.baseline, 16);
@@ -60,6 +62,7 @@ inline HandleReader::Next read_handle(BitReader& bits, std::uint32_t& handle) {
 inline void predict(const QuantisedCodec& codec, std::span<const std::int64_t> baseline,
                     double elapsed, QuantisedCodec::Counts& predicted) {
   const std::span<const QuantisedField> fields = codec.fields();
+  assert(baseline.size() >= fields.size());
   for (std::size_t i = 0; i < fields.size(); ++i) predicted[i] = baseline[i];
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (!fields[i].rate_of) continue;

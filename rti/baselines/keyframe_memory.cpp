@@ -2,7 +2,10 @@
 #include "rti/baselines/keyframe_memory.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
+
+#include "im/checked.h"
 
 namespace rink::rti {
 
@@ -24,10 +27,12 @@ void KeyframeMemory::begin(std::uint16_t number) {
     keyframe = std::move(spare_.back());
     spare_.pop_back();
   }
+  assert(keyframe.records.empty() && keyframe.counts.empty() && !keyframe.number);
   open_ = number;
 }
 
 void KeyframeMemory::add(std::uint32_t object, double time, std::span<const std::int64_t> counts) {
+  assert(open_);
   Keyframe& keyframe = place_of(*open_);
   keyframe.records.push_back({object, static_cast<std::uint32_t>(keyframe.counts.size()),
                               static_cast<std::uint32_t>(counts.size()), time});
@@ -42,7 +47,21 @@ std::optional<std::uint16_t> KeyframeMemory::seal() {
     std::ranges::stable_sort(keyframe.records, by_object);
   keyframe.number = open_;
   open_.reset();
+  if constexpr (checks_whole_structures) check();
   return keyframe.number;
+}
+
+void KeyframeMemory::check() const {
+  for (std::size_t i = 0; i < keyframes_.size(); ++i) {
+    const Keyframe& keyframe = keyframes_[i];
+    if (!keyframe.number) continue;
+    assert(*keyframe.number % keyframe_window == i);
+    assert(std::ranges::is_sorted(keyframe.records, {}, &Record::object));
+    assert(keyframe.next <= keyframe.records.size());
+    for ([[maybe_unused]] const Record& each : keyframe.records)
+      assert(std::size_t{each.at} + each.count <= keyframe.counts.size());
+  }
+  for ([[maybe_unused]] const Keyframe& each : spare_) assert(each.records.empty() && !each.number);
 }
 
 std::optional<KeyframeMemory::Baseline> KeyframeMemory::find(std::uint16_t number,

@@ -35,6 +35,8 @@ class KeyframeMemory {
   /// Nobody will refer to a keyframe before this one any more.
   void drop_before(std::uint16_t number);
   std::size_t memory_bytes() const;
+  /// Asserts that what is sealed is in order and lies where its number says.
+  void check() const;
 
  private:
   struct Record {

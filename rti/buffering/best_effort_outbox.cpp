@@ -1,6 +1,8 @@
 // Gathers, seals and repairs.
 #include "rti/buffering/best_effort_outbox.h"
 
+#include <cassert>
+
 #include "rti/fom/coded_values.h"
 
 namespace rink::rti {
@@ -12,6 +14,7 @@ BestEffortOutbox::BestEffortOutbox(const Fom& fom) : fom_(fom) {
 
 bool BestEffortOutbox::say(ObjectHandle object, ObjectClassHandle object_class, AttributeSet set,
                            const Stamp& stamp, Bytes coded) {
+  assert(is_usable() && best_effort(object_class).includes(set));
   if (batch_.is_empty()) begin();
   if (!batch_.add(static_cast<std::uint16_t>(object_class.value), set, stamp, object.value, coded))
     return false;
@@ -84,6 +87,7 @@ std::span<const Datagram> BestEffortOutbox::datagrams() {
     sealed_.push_back({Bytes(bytes_).subspan(from, end - from), {}});
     from = end;
   }
+  assert(from == bytes_.size());  // each sealed byte is in one of them
   return sealed_;
 }
 

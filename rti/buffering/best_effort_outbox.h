@@ -2,6 +2,7 @@
 // unsettled, and the newest value of each, should it be lost.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +25,7 @@ class BestEffortOutbox {
   void set_size(std::size_t size_max) { size_max_ = size_max; }
   bool is_usable() const { return size_max_ >= size_min && !way_.has_fallen_back; }
   AttributeSet best_effort(ObjectClassHandle object_class) const {
+    assert(object_class.value < best_effort_.size());
     return best_effort_[object_class.value];
   }
 

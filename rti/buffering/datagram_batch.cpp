@@ -2,6 +2,7 @@
 #include "rti/buffering/datagram_batch.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "rti/wire/update_block.h"
 
@@ -37,12 +38,14 @@ void CutRun::let_go(SaidLists& lists) {
 }
 
 void CutRun::end_part(SaidLists& lists) {
+  assert(!parts.empty() && bytes.size() - parts.back().from <= size_max);
   said_.end_group();
   parts.back().to = bytes.size();
   parts.back().said = lists.add(said_.groups());
 }
 
 void CutRun::cut(const UpdateRun& run, std::size_t part_max, SaidLists& lists) {
+  assert(part_max > 0);
   let_go(lists);
   size_max = part_max;
   bytes.clear();
@@ -105,6 +108,7 @@ void DatagramBatch::begin(std::size_t size_max) {
 
 /// Opens a datagram of our own unless one is open that has room for `needed` more bytes.
 void DatagramBatch::make_room(std::size_t needed) {
+  assert(needed <= size_max_);
   if (is_open_ && bytes_.size() - planned_.back().from + needed > size_max_) close(true);
   if (is_open_) return;
   const Planned last = planned_.empty() ? Planned{} : planned_.back();
@@ -116,9 +120,11 @@ void DatagramBatch::make_room(std::size_t needed) {
   planned_.push_back(own);
   is_open_ = true;
   if (continues) copy(last.shared, last.said);
+  assert(bytes_.size() - planned_.back().from + needed <= size_max_);
 }
 
 void DatagramBatch::copy(Bytes body, SaidLists::Number said) {
+  assert(is_open_);
   end_block();
   bytes_.insert(bytes_.end(), body.begin(), body.end());
   said_.append(lists_.groups(said));
@@ -136,11 +142,13 @@ void DatagramBatch::close(bool is_full) {
   Planned& own = planned_.back();
   if (is_full) bytes_.resize(own.from + size_max_);
   own.to = bytes_.size();
+  assert(own.to - own.from <= size_max_);
   own.said_to = said_.groups().size();
   is_open_ = false;
 }
 
 void DatagramBatch::add(const CutRun& cut) {
+  assert(cut.fits && cut.size_max <= size_max_);
   for (const CutRun::Part& part : cut.parts) {
     const Bytes body = Bytes(cut.bytes).subspan(part.from, part.to - part.from);
     // A short one shares its datagram with others if any follow or came before; a long one is its
@@ -182,6 +190,7 @@ bool DatagramBatch::add(std::uint16_t object_class, AttributeSet attributes, con
   }
   put_record(bytes_, block_last_, handle, values);
   said_.add(handle);
+  assert(bytes_.size() - planned_.back().from < size_max_);  // the block's end has room
   return true;
 }
 
@@ -208,6 +217,7 @@ std::span<const Datagram> DatagramBatch::finish(std::uint32_t frames, DatagramLe
         {head, is_own ? Bytes(bytes_).subspan(each.from, each.to - each.from) : each.shared,
          !is_own});
   }
+  assert(finished_.size() == planned_.size());
   return finished_;
 }
 

@@ -2,7 +2,11 @@
 #include "rti/buffering/datagram_ledger.h"
 
 #include <algorithm>
+#include <bit>
+#include <cassert>
 #include <unordered_map>
+
+#include "im/checked.h"
 
 namespace rink::rti {
 
@@ -17,6 +21,7 @@ std::uint32_t DatagramLedger::note(double now, SaidLists::Number said) {
       larger[number & (larger.size() - 1)] = at(number);
     ring_.swap(larger);
   }
+  assert(std::has_single_bit(ring_.size()) && size_ < ring_.size());
   at(next_) = {.sent_s = now, .said = said, .is_settled = false};
   if (!unanswered_since_) unanswered_since_ = now;
   if (size_++ == 0) oldest_sent_s_ = now;
@@ -24,6 +29,7 @@ std::uint32_t DatagramLedger::note(double now, SaidLists::Number said) {
 }
 
 void DatagramLedger::drop_oldest() {
+  assert(size_ > 0);
   const Entry& entry = at(oldest());
   if (entry.said != SaidLists::none) lists_->release(entry.said);
   if (--size_ > 0) oldest_sent_s_ = at(oldest()).sent_s;
@@ -93,6 +99,16 @@ void DatagramLedger::abandon(std::vector<Lost>& lost) {
 
 void DatagramLedger::forget_settled() {
   while (size_ > 0 && at(oldest()).is_settled) drop_oldest();
+  if constexpr (checks_whole_structures) check();
+}
+
+void DatagramLedger::check() const {
+  assert(size_ <= ring_.size());
+  if (size_ == 0) return;
+  assert(std::has_single_bit(ring_.size()));
+  assert(!at(oldest()).is_settled && at(oldest()).sent_s == oldest_sent_s_);
+  for (std::uint32_t number = oldest(); number != next_; ++number)
+    groups(at(number));  // which asserts that the list is held
 }
 
 }  // namespace rink::rti

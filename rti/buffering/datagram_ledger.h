@@ -47,6 +47,8 @@ class DatagramLedger {
   /// since.
   std::optional<double> unanswered_since() const { return unanswered_since_; }
   std::size_t unsettled() const { return size_; }
+  /// Asserts that the ring holds what is unsettled, from the oldest on, and lists that are held.
+  void check() const;
 
  private:
   struct Entry {
@@ -56,6 +58,7 @@ class DatagramLedger {
   };
   static constexpr std::uint32_t overtaken_by = 3;
   Entry& at(std::uint32_t number) { return ring_[number & (ring_.size() - 1)]; }
+  const Entry& at(std::uint32_t number) const { return ring_[number & (ring_.size() - 1)]; }
   std::uint32_t oldest() const { return next_ - static_cast<std::uint32_t>(size_); }
   Bytes groups(const Entry& entry) const {
     return entry.said == SaidLists::none ? Bytes() : lists_->groups(entry.said);

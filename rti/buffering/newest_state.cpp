@@ -15,6 +15,7 @@ std::span<const UpdateRun> NewestState::seal() {
 }
 
 bool NewestState::holds_back(std::uint32_t federate, std::size_t waiting_bytes) {
+  assert(federate != no_federate);
   if (federate >= is_held_.size()) is_held_.resize(federate + 1);
   const bool is_held =
       waiting_bytes > (is_held_[federate] ? settings_.resume_below : settings_.hold_above);

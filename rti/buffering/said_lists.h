@@ -1,6 +1,7 @@
 // What datagrams named, kept once for all destinations that were sent the same.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,6 +27,7 @@ class SaidList {
     has_group_ = true;
   }
   void add(std::uint32_t handle) {
+    assert(has_group_);
     write_handle(bytes_, last_, handle);
     last_ = handle;
   }
@@ -73,18 +75,28 @@ class SaidLists {
     }
     const Number number = free_.back();
     free_.pop_back();
+    assert(lists_[number].holders == 0);
     lists_[number].groups.assign(groups.begin(), groups.end());
     lists_[number].holders = 1;
     return number;
   }
-  void hold(Number number) { ++lists_[number].holders; }
+  void hold(Number number) {
+    assert(is_held(number));
+    ++lists_[number].holders;
+  }
   void release(Number number) {
+    assert(is_held(number));
     if (--lists_[number].holders == 0) free_.push_back(number);
   }
-  Bytes groups(Number number) const { return lists_[number].groups; }
+  Bytes groups(Number number) const {
+    assert(is_held(number));
+    return lists_[number].groups;
+  }
   std::size_t in_use() const { return lists_.size() - free_.size(); }
 
  private:
+  bool is_held(Number number) const { return number < lists_.size() && lists_[number].holders > 0; }
+
   struct List {
     std::vector<std::byte> groups;
     std::uint32_t holders = 0;

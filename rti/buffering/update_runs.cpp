@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "im/checked.h"
 #include "rti/wire/message.h"
 #include "rti/wire/update_block.h"
 
@@ -40,8 +41,10 @@ UpdateRun& UpdateRuns::run_for(std::uint32_t owner, ObjectSlot slot, const Objec
 
 void UpdateRuns::append(std::uint32_t owner, ObjectSlot slot, const Object& object,
                         AttributeSet attributes, const Stamp& stamp, Bytes values) {
+  assert(slot != no_object && object.handle);
   if (slot >= last_run_.size()) last_run_.resize(slot + 1);
   UpdateRun& run = run_for(owner, slot, object, attributes, stamp);
+  assert(!run.members.contains(slot));  // at most one of each object
   last_run_[slot] = static_cast<std::uint32_t>(&run - runs_.data()) + 1;
   run.slots.push_back(slot);
   write_handle(run.message, run.records.empty() ? 0 : run.records.back().handle,
@@ -62,6 +65,24 @@ void UpdateRuns::seal() {
     run.record_of.resize(std::max(run.record_of.size(), last_run_.size()));
     for (std::uint32_t k = 0; k < run.slots.size(); ++k) run.record_of[run.slots[k]] = k;
   }
+  if constexpr (checks_whole_structures)
+    for (const UpdateRun& run : runs()) run.check();
+}
+
+void UpdateRun::check() const {
+  assert(!slots.empty() && slots.size() == records.size());
+  [[maybe_unused]] std::size_t member_count = 0;
+  members.for_each([&](std::uint32_t) { ++member_count; });
+  assert(member_count == slots.size());
+  assert(first_word <= last_word && last_word < members.word_count());
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    assert(members.contains(slots[i]));
+    assert(first_word <= slots[i] / 64 && slots[i] / 64 <= last_word);
+    assert(slots.size() <= short_run || record_of[slots[i]] == i);
+    // Between two records there is at least a byte of the step to the next handle.
+    assert(i == 0 || records[i].at > records[i - 1].at + records[i - 1].size);
+  }
+  assert(std::size_t{records.back().at} + records.back().size < message.size());
 }
 
 void UpdateRuns::clear() {
@@ -76,6 +97,8 @@ void UpdateRuns::clear() {
     run.message.clear();
   }
   size_ = 0;
+  assert(!checks_whole_structures ||
+         std::ranges::all_of(last_run_, [](std::uint32_t run) { return run == 0; }));
 }
 
 }  // namespace rink::rti

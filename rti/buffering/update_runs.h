@@ -1,6 +1,7 @@
 // The updates of one tick, encoded once for all who will hear of them.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,7 +31,10 @@ struct UpdateRun {
                                          ///< `seal` of runs longer than `short_run`
   static constexpr std::size_t short_run = 8;
 
+  /// Asserts that slots, records and members name the same objects, once each.
+  void check() const;
   Bytes values(std::size_t index) const {
+    assert(index < records.size());
     return Bytes(message).subspan(records[index].at, records[index].size);
   }
 };

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <string>
@@ -59,6 +61,7 @@ class ArgumentWriter {
   }
   void append(const void* from, std::size_t size) {
     const std::size_t end = bytes_.size();
+    assert(end % alignment == 0);
     bytes_.resize(end + (size + alignment - 1) / alignment * alignment);
     if (size > 0) std::memcpy(bytes_.data() + end, from, size);
   }
@@ -125,6 +128,7 @@ class ArgumentReader {
   }
   const std::byte* advance(std::size_t size) {
     const std::byte* here = at_;
+    assert(reinterpret_cast<std::uintptr_t>(here) % ArgumentWriter::alignment == 0);
     at_ += (size + ArgumentWriter::alignment - 1) / ArgumentWriter::alignment *
            ArgumentWriter::alignment;
     return here;

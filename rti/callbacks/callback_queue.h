@@ -30,6 +30,8 @@ class CallbackQueue final : public FederateAmbassador {
   /// after all that waits.
   void deliver_one();
   bool is_delivering() const { return is_delivering_; }
+  /// Asserts that whole records follow each other to the end.
+  void check() const;
 
   void joined(FederateHandle federate) override { put<&FederateAmbassador::joined>(federate); }
   void join_refused(Refusal refusal, std::string_view why) override {

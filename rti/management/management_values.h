@@ -3,6 +3,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -43,6 +44,7 @@ class ManagementWriter {
 
  private:
   void big_endian(std::uint64_t value, unsigned size) {
+    assert(size == 8 || (size < 8 && value >> 8 * size == 0));
     while (size-- > 0) bytes_.push_back(static_cast<std::byte>(value >> 8 * size & 0xff));
   }
 
