@@ -1,6 +1,8 @@
 // Walks through sets of attributes.
 #include "rti/fom/coded_values.h"
 
+#include <cassert>
+
 #include "rti/fom/attribute_codec.h"
 
 namespace rink::rti {
@@ -12,6 +14,7 @@ template <class Visit>
 bool for_each(const ObjectClass& object_class, AttributeSet set, Visit visit) {
   for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
     const auto index = static_cast<std::uint32_t>(std::countr_zero(bits));
+    assert(index < object_class.attributes.size());
     if (!visit(object_class.attributes[index], index)) return false;
   }
   return true;
@@ -53,6 +56,7 @@ std::optional<std::size_t> coded_size(const ObjectClass& object_class, Attribute
 
 Bytes coded_value(const ObjectClass& object_class, AttributeSet set, AttributeHandle wanted,
                   Bytes coded) {
+  assert(set.contains(wanted));
   Bytes found;
   for_each(object_class, set, [&](const Attribute& attribute, std::uint32_t index) {
     found = coded.first(one_coded_size(attribute, coded).value_or(0));

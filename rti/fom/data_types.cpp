@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <sstream>
 
 namespace rink::rti {
@@ -32,6 +33,7 @@ constexpr std::uint32_t count_size = 4;  ///< of the HLAinteger32BE that begins 
 
 /// The first multiple of `boundary` that is not before `at`.
 std::uint64_t at_boundary(std::uint64_t at, std::uint32_t boundary) {
+  assert(boundary > 0);
   return (at + boundary - 1) / boundary * boundary;
 }
 
@@ -213,6 +215,7 @@ std::uint32_t DataTypes::boundary_of(const std::string& type, const Node& user) 
   std::uint32_t greatest = 1;
   for (const Node& field : node.children("field"))
     greatest = std::max(greatest, boundary_of(text(field, "dataType"), field));
+  assert(std::has_single_bit(greatest));
   return greatest;
 }
 

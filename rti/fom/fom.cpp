@@ -2,6 +2,7 @@
 #include "rti/fom/fom.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "im/basics/fnv_hash.h"
 #include "rti/fom/attribute_codec.h"
@@ -43,11 +44,38 @@ std::optional<std::uint32_t> find_named(const std::vector<Named>& members, std::
 
 template <class Class, class Tag>
 bool inherits(const std::vector<Class>& classes, Handle<Tag> handle, Handle<Tag> ancestor) {
+  assert(!handle || handle.value < classes.size());
   while (handle && handle != ancestor) handle = classes[handle.value].parent;
   return handle == ancestor;
 }
 
+/// Of every class, that its parent is before it and what it inherits comes first.
+template <class Class, class Members>
+void check_inheritance(const std::vector<Class>& classes, Members members) {
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    if (!classes[i].parent) continue;
+    assert(classes[i].parent.value < i);
+    [[maybe_unused]] const auto& own = classes[i].*members;
+    const auto& inherited = classes[classes[i].parent.value].*members;
+    assert(inherited.size() <= own.size());
+    for (std::size_t k = 0; k < inherited.size(); ++k) assert(inherited[k].name == own[k].name);
+  }
+}
+
 }  // namespace
+
+void Fom::check() const {
+  check_inheritance(object_classes_, &ObjectClass::attributes);
+  check_inheritance(interaction_classes_, &InteractionClass::parameters);
+  assert(own_object_classes_ <= object_classes_.size());
+  assert(own_interaction_classes_ <= interaction_classes_.size());
+  assert(dimensions_.size() <= DimensionSet::capacity);
+  for (const ObjectClass& each : object_classes_) {
+    assert(each.attributes.size() < AttributeSet::capacity);
+    for ([[maybe_unused]] const Attribute& attribute : each.attributes)
+      assert(attribute.baselines == nullptr || attribute.codec != nullptr);
+  }
+}
 
 std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) {
   if (attribute.size)
@@ -61,6 +89,7 @@ std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) 
 
 void Fom::use_codec(std::string_view data_type,
                     const std::shared_ptr<const AttributeCodec>& codec) {
+  assert(codec != nullptr);
   bool is_used = false;
   for (ObjectClass& object_class : object_classes_)
     for (Attribute& attribute : object_class.attributes)
@@ -117,6 +146,7 @@ std::optional<AttributeHandle> Fom::periodic_attribute(ObjectClassHandle handle)
 
 AttributeSet Fom::attributes(ObjectClassHandle handle) const {
   const std::size_t count = at(handle).attributes.size();
+  assert(count < AttributeSet::capacity);
   return AttributeSet((1u << count) - 1u);
 }
 

@@ -2,6 +2,7 @@
 // XML file.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -107,11 +108,18 @@ class Fom {
   std::optional<DimensionHandle> dimension(std::string_view name) const;
 
   /// The handle must name a class of this model.
-  const ObjectClass& at(ObjectClassHandle handle) const { return object_classes_[handle.value]; }
+  const ObjectClass& at(ObjectClassHandle handle) const {
+    assert(handle.value < object_classes_.size());
+    return object_classes_[handle.value];
+  }
   const InteractionClass& at(InteractionClassHandle handle) const {
+    assert(handle.value < interaction_classes_.size());
     return interaction_classes_[handle.value];
   }
-  const Dimension& at(DimensionHandle handle) const { return dimensions_[handle.value]; }
+  const Dimension& at(DimensionHandle handle) const {
+    assert(handle.value < dimensions_.size());
+    return dimensions_[handle.value];
+  }
   /// The attribute of a class that is told by baselines: the first of its attributes that are
   /// periodic and quantised throughout.
   std::optional<AttributeHandle> periodic_attribute(ObjectClassHandle handle) const;
@@ -134,6 +142,9 @@ class Fom {
   /// not of comments, layout, semantics or the management object model, which is always the same.
   /// FNV-1a.
   std::uint64_t hash() const { return hash_; }
+  /// Asserts that classes come after those that they inherit from, begin with their members, and
+  /// have no more attributes than a set has room for.
+  void check() const;
 
  private:
   friend class FomReader;

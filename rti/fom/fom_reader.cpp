@@ -86,6 +86,7 @@ Fom FomReader::read() {
         return each.name == "HLAmanager";
       });  // a module of the standard's
   if (!brings_its_own) append_management_classes(fom_.object_classes_, fom_.interaction_classes_);
+  fom_.check();
   return std::move(fom_);
 }
 

@@ -13,6 +13,7 @@ using Form = QuantisedField::Form;
 
 template <class Number>
 double load_as(const QuantisedField& field, Bytes at) {
+  assert(at.size() == sizeof(Number));
   std::array<std::byte, sizeof(Number)> bytes;
   std::copy_n(at.begin(), sizeof(Number), bytes.begin());
   if (field.is_big_endian) std::ranges::reverse(bytes);
@@ -37,6 +38,7 @@ double load(const QuantisedField& field, Bytes at) {
 
 template <class Number>
 void append_as(const QuantisedField& field, double number, std::vector<std::byte>& value) {
+  assert(static_cast<double>(static_cast<Number>(number)) == number);  // its form holds the grid
   auto bytes = std::bit_cast<std::array<std::byte, sizeof(Number)>>(static_cast<Number>(number));
   if (field.is_big_endian) std::ranges::reverse(bytes);
   value.insert(value.end(), bytes.begin(), bytes.end());
@@ -60,6 +62,7 @@ void append(const QuantisedField& field, double number, std::vector<std::byte>& 
 
 /// Takes the field's bytes off the front of the value.
 Bytes take(const QuantisedField& field, Bytes& value) {
+  assert(field.padding + field.size <= value.size());
   const Bytes found = value.subspan(field.padding, field.size);
   value = value.subspan(field.padding + field.size);
   return found;
@@ -84,6 +87,8 @@ bool read_octets(BitReader& bits, std::size_t size, std::vector<std::byte>& valu
 QuantisedCodec::QuantisedCodec(std::vector<QuantisedField> fields) : fields_(std::move(fields)) {
   assert(fields_.size() <= field_max);
   for (const QuantisedField& field : fields_) {
+    assert(!field.grid || field.form != Form::octets);
+    assert(!field.rate_of || (*field.rate_of < fields_.size() && fields_[*field.rate_of].grid));
     fields_size_ += field.size;
     packed_bits_ += field.grid ? field.grid->bits : 8 * field.size;
     is_all_quantised_ = is_all_quantised_ && field.grid.has_value();
@@ -191,7 +196,9 @@ bool QuantisedCodec::read_counts(Bytes coded, Counts& counts) const {
 }
 
 void QuantisedCodec::append_value(const Counts& counts, std::vector<std::byte>& value) const {
+  assert(is_all_quantised_);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
+    assert(counts[i] >= 0 && static_cast<std::uint64_t>(counts[i]) <= fields_[i].grid->last);
     append_padding(fields_[i], value);
     append(fields_[i], fields_[i].grid->value(static_cast<std::uint64_t>(counts[i])), value);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -53,6 +54,7 @@ class QuantisedCodec : public AttributeCodec {
   /// Reads or writes the counts alone; a reader returns false if one is out of its range.
   template <class Stream>
   bool exchange_counts(Stream& stream, Counts& counts) const {
+    assert(is_all_quantised_);
     for (std::size_t i = 0; i < fields_.size(); ++i)
       if (!stream.ranged(counts[i], 0, static_cast<std::int64_t>(fields_[i].grid->last)))
         return false;

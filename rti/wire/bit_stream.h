@@ -18,6 +18,7 @@ namespace rink::rti {
 inline constexpr std::uint64_t golomb_max = (std::uint64_t{1} << 56) - 1;
 inline constexpr unsigned golomb_order_max = 31;
 inline unsigned golomb_size(std::uint64_t value, unsigned order) {
+  assert(order <= golomb_order_max);
   return 2 * static_cast<unsigned>(std::bit_width((value >> order) + 1)) - 1 + order;
 }
 
@@ -63,7 +64,9 @@ class BitWriter {
   }
   /// A number from `low` to `high` that may be rounded by `error`; the grid must exist.
   bool quantised(const double& value, double low, double high, double error) {
-    return quantised(value, *Quantisation::of(low, high, error));
+    const std::optional<Quantisation> grid = Quantisation::of(low, high, error);
+    assert(grid);
+    return quantised(value, *grid);
   }
   /// Every bit of a double.
   bool full(const double& value) { return bits(std::bit_cast<std::uint64_t>(value), 64); }
@@ -89,6 +92,7 @@ class BitWriter {
 
  private:
   void append(std::size_t size) {
+    assert(size <= sizeof pending_);
     const auto* first = reinterpret_cast<const std::byte*>(&pending_);
     bytes_.insert(bytes_.end(), first, first + size);
   }
@@ -102,7 +106,9 @@ class BitWriter {
 class BitReader {
  public:
   static constexpr bool is_reading = true;
-  explicit BitReader(Bytes bytes, std::size_t at = 0) : bytes_(bytes), at_(at) {}
+  explicit BitReader(Bytes bytes, std::size_t at = 0) : bytes_(bytes), at_(at) {
+    assert(at <= 8 * bytes.size());
+  }
   /// Bits read so far.
   std::size_t at() const { return at_; }
   std::size_t left() const { return 8 * bytes_.size() - at_; }
@@ -196,6 +202,7 @@ class BitReader {
 /// Appends `size` bits of `from`, the first of them the bit `at`; all must be there.
 inline void append_bits(BitWriter& writer, Bytes from, std::size_t at, std::size_t size) {
   BitReader reader(from, at);
+  assert(size <= reader.left());
   for (std::uint64_t part = 0; size > 0;) {
     const auto taken = static_cast<unsigned>(std::min<std::size_t>(size, 64));
     reader.bits(part, taken);

@@ -27,6 +27,7 @@ inline HandleList list_of(std::span<const FederateHandle> handles) {
   return {static_cast<std::uint16_t>(handles.size()), std::as_bytes(handles)};
 }
 inline std::vector<FederateHandle> handles_of(const HandleList& list) {
+  assert(list.records.size() == list.count * sizeof(FederateHandle));
   std::vector<FederateHandle> handles(list.count);
   if (list.count > 0)
     std::memcpy(static_cast<void*>(handles.data()), list.records.data(), list.records.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -19,6 +20,7 @@ inline constexpr std::size_t frame_max_to_federate = 64u
 
 /// Of the payload, as a header says.
 inline std::size_t frame_length(Bytes header) {
+  assert(header.size() >= frame_header_size);
   std::uint32_t length = 0;
   std::memcpy(&length, header.data(), sizeof length);
   return length;
@@ -27,7 +29,9 @@ inline std::size_t frame_length(Bytes header) {
 /// Collects messages in frames; a frame is closed when the next message would not fit.
 class FrameWriter {
  public:
-  explicit FrameWriter(std::size_t payload_max) : payload_max_(payload_max) {}
+  explicit FrameWriter(std::size_t payload_max) : payload_max_(payload_max) {
+    assert(0 < payload_max && payload_max <= 0xffffffffu);  // a header has room for that
+  }
 
   /// Where to append one message of `size` bytes. Call `appended` when it is written.
   std::vector<std::byte>& begin_message(std::size_t size) {
@@ -42,6 +46,7 @@ class FrameWriter {
   std::vector<std::byte>& buffer() { return bytes_; }
   /// The frame's length becomes true again.
   void appended() {
+    assert(is_open_ && payload_size() > 0);  // a frame without a message ends a conversation
     const auto length = static_cast<std::uint32_t>(payload_size());
     std::memcpy(bytes_.data() + start_, &length, sizeof length);
   }

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "im/checked.h"
+
 #include "rti/federate_ambassador.h"
 #include "rti/handles.h"
 #include "rti/hla_error.h"
@@ -239,11 +241,13 @@ std::size_t measure(Message& message) {
 
 template <class Message>
 void write(std::vector<std::byte>& bytes, Message& message) {
+  [[maybe_unused]] const std::size_t before = bytes.size();
   Writer writer(bytes);
   auto kind = static_cast<std::uint8_t>(Message::kind);
   writer.number(kind);
   [[maybe_unused]] const bool is_written = exchange(writer, message);
   assert(is_written);
+  assert(!checks_whole_structures || bytes.size() - before == measure(message));
 }
 
 }  // namespace rink::rti

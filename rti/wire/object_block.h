@@ -2,6 +2,7 @@
 // (docs/wire.md).
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,7 @@ class ObjectBlockWriter {
  public:
   template <class Header>
   void append(std::vector<std::byte>& bytes, Header header, std::uint32_t object) {
+    assert(end_ <= bytes.size());  // `close` was called if the buffer was cleared
     scratch_.clear();
     write(scratch_, header);
     if (end_ != 0 && end_ == bytes.size() && scratch_ == header_) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -40,6 +41,7 @@ struct Quantisation {
     grid.last = static_cast<std::uint64_t>(static_cast<std::int64_t>(last) - grid.first);
     grid.bits = static_cast<unsigned>(std::bit_width(grid.last));
     if (grid.bits > bits_max) return std::nullopt;
+    assert(grid.contains(low) && grid.contains(high) && grid.error() <= error);
     return grid;
   }
 
@@ -52,6 +54,7 @@ struct Quantisation {
   bool contains(double value) const { return value >= low() && value <= high(); }  // false for NaN
   /// The count of the nearest value; `value` must be within the range.
   std::uint64_t count(double value) const {
+    assert(contains(value));
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::nearbyint(value / step)) -
                                       first);
   }

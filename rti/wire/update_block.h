@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -21,6 +22,7 @@ inline std::uint64_t handle_step(std::uint32_t from, std::uint32_t to) {
 }
 /// Moves `handle` on by a step that is not the end of a block; false if there is no such handle.
 inline bool follow_step(std::uint64_t step, std::uint32_t& handle) {
+  assert(step != 0);
   if (--step >> 34 != 0) return false;
   const std::int64_t next = std::int64_t{handle} + from_zigzag(step);
   if (next < 0 || next > 0xffffffffll) return false;
@@ -74,6 +76,7 @@ class RecordWriter {
     }
     std::ranges::copy(values, part_.data() + used_);
     used_ += values.size();
+    assert(used_ < part_.size());  // the block's end has room
   }
 
  private:
