@@ -2,8 +2,11 @@
 #include "rti/transport/bundle.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <utility>
+
+#include "im/checked.h"
 
 #include "rti/wire/stream.h"
 
@@ -54,6 +57,8 @@ ConnectionId BundledTransport::connect(ConnectionId trunk_id) {
 
 void BundledTransport::write_header(ConnectionId trunk_id, std::uint32_t number,
                                     std::uint32_t size) {
+  assert(trunk_id < trunks_.size() && !trunks_[trunk_id].is_closed);
+  assert(number < trunks_[trunk_id].channels.size());
   std::vector<std::byte>& gathered = trunks_[trunk_id].gathered;
   if (gathered.empty()) full_.push_back(trunk_id);
   Writer writer(gathered);
@@ -97,6 +102,7 @@ void BundledTransport::close(ConnectionId connection) {
 }
 
 void BundledTransport::end(ConnectionId connection, CloseReason reason, const std::string& detail) {
+  assert(!channels_[connection].is_closed);  // its end is told once
   channels_[connection].is_closed = true;
   news_.push_back({connection, false, reason, detail});
 }
@@ -114,7 +120,24 @@ TransportCounters BundledTransport::counters(ConnectionId connection) const {
   return counters;
 }
 
+void BundledTransport::check() const {
+  for (ConnectionId id = 0; id < trunks_.size(); ++id) {
+    [[maybe_unused]] const Trunk& each = trunks_[id];
+    assert(each.gathered.empty() == (std::ranges::find(full_, id) == full_.end()));
+    assert(!each.is_closed || each.gathered.empty());
+    assert(each.header_size < sizeof each.header);
+    assert(each.left == 0 || each.number < each.channels.size());
+  }
+  for (ConnectionId connection = 0; connection < channels_.size(); ++connection) {
+    [[maybe_unused]] const Channel& channel = channels_[connection];
+    assert(channel.trunk < trunks_.size());
+    assert(channel.number < trunks_[channel.trunk].channels.size());
+    assert(trunks_[channel.trunk].channels[channel.number] == connection);
+  }
+}
+
 void BundledTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+  assert(listener_ == nullptr);  // callbacks don't poll
   listener_ = &listener;
   push();
   report();
@@ -123,6 +146,7 @@ void BundledTransport::poll(std::chrono::nanoseconds longest_wait, TransportList
   report();
   telling_.clear();
   listener_ = nullptr;
+  if constexpr (checks_whole_structures) check();
 }
 
 /// Leaves what it told in `telling_`, so that a poll knows that it has told something.

@@ -36,6 +36,9 @@ class BundledTransport final : public Transport, private TransportListener {
   /// Of the connection's own payload, without the records' headers; the kernel knows trunks only.
   TransportCounters counters(ConnectionId connection) const override;
   void push() override;
+  /// Asserts that trunks and channels lead to each other, and that who has gathered anything is on
+  /// the list.
+  void check() const;
 
  private:
   struct Channel {

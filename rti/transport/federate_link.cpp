@@ -1,6 +1,7 @@
 // Federates on a transport.
 #include "rti/transport/federate_link.h"
 
+#include <cassert>
 #include <string>
 
 namespace rink::rti {
@@ -47,6 +48,7 @@ void FederateLink::close() {
 
 void FederateLinks::add(FederateLink& link) {
   if (link.connection() >= links_.size()) links_.resize(link.connection() + 1, nullptr);
+  assert(find(link.connection()) == nullptr || find(link.connection()) == &link);
   links_[link.connection()] = &link;
 }
 

@@ -1,6 +1,8 @@
 // Transports on one side, a federation execution on the other.
 #include "rti/transport/federation_host.h"
 
+#include <cassert>
+
 namespace rink::rti {
 
 namespace {
@@ -21,14 +23,17 @@ class FederationHost::Port final : public TransportListener {
   void on_open(ConnectionId connection) override {
     has_heard_ = true;
     if (connection >= numbers_.size()) numbers_.resize(connection + 1, nobody);
+    assert(numbers_[connection] == nobody);  // connections are never numbered twice
     numbers_[connection] = host_.admit(*this, connection);
   }
   void on_bytes(ConnectionId connection, Bytes bytes) override {
     has_heard_ = true;
+    assert(connection < numbers_.size() && numbers_[connection] != nobody);
     host_.core_.receive(numbers_[connection], bytes);
   }
   void on_datagram(ConnectionId connection, Bytes datagram) override {
     has_heard_ = true;
+    assert(connection < numbers_.size() && numbers_[connection] != nobody);
     host_.core_.receive_datagram(numbers_[connection], datagram);
   }
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override {
@@ -52,6 +57,7 @@ class FederationHost::HostOutlet final : public Outlet {
  public:
   explicit HostOutlet(FederationHost& host) : host_(host) {}
   void send(ConnectionId connection, std::span<const Bytes> parts) override {
+    assert(connection < host_.routes_.size());
     const Route& route = host_.routes_[connection];
     if (route.port != nullptr) route.port->transport().send(route.connection, parts);
   }
@@ -68,6 +74,7 @@ class FederationHost::HostOutlet final : public Outlet {
     if (route.port != nullptr) route.port->transport().send_datagrams(route.connection, datagrams);
   }
   void drop(ConnectionId connection, std::string_view) override {
+    assert(connection < host_.routes_.size());
     const Route& route = host_.routes_[connection];
     if (route.port != nullptr) route.port->transport().close(route.connection);
   }
@@ -91,6 +98,7 @@ ConnectionId FederationHost::admit(Port& port, ConnectionId connection) {
     number = free_routes_.back();
     free_routes_.pop_back();
   }
+  assert(routes_[number].port == nullptr);
   routes_[number] = {&port, connection};
   core_.connect(number);
   return number;

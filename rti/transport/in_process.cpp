@@ -1,6 +1,8 @@
 // Lines between endpoints of one process.
 #include "rti/transport/in_process.h"
 
+#include <cassert>
+
 namespace rink::rti {
 
 InProcessEndpoint::~InProcessEndpoint() {
@@ -38,12 +40,14 @@ ConnectionId InProcessEndpoint::connect(const std::string& name) {
 }
 
 void InProcessEndpoint::poll(std::chrono::nanoseconds, TransportListener& listener) {
+  assert(reporting_.empty());  // callbacks don't poll
   reporting_.swap(events_);
   for (const Event& event : reporting_) report(event, listener);
   reporting_.clear();
 }
 
 void InProcessEndpoint::report(const Event& event, TransportListener& listener) {
+  assert(event.connection < lines_.size());
   if (event.kind == EventKind::open) return listener.on_open(event.connection);
   if (event.kind == EventKind::close)
     return listener.on_close(event.connection, event.reason, event.detail);
@@ -80,7 +84,9 @@ void InProcessEndpoint::close(ConnectionId connection) {
 void InProcessEndpoint::part(ConnectionId connection, CloseReason ours, CloseReason theirs,
                              const std::string& detail) {
   Line& line = lines_[connection];
+  assert(line.peer != nullptr);
   Line& there = line.peer->lines_[line.peer_connection];
+  assert(there.peer == this && there.peer_connection == connection);
   line.peer->events_.push_back({EventKind::close, line.peer_connection, theirs, detail});
   events_.push_back({EventKind::close, connection, ours, detail});
   there.peer = line.peer = nullptr;

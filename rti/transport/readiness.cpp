@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <ctime>
 
@@ -72,6 +73,7 @@ void Readiness::ask(std::chrono::nanoseconds longest_wait, std::chrono::nanoseco
 /// where it has not: epoll_wait counts whole milliseconds, but ppoll on the epoll itself is exact
 /// everywhere.
 void Readiness::sleep(std::chrono::nanoseconds longest_wait) {
+  assert(longest_wait.count() > 0 && taken_ == count_);
   const auto seconds = std::chrono::floor<std::chrono::seconds>(longest_wait);
   const timespec timeout{.tv_sec = static_cast<std::time_t>(seconds.count()),
                          .tv_nsec = static_cast<long>((longest_wait - seconds).count())};
@@ -89,6 +91,7 @@ void Readiness::sleep(std::chrono::nanoseconds longest_wait) {
 }
 
 std::optional<Readiness::Event> Readiness::next() {
+  assert(taken_ <= count_ && count_ <= told_.size());
   if (taken_ == count_ && count_ == told_.size()) ask_now();
   if (taken_ == count_) return std::nullopt;
   const epoll_event& event = told_[taken_++];

@@ -52,6 +52,7 @@ std::int64_t NetworkModel::departure_ns(Line& line, std::int64_t now_ns, std::si
   const std::uint64_t work = bytes * bits_ns + line.remainder;
   line.idle_ns += static_cast<std::int64_t>(work / rate);
   line.remainder = work % rate;
+  assert(line.idle_ns >= now_ns);
   return line.idle_ns;
 }
 
@@ -61,6 +62,7 @@ std::int64_t NetworkModel::service_ns(const Line& line, std::size_t bytes) const
 }
 
 std::size_t NetworkModel::queued_bytes(std::uint32_t number, std::int64_t now_ns) const {
+  assert(number < lines_.size());
   const Line& line = lines_[number];
   if (line.idle_ns <= now_ns) return 0;
   const double seconds = 1e-9 * static_cast<double>(line.idle_ns - now_ns);
@@ -100,6 +102,7 @@ bool NetworkModel::is_held(Line& line) {
 }
 
 void NetworkModel::learn(Line& line, std::int64_t round_trip_ns) {
+  assert(round_trip_ns >= 0);
   if (line.smoothed_ns == 0) {
     line.smoothed_ns = round_trip_ns;
     line.variation_ns = round_trip_ns / 2;
@@ -135,6 +138,7 @@ Delivery NetworkModel::deliver_segment(Line& line, std::int64_t now_ns, std::siz
 }
 
 Delivery NetworkModel::deliver(std::uint32_t number, std::int64_t now_ns, std::size_t size) {
+  assert(number < lines_.size());  // it was opened
   Line& line = lines_[number];
   const std::size_t segments = std::max<std::size_t>(1, (size + segment_max - 1) / segment_max);
   Delivery last{now_ns, false};
@@ -150,6 +154,7 @@ Delivery NetworkModel::deliver(std::uint32_t number, std::int64_t now_ns, std::s
 
 DatagramArrivals NetworkModel::datagram(std::uint32_t number, std::int64_t now_ns,
                                         std::size_t size) {
+  assert(number < lines_.size());
   Line& line = lines_[number];
   const LinkConditions& conditions = line.conditions;
   const std::size_t bytes = size + datagram_header;

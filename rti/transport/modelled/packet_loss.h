@@ -1,6 +1,8 @@
 // Which packets a link loses: each for itself, or in bursts.
 #pragma once
 
+#include <cassert>
+
 #include "rti/transport/modelled/link_stream.h"
 
 namespace rink::rti {
@@ -38,7 +40,9 @@ class LossChain {
  public:
   LossChain() = default;
   LossChain(const PacketLoss& loss, std::uint64_t key)
-      : stream_(key), is_bad_(stream_.coin(loss.bad_fraction())) {}
+      : stream_(key), is_bad_(stream_.coin(loss.bad_fraction())) {
+    assert(loss.is_possible());
+  }
   /// Whether the next packet is lost. Draws two numbers, so that chains of one key and different
   /// probabilities stay in step.
   bool loses_next(const PacketLoss& loss) {

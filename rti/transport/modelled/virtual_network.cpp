@@ -33,7 +33,21 @@ std::uint32_t VirtualNetwork::take_parcel() {
   return parcel;
 }
 
+void VirtualNetwork::check() const {
+  assert(std::is_heap(arrivals_.begin(), arrivals_.end()));
+  assert(arrivals_.empty() || arrivals_.front().instant_ns >= now_ns_);
+  assert(sent_ >= arrived_ && arrivals_.size() == sent_ - arrived_);
+  std::vector<bool> is_seen(parcels_.size());
+  const auto see = [&is_seen](std::uint32_t parcel) {
+    assert(parcel < is_seen.size() && !is_seen[parcel]);
+    is_seen[parcel] = true;
+  };
+  for (const std::uint32_t parcel : free_) see(parcel);
+  for (const Arrival& arrival : arrivals_) see(arrival.parcel);
+}
+
 void VirtualNetwork::return_parcel(std::uint32_t parcel) {
+  assert(parcel < parcels_.size());
   parcels_[parcel].bytes.clear();
   parcels_[parcel].detail.clear();
   parcels_[parcel].reason = CloseReason::closed_by_peer;
@@ -42,6 +56,7 @@ void VirtualNetwork::return_parcel(std::uint32_t parcel) {
 }
 
 void VirtualNetwork::dispatch(std::uint32_t parcel, std::int64_t instant_ns) {
+  assert(instant_ns >= now_ns_);  // nothing arrives before it was sent
   arrivals_.push_back({instant_ns, sent_++, parcel});
   std::push_heap(arrivals_.begin(), arrivals_.end());
 }
@@ -146,6 +161,7 @@ void VirtualEndpoint::give_up(Line& line, std::int64_t instant_ns) {
 }
 
 void VirtualEndpoint::poll(std::chrono::nanoseconds, TransportListener& listener) {
+  assert(reporting_.empty());  // callbacks don't poll
   reporting_.swap(inbox_);
   for (const std::uint32_t parcel : reporting_) {
     report(parcel, listener);
@@ -158,6 +174,7 @@ void VirtualEndpoint::report(std::uint32_t number, TransportListener& listener) 
   using Kind = VirtualNetwork::Kind;
   VirtualNetwork::Parcel& parcel = network_.parcels_[number];
   const ConnectionId connection = parcel.connection;
+  assert(parcel.receiver == this && connection < lines_.size());
   Line& line = lines_[connection];
   const bool is_end = parcel.kind == Kind::close;
   if (!line.is_open && !is_end)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -35,7 +36,10 @@ struct Delivery {
 /// When a datagram arrives: not at all, once or twice.
 class DatagramArrivals {
  public:
-  void add(std::int64_t instant_ns) { instants_ns_[count_++] = instant_ns; }
+  void add(std::int64_t instant_ns) {
+    assert(count_ < instants_ns_.size());
+    instants_ns_[count_++] = instant_ns;
+  }
   const std::int64_t* begin() const { return instants_ns_.data(); }
   const std::int64_t* end() const { return instants_ns_.data() + count_; }
 
@@ -74,7 +78,7 @@ class LinkModel {
 class ConstantDelay final : public LinkModel {
  public:
   /// `delay_ns`, 0 or more.
-  explicit ConstantDelay(std::int64_t delay_ns) : delay_ns_(delay_ns) {}
+  explicit ConstantDelay(std::int64_t delay_ns) : delay_ns_(delay_ns) { assert(delay_ns >= 0); }
   std::int64_t arrival_ns(std::uint32_t, std::int64_t now_ns, std::size_t) override {
     return now_ns + delay_ns_;
   }
@@ -113,6 +117,9 @@ class VirtualNetwork {
   void carry_datagrams() { carries_datagrams_ = true; }
   /// How much has arrived since the beginning.
   std::uint64_t arrival_count() const { return arrived_; }
+  /// Asserts the order of what is under way, and that no parcel is free twice or free and under
+  /// way.
+  void check() const;
 
  private:
   friend class VirtualEndpoint;

@@ -221,6 +221,7 @@ void SharedMemoryTransport::take_memory(ConnectionId connection) {
 void SharedMemoryTransport::opened(ConnectionId connection, Mapping memory, std::size_t ring_size,
                                    bool is_server) {
   Peer& peer = *peers_[connection];
+  assert(!peer.is_open && memory.data() != nullptr);
   auto* states = reinterpret_cast<SharedRingState*>(memory.data());
   std::byte* bytes = memory.data() + head_size;
   // The first ring leads to the server.
@@ -236,6 +237,7 @@ void SharedMemoryTransport::opened(ConnectionId connection, Mapping memory, std:
 
 void SharedMemoryTransport::end(ConnectionId connection, CloseReason reason,
                                 const std::string& detail) {
+  assert(find(connection) != nullptr);  // its end is told once
   peers_[connection].reset();
   std::erase(open_, connection);
   news_.push_back({connection, reason, detail});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 
 #include "rti/transport/shared_memory/shared_memory.h"
@@ -19,6 +20,7 @@ constexpr const char* impossible = "its positions in shared memory are impossibl
 
 void SharedMemoryTransport::poll(std::chrono::nanoseconds longest_wait,
                                  TransportListener& listener) {
+  assert(listener_ == nullptr);  // callbacks don't poll
   listener_ = &listener;
   const std::uint64_t before = told_;
   // A busy connection costs no system call; who comes and goes is noticed all the same.
@@ -107,6 +109,7 @@ void SharedMemoryTransport::look_at_rings() {
 }
 
 void SharedMemoryTransport::read(ConnectionId connection) {
+  assert(find(connection) != nullptr && find(connection)->is_open);
   Peer& peer = *peers_[connection];
   const std::optional<std::size_t> waiting = peer.in.waiting();
   if (!waiting) return end(connection, CloseReason::failed, impossible);
@@ -129,6 +132,7 @@ void SharedMemoryTransport::wake(const Peer& peer) {
 
 /// Puts what fits and returns how much that was.
 std::size_t SharedMemoryTransport::put(ConnectionId connection, Bytes bytes) {
+  assert(find(connection) != nullptr && find(connection)->is_open);
   Peer& peer = *peers_[connection];
   const std::optional<std::size_t> room = peer.out.room();
   if (!room) {
@@ -174,6 +178,7 @@ void SharedMemoryTransport::drain(ConnectionId connection) {
   const std::size_t taken = put(connection, Bytes(peer->queue).subspan(peer->queue_from));
   if (find(connection) == nullptr) return;
   peer->queue_from += taken;
+  assert(peer->queue_from <= peer->queue.size());
   if (taken > 0 && peer->out.publish()) wake(*peer);
   if (peer->queue_from < peer->queue.size()) {
     peer->out.set_waiting();

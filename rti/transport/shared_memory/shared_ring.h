@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -32,7 +34,9 @@ class SharedRing {
   SharedRing() = default;
   /// `capacity` [bytes], a power of two.
   SharedRing(SharedRingState* state, std::byte* bytes, std::size_t capacity)
-      : state_(state), bytes_(bytes), capacity_(capacity) {}
+      : state_(state), bytes_(bytes), capacity_(capacity) {
+    assert(state != nullptr && bytes != nullptr && std::has_single_bit(capacity));
+  }
 
   /// Of the writer: bytes that fit now, or nothing if the reader's position is impossible.
   std::optional<std::size_t> room() const {
@@ -42,6 +46,7 @@ class SharedRing {
   }
   /// Copies `bytes`, which must fit; the reader sees them after `publish`.
   void put(Bytes bytes) {
+    assert(bytes.size() <= capacity_);
     if (bytes.empty()) return;
     const std::size_t at = place(), first = std::min(bytes.size(), capacity_ - at);
     std::memcpy(bytes_ + at, bytes.data(), first);
@@ -63,6 +68,7 @@ class SharedRing {
   /// Copies so many of the bytes that wait, for what lies in the ring may change while it is looked
   /// at. True if the writer must be woken.
   bool take(std::byte* to, std::size_t size) {
+    assert(size <= capacity_);
     const std::size_t at = place(), first = std::min(size, capacity_ - at);
     std::memcpy(to, bytes_ + at, first);
     std::memcpy(to + first, bytes_, size - first);

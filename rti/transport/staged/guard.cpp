@@ -2,6 +2,7 @@
 #include "rti/transport/staged/guard.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace rink::rti {
@@ -32,6 +33,7 @@ void Guard::forget(ConnectionId connection) {
 }
 
 void Guard::speak(Stranger& stranger) {
+  assert(!is_known(stranger.connection));
   const Bytes said = stranger.handshake.outgoing();
   if (!said.empty()) TransportStage::send(stranger.connection, std::span(&said, 1));
   stranger.handshake.clear_outgoing();
@@ -45,6 +47,7 @@ void Guard::refuse(Stranger& stranger) {
 }
 
 void Guard::admit(ConnectionId connection) {
+  assert(find(connection) != nullptr && !find(connection)->is_refused);
   const std::vector<std::byte> pending = std::move(find(connection)->pending);
   forget(connection);
   if (connection >= is_known_.size()) is_known_.resize(connection + 1);

@@ -2,6 +2,7 @@
 #include "rti/transport/staged/rate_limiter.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "rti/wire/frame.h"
@@ -43,6 +44,7 @@ RateLimiter::~RateLimiter() = default;
 
 void RateLimiter::on_open(ConnectionId connection) {
   if (connection >= meters_.size()) meters_.resize(connection + 1);
+  assert(meters_[connection] == nullptr);  // connections are never numbered twice
   const double now = now_s_();
   meters_[connection] = std::make_unique<Meter>(
       Meter{TokenBucket(limit_.bytes_per_s, now), TokenBucket(limit_.frames_per_s, now)});

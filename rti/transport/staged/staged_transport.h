@@ -2,6 +2,7 @@
 // guard, a rate limit, a spread over time.
 #pragma once
 
+#include <cassert>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -22,6 +23,7 @@ class TransportStage : public Transport, protected TransportListener {
   TransportStage& operator=(const TransportStage&) = delete;
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override {
+    assert(below_ != nullptr);  // it was added to a transport
     above_ = &listener;
     below_->poll(longest_wait, *this);
   }
@@ -47,7 +49,10 @@ class TransportStage : public Transport, protected TransportListener {
   TransportStage() = default;
 
   // Only while it is polled.
-  void on_open(ConnectionId connection) override { above_->on_open(connection); }
+  void on_open(ConnectionId connection) override {
+    assert(above_ != nullptr);
+    above_->on_open(connection);
+  }
   void on_bytes(ConnectionId connection, Bytes bytes) override {
     above_->on_bytes(connection, bytes);
   }
@@ -82,6 +87,7 @@ class StagedTransport final : public TransportStage {
   Stage& add(Arguments&&... arguments) {
     auto stage = std::make_unique<Stage>(std::forward<Arguments>(arguments)...);
     Stage& added = *stage;
+    assert(static_cast<TransportStage&>(added).below_ == nullptr);
     static_cast<TransportStage&>(added).below_ = std::exchange(below_, &added);
     stages_.push_back(std::move(stage));
     return added;

@@ -2,7 +2,10 @@
 #include "rti/transport/staged/stagger.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
+
+#include "im/checked.h"
 
 namespace rink::rti {
 
@@ -11,6 +14,7 @@ void Stagger::poll(std::chrono::nanoseconds longest_wait, TransportListener& lis
   release(now);
   if (slots_taken_ > 0) {
     const auto next = std::ranges::find_if(slots_, [](const auto& slot) { return !slot.empty(); });
+    assert(next != slots_.end());
     const double wait_s =
         std::max(0.0, due_s(static_cast<std::size_t>(next - slots_.begin())) - now);
     longest_wait =
@@ -47,6 +51,23 @@ void Stagger::send(ConnectionId connection, std::span<const Bytes> parts) {
     std::memcpy(waiting.data() + at, part.data(), part.size());
     at += part.size();
   }
+  assert(at == waiting.size());
+  if constexpr (checks_whole_structures) check();
+}
+
+void Stagger::check() const {
+  assert(waiting_.size() == joined_writes_.size());
+  [[maybe_unused]] std::size_t taken = 0;
+  for (std::size_t slot = 0; slot < slot_count; ++slot) {
+    taken += slots_[slot].empty() ? 0u : 1u;
+    for ([[maybe_unused]] const ConnectionId connection : slots_[slot])
+      assert(connection % slot_count == slot && connection < waiting_.size());
+  }
+  assert(taken == slots_taken_);
+  for (ConnectionId connection = 0; connection < waiting_.size(); ++connection)
+    assert(waiting_[connection].empty() ||
+           std::ranges::find(slots_[connection % slot_count], connection) !=
+               slots_[connection % slot_count].end());
 }
 
 void Stagger::release(double now) {
@@ -62,6 +83,7 @@ void Stagger::release(double now) {
 }
 
 void Stagger::give_waiting(ConnectionId connection, double now) {
+  assert(connection < waiting_.size());
   const Bytes bytes = waiting_[connection];
   if (bytes.empty()) return;  // closed since
   measure(bytes.size(), now);

@@ -40,6 +40,8 @@ class Stagger final : public TransportStage {
   /// The most bytes that were given to what is below within a millisecond; milliseconds follow each
   /// other from the first write after a pause.
   std::size_t burst_bytes_max() const { return burst_bytes_max_; }
+  /// Asserts that who waits does so in its own slot, and that slots are counted.
+  void check() const;
 
  private:
   double due_s(std::size_t slot) const {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <asio.hpp>
+#include <cassert>
 #include <cerrno>
 
 #include "rti/transport/tcp/kernel_counters.h"
@@ -76,6 +77,7 @@ TcpTransport::TcpTransport(const TcpSettings& settings)
     : settings_(settings),
       pause_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)),
       read_buffer_(settings.read_buffer) {
+  assert(settings_.read_buffer > 0 && settings_.bytes_per_poll > 0);
   readiness_.watch(pause_.number(), pause_mark, false);
 }
 
@@ -127,6 +129,7 @@ TcpTransport::Peer& TcpTransport::add(File file) {
 }
 
 void TcpTransport::accept(std::size_t listening) {
+  assert(listening < listening_.size());
   for (std::size_t accepted = 0; accepted < accepted_per_event; ++accepted) {
     File file(
         ::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
@@ -173,6 +176,7 @@ void TcpTransport::finish_connecting(Peer& peer) {
 }
 
 void TcpTransport::opened(Peer& peer) {
+  assert(!peer.is_open && !peer.is_leaving);
   const int yes = 1;
   ::setsockopt(peer.file.number(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   ::setsockopt(peer.file.number(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_max, sizeof unsent_max);
@@ -185,6 +189,8 @@ void TcpTransport::opened(Peer& peer) {
 }
 
 void TcpTransport::end(Peer& peer, CloseReason reason, const std::string& detail) {
+  assert(!peer.is_leaving);  // it is reported once
+  assert(!peer.is_open || open_count_ > 0);
   peer.counters = counters(peer.id);
   peer.counters.queued_bytes = 0;
   if (peer.is_open) --open_count_;
@@ -203,6 +209,7 @@ void TcpTransport::report_closed() {
   while (!ended_.empty()) {
     reporting_.swap(ended_);
     for (const Closed& each : reporting_) {
+      assert(find(each.connection) != nullptr);
       add_to(closed_, peers_[each.connection]->counters);
       last_counters_.emplace_back(each.connection, peers_[each.connection]->counters);
       if (last_counters_.size() > counters_kept) last_counters_.pop_front();
@@ -214,6 +221,7 @@ void TcpTransport::report_closed() {
 }
 
 void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+  assert(listener_ == nullptr);  // callbacks don't poll
   listener_ = &listener;
   if (read_only_peer(longest_wait)) {
     report_closed();

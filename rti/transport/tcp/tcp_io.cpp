@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <system_error>
 
@@ -27,6 +28,7 @@ CloseReason TcpTransport::reason_of(int error) {
 }
 
 void TcpTransport::read(Peer& peer) {
+  assert(peer.is_open && !peer.is_leaving && listener_ != nullptr);
   const ssize_t size =
       ::recv(peer.file.number(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT);
   if (size == 0) return end(peer, CloseReason::closed_by_peer, "closed by peer");
@@ -41,6 +43,7 @@ void TcpTransport::read(Peer& peer) {
 }
 
 std::size_t TcpTransport::write(Peer& peer, std::span<const Bytes> parts, bool& is_broken) {
+  assert(peer.is_open && !peer.is_leaving);
   std::array<iovec, part_max> vectors;
   std::size_t taken = 0;
   while (!parts.empty()) {
@@ -105,6 +108,7 @@ void TcpTransport::await_room(Peer& peer) {
 }
 
 void TcpTransport::drain(Peer& peer) {
+  assert(peer.is_writing && peer.queue_from <= peer.queue.size());
   const Bytes waiting = Bytes(peer.queue).subspan(peer.queue_from);
   bool is_broken = false;
   peer.queue_from += write(peer, std::span(&waiting, 1), is_broken);

@@ -66,6 +66,7 @@ void prepare_datagram_socket(int socket, bool use_offload) {
 
 void DatagramSender::add(int socket, const SocketAddress* to, Bytes prefix,
                          std::span<const Datagram> datagrams) {
+  assert(socket >= 0);
   if (socket != socket_) push();
   socket_ = socket;
   if (bytes_.capacity() == 0) bytes_.reserve(bytes_max);
@@ -107,6 +108,7 @@ void DatagramSender::append(Message& message, Bytes part, bool does_stay) {
   if (part.empty()) return;
   const std::byte* at = part.data();
   if (!does_stay) {
+    assert(part.size() <= bytes_.capacity() - bytes_.size());  // what lies there must not move
     at = bytes_.data() + bytes_.size();
     bytes_.insert(bytes_.end(), part.begin(), part.end());
   }
@@ -135,6 +137,7 @@ std::size_t DatagramSender::send_some(std::size_t from) {
   };
   std::array<Control, message_max> controls;
   const std::size_t count = messages_.size() - from;
+  assert(0 < count && count <= message_max);
   for (std::size_t i = 0; i < count; ++i) {
     const Message& message = messages_[from + i];
     msghdr& header = headers[i].msg_hdr;

@@ -5,6 +5,7 @@
 #include <sys/timerfd.h>
 
 #include <asio.hpp>
+#include <cassert>
 #include <cstring>
 #include <ctime>
 
@@ -68,6 +69,7 @@ UdpTransport::Way& UdpTransport::add(ConnectionId connection) {
     ways_.resize(connection + 1);
     tallies_.resize(connection + 1);
   }
+  assert(ways_[connection] == nullptr);  // connections are never numbered twice
   ways_[connection] = std::make_unique<Way>();
   return *ways_[connection];
 }
@@ -137,6 +139,7 @@ void UdpTransport::close(ConnectionId connection) {
 }
 
 void UdpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+  assert(listener_ == nullptr);  // callbacks don't poll
   push();
   listener_ = &listener;
   has_told_ = false;
@@ -262,7 +265,10 @@ void UdpTransport::send_datagrams(ConnectionId connection, std::span<const Datag
   prefix[sizeof key] = static_cast<std::byte>(Kind::data);
   Tally& tally = tallies_[connection];
   tally.datagrams_sent += datagrams.size();
-  for (const Datagram& each : datagrams) tally.bytes_sent += each.head.size() + each.body.size();
+  for (const Datagram& each : datagrams) {
+    assert(each.head.size() + each.body.size() <= payload_max - prefix_size);
+    tally.bytes_sent += each.head.size() + each.body.size();
+  }
   sender_.add(is_client ? way.file.number() : server_.number(), is_client ? nullptr : &way.address,
               prefix, datagrams);
 }

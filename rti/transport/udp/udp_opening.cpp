@@ -52,6 +52,7 @@ SocketAddress peer_of(int socket) {
 Bytes UdpTransport::take_head(ConnectionId connection, Bytes bytes) {
   Way& way = *find(connection);
   const std::size_t wanted = way.role == Way::Role::client ? greeting_size : magic_size;
+  assert(way.head_size < wanted);
   const std::size_t taken = std::min(bytes.size(), wanted - way.head_size);
   std::copy_n(bytes.begin(), taken, way.head.begin() + static_cast<std::ptrdiff_t>(way.head_size));
   way.head_size += taken;
@@ -90,6 +91,7 @@ void UdpTransport::greet(ConnectionId connection, Way& way) {
 }
 
 void UdpTransport::open_socket(ConnectionId connection, Way& way) {
+  assert(way.role == Way::Role::client && way.state == Way::State::closed);
   DatagramGreeting greeting;
   Reader reader(way.head);
   exchange(reader, greeting);
@@ -140,6 +142,7 @@ void UdpTransport::ask_again() {
 
 void UdpTransport::tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce,
                         std::size_t size) {
+  assert(prefix_size <= size && size <= payload_max);
   std::vector<std::byte> bytes;
   bytes.reserve(payload_max);
   Writer writer(bytes);

@@ -30,7 +30,10 @@ struct BundleScene {
     carrier.opens(trunk);
     poll();
   }
-  void poll() { bundle.poll({}, ear); }
+  void poll() {
+    bundle.poll({}, ear);
+    bundle.check();
+  }
   void records(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& heads) {
     std::vector<std::byte> bytes;
     for (const auto& [channel, size] : heads) {

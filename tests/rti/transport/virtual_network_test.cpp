@@ -40,6 +40,7 @@ struct Pair {
     while (true) {
       const std::optional<std::int64_t> next_ns = network.next_arrival_ns();
       network.advance_to(next_ns && *next_ns <= until_ns ? *next_ns : until_ns);
+      network.check();
       server.poll(no_wait, heard);
       clients.poll(no_wait, told);
       if (!next_ns || *next_ns > until_ns) return;
