@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdio>
 #include <iostream>
 
@@ -37,6 +38,7 @@ void ColumnReporter::ReportRuns(const std::vector<Run>& runs) {
       const auto found = run.counters.find(counter);
       row.push_back(found == run.counters.end() ? "-" : digits(found->second.value));
     }
+    assert(row.size() == 2 + counters_.size());
     rows_.push_back(std::move(row));
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -22,6 +23,7 @@ struct Crowd {
   };
   Crowd(std::uint32_t subscriber_count, std::uint32_t object_count, double rate_hz)
       : side(std::sqrt(object_count / 5.0)) {
+    assert(object_count > 0 && rate_hz > 0.0);
     std::mt19937_64 random(42);
     std::uniform_real_distribution<double> place(0.0, side), angle(0.0, 6.283185307179586);
     const auto draw = [&] {
@@ -34,6 +36,7 @@ struct Crowd {
 
   /// Moves `share` of all on, a different share each tick, reflected at the walls.
   void step(double share) {
+    assert(0.0 < share && share <= 1.0);
     const auto stride = static_cast<std::size_t>(std::lround(1.0 / share));
     for (std::vector<Mover>* movers : {&objects, &subscribers})
       for (std::size_t i = tick % stride; i < movers->size(); i += stride) advance((*movers)[i]);
@@ -73,6 +76,8 @@ inline std::size_t replay(std::span<const im::Change> changes, std::size_t objec
                           Table& table) {
   std::size_t wrong = 0;
   for (const im::Change& change : changes) {
+    assert(change.entity < object_count);
+    assert(change.subscriber * object_count + change.entity < table.size());
     std::uint8_t& place = table[change.subscriber * object_count + change.entity];
     wrong += (place == 0) != (change.transition == im::Transition::entered) ? 1u : 0u;
     place = change.transition == im::Transition::left ? std::uint8_t{0}

@@ -2,6 +2,7 @@
 #include "bench/accuracy/diagram.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 
@@ -28,6 +29,7 @@ Timed run(const Trial& trial, const Contender& contender, double dt) {
   for (std::size_t i = trial.first_mover(); i < trial.body_count(); ++i)
     timed.places.push_back(timed.world->position({static_cast<std::uint32_t>(i)}));
   timed.run_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  assert(timed.world->body_count() == trial.body_count());
   return timed;
 }
 
@@ -35,6 +37,8 @@ Timed run(const Trial& trial, const Contender& contender, double dt) {
 
 Point measure(const DiagramTrial& trial, const std::vector<Vector2>& true_places,
               const Contender& contender, double dt, const Effort& effort) {
+  assert(dt > 0.0 && effort.repeats > 0 && effort.run_max_s > 0.0);
+  assert(true_places.size() == trial.trial.body_count() - trial.trial.first_mover());
   std::vector<double> times;
   Timed last;
   do {
@@ -43,6 +47,7 @@ Point measure(const DiagramTrial& trial, const std::vector<Vector2>& true_places
   } while (static_cast<int>(times.size()) <
            (last.run_s > effort.run_max_s / 5.0 ? (effort.repeats + 1) / 2 : effort.repeats));
   std::ranges::sort(times);
+  assert(times.front() >= 0.0);  // of a steady clock
   Point point{.dt = contender.is_stepped() ? dt : 0.0,
               .run_s = times[times.size() / 2],
               .fastest_s = times.front(),
@@ -77,6 +82,7 @@ Series measure_series(const DiagramTrial& trial, const std::vector<Vector2>& tru
 }
 
 std::optional<TimeAtError> time_at_error(std::span<const Point> points, double error) {
+  assert(error > 0.0);
   if (points.empty()) return std::nullopt;
   using Kind = TimeAtError::Kind;
   const auto too_far = std::find_if(points.rbegin(), points.rend(), [error](const Point& point) {
@@ -85,6 +91,7 @@ std::optional<TimeAtError> time_at_error(std::span<const Point> points, double e
   if (too_far == points.rend()) return TimeAtError{Kind::faster, points.front().run_s};
   if (too_far == points.rbegin()) return TimeAtError{Kind::never, points.back().run_s};
   const Point &before = *too_far, &after = *std::prev(too_far);
+  assert(after.error.p90 <= error);  // all that come later are good enough
   if (!std::isfinite(before.error.p90) || after.error.p90 <= 0.0)
     return TimeAtError{Kind::met, after.run_s};
   const double share =
@@ -96,6 +103,7 @@ std::optional<double> order_of(std::span<const Point> points) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (const Point& point : points) {
     if (!(point.error.p90 > 0.0) || point.error.p90 > 0.1 * points.front().error.p90) continue;
+    assert(point.dt > 0.0);
     const double step = std::log(point.dt), error = std::log(point.error.p90);
     n += 1.0, x += step, y += error, xx += step * step, xy += step * error;
   }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -82,6 +83,7 @@ Outcome collected(int input, double limit_s, const std::atomic<bool>* is_interru
 
 Outcome guarded(const std::function<std::string()>& work, double limit_s,
                 const std::atomic<bool>* is_interrupted) {
+  assert(work && limit_s > 0.0);
   std::array<int, 2> ends;
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
     throw std::system_error(errno, std::generic_category(), "no pipe to a process of its own");

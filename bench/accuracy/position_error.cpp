@@ -19,6 +19,7 @@ PositionError position_error(std::span<const physics::Vector2> places,
   }
   std::ranges::sort(distances);
   const std::size_t rank = (9 * distances.size() + 9) / 10;  // ceil(0.9 n)
+  assert(1 <= rank && rank <= distances.size() && 10 * rank >= 9 * distances.size());
   return {distances[rank - 1], distances.back()};
 }
 

@@ -2,6 +2,7 @@
 #include "bench/accuracy/stability.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 
@@ -43,6 +44,7 @@ class Balance {
 
   /// `thrusts` were acting since the last look.
   void look(const std::vector<Vector2>& thrusts, std::vector<Vector2> places) {
+    assert(thrusts.size() == places.size() && places.size() == places_.size());
     double work = 0.0;
     for (std::size_t i = 0; i < places.size(); ++i)
       if (!thrusts[i].isZero(0.0))
@@ -53,6 +55,7 @@ class Balance {
     places_ = std::move(places);
     const double gain = world_.kinetic_energy() - start_ - work_,
                  error = is_conservative_ ? std::abs(gain) : std::max(gain, 0.0);
+    assert(!(error < 0.0));
     worst_ = std::max(worst_, error);
     is_finite_ = is_finite_ && std::isfinite(gain);
   }
@@ -74,13 +77,16 @@ bool are_finite(const std::vector<Vector2>& places) {
 }  // namespace
 
 Wear endure(const Trial& trial, const Contender& contender, double dt) {
+  assert(trial.horizon > 0.0 && dt > 0.0);
   const auto world = make_world(trial, contender, dt);
+  assert(world->body_count() == trial.body_count());
   const std::vector<peers::Outline> outlines = outlines_of(*world);
   Wear wear;
   wear.start_overlap = peers::deepest_overlap(trial.world.field, outlines, places_of(*world));
   Balance balance(*world, trial.is_conservative());
   Play play(trial, *world);
   const int frames = static_cast<int>(std::lround(trial.horizon / frame));
+  assert(std::abs(at_frame(frames) - trial.horizon) < 1e-9);  // horizons lie on whole frames
   for (int k = 1; k <= frames; ++k) {
     const auto start = std::chrono::steady_clock::now();
     play.advance(at_frame(k));

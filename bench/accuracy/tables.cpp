@@ -2,6 +2,7 @@
 #include "bench/accuracy/tables.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -23,7 +24,8 @@ formatted(const char* format, ...) {
   char text[400];
   va_list values;
   va_start(values, format);
-  std::vsnprintf(text, sizeof text, format, values);
+  [[maybe_unused]] const int size = std::vsnprintf(text, sizeof text, format, values);
+  assert(0 <= size && size < static_cast<int>(sizeof text));  // nothing is cut off
   va_end(values);
   return text;
 }
@@ -93,6 +95,7 @@ Standing standing_of(const Panel& panel, const Series& series) {
       sign + three_digits(1e3 * time->run_s), "-", {}, time->kind == TimeAtError::Kind::never};
   const Point* exact = exact_point(panel);
   if (exact == nullptr || exact->error.p90 > panel.trial.target) return standing;
+  assert(exact->run_s > 0.0);
   standing.least_ratio = time->run_s / exact->run_s;
   standing.ratio = sign + three_digits(*standing.least_ratio);
   return standing;

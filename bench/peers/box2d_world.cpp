@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -22,6 +23,7 @@ constexpr std::uintptr_t wall_kind = 3;                          ///< others hav
 /// large, unless a body at `speed_max` would then move by the 2 m and more that Box2D cuts off each
 /// step's way at.
 double units_per_metre(double speed_max, double dt) {
+  assert(speed_max > 0.0 && dt > 0.0);
   return std::min(25.0, b2_maxTranslation / (speed_max * dt));
 }
 
@@ -62,6 +64,7 @@ class Box2dWorld final : public PeerWorld, private b2ContactListener {
 
   /// Less its skin, so that contact is where it is on the rink.
   b2PolygonShape box(const Vector2& half_extent, const Vector2& centre = {0.0, 0.0}) const {
+    assert(half_extent.minCoeff() > skin());
     b2PolygonShape shape;
     shape.SetAsBox(to_box2d(half_extent.x() - skin()), to_box2d(half_extent.y() - skin()),
                    to_box2d(centre), 0.0f);
@@ -79,6 +82,7 @@ class Box2dWorld final : public PeerWorld, private b2ContactListener {
     definition.fixedRotation = true;
     definition.bullet = are_bullets_ && !is_fixed;
     b2Body* body = world_.CreateBody(&definition);
+    assert(is_fixed || outline.mass > 0.0);
     bodies_.push_back(body);
     if (outline.kind == BodyKind::bat) {
       add_shape(*body, box(outline.half_extent),
@@ -107,6 +111,7 @@ class Box2dWorld final : public PeerWorld, private b2ContactListener {
   }
 
   void destroy(std::size_t index) override {
+    assert(index < bodies_.size());
     world_.DestroyBody(bodies_[index]);
     std::erase_if(driven_, [index](const Driven& bat) { return bat.index == index; });
   }

@@ -5,6 +5,7 @@
 #include <chipmunk/chipmunk.h>
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -59,6 +60,7 @@ class ChipmunkWorld final : public PeerWorld {
 
   void make(std::size_t index, const Outline& outline, const Vector2& position,
             const Vector2& velocity) override {
+    assert(index == bodies_.size() && shapes_.size() == wall_count + index);
     const bool is_fixed = !std::isfinite(outline.mass);
     // An infinite moment: without friction nothing makes a body turn, and a bat must not.
     cpBody* body = is_fixed ? cpBodyNewStatic()
@@ -77,6 +79,7 @@ class ChipmunkWorld final : public PeerWorld {
   }
 
   void destroy(std::size_t index) override {
+    assert(index < bodies_.size() && bodies_[index] != nullptr);
     cpShape*& shape = shapes_[wall_count + index];
     cpSpaceRemoveShape(space_, shape);
     cpShapeFree(shape);
@@ -108,6 +111,7 @@ class ChipmunkWorld final : public PeerWorld {
 
   static void drive(cpBody* body, cpVect, cpFloat, cpFloat dt) {
     const auto& driven = *static_cast<const Driven*>(cpBodyGetUserData(body));
+    assert(driven.world->bodies_[driven.index] == body);
     cpBodyUpdateVelocity(body, to_vect(driven.world->thrust_of(driven.index)),
                          driven.world->bat_damping_, dt);
   }

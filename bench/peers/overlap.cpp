@@ -25,6 +25,7 @@ double depth_in_walls(const physics::Field& field, const Outline& body, const Ve
 double depth(const Outline& a, const Outline& b, const Vector2& offset) {
   const Vector2 apart = offset.cwiseAbs() - a.half_extent - b.half_extent;
   const double radius = a.radius + b.radius;
+  assert(radius >= 0.0);
   // Within the rectangle the way out is the shorter of the two axes, elsewhere the distance to its
   // nearest point counts.
   if (apart.maxCoeff() <= 0.0) return radius - apart.maxCoeff();

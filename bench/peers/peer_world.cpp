@@ -29,6 +29,7 @@ BodyId PeerWorld::add(const PostSpec& spec) {
 }
 
 BodyId PeerWorld::add(const Outline& outline, const Vector2& position, const Vector2& velocity) {
+  assert(outline.mass > 0.0 && outline.radius >= 0.0 && position.allFinite());
   const std::size_t index = outlines_.size();
   outlines_.push_back(outline);
   thrusts_.push_back({0.0, 0.0});
@@ -39,6 +40,7 @@ BodyId PeerWorld::add(const Outline& outline, const Vector2& position, const Vec
 }
 
 void PeerWorld::remove(BodyId body) {
+  assert(body.index < outlines_.size() && !is_removed_[body.index]);
   last_places_[body.index] = place_of(body.index);
   destroy(body.index);
   is_removed_[body.index] = true;
@@ -51,6 +53,7 @@ void PeerWorld::place(BodyId, const Vector2&, const Vector2&) {
 std::optional<physics::Goal> PeerWorld::advance(double until) {
   // To the nearest frame, for an instant that is a frame's end in decimal digits may lie a rounding
   // error beside it in binary ones.
+  assert(std::isfinite(until) && until >= 0.0);
   const auto target = static_cast<std::uint64_t>(std::llround(until / dt_));
   for (; frames_ < target; ++frames_) step();
   return std::nullopt;

@@ -2,6 +2,7 @@
 #include "bench/trials/contender.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "bench/peers/peers.h"
 #include "game/physics/simulator_choice.h"
@@ -69,7 +70,9 @@ std::unique_ptr<physics::Simulator> make_world(const Trial& trial, const Contend
   auto world = is_peer(contender.engine)
                    ? peers::make_peer(trial.world, contender.engine, dt, speed_max(trial))
                    : physics::make_simulator(trial.world, choice_of(contender, dt));
+  assert(world != nullptr);
   load(trial, *world);
+  assert(world->body_count() == trial.body_count());
   return world;
 }
 

@@ -1,6 +1,7 @@
 // What is put into a world and done to it, so that every engine can be given the same.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -41,7 +42,10 @@ struct Trial {
 };
 
 /// `frames` frames in seconds, as every engine is told: rounded once.
-inline double at_frame(int frames) { return frames / 60.0; }
+inline double at_frame(int frames) {
+  assert(frames >= 0);
+  return frames / 60.0;
+}
 
 template <class World>
 void load(const Trial& trial, World& world) {
@@ -61,6 +65,8 @@ class Play {
   void advance(Time until) {
     for (; next_ < trial_.pushes.size() && trial_.pushes[next_].time < until; ++next_) {
       const Push& push = trial_.pushes[next_];
+      assert(push.bat < trial_.bats.size());
+      assert(next_ == 0 || trial_.pushes[next_ - 1].time <= push.time);  // they are in order
       world_.advance(push.time);
       world_.set_thrust({static_cast<std::uint32_t>(trial_.posts.size()) + push.bat},
                         push.acceleration);
