@@ -88,14 +88,14 @@ void tick_among_resting(benchmark::State& state, std::uint32_t count, const std:
     rink = std::make_unique<Rink>(count, moving, policy);
     name = wanted;
   }
-  const game::PublisherCounters before = rink->serving.server().published();
+  const game::PublisherCounters before = rink->serving.server().publisher().counters();
   const std::uint64_t touched = rink->serving.server().game().world().counters().bodies_touched;
   std::uint64_t ticks = 0;
   for (auto _ : state) rink->tick(), ++ticks;
   const auto per_tick = [&](std::uint64_t now, std::uint64_t then) {
     return static_cast<double>(now - then) / static_cast<double>(std::max<std::uint64_t>(1, ticks));
   };
-  const game::PublisherCounters& after = rink->serving.server().published();
+  const game::PublisherCounters& after = rink->serving.server().publisher().counters();
   state.counters["sent"] = per_tick(after.motions_sent, before.motions_sent);
   state.counters["regions"] = per_tick(after.regions_moved, before.regions_moved);
   state.counters["looked_at"] = per_tick(after.entities_looked_at, before.entities_looked_at);

@@ -67,7 +67,7 @@ ExitStatus serve(ServeOptions& options) {
   std::fflush(stdout);
   process.try_records();
   const bool is_complete = process.start();
-  const std::uint32_t came = process.server().player_count();  // before they leave
+  const std::uint32_t came = process.server().seats().player_count();  // before they leave
   const std::string missing = is_complete ? "" : process.missing();
   if (is_complete) process.run();
   Json report = process.report();

@@ -107,7 +107,7 @@ bool ServerProcess::start() {
     return !is_interrupted && server_.trouble().empty() && now_s() <= give_up_s;
   };
   const auto are_all_there = [&] {
-    return server_.is_joined() && server_.player_count() >= options_.clients;
+    return server_.is_joined() && server_.seats().player_count() >= options_.clients;
   };
   while (!are_all_there() && may_wait()) wait(0.02);
   if (!are_all_there()) return false;
@@ -178,7 +178,7 @@ std::string ServerProcess::missing() const {
 
 void ServerProcess::end() {
   const double give_up_s = now_s() + (is_interrupted ? 0.0 : 2.0);
-  while (server_.player_count() > 0 && now_s() < give_up_s) serving_.exchange(0.01);
+  while (server_.seats().player_count() > 0 && now_s() < give_up_s) serving_.exchange(0.01);
   if (options_.hosted.empty()) return;
   server_.finish_record();
   keep_records();
@@ -192,17 +192,18 @@ void ServerProcess::try_records() {
 
 /// Once: who sends too much could fill the terminal as well.
 void ServerProcess::report_flood() {
-  const ServerCounters& counters = server_.counters();
-  if (counters.keys_over_limit == 0 || std::exchange(is_flood_reported_, true)) return;
+  const KeyCounters& counters = server_.keys().counters();
+  if (counters.over_limit == 0 || std::exchange(is_flood_reported_, true)) return;
   warn("the player of ", bat_name(counters.player_over_limit), " sends more than ",
        options_.key_limit_per_s, " key changes a second (--key-limit): what is more is not felt");
 }
 
 /// Players are told on their screens if there is none.
 void ServerProcess::keep_records() {
-  for (const KeyLog& log : server_.take_finished()) {
+  if (!server_.hosted()) return;
+  for (const KeyLog& log : server_.hosted()->take_finished()) {
     if (const auto trouble = records_.keep(log)) complain(*trouble, "; matches go on");
-    server_.set_unrecorded(records_.is_failing());
+    server_.hosted()->set_unrecorded(records_.is_failing());
   }
 }
 

@@ -113,12 +113,14 @@ Feel feel_of(const rti::Fom& fom, const game::Scene& scene, const std::string& s
   TruthComparison comparison(duel);
   duel.watch = [&](std::size_t k) { comparison.note(k); };
   for (std::size_t k = 0; k < 2; ++k) duel.connect(k);
-  duel.run_until([&] { return duel.server().match()->phase == game::MatchPhase::playing; }, 30.0);
+  duel.run_until([&] { return duel.server().hosted()->state().phase == game::MatchPhase::playing; },
+                 30.0);
   std::array<std::uint64_t, 2> bytes{};
   const double from_s = duel.now_s();
   for (std::size_t k = 0; k < 2; ++k)
     bytes[k] = duel.client(k).client().ambassador().counters().bytes_received;
-  duel.run_until([&] { return duel.server().match()->phase == game::MatchPhase::over; }, seconds);
+  duel.run_until([&] { return duel.server().hosted()->state().phase == game::MatchPhase::over; },
+                 seconds);
   Feel feel;
   const double passed_s = duel.now_s() - from_s;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -129,11 +131,11 @@ Feel feel_of(const rti::Fom& fom, const game::Scene& scene, const std::string& s
         passed_s;
     feel.keys += duel.client(k).client().keys_sent();
   }
-  feel.late_keys = duel.server().counters().keys_late;
+  feel.late_keys = duel.server().keys().counters().late;
   feel.played_s = duel.server().game().now();
   add_corrections(duel, feel);
   duel.server().finish_record();
-  for (const game::KeyLog& log : duel.server().take_finished()) {
+  for (const game::KeyLog& log : duel.server().hosted()->take_finished()) {
     feel.is_replayed = game::replay(log, scene) == *log.hash;
     comparison.compare(log, scene, feel);
   }

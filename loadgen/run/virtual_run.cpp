@@ -195,7 +195,7 @@ void VirtualRun::await(const std::string& what, Condition is_met) {
 void VirtualRun::start() {
   crowd_.connect([this](std::uint32_t) { return bots_end_.connect(server_name); });
   await("the players",
-        [this] { return server_.is_joined() && server_.player_count() == cell_.clients; });
+        [this] { return server_.is_joined() && server_.seats().player_count() == cell_.clients; });
   server_.call_to_start();
   await("the start barrier", [this] { return server_.is_started(); });
   start_ns_ = (network_.now_ns() / second_ns + 1) *

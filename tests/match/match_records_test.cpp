@@ -26,7 +26,7 @@ struct RecordsOfMatches : testing::Test {
     duel.connect(0), duel.connect(1);
     duel.run_until([&] { return duel.server().game().now() >= seconds; }, seconds + 10.0);
     duel.server().finish_record();
-    return duel.server().take_finished().at(0);
+    return duel.server().hosted()->take_finished().at(0);
   }
   static KeyLog local_match(double seconds) {
     LocalMatch match(match_scene(), {.players = {"hand", "chaser"}, .scene_text = match_text()});
@@ -95,8 +95,8 @@ TEST_F(RecordsOfMatches, ThatCannotBeWrittenAreMissedOnBothScreensBetweenMatches
   EXPECT_EQ(duel.client(0).sight().notice, "");
   duel.leave(1);
   ASSERT_TRUE(is_shown(MatchPhase::over));
-  EXPECT_EQ(duel.server().take_finished().size(), 1u);
-  duel.server().set_unrecorded(true);
+  EXPECT_EQ(duel.server().hosted()->take_finished().size(), 1u);
+  duel.server().hosted()->set_unrecorded(true);
   duel.run(0.2);
   EXPECT_THAT(duel.client(0).sight().notice, HasSubstr("could not record"));
   duel.connect(1);

@@ -84,7 +84,7 @@ TEST_F(ANetworkMatch, WaitsForWhoVanishedAndGoesOnWhenSomebodyTakesTheSeat) {
   ASSERT_TRUE(is_shown_to_both(*duel, MatchPhase::playing, 6.0));
   EXPECT_NEAR(duel->server().game().now(), time, 0.2);
   EXPECT_EQ(duel->server().game().keys_held(1).bits(), 0) << "nobody holds its keys";
-  EXPECT_EQ(duel->server().match()->number, 1u);
+  EXPECT_EQ(duel->server().hosted()->state().number, 1u);
 }
 
 TEST_F(ANetworkMatch, IsSeenByAWatcherWhoCanDoNothing) {
@@ -124,7 +124,7 @@ TEST_F(ANetworkMatch, GoesOnWithTheSameScoreIfWhoVanishedIsBackWithinHalfAMinute
   EXPECT_EQ(duel->client(1).sight().own_team, Team::right);
   EXPECT_EQ(duel->client(0).sight().score, score);
   EXPECT_EQ(duel->client(1).sight().score, score);
-  EXPECT_EQ(duel->server().match()->number, 1u);
+  EXPECT_EQ(duel->server().hosted()->state().number, 1u);
 }
 
 TEST_F(ANetworkMatch, IsWonAfterHalfAMinuteByWhoStaysAndAnotherMayTakeTheSeat) {
@@ -138,7 +138,7 @@ TEST_F(ANetworkMatch, IsWonAfterHalfAMinuteByWhoStaysAndAnotherMayTakeTheSeat) {
   EXPECT_EQ(duel->client(1).sight().winner, Team::right);
   duel->connect(0);
   ASSERT_TRUE(is_shown_to_both(*duel, MatchPhase::playing, 6.0));
-  EXPECT_EQ(duel->server().match()->number, 2u);
+  EXPECT_EQ(duel->server().hosted()->state().number, 2u);
 }
 
 TEST_F(ANetworkMatch, IsWonByWhoStays) {
@@ -169,7 +169,7 @@ TEST_F(ANetworkMatch, GoesFromFaceOffToWinToRematchAndIsRecorded) {
   duel.run(20.0);
   EXPECT_TRUE(duel.client(0).sight().notice.empty()) << duel.client(0).sight().notice;
   duel.server().finish_record();
-  const std::vector<KeyLog> records = duel.server().take_finished();
+  const std::vector<KeyLog> records = duel.server().hosted()->take_finished();
   ASSERT_EQ(records.size(), 2u);
   for (const KeyLog& record : records) EXPECT_EQ(replay(record, match_scene()), *record.hash);
 }

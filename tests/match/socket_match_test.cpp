@@ -131,11 +131,11 @@ TEST(AMatchOverSockets, GoesFromFaceOffThroughGoalsToTheWinScreenAndToARematchBy
   ASSERT_TRUE(duel.is_shown_to_both(MatchPhase::countdown, 1.0));
   ASSERT_TRUE(duel.is_shown_to_both(MatchPhase::playing, 4.0));
   EXPECT_EQ(duel.client(0).sight().score, Score{});
-  EXPECT_EQ(duel.server().match()->number, 2u);
+  EXPECT_EQ(duel.server().hosted()->state().number, 2u);
   duel.run_until([] { return false; }, 5.0);
   EXPECT_EQ(duel.client(0).sight().notice + duel.client(1).sight().notice, "");
 
-  const std::vector<KeyLog> records = duel.server().take_finished();
+  const std::vector<KeyLog> records = duel.server().hosted()->take_finished();
   ASSERT_EQ(records.size(), 1u);
   std::stringstream file;
   write_packed_key_log(file, records[0]);
@@ -191,7 +191,7 @@ TEST(AMatchOverSockets, WaitsForAPlayerWhoseProcessDied) {
       << "the kernel tells that the connection is gone";
   duel.connect(1, "waypoint");
   ASSERT_TRUE(duel.is_shown_to_both(MatchPhase::playing, 6.0));
-  EXPECT_EQ(duel.server().match()->number, 1u);
+  EXPECT_EQ(duel.server().hosted()->state().number, 1u);
   duel.kill(1);
   ASSERT_TRUE(
       duel.run_until([&] { return duel.client(0).sight().phase == MatchPhase::over; }, 4.0));

@@ -21,7 +21,7 @@ const Entity& bat_of(LockstepRink& rink, std::uint32_t player) {
 im::Region view_of(LockstepRink& rink, std::uint32_t player) {
   std::vector<rti::SubscribedRegion> views;
   rink.execution().list_subscribed_regions(views);
-  return std::ranges::find(views, *rink.server().federate_of(player),
+  return std::ranges::find(views, *rink.server().seats().federate_of(player),
                            &rti::SubscribedRegion::federate)
       ->bounds;
 }
@@ -47,9 +47,9 @@ TEST(Headings, AreWhereKeysPushAPlayerAndNotWhereHisBatStillGoes) {
     if (each.player == 0u || offset.norm() > radius - 0.2 ||
         std::abs(offset.x()) < each.half_extent.x() + 1e-3)
       continue;
-    EXPECT_EQ(
-        rink.execution().is_in_scope(*rink.server().federate_of(0), rink.server().object(each.id)),
-        offset.x() < 0.0);
+    EXPECT_EQ(rink.execution().is_in_scope(*rink.server().seats().federate_of(0),
+                                           rink.server().publisher().object(each.id)),
+              offset.x() < 0.0);
     ++(offset.x() < 0.0 ? seen : hidden);
   }
   EXPECT_GT(seen, 5u);
@@ -100,8 +100,8 @@ Missed missed_within_ticks(const std::string& scheme, std::uint32_t sweep_ticks)
     within.erase(std::unique(within.begin(), within.end()), within.end());
     for (const auto& [player, puck] : within) {
       ++result.pairs;
-      if (rink.execution().is_in_scope(*rink.server().federate_of(player),
-                                       rink.server().object(puck)))
+      if (rink.execution().is_in_scope(*rink.server().seats().federate_of(player),
+                                       rink.server().publisher().object(puck)))
         continue;
       ++result.missed;
       const physics::World& world = rink.server().game().world();
@@ -149,8 +149,8 @@ TEST(Flights, OfWhatFrictionStopsAreNotHandedIn) {
     const double gap = std::max({view.low_x - box.high_x, box.low_x - view.high_x,
                                  view.low_y - box.high_y, box.low_y - view.high_y});
     if (std::abs(gap) > 1e-5) {
-      EXPECT_EQ(rink.execution().is_in_scope(*rink.server().federate_of(0),
-                                             rink.server().object(each.id)),
+      EXPECT_EQ(rink.execution().is_in_scope(*rink.server().seats().federate_of(0),
+                                             rink.server().publisher().object(each.id)),
                 gap < 0.0);
     }
   }
@@ -180,7 +180,7 @@ TEST(Tiers, NeverLeaveAMirrorMoreThanItsPeriodBehind) {
         if (tick < 8 || (policy == "snapshot" && each.kind == physics::BodyKind::bat))
           continue;  // snapshots know nothing of thrust
         const MirroredEntity* const seen =
-            rink.client(0).mirror().find(rink.server().object(each.id));
+            rink.client(0).mirror().find(rink.server().publisher().object(each.id));
         ASSERT_NE(seen, nullptr);
         const Vector2 believed = seen->position_at(rink.now);
         double off = (believed - path[tick]).norm();

@@ -28,7 +28,7 @@ double farthest_off(LockstepRink& rink, std::size_t& compared) {
   for (std::size_t k = 0; k < rink.client_count(); ++k)
     for (const Entity& entity : game.entities()) {
       const MirroredEntity* mirrored =
-          rink.client(k).mirror().find(rink.server().object(entity.id));
+          rink.client(k).mirror().find(rink.server().publisher().object(entity.id));
       if (mirrored == nullptr || !mirrored->in_scope) continue;
       farthest =
           std::max(farthest, (mirrored->position_at(game.now()) - game.position(entity.id)).norm());
@@ -155,7 +155,10 @@ double off_between_ticks(double drag, bool extrapolates) {
       *std::find_if(game.entities().begin(), game.entities().end(),
                     [](const Entity& each) { return each.kind == physics::BodyKind::puck; });
   const double later = game.now() + 0.5 / 30.0;
-  return (rink.client(0).mirror().find(rink.server().object(puck.id))->position_at(later) -
+  return (rink.client(0)
+              .mirror()
+              .find(rink.server().publisher().object(puck.id))
+              ->position_at(later) -
           game.world().motion(puck.id).at(later).position)
       .norm();
 }

@@ -29,7 +29,7 @@ bool hears(const Client& client, rti::ObjectHandle object) {
 
 /// The server's side of a tick, as Serving does it.
 void answer(LockstepRink& rink) {
-  for (const Server::Inspecting& each : rink.server().take_inspections())
+  for (const Inspections::Question& each : rink.server().inspections().take())
     rink.server().tell_interest(each.federate,
                                 interest_report(rink.server(), rink.execution(), each.object));
   rink.settle();

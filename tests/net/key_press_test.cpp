@@ -24,8 +24,8 @@ TEST(KeyPress, MovesTheOwnBatInThePlayersMirrorAtTheNextTickByTheClosedForm) {
   // 2. The RTI hands it to the server, which stamps it with that instant and queues it for its
   // game.
   rink.settle();
-  ASSERT_EQ(rink.server().record().size(), 1u);
-  EXPECT_EQ(rink.server().record()[0].time, pressed);
+  ASSERT_EQ(rink.server().keys().recorded().size(), 1u);
+  EXPECT_EQ(rink.server().keys().recorded()[0].time, pressed);
   EXPECT_EQ(player.bat()->input.count, 0u);
 
   // 3. The tick applies it: the bat accelerates from the stamped instant on, x(t) = x0 + a (t -

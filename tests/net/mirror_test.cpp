@@ -38,7 +38,7 @@ void expect_mirrors_equal_the_server(
     for (const Entity& entity : game.entities()) {
       const Vector2 centre = game.position(entity.id);
       const MirroredEntity* mirrored =
-          rink.client(k).mirror().find(rink.server().object(entity.id));
+          rink.client(k).mirror().find(rink.server().publisher().object(entity.id));
       const bool is_known = mirrored != nullptr && mirrored->in_scope;
       const bool must = must_know(views[k], entity, centre);
       ASSERT_TRUE(is_known || !must)

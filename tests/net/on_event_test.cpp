@@ -31,7 +31,7 @@ void measure(LockstepRink& rink, std::size_t client, const im::Region& view, Err
   for (const Entity& entity : game.entities()) {
     const Vector2 centre = game.position(entity.id);
     const MirroredEntity* mirrored =
-        rink.client(client).mirror().find(rink.server().object(entity.id));
+        rink.client(client).mirror().find(rink.server().publisher().object(entity.id));
     const bool is_known = mirrored != nullptr && mirrored->in_scope;
     ASSERT_TRUE(is_known || !overlaps(view, centre,
                                       is_by_centre(rink) ? Vector2(0.0, 0.0) : entity.half_extent))

@@ -26,7 +26,7 @@ struct PlayerKeys : testing::Test {
     rink.server().follow_match(0.0);
     for (int tick = 0; tick < 6; ++tick) rink.tick();
   }
-  const std::vector<InputEvent>& felt() { return rink.server().record(); }
+  const std::vector<InputEvent>& felt() { return rink.server().keys().recorded(); }
   LockstepRink rink;
 };
 
@@ -83,20 +83,20 @@ TEST(PlayerKeysOfARematch, AreNotHeldUpByThoseOfTheMatchBefore) {
   rink.server().follow_match(rink.now);
   rink.client(0).press(Key::up, rink.now);
   rink.settle();
-  ASSERT_GE(rink.server().record().back().time, 2.9);
+  ASSERT_GE(rink.server().keys().recorded().back().time, 2.9);
   rink.leave(1);
   while (rink.now < 4.0) rink.tick();
   rink.server().follow_match(rink.now);
-  ASSERT_EQ(rink.server().match()->phase, MatchPhase::over);
+  ASSERT_EQ(rink.server().hosted()->state().phase, MatchPhase::over);
   rink.add_client("next");
   rink.settle();
   rink.settle();
   rink.server().follow_match(rink.now);
-  ASSERT_EQ(rink.server().match()->number, 2u);
+  ASSERT_EQ(rink.server().hosted()->state().number, 2u);
   rink.client(0).press(Key::down);
   rink.settle();
-  ASSERT_EQ(rink.server().record().size(), 1u);
-  EXPECT_LT(rink.server().record().back().time, 0.5);
+  ASSERT_EQ(rink.server().keys().recorded().size(), 1u);
+  EXPECT_LT(rink.server().keys().recorded().back().time, 0.5);
 }
 
 /// In a crowd the bat goes with its player, and the next one has another.
@@ -114,7 +114,7 @@ TEST(PlayerKeysOfACrowd, OfOneWhoLeftAreNotFeltByTheNextOnTheSeat) {
   rink.settle();
   rink.run(0.3);
   ASSERT_NE(next.bat(), nullptr);
-  EXPECT_EQ(next.bat()->object, rink.server().object(*rink.server().game().bat(1)));
+  EXPECT_EQ(next.bat()->object, rink.server().publisher().object(*rink.server().game().bat(1)));
   EXPECT_EQ(next.bat()->input.count, 0u);
   EXPECT_EQ(next.bat()->input.held, 0u);
   EXPECT_EQ(rink.server().game().keys_held(1), KeysHeld{});

@@ -100,8 +100,8 @@ TEST(PlayersWithoutRegions, MirrorTheSameUnderNoneAndSendKeysAndHeartbeatsAlone)
       ASSERT_EQ(mine.entities().size(), other.entities().size());
       ASSERT_EQ(mine.counters().updates, other.counters().updates);
       for (const Entity& entity : with.server().game().entities()) {
-        const MirroredEntity *one = mine.find(without.server().object(entity.id)),
-                             *two = other.find(with.server().object(entity.id));
+        const MirroredEntity *one = mine.find(without.server().publisher().object(entity.id)),
+                             *two = other.find(with.server().publisher().object(entity.id));
         ASSERT_TRUE(one != nullptr && two != nullptr && one->in_scope && two->in_scope)
             << "client " << k << ", entity " << entity.id.index;
         ASSERT_EQ(one->position, two->position)

@@ -47,11 +47,12 @@ std::size_t recount(LockstepRink& rink, const Meaning& meaning) {
   std::size_t in_scope = 0;
   for (const auto& [federate, view] : views) {
     const auto own = std::ranges::find_if(game.entities(), [&](const Entity& each) {
-      return rink.server().bat_of(federate) == rink.server().object(each.id);
+      return rink.server().bat_of(federate) == rink.server().publisher().object(each.id);
     });
     if (own == game.entities().end()) continue;
     for (const Entity& each : game.entities()) {
-      const bool is_heard = rink.execution().is_in_scope(federate, rink.server().object(each.id));
+      const bool is_heard =
+          rink.execution().is_in_scope(federate, rink.server().publisher().object(each.id));
       in_scope += is_heard ? 1 : 0;
       const auto is_near = touches(view, bounding_box(game.position(each.id), each.half_extent));
       if (each.id != own->id && !is_near) continue;
@@ -119,9 +120,9 @@ TEST(Roles, OfAMatchMakeThePuckRelevantToBothPlayersAlways) {
   rink.start();
   rink.run(0.2);
   for (const Entity& each : rink.server().game().entities())
-    EXPECT_EQ(
-        rink.execution().is_in_scope(*rink.server().federate_of(0), rink.server().object(each.id)),
-        each.kind != physics::BodyKind::bat || each.player == 0u);
+    EXPECT_EQ(rink.execution().is_in_scope(*rink.server().seats().federate_of(0),
+                                           rink.server().publisher().object(each.id)),
+              each.kind != physics::BodyKind::bat || each.player == 0u);
 }
 
 TEST(Roles, AreWhatTheServerIsToldWhereItIsTold) {

@@ -45,9 +45,9 @@ TEST(Server, RecordsALogThatReplaysLiveKeysToTheSameState) {
     tick / 4 % 2 == 0 ? client.press(Key::right) : client.release(Key::right);
     live.tick();
   }
-  EXPECT_EQ(live.server().counters().keys_received, 60u);
-  EXPECT_EQ(live.server().counters().keys_applied, 60u);
-  EXPECT_EQ(hash_after(scene, live.server().record(), "none", 30.0, 2.0),
+  EXPECT_EQ(live.server().keys().counters().received, 60u);
+  EXPECT_EQ(live.server().keys().counters().applied, 60u);
+  EXPECT_EQ(hash_after(scene, live.server().keys().recorded(), "none", 30.0, 2.0),
             live.server().game().hash());
 }
 
@@ -59,9 +59,9 @@ TEST(Server, StampsAKeyWithTheInstantOfItsArrival) {
   rink.client(0).press(Key::up);
   const double arrival = rink.now;
   rink.tick();
-  ASSERT_EQ(rink.server().record().size(), 1u);
+  ASSERT_EQ(rink.server().keys().recorded().size(), 1u);
   EXPECT_EQ(
-      rink.server().record()[0],
+      rink.server().keys().recorded()[0],
       (InputEvent{.time = arrival, .player = 0, .kind = InputKind::key_down, .key = Key::up}));
 }
 
@@ -73,8 +73,8 @@ TEST(Server, GivesABatToTheFederateThatBearsItsNameAndTheFirstFreeOneToOthers) {
   const Game& game = rink.server().game();
   ASSERT_NE(named.bat(), nullptr);
   ASSERT_NE(stranger.bat(), nullptr);
-  EXPECT_EQ(named.bat()->object, rink.server().object(*game.bat(5)));
-  EXPECT_EQ(stranger.bat()->object, rink.server().object(*game.bat(0)));
+  EXPECT_EQ(named.bat()->object, rink.server().publisher().object(*game.bat(5)));
+  EXPECT_EQ(stranger.bat()->object, rink.server().publisher().object(*game.bat(0)));
 }
 
 TEST(Server, TellsAPlayerTooManyThatNoBatIsFree) {
@@ -107,16 +107,16 @@ TEST(Server, RemovesTheBatOfAKilledClientEverywhereAndGivesItBackToTheNext) {
 TEST(Server, StepsInSynchronousModeWhenAllPlayersHaveSaidUpdate) {
   LockstepRink rink(match(), {.clients = 2});
   rink.start();
-  EXPECT_FALSE(rink.server().all_turns_done());
+  EXPECT_FALSE(rink.server().seats().are_all_turns_done());
   rink.client(0).end_turn();
   rink.client(0).end_turn();
   rink.settle();
-  EXPECT_FALSE(rink.server().all_turns_done());
+  EXPECT_FALSE(rink.server().seats().are_all_turns_done());
   rink.client(1).end_turn();
   rink.settle();
-  EXPECT_TRUE(rink.server().all_turns_done());
+  EXPECT_TRUE(rink.server().seats().are_all_turns_done());
   rink.tick();
-  EXPECT_FALSE(rink.server().all_turns_done());
+  EXPECT_FALSE(rink.server().seats().are_all_turns_done());
 }
 
 TEST(Server, WaitsForTheOthersTurnsWhereOneLeavesWhoseTurnIsDone) {
@@ -127,10 +127,10 @@ TEST(Server, WaitsForTheOthersTurnsWhereOneLeavesWhoseTurnIsDone) {
   rink.settle();
   rink.leave(1);
   rink.settle();
-  EXPECT_FALSE(rink.server().all_turns_done()) << "the last one has not had its turn";
+  EXPECT_FALSE(rink.server().seats().are_all_turns_done()) << "the last one has not had its turn";
   rink.client(2).end_turn();
   rink.settle();
-  EXPECT_TRUE(rink.server().all_turns_done());
+  EXPECT_TRUE(rink.server().seats().are_all_turns_done());
 }
 
 /// Whoever predicts must know which of its keys are in the state that it is sent.
@@ -145,9 +145,9 @@ TEST(Server, CountsAKeyAsFeltInTheTickThatAppliesIt) {
     rink.now += part * tick_s;
     rink.client(0).press(Key::up);
     rink.settle();
-    ASSERT_EQ(rink.server().record().size(), 1u);
+    ASSERT_EQ(rink.server().keys().recorded().size(), 1u);
     rink.tick();
-    EXPECT_GE(rink.server().game().now(), rink.server().record()[0].time);
+    EXPECT_GE(rink.server().game().now(), rink.server().keys().recorded()[0].time);
     EXPECT_EQ(rink.client(0).bat()->input.count, 1u) << part;
     EXPECT_EQ(rink.client(0).bat()->input.held, rink.server().game().keys_held(0).bits()) << part;
   }
@@ -166,13 +166,13 @@ TEST(Server, FeelsNoMoreKeysOfAPlayerThanItsLimitAndAllOfTheOther) {
     rink.tick();
   }
   rink.tick();
-  const auto felt =
-      static_cast<double>(std::ranges::count(rink.server().record(), 0u, &InputEvent::player));
+  const auto felt = static_cast<double>(
+      std::ranges::count(rink.server().keys().recorded(), 0u, &InputEvent::player));
   EXPECT_NEAR(felt, key_limit_default * (1.0 + (ticks - 1) / 30.0), 1.0);
-  EXPECT_EQ(rink.server().counters().keys_over_limit,
+  EXPECT_EQ(rink.server().keys().counters().over_limit,
             ticks * flood - static_cast<std::uint64_t>(felt));
-  EXPECT_EQ(rink.server().counters().player_over_limit, 0u);
-  EXPECT_EQ(std::ranges::count(rink.server().record(), 1u, &InputEvent::player), ticks);
+  EXPECT_EQ(rink.server().keys().counters().player_over_limit, 0u);
+  EXPECT_EQ(std::ranges::count(rink.server().keys().recorded(), 1u, &InputEvent::player), ticks);
   EXPECT_EQ(rink.client(0).bat()->input.count, static_cast<std::uint32_t>(ticks * flood))
       << "nobody waits for a key that is not felt";
   EXPECT_EQ(rink.client(1).bat()->input.count, static_cast<std::uint32_t>(ticks));
@@ -184,8 +184,8 @@ TEST(Server, FeelsEveryKeyWithoutALimit) {
   rink.start();
   for (int i = 0; i < 1000; ++i) rink.client(0).press(Key::up), rink.client(0).release(Key::up);
   rink.tick();
-  EXPECT_EQ(rink.server().record().size(), 2000u);
-  EXPECT_EQ(rink.server().counters().keys_over_limit, 0u);
+  EXPECT_EQ(rink.server().keys().recorded().size(), 2000u);
+  EXPECT_EQ(rink.server().keys().counters().over_limit, 0u);
 }
 
 /// No bot decides more often than every decision_period, nor has more keys than four; one whose
@@ -205,8 +205,8 @@ TEST(Server, FeelsEveryKeyOfABotThatChangesAllItsKeysAtEachDecision) {
     for (int missed = 0; tick == 181 && missed < 40; ++missed) decide(missed % 2 == 0);
     rink.tick();
   }
-  EXPECT_EQ(rink.server().record().size(), sent);
-  EXPECT_EQ(rink.server().counters().keys_over_limit, 0u);
+  EXPECT_EQ(rink.server().keys().recorded().size(), sent);
+  EXPECT_EQ(rink.server().keys().counters().over_limit, 0u);
 }
 
 TEST(Server, CountsAKeyThatDoesNotExistAndPlaysOn) {
@@ -216,8 +216,8 @@ TEST(Server, CountsAKeyThatDoesNotExistAndPlaysOn) {
   const ObjectModel model(rink.client(0).ambassador().fom());
   rink.client(0).ambassador().send_interaction(model.key_down, nonsense, {});
   rink.tick();
-  EXPECT_EQ(rink.server().counters().keys_refused, 1u);
-  EXPECT_TRUE(rink.server().record().empty());
+  EXPECT_EQ(rink.server().keys().counters().refused, 1u);
+  EXPECT_TRUE(rink.server().keys().recorded().empty());
   EXPECT_EQ(rink.client(0).state(), Client::State::playing);
 }
 

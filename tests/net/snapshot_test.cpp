@@ -29,7 +29,7 @@ TEST_P(SnapshotUnderScheme, MirrorsFollowACrowdWithinHalfTheResolutionAtEveryTic
     for (std::size_t k = 0; k < rink.client_count(); ++k) {
       for (const Entity& entity : game.entities()) {
         const MirroredEntity* mirrored =
-            rink.client(k).mirror().find(rink.server().object(entity.id));
+            rink.client(k).mirror().find(rink.server().publisher().object(entity.id));
         if (mirrored == nullptr || !mirrored->in_scope) continue;
         ASSERT_TRUE(mirrored->trajectory.has_value());
         const Vector2 off = mirrored->position_at(game.now()) - game.position(entity.id);
@@ -59,7 +59,8 @@ TEST(Snapshot, TellsVelocitiesToHalfTheirResolution) {
   const Game& game = rink.server().game();
   std::size_t moving = 0;
   for (const Entity& entity : game.entities()) {
-    const MirroredEntity* mirrored = rink.client(0).mirror().find(rink.server().object(entity.id));
+    const MirroredEntity* mirrored =
+        rink.client(0).mirror().find(rink.server().publisher().object(entity.id));
     ASSERT_NE(mirrored, nullptr);
     const physics::Motion motion = game.world().motion(entity.id);
     if (!game.world().is_in_play(entity.id) || game.world().is_resting(entity.id)) continue;

@@ -115,7 +115,7 @@ class SynchronousGame {
 
   Outcome play() {
     TickCosts costs;
-    until([&] { return serving_.server().player_count() == player_count; },
+    until([&] { return serving_.server().seats().player_count() == player_count; },
           [&] {
             if (serving_.server().is_joined()) serving_.send(0.0, 0.0, costs);
           });
@@ -187,7 +187,7 @@ class SynchronousGame {
     Outcome outcome;
     outcome.state_hash = serving_.server().game().hash();
     Game alone(scene_);
-    for (const InputEvent& event : serving_.server().record()) alone.submit(event);
+    for (const InputEvent& event : serving_.server().keys().recorded()) alone.submit(event);
     alone.advance(serving_.server().game().now());
     outcome.replayed_hash = alone.hash();
     outcome.grants = serving_.execution().counters().time_advance_grants;

@@ -60,7 +60,7 @@ std::uint64_t serve(const Scene& scene, const std::vector<InputEvent>& log,
   while (!server.is_started() && now_s() < give_up_s) {
     exchange(5ms);
     if (server.is_joined()) send_tick(0.0, 0.0);
-    if (server.player_count() == 2 && !is_called) {
+    if (server.seats().player_count() == 2 && !is_called) {
       server.call_to_start();
       is_called = true;
     }
@@ -73,7 +73,7 @@ std::uint64_t serve(const Scene& scene, const std::vector<InputEvent>& log,
     send_tick(time, start_s + time);
   }
   const std::uint64_t hash = server.game().hash();
-  while (server.player_count() > 0 && now_s() < give_up_s) exchange(5ms);
+  while (server.seats().player_count() > 0 && now_s() < give_up_s) exchange(5ms);
   return hash;
 }
 

@@ -12,25 +12,28 @@ std::uint32_t team_number(Team team) {
 }  // namespace
 
 void acquaint(const Server& server, rti::FederationExecution& federation) {
-  for (const auto& [object, entity] : server.registered())
+  for (const auto& [object, entity] : server.publisher().registered())
     federation.set_object_role(object,
                                {.team = team_number(entity.team),
                                 .owner = entity.player.value_or(im::Role::none),
                                 .is_always_relevant = server.is_always_relevant(entity.kind)});
-  for (const auto& [federate, player] : server.seated())
+  for (const auto& [federate, player] : server.seats().offered())
     federation.set_federate_role(
         federate, {.team = team_number(server.game().entity(*server.game().bat(player)).team),
                    .owner = player});
   const im::Traits traits = federation.filter().traits();
   if (traits.uses_headings)
-    server.for_each_heading([&](rti::FederateHandle federate, const Vector2& to) {
+    server.seats().for_each([&](rti::FederateHandle federate, const Seats::Seat& seat) {
+      if (!seat.is_offered) return;
+      const Vector2 to = direction(server.game().keys_held(seat.player));
       federation.set_federate_heading(federate, {to.x(), to.y()});
     });
   if (!traits.uses_flights) return;
   // One clock for all matches, which filters may not see go back.
-  federation.set_time(server.earlier() + server.game().now());
-  for (auto [object, flight] : server.flights()) {
-    flight.time += server.earlier();
+  const double earlier_s = server.hosted() ? server.hosted()->earlier_s() : 0.0;
+  federation.set_time(earlier_s + server.game().now());
+  for (auto [object, flight] : server.publisher().flights()) {
+    flight.time += earlier_s;
     federation.set_object_flight(object, flight);
   }
 }

@@ -49,7 +49,7 @@ InterestSeen interest_report(const Server& server, const rti::FederationExecutio
     std::vector<rti::ObjectHandle> scope;
     execution.list_scope(federate, scope);
     for (const rti::ObjectHandle object : scope)
-      if (server.is_entity(object)) seen.heard.push_back(object.value);
+      if (server.publisher().is_entity(object)) seen.heard.push_back(object.value);
   }
   std::ranges::sort(seen.heard);
   seen.view_count = static_cast<std::uint32_t>(seen.views.size());

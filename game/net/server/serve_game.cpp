@@ -31,8 +31,8 @@ ServedGame served_game(const ServeOptions& options) {
 }
 
 KeyLog record_of(const ServedGame& played, const Server& server) {
-  KeyLog log =
-      log_of(server.game(), played.scene, scene_text(played.choice.scene), server.record());
+  KeyLog log = log_of(server.game(), played.scene, scene_text(played.choice.scene),
+                      server.keys().recorded());
   log.scene = played.choice.scene;
   if (played.choice.bat_count > 0) log.bat_count = played.choice.bat_count;
   if (played.choice.puck_count > 0) log.puck_count = played.choice.puck_count;

@@ -55,10 +55,10 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
       {report::dropped_connections,
        std::accumulate(now.drops.begin(), now.drops.end(), std::uint64_t{0}) +
            serving.host().closed_by_full_queue()},
-      {"keys_received", server.counters().keys_received},
-      {"keys_applied", server.counters().keys_applied},
-      {"keys_refused", server.counters().keys_refused},
-      {report::keys_over_limit, server.counters().keys_over_limit}};
+      {"keys_received", server.keys().counters().received},
+      {"keys_applied", server.keys().counters().applied},
+      {"keys_refused", server.keys().counters().refused},
+      {report::keys_over_limit, server.keys().counters().over_limit}};
   report[report::acknowledgements_sent.key] =
       last.transport.acknowledgements_sent - first.transport.acknowledgements_sent;
   const auto segments = [](const rti::TransportCounters& counters) {

@@ -8,27 +8,21 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "game/control/game.h"
-#include "game/control/key_log.h"
-#include "game/control/match_flow.h"
 #include "game/match/interest_seen.h"
 #include "game/net/relevant_kinds.h"
+#include "game/net/server/hosted_match.h"
+#include "game/net/server/match_board.h"
+#include "game/net/server/players/inspections.h"
+#include "game/net/server/players/key_intake.h"
+#include "game/net/server/players/seats.h"
+#include "game/net/server/players/server_turns.h"
 #include "game/replication/publisher.h"
-#include "rti/admission/token_bucket.h"
 #include "rti/ambassador.h"
 
 namespace rink::game {
-
-/// What a server needs to host matches: one game of the scene after the other, for whoever takes
-/// the two seats (docs/play.md, "The match over the network").
-struct Hosting {
-  FlowTimes times;
-  std::string scene_text;  ///< the scene's file: players work out from it what to show, records
-                           ///< need no other; at most SceneText::size_max bytes
-};
 
 /// Key changes per second and player: fast hands make 30, and a bot that decides 20 times a second,
 /// of each of its four keys, never more than 80.
@@ -62,38 +56,27 @@ struct ServerSettings {
 };
 
 struct ServerCounters {
-  std::uint64_t keys_received = 0, keys_applied = 0, keys_refused = 0, federates_lost = 0;
-  std::uint64_t inspections_answered = 0;
-  std::uint64_t keys_over_limit = 0;
-  std::uint32_t player_over_limit = 0;  ///< who sent the last of them
-  std::uint64_t keys_late = 0;  ///< of hosted matches: arrived after the instant for which they
-                                ///< were stamped, by more than 0.1 ms
+  std::uint64_t federates_lost = 0, inspections_answered = 0;
 };
 
 /// The federate that simulates. It reads no clock: `now` tells the simulated instant when a key
 /// arrives, `simulate` how far to go.
 class Server : public rti::FederateAmbassador {
  public:
-  /// `now` [s] is asked once for each arriving key; it never decreases. It is simulated time, or
-  /// real time from any origin if the server hosts matches.
+  /// `now` [s] is asked when a player comes, goes or presses a key; it never decreases. It is
+  /// simulated time, or real time from any origin if the server hosts matches.
   Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& settings,
          std::function<double()> now);
 
   rti::Ambassador& ambassador() { return ambassador_; }
   const Game& game() const { return game_; }
-  /// Simulated time of the matches before this one [s].
-  double earlier() const { return earlier_s_; }
 
   /// True from when the RTI has let the server in.
   bool is_joined() const { return publisher_ != nullptr; }
-  /// Players that have a bat at present.
-  std::uint32_t player_count() const { return player_count_; }
   /// Registers the start barrier over all federates joined by now.
   void call_to_start();
   /// True once every federate has reached the barrier.
-  bool is_started() const { return is_started_; }
-  /// Synchronous mode: true if every player has said `Update` since the last call of `simulate`.
-  bool all_turns_done() const { return player_count_ > 0 && turns_done_ == player_count_; }
+  bool is_started() const { return turns_.is_started(); }
   /// Synchronous mode: true if the next tick may be played; under time management that is when the
   /// RTI says that nothing can come any more that belongs before it.
   bool may_step() const;
@@ -101,86 +84,43 @@ class Server : public rti::FederateAmbassador {
   /// Hosting only: lets real time pass to `real_s` [s], begins the next match if it is time, and
   /// tells how far to simulate.
   double follow_match(double real_s);
-  /// Records of the matches that came to their end, or were given up, since they were last taken;
-  /// the first players' is first.
-  std::vector<KeyLog> take_finished() { return std::exchange(finished_, {}); }
   /// The present match counts as given up, so that there is a record of it.
   void finish_record();
-  /// Whether the last record could not be written: players are told.
-  void set_unrecorded(bool is_unrecorded) { is_unrecorded_ = is_unrecorded; }
   /// Null unless the server hosts matches.
-  const MatchState* match() const { return flow_ ? &flow_->state() : nullptr; }
+  HostedMatch* hosted() { return hosted_ ? &*hosted_ : nullptr; }
+  const HostedMatch* hosted() const { return hosted_ ? &*hosted_ : nullptr; }
   /// True once after something was said that should not wait for the next tick.
-  bool take_urgent() { return std::exchange(is_urgent_, false); }
+  bool take_urgent() { return board_ && board_->take_urgent(); }
 
   /// Advances the game to `until` [s], applying every key at exactly its stamped time.
   void simulate(double until);
   /// Hands all that changed to the ambassador, stamped.
   void publish(const rti::Stamp& stamp);
-
-  /// What `publish` made known the last time: entities with their new objects, and players with
-  /// their federates. For who tells the RTI's filter (acquaint.h).
-  struct Seated {
-    rti::FederateHandle federate;
-    std::uint32_t player = 0;
-  };
-  std::span<const Publisher::Registered> registered() const { return publisher_->registered(); }
-  std::span<const Seated> seated() const { return seated_; }
-  std::span<const Publisher::Flown> flights() const { return publisher_->flights(); }
-  /// From now on `flights` lists what flies otherwise than before, and regions are moved for it
-  /// alone; to be called before the server has joined.
+  /// From now on flights are handed in, and regions are moved for them alone; to be called before
+  /// the server has joined.
   void hand_in_flights() { hands_in_flights_ = true; }
-  /// Where the players' keys push them: calls `visit(federate, direction)` for each that has a bat,
-  /// (0, 0) where no key is held.
-  template <class Visit>
-  void for_each_heading(Visit visit) const {
-    for (std::uint32_t federate = 0; federate < seats_.size(); ++federate)
-      if (seats_[federate] && seats_[federate]->is_offered)
-        visit(rti::FederateHandle{federate}, direction(game_.keys_held(seats_[federate]->player)));
-  }
+
+  /// Who plays; the bat of one who was told of his seat is there.
+  const Seats& seats() const { return seats_; }
+  /// Every input applied so far, as stamped: a log that replays to the same state hash.
+  const KeyIntake& keys() const { return keys_; }
+  /// What was said of entities, and by which objects; it must have joined.
+  const Publisher& publisher() const { return *publisher_; }
   /// Whether what is of `kind` is relevant to everybody, for the scheme `always`.
   bool is_always_relevant(physics::BodyKind kind) const { return always_relevant_.has(kind); }
-
-  /// The RTI object of an entity of the game.
-  rti::ObjectHandle object(EntityId entity) const { return publisher_->object(entity); }
-  /// The federate that plays `player`, if any does.
-  std::optional<rti::FederateHandle> federate_of(std::uint32_t player) const;
   /// The bat that `federate` plays; no handle if it plays none, or its bat is not there yet.
   rti::ObjectHandle bat_of(rti::FederateHandle federate) const;
-  bool is_entity(rti::ObjectHandle object) const { return publisher_->is_entity(object); }
 
-  /// Who asked what interest management decided of which object, since it was last taken
-  /// (interest_report.h). Players are not answered: they are to see what their filter lets them.
-  struct Inspecting {
-    rti::FederateHandle federate;
-    rti::ObjectHandle object;
-  };
-  std::vector<Inspecting> take_inspections() { return std::exchange(inspections_, {}); }
+  /// Who asked what interest management decided (interest_report.h). Players are not answered: they
+  /// are to see what their filter lets them.
+  Inspections& inspections() { return inspections_; }
   void tell_interest(rti::FederateHandle federate, InterestSeen seen);
 
-  /// Every input applied so far, as stamped: a log that replays to the same state hash.
-  const std::vector<InputEvent>& record() const { return record_; }
-  /// What was said of entities; it must have joined.
-  const PublisherCounters& published() const { return publisher_->counters(); }
   const ServerCounters& counters() const { return counters_; }
-  const std::string& trouble() const {
-    return trouble_;
-  }  ///< why the RTI refused or left us; empty while all is well
+  /// Why the RTI refused or left us; empty while all is well.
+  const std::string& trouble() const { return trouble_; }
 
  private:
-  struct Seat {
-    std::uint32_t player = 0;
-    bool is_offered = false;  ///< the player has been told
-    bool is_turn_done = false;
-    KeysHeld held;               ///< once all that was submitted is felt
-    double last_key_s = 0.0;     ///< the simulated instant of the last one
-    rti::TokenBucket allowance;  ///< of key changes
-  };
-  struct Pending {
-    double time;
-    std::uint32_t player;
-  };
-
   void joined(rti::FederateHandle federate) override;
   void join_refused(rti::Refusal refusal, std::string_view why) override;
   void connection_lost(std::string_view why) override;
@@ -195,27 +135,16 @@ class Server : public rti::FederateAmbassador {
                          rti::ResignReason reason) override;
   void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters,
                            rti::FederateHandle sender, const rti::Stamp& stamp) override;
-
   void time_regulation_enabled(rti::LogicalTime time) override;
-  void keep_time();
+
   void ask_for_turns();
   void tell_pace(std::optional<rti::FederateHandle> federate, double now);
-  std::optional<std::uint32_t> free_seat(std::string_view federate_name) const;
   void offer_seat(rti::FederateHandle federate, const SeatOffer& offer);
-  void offer_seats();
-  void receive_key(Seat& seat, rti::Bytes parameters, bool is_down, double wanted_s);
-  void receive_wish(Seat& seat, rti::InteractionClassHandle interaction, rti::Bytes parameters);
-  void answer(rti::FederateHandle sender, std::uint64_t number);
-  void note_inspection(rti::FederateHandle sender, rti::Bytes parameters);
-  void publish_match(const rti::Stamp& stamp);
-  void announce_match();
+  bool offer_bat(rti::FederateHandle federate, std::uint32_t player);
+  void receive_key(std::uint32_t player, bool is_down, rti::Bytes parameters, double wanted_s);
   void begin_match();
-  void release_keys(Seat& seat);
-  bool are_keys_felt() const;
-  double simulated_now() const { return simulated_at_clock(now_()); }
   double simulated_at_clock(double now) const;
-  void submit(const InputEvent& event);
-  Seat* seat_of(rti::FederateHandle federate);
+  void submit(const InputEvent& event) { keys_.record(game_.submit(event)); }
 
   ObjectModel model_;
   std::function<double()> now_;
@@ -225,39 +154,16 @@ class Server : public rti::FederateAmbassador {
   RegionSweep sweep_;
   rti::Ambassador ambassador_;
   std::unique_ptr<Publisher> publisher_;
-  std::vector<std::optional<Seat>> seats_;  ///< by federate
-  std::vector<bool> is_taken_;              ///< by player
-  std::vector<bool>
-      is_leaving_;  ///< by player: the bat is to go at an instant that has not been played yet
-  std::vector<Pending> pending_;     ///< keys received, not yet felt
-  std::vector<std::uint32_t> felt_;  ///< by player
-  std::vector<InputEvent> record_;
-  std::vector<Inspecting> inspections_;  ///< at most one of each federate
-  std::vector<Seated> seated_;
+  Seats seats_;
+  KeyIntake keys_;
+  ServerTurns turns_;
+  std::optional<HostedMatch> hosted_;
+  std::optional<MatchBoard> board_;  ///< of a hosted match, once the server has joined
+  Inspections inspections_;
   RelevantKinds always_relevant_;
-  std::uint32_t player_count_ = 0, turns_done_ = 0;
-  double key_limit_per_s_;
-  bool is_synchronous_, is_time_managed_;
   bool hands_in_flights_ = false;
-  bool is_called_ = false, is_started_ = false;  ///< the players, to the start
   std::string trouble_;
   ServerCounters counters_;
-
-  // Of a server that hosts matches.
-  std::optional<Hosting> hosting_;
-  std::optional<Scene> scene_;
-  std::optional<MatchFlow> flow_;
-  std::optional<MatchState> published_match_;
-  rti::ObjectHandle match_;
-  double earlier_s_ = 0.0;
-  std::uint32_t match_number_ = 0;
-  std::vector<KeyLog> finished_;
-  double tick_s_;
-  bool has_stepped_ =
-      false;  ///< since players were last told so, in synchronous mode without time management
-  bool is_recorded_ = false;    ///< the present match
-  bool is_unrecorded_ = false;  ///< what was played last could not be written
-  bool is_urgent_ = false;
 };
 
 }  // namespace rink::game

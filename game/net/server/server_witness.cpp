@@ -35,7 +35,7 @@ void ServerWitness::look(const Server& server, const rti::FederationExecution& e
 /// object.
 void ServerWitness::name_objects(const Server& server) {
   const auto name = [&](const Entity& entity) {
-    evidence_.objects.push_back({server.object(entity.id).value, entity.id.index});
+    evidence_.objects.push_back({server.publisher().object(entity.id).value, entity.id.index});
   };
   if (!are_named_) {
     for (const Entity& entity : server.game().entities()) name(entity);
@@ -56,7 +56,7 @@ void ServerWitness::note_decisions(const Server& server, const rti::FederationEx
       std::clamp<std::size_t>(settings_.record_max / largest, 1, players_.size());
   for (std::size_t i = 0; i < at_once; ++i, ++next_player_) {
     const std::uint32_t player = players_[next_player_ % players_.size()];
-    const auto federate = server.federate_of(player);
+    const auto federate = server.seats().federate_of(player);
     if (!federate || !server.game().bat(player)) continue;
     listed_.clear();
     execution.list_scope(*federate, listed_);
@@ -70,7 +70,7 @@ void ServerWitness::note_decisions(const Server& server, const rti::FederationEx
 ServerEvidence ServerWitness::evidence(const Server& server) const {
   ServerEvidence result = evidence_;
   result.state_hash = server.game().hash();
-  result.keys = server.record();
+  result.keys = server.keys().recorded();
   for (const ServerEvidence::Decision& decision : result.decisions)
     std::sort(result.in_scope.begin() + static_cast<std::ptrdiff_t>(decision.first),
               result.in_scope.begin() + static_cast<std::ptrdiff_t>(decision.last));

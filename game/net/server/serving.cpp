@@ -63,7 +63,7 @@ TickCosts Serving::tick(double simulated_s, double due_s) {
   server_.simulate(simulated_s);
   watch.add_to(costs.physics_s);
   send(simulated_s, due_s, costs);
-  for (const Server::Inspecting& each : server_.take_inspections())
+  for (const Inspections::Question& each : server_.inspections().take())
     server_.tell_interest(each.federate, interest_report(server_, execution_, each.object));
   if (witness_)
     witness_->look(server_, execution_,
@@ -80,7 +80,7 @@ std::optional<ServerEvidence> Serving::evidence() const {
 void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
   Stopwatch watch(now_s_);
   const bool is_hosting =
-      server_.match() !=
+      server_.hosted() !=
       nullptr;  // players of matches ask for the time instead, and are spared the bytes of the tag
   server_.publish({.time = simulated_s,
                    .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});

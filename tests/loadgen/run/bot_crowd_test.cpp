@@ -88,7 +88,7 @@ class StalledCrowd : public testing::Test {
       if (serving_.server().is_joined()) serving_.send(0.0, 0.0, uncounted);
       crowd_->run_once();
     };
-    while (serving_.server().player_count() < bots) step();
+    while (serving_.server().seats().player_count() < bots) step();
     serving_.server().call_to_start();
     while (!serving_.server().is_started()) step();
     start_ns_ = (network_.now_ns() / second_ns + 1) * second_ns;

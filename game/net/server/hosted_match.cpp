@@ -1,0 +1,59 @@
+// Simulated time stops on a coarse grid while a match is played, so that its stamps are short.
+#include "game/net/server/hosted_match.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "game/control/replay.h"
+#include "game/model/time_grid.h"
+
+namespace rink::game {
+
+HostedMatch::HostedMatch(const Hosting& hosting, const Scene& scene)
+    : hosting_(hosting), scene_(scene), flow_(hosting.times) {
+  assert(!match_objection(scene));
+}
+
+bool HostedMatch::advance(double now_s) {
+  flow_.advance(now_s);
+  return flow_.state().number != number_;
+}
+
+Game HostedMatch::begin(const Game& last) {
+  is_recorded_ = false;
+  number_ = flow_.state().number;
+  earlier_s_ += last.now();
+  return Game(scene_);
+}
+
+double HostedMatch::goal(double now_s, double played) const {
+  if (flow_.state().phase == MatchPhase::countdown) return played;
+  const double now = simulated(now_s);
+  return std::max(played, flow_.runs() ? last_on(tick_grid, now) : now);
+}
+
+void HostedMatch::judge(const Game& game) {
+  if (!flow_.runs() || !game.is_over()) return;
+  const MatchState& match = flow_.state();
+  flow_.win(game.score().left > game.score().right ? Team::left : Team::right,
+            match.clock_real_s + game.now() - match.clock_simulated_s);
+}
+
+bool HostedMatch::are_keys_felt() const {
+  const MatchPhase phase = flow_.state().phase;
+  return phase != MatchPhase::waiting && phase != MatchPhase::over;
+}
+
+MatchState HostedMatch::state() const {
+  MatchState state = flow_.state();
+  state.is_unrecorded = is_unrecorded_;
+  return state;
+}
+
+void HostedMatch::finish(const Game& game, std::vector<InputEvent> events) {
+  assert(is_unfinished(game));
+  is_recorded_ = true;
+  finished_.push_back(log_of(game, scene_, hosting_.scene_text, std::move(events)));
+}
+
+}  // namespace rink::game

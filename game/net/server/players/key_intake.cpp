@@ -1,0 +1,99 @@
+// A key that is over its player's limit is acknowledged like any other, so that he does not wait
+// for it.
+#include "game/net/server/players/key_intake.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "game/model/time_grid.h"
+#include "game/replication/attributes.h"
+
+namespace rink::game {
+namespace {
+
+/// How far ahead a player may stamp its keys [s]: what it needs against jitter is far less, and who
+/// stamps them later only hurts itself.
+constexpr double key_lead_max = 0.25;
+
+}  // namespace
+
+KeyIntake::KeyIntake(std::uint32_t player_count, double limit_per_s)
+    : limit_per_s_(limit_per_s),
+      hands_(player_count, Hand{.held = {}, .allowance = {limit_per_s, 0.0}}),
+      felt_(player_count) {}
+
+void KeyIntake::enter(std::uint32_t player, double now_s) {
+  assert(player < hands_.size());
+  hands_[player] = {.held = {}, .allowance = {limit_per_s_, now_s}};
+  felt_[player] = 0;
+}
+
+void KeyIntake::leave(std::uint32_t player) {
+  std::erase_if(waiting_, [player](const Waiting& key) { return key.player == player; });
+}
+
+std::optional<InputEvent> KeyIntake::accept(std::uint32_t player, bool is_down, rti::Bytes message,
+                                            const KeyArrival& arrival) {
+  assert(player < hands_.size());
+  ++counters_.received;
+  KeyCharacter character;
+  const std::optional<Key> key = decode(message, character)
+                                     ? key_from_character(static_cast<char>(character.character))
+                                     : std::nullopt;
+  if (!key) {
+    ++counters_.refused;
+    return std::nullopt;
+  }
+  Hand& hand = hands_[player];
+  const double time = stamp(hand, arrival);
+  waiting_.push_back({.time = time, .player = player});
+  if (!hand.allowance.take(1.0, arrival.now_s)) {
+    ++counters_.over_limit;
+    counters_.player_over_limit = player;
+    return std::nullopt;
+  }
+  if (!arrival.is_felt) return std::nullopt;
+  hand.held.set(*key, is_down);
+  return InputEvent{.time = time,
+                    .player = player,
+                    .kind = is_down ? InputKind::key_down : InputKind::key_up,
+                    .key = *key};
+}
+
+double KeyIntake::stamp(Hand& hand, const KeyArrival& arrival) {
+  const double earliest = arrival.simulated_s;
+  if (!arrival.wanted_s) return earliest;
+  if (*arrival.wanted_s < earliest - 1e-4) ++counters_.late;
+  const double wanted = std::min(*arrival.wanted_s, earliest + key_lead_max);
+  return hand.last_key_s = next_on(key_grid, std::max({earliest, hand.last_key_s, wanted}));
+}
+
+std::vector<InputEvent> KeyIntake::release(std::uint32_t player, double simulated_s) {
+  assert(player < hands_.size());
+  Hand& hand = hands_[player];
+  const double time = next_on(key_grid, std::max(simulated_s, hand.last_key_s));
+  std::vector<InputEvent> events;
+  for (const Key key : all_keys)
+    if (hand.held.is_down(key))
+      events.push_back({.time = time, .player = player, .kind = InputKind::key_up, .key = key});
+  hand.held = {};
+  return events;
+}
+
+void KeyIntake::feel_until(double until) {
+  std::erase_if(waiting_, [&](const Waiting& key) {
+    if (key.time > until) return false;
+    ++felt_[key.player];
+    ++counters_.applied;
+    return true;
+  });
+}
+
+void KeyIntake::begin() {
+  for (const Waiting& key : waiting_) ++felt_[key.player];
+  waiting_.clear();
+  for (Hand& hand : hands_) hand.held = {}, hand.last_key_s = 0.0;
+  record_.clear();
+}
+
+}  // namespace rink::game

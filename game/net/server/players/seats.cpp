@@ -1,0 +1,63 @@
+// Looks for free seats by name first, so that a player who comes back finds his own bat.
+#include "game/net/server/players/seats.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "game/replication/names.h"
+
+namespace rink::game {
+
+std::optional<std::uint32_t> Seats::free(std::string_view federate_name) const {
+  for (std::uint32_t player = 0; player < is_taken_.size(); ++player)
+    if (!is_taken_[player] && federate_name == bat_name(player)) return player;
+  const auto free = std::find(is_taken_.begin(), is_taken_.end(), false);
+  if (free == is_taken_.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(free - is_taken_.begin());
+}
+
+void Seats::enter(rti::FederateHandle federate, std::uint32_t player) {
+  assert(player < is_taken_.size() && !is_taken_[player] && find(federate) == nullptr);
+  if (seats_.size() <= federate.value) seats_.resize(federate.value + std::size_t{1});
+  seats_[federate.value] = Seat{.player = player};
+  is_taken_[player] = true;
+  is_leaving_[player] = false;
+  ++player_count_;
+}
+
+void Seats::leave(rti::FederateHandle federate, bool takes_bat) {
+  assert(find(federate) != nullptr);
+  const Seat seat = *seats_[federate.value];
+  if (seat.is_turn_done) --turns_done_;
+  --player_count_;
+  is_taken_[seat.player] = false;
+  if (takes_bat) is_leaving_[seat.player] = true;
+  seats_[federate.value].reset();
+}
+
+const Seats::Seat* Seats::find(rti::FederateHandle federate) const {
+  return federate.value < seats_.size() && seats_[federate.value] ? &*seats_[federate.value]
+                                                                  : nullptr;
+}
+
+std::optional<rti::FederateHandle> Seats::federate_of(std::uint32_t player) const {
+  for (std::uint32_t federate = 0; federate < seats_.size(); ++federate)
+    if (seats_[federate] && seats_[federate]->player == player)
+      return rti::FederateHandle{federate};
+  return std::nullopt;
+}
+
+void Seats::end_turn(rti::FederateHandle federate) {
+  assert(find(federate) != nullptr);
+  Seat& seat = *seats_[federate.value];
+  turns_done_ += seat.is_turn_done ? 0u : 1u;
+  seat.is_turn_done = true;
+}
+
+void Seats::begin_turns() {
+  for (std::optional<Seat>& seat : seats_)
+    if (seat) seat->is_turn_done = false;
+  turns_done_ = 0;
+}
+
+}  // namespace rink::game

@@ -1,0 +1,56 @@
+// How a server ticks, as its players are told, and when it may: by its own timer, by turns, or in
+// logical time.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "game/net/tick_grid.h"
+#include "game/replication/attributes.h"
+
+namespace rink::game {
+
+struct TurnSettings {
+  double tick_s = 1.0 / 30.0;  ///< between two ticks
+  bool is_synchronous = false, is_time_managed = false;
+};
+
+/// Sends nothing itself. Times are simulated [s]; `granted` is the logical time that the RTI has
+/// granted to the server.
+class ServerTurns {
+ public:
+  explicit ServerTurns(const TurnSettings& settings) : settings_(settings) {}
+
+  bool is_time_managed() const { return settings_.is_time_managed; }
+  double tick_s() const { return settings_.tick_s; }
+  double lookahead() const { return grid().lookahead(); }
+  /// Whether who sits down has to know the pace.
+  bool concerns_players() const { return settings_.is_synchronous || settings_.is_time_managed; }
+  Pace pace() const;
+
+  /// The players have been called to the start, and they have all come.
+  void call() { is_called_ = true; }
+  void start() { is_started_ = true; }
+  bool is_started() const { return is_started_; }
+
+  void stepped() { has_stepped_ = true; }
+  /// True once after a step of which only the server can tell players.
+  bool take_step() {
+    return std::exchange(has_stepped_, false) && settings_.is_synchronous &&
+           !settings_.is_time_managed;
+  }
+  /// The logical time to ask for, if the RTI is to be asked now that all up to `played` was said.
+  std::optional<double> wanted(double played, double granted) const;
+  /// Whether the tick after `played` may come: nothing can be said any more that belongs before it.
+  bool may_step(bool are_all_turns_done, double played, double granted) const;
+
+ private:
+  TickGrid grid() const { return {1.0 / settings_.tick_s}; }
+
+  TurnSettings settings_;
+  bool is_called_ = false, is_started_ = false;
+  bool has_stepped_ = false;  ///< since players were last told so
+};
+
+}  // namespace rink::game
