@@ -96,7 +96,7 @@ game::ExitStatus play(const Options& options) {
     for (const auto& rival : rivals) {
       if (rival->match.sight().phase != game::MatchPhase::lost) continue;
       game::complain(rival->match.sight().notice);
-      const auto refusal = rival->match.client().refusal();
+      const auto refusal = rival->match.client().joining().refusal();
       return refusal ? game::exit_status(*refusal) : game::ExitStatus::connection_lost;
     }
     const bool is_over = rivals[0]->match.sight().phase == game::MatchPhase::over &&

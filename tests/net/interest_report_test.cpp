@@ -69,17 +69,17 @@ TEST(AnInterestReport, IsSentToTheWatcherWhoAsksAndCostsNobodyAnythingElse) {
   for (int tick = 0; tick < 30; ++tick) rink.tick(), answer(rink);
   EXPECT_EQ(rink.execution().counters().interactions_sent, before);
   EXPECT_EQ(rink.server().counters().inspections_answered, 0u);
-  watcher.inspect(rink.client(2).bat()->object);
-  watcher.inspect(rink.client(1).bat()->object);
+  watcher.questions()->ask(rink.client(2).bat()->object);
+  watcher.questions()->ask(rink.client(1).bat()->object);
   rink.settle();
   answer(rink);
   EXPECT_EQ(rink.execution().counters().interactions_sent, before + 3)
       << "two questions, one answer";
-  const std::optional<InterestSeen> told = watcher.take_interest();
+  const std::optional<InterestSeen> told = watcher.questions()->take();
   ASSERT_TRUE(told);
   EXPECT_EQ(*told, interest_report(rink.server(), rink.execution(), rink.client(1).bat()->object))
       << "the later question counts";
-  EXPECT_FALSE(watcher.take_interest());
+  EXPECT_FALSE(watcher.questions()->take());
 }
 
 TEST(AnInterestReport, ReadsBackAsItWasWritten) {

@@ -82,7 +82,7 @@ TEST(Server, TellsAPlayerTooManyThatNoBatIsFree) {
   Client& third = rink.add_client("third");
   rink.start();
   EXPECT_EQ(third.state(), Client::State::refused);
-  EXPECT_EQ(third.trouble(), "no bat is free");
+  EXPECT_EQ(third.joining().trouble(), "no bat is free");
   EXPECT_EQ(rink.client(1).state(), Client::State::playing);
 }
 

@@ -7,11 +7,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "game/match/interest_seen.h"
 #include "game/model/key.h"
+#include "game/net/client/following_view.h"
+#include "game/net/client/heard_log.h"
+#include "game/net/client/interest_questions.h"
+#include "game/net/client/joining.h"
+#include "game/net/client/match_remote.h"
+#include "game/net/client/turn_taker.h"
 #include "game/replication/mirror.h"
 #include "rti/ambassador.h"
 
@@ -38,24 +42,10 @@ struct ClientSettings {
   bool only_watches = false;  ///< takes no bat; sees the whole field
 };
 
-/// What a watched client was told since it was last asked, in order of arrival.
-struct Heard {
-  struct Scope {
-    rti::ObjectHandle object;
-    bool is_in = false;
-  };
-  struct Update {
-    rti::ObjectHandle object;
-    std::uint32_t bytes = 0;  ///< of its values
-  };
-  std::vector<Scope> scopes;
-  std::vector<Update> updates;
-};
-
 /// One player's federate. No clock, no socket: `ambassador` takes and gives the bytes.
 class Client : public rti::FederateAmbassador {
  public:
-  enum class State : std::uint8_t { joining, seated, ready, playing, refused, lost };
+  using State = Joining::State;
 
   Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettings& settings);
   Client(const Client&) = delete;
@@ -69,22 +59,11 @@ class Client : public rti::FederateAmbassador {
   /// there; else at its arrival, as in every other game.
   void press(Key key, double instant = 0.0);
   void release(Key key, double instant = 0.0);
-  /// Of a hosted match: stops it or has it go on, asks for another, asks the server for its time.
-  void pause(bool is_wanted);
-  void ask_rematch();
-  void ping(std::uint64_t number);
-  /// Of one who only watches: asks what the server's filter decides of `object`.
-  void inspect(rti::ObjectHandle object);
+  std::uint32_t keys_sent() const { return keys_sent_; }
   /// Synchronous mode: says that this player's turn is done; under time management it then asks to
-  /// advance to the next tick, so only while has_turn() (asserted).
+  /// advance to the next tick, so only while it has the turn (asserted).
   void end_turn();
-  /// True while the server waits for this player's turn, as far as it has told; false of one that
-  /// ticks by its own timer.
-  bool has_turn() const { return has_turn_; }
-  bool is_synchronous() const { return pace_ && pace_->is_synchronous != 0; }
-  bool is_time_managed() const { return pace_ && pace_->is_time_managed != 0; }
-  /// Synchronous mode: the simulated instant [s] of the newest tick that was heard of.
-  double turn_s() const { return turn_s_; }
+  const TurnTaker& turns() const { return turns_; }
   /// Moves the interest region to where the bat was last seen; call it after each batch received.
   /// Sends nothing if the bat did not move (by half the margin).
   void follow_bat() { follow_bat(mirror_.newest().time); }
@@ -102,34 +81,19 @@ class Client : public rti::FederateAmbassador {
   /// tick long before; it calls nothing.
   std::function<void(const rti::Stamp&)> on_news;
 
-  /// Makes the client keep what it hears, for who measures it; off at first.
-  void watch() { is_watched_ = true; }
-  const Heard& heard() const { return heard_; }
-  void forget_heard();
+  /// What it hears, for who measures it; off at first.
+  HeardLog& heard() { return heard_; }
+  /// Null unless it plays hosted matches.
+  MatchRemote* remote() { return remote_ ? &*remote_ : nullptr; }
+  /// Null unless it only watches.
+  InterestQuestions* questions() { return questions_ ? &*questions_ : nullptr; }
 
-  State state() const { return state_; }
-  /// Why the state is refused or lost.
-  const std::string& trouble() const { return trouble_; }
-  /// Why the RTI refused the join, if it did.
-  std::optional<rti::Refusal> refusal() const { return refusal_; }
+  State state() const { return joining_.state(); }
+  const Joining& joining() const { return joining_; }
   /// The interest region as last declared; it follows the bat by one round trip.
-  const im::Region& view() const { return view_bounds_; }
+  const im::Region& view() const { return view_.bounds(); }
   /// The own bat as last heard of; null before the first update.
   const MirroredEntity* bat() const { return mirror_.find(bat_); }
-  /// The bat that was given to this player, once it was.
-  std::optional<std::uint32_t> bat_number() const {
-    return seat_ ? std::optional(seat_->bat) : std::nullopt;
-  }
-  /// The server's answer to ping(): which, and when it arrived on the server's real clock [s];
-  /// given once.
-  struct Pong {
-    std::uint64_t number = 0;
-    double server_s = 0.0;
-  };
-  std::optional<Pong> take_pong() { return std::exchange(pong_, std::nullopt); }
-  /// The server's answer to inspect(); given once.
-  std::optional<InterestSeen> take_interest() { return std::exchange(interest_, std::nullopt); }
-  std::uint32_t keys_sent() const { return keys_sent_; }
   const Mirror& mirror() const { return mirror_; }
   /// All that it keeps: itself, tables and buffers [bytes].
   std::size_t memory_bytes() const {
@@ -162,9 +126,6 @@ class Client : public rti::FederateAmbassador {
   void begin_time();
   void ask_for_tick();
   void pass_if_absent();
-  void set_scope(rti::ObjectHandle object, bool is_in);
-  bool is_state_on_entry(rti::ObjectHandle object) const;
-  void receive_interest(rti::Bytes parameters);
   void send_key(rti::InteractionClassHandle interaction, Key key, double instant);
   void look_around(const Position& centre);
   void subscribe_once_seated();
@@ -174,27 +135,17 @@ class Client : public rti::FederateAmbassador {
   ClientSettings settings_;
   Mirror mirror_;
   rti::Ambassador ambassador_;
+  Joining joining_;
+  TurnTaker turns_;
   rti::ObjectHandle bat_;
-  rti::RegionHandle view_;
-  std::optional<SeatOffer> seat_;
-  std::optional<Pace> pace_;
-  bool has_turn_ = false;
-  bool awaits_bounds_ = false;  ///< asked how far the server's time is
-  std::uint64_t grants_ = 0;
-  double galt_ = 0.0, turn_s_ = 0.0;
-  std::optional<Pong> pong_;
-  std::optional<InterestSeen> interest_;
-  Position centre_;
-  im::Region view_bounds_;
+  rti::RegionHandle region_;  ///< that is declared as the view
+  FollowingView view_;
   std::vector<std::byte> encoded_;
-  Heard heard_;
   rti::Stamp news_;  ///< of the newest update that was no state on entry
-  bool is_watched_ = false;
-  bool is_called_ = false;  ///< to the start barrier
   std::uint32_t keys_sent_ = 0;
-  State state_ = State::joining;
-  std::string trouble_;
-  std::optional<rti::Refusal> refusal_;
+  std::optional<MatchRemote> remote_;
+  std::optional<InterestQuestions> questions_;
+  HeardLog heard_;
 };
 
 }  // namespace rink::game

@@ -69,11 +69,12 @@ void NetworkMatch::press(std::uint32_t, Key key, bool is_down) {
 
 void NetworkMatch::pause(bool is_wanted) {
   if (client_.state() == Client::State::playing && !settings_.only_watches)
-    client_.pause(is_wanted);
+    client_.remote()->pause(is_wanted);
 }
 
 void NetworkMatch::rematch() {
-  if (client_.state() == Client::State::playing && !settings_.only_watches) client_.ask_rematch();
+  if (client_.state() == Client::State::playing && !settings_.only_watches)
+    client_.remote()->ask_rematch();
 }
 
 void NetworkMatch::leave(double now_s) {
@@ -104,17 +105,18 @@ void NetworkMatch::converse(double now_s) {
                                     ? "the host refuses: "
                                     : "no answer from the host: ";
   if (client_.state() == Client::State::refused || client_.state() == Client::State::lost)
-    lose(beginning + client_.trouble());
+    lose(beginning + client_.joining().trouble());
   else if (link_.is_finished())
     lose(beginning + "the connection is closed: " + rti::to_string(link_.close_reason()));
   else if (!settings_.only_watches && joined_s_ && now_s > *joined_s_ + match_patience_s &&
            !client_.mirror().has_match())
     lose("no match is hosted there; what goes on can be watched");
   if (!trouble_.empty()) return;
-  if (const auto pong = client_.take_pong()) clock_.answered(pong->number, pong->server_s, now_s);
+  if (const auto pong = client_.remote()->take_pong())
+    clock_.answered(pong->number, pong->server_s, now_s);
   clock_.advance(now_s);
   if (!client_.ambassador().is_joined() || !client_.mirror().has_match()) return;
-  if (const auto question = clock_.ask(now_s)) client_.ping(*question);
+  if (const auto question = clock_.ask(now_s)) client_.remote()->ping(*question);
 }
 
 void NetworkMatch::lose(const std::string& why) {

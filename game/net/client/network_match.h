@@ -52,7 +52,8 @@ class NetworkMatch final : public MatchSource {
   const Scene* scene() const { return scene_ ? &*scene_ : nullptr; }
   /// The player whose bat this is, once it is known.
   std::optional<std::uint32_t> player() const {
-    return settings_.only_watches ? std::nullopt : client_.bat_number();
+    const std::optional<SeatOffer>& seat = client_.joining().seat();
+    return seat && !settings_.only_watches ? std::optional(seat->bat) : std::nullopt;
   }
 
  private:

@@ -79,13 +79,15 @@ void NetworkMatch::show_state(double now_s) {
 
 /// What is shown was decided up to a tenth of a second and a round trip ago.
 void NetworkMatch::show_interest(double now_s) {
-  if (auto told = client_.take_interest(); told && inspected_) sight_.interest = std::move(told);
+  InterestQuestions* const questions = client_.questions();
+  if (questions == nullptr) return;
+  if (auto told = questions->take(); told && inspected_) sight_.interest = std::move(told);
   const std::optional<std::uint32_t> wanted = std::exchange(inspected_, std::nullopt);
   if (!wanted) sight_.interest.reset();
   if (!wanted || sight_.phase != MatchPhase::playing || client_.mirror().has_match() ||
       now_s < inspected_s_ + 0.1)
     return;
-  client_.inspect(rti::ObjectHandle{*wanted});
+  questions->ask(rti::ObjectHandle{*wanted});
   inspected_s_ = now_s;
 }
 

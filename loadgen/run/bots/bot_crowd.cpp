@@ -126,12 +126,12 @@ void BotCrowd::after_receiving(Bot& bot) {
   const game::MirroredEntity* own = bot.client.bat();
   if (own != nullptr && !is_synchronous_ && !(own->trajectory && origin_s_))
     bot.client.follow_bat();
-  const std::optional<rti::Refusal> refusal = bot.client.refusal();
+  const std::optional<rti::Refusal> refusal = bot.client.joining().refusal();
   if (bot.client.state() == game::Client::State::refused)
-    lose(bot, bot.client.trouble(),
+    lose(bot, bot.client.joining().trouble(),
          refusal ? game::exit_status(*refusal) : game::ExitStatus::not_admitted);
   if (bot.client.state() == game::Client::State::lost)
-    lose(bot, bot.client.trouble(), game::ExitStatus::connection_lost);
+    lose(bot, bot.client.joining().trouble(), game::ExitStatus::connection_lost);
   send(bot);
 }
 
@@ -226,8 +226,9 @@ void BotCrowd::start_clock(double origin_s, double simulated_s) {
 /// looks about, and hands the turn back.
 void BotCrowd::take_turn(Bot& bot) {
   game::Client& client = bot.client;
-  if (bot.is_lost || !client.has_turn() || client.state() != game::Client::State::playing) return;
-  const double instant = client.turn_s();
+  if (bot.is_lost || !client.turns().has_turn() || client.state() != game::Client::State::playing)
+    return;
+  const double instant = client.turns().turn_s();
   is_synchronous_ = true;
   turn_s_ = std::max(turn_s_, instant);
   if (!origin_s_) start_clock(now_s_(), instant);

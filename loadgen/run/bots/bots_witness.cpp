@@ -16,7 +16,7 @@ BotsWitness::BotsWitness(const game::SamplingSettings& settings,
   for (const std::uint32_t bot : game::sampled_players(settings)) {
     place_[bot] = static_cast<std::uint32_t>(clients_.size());
     clients_.push_back(clients[bot]);
-    clients[bot]->watch();
+    clients[bot]->heard().watch();
   }
   received_.resize(clients_.size());
   matched_s_.resize(clients_.size());
@@ -33,7 +33,7 @@ void BotsWitness::listen(std::uint32_t bot, std::optional<double> simulated_s) {
   game::Client& client = *clients_[place];
   const double instant_s = simulated_s.value_or(-1.0);
   std::vector<rti::ObjectHandle>& awaited = awaited_[place];
-  for (const game::Heard::Scope& scope : client.heard().scopes) {
+  for (const game::HeardLog::Scope& scope : client.heard().scopes()) {
     if (scope.is_in) awaited.push_back(scope.object);
     else if (std::erase(awaited, scope.object) == 0)
       note(place, {instant_s, scope.object.value, false});
@@ -45,10 +45,10 @@ void BotsWitness::listen(std::uint32_t bot, std::optional<double> simulated_s) {
     return true;
   });
   if (next_instant_ < instants_.size() && instant_s >= instants_[next_instant_] - window_s)
-    for (const game::Heard::Update& update : client.heard().updates)
+    for (const game::HeardLog::Update& update : client.heard().updates())
       received_[place].push_back({instant_s, update.object.value, update.bytes});
   if (simulated_s) matched_s_[place] = std::max(matched_s_[place], client.mirror().newest().time);
-  client.forget_heard();
+  client.heard().forget();
 }
 
 void BotsWitness::note(std::uint32_t place, const BotsEvidence::ScopeChange& change) {

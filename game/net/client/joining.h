@@ -1,0 +1,52 @@
+// How far a client has come on its way into the game: a seat, the start barrier, or why not.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "game/replication/attributes.h"
+#include "rti/membership.h"
+
+namespace rink::game {
+
+class Joining {
+ public:
+  enum class State : std::uint8_t { joining, seated, ready, playing, refused, lost };
+
+  State state() const { return state_; }
+  /// Why the state is refused or lost.
+  const std::string& trouble() const { return trouble_; }
+  /// Why the RTI refused the join, if it did.
+  const std::optional<rti::Refusal>& refusal() const { return refusal_; }
+  const std::optional<SeatOffer>& seat() const { return seat_; }
+
+  void refuse(rti::Refusal refusal, std::string_view why);
+  void lose(std::string_view why);
+  /// False if the server says that there is no seat; then it is refused. An offer that was not
+  /// waited for changes nothing.
+  bool offer(const SeatOffer& offer);
+  /// It has subscribed around its seat.
+  void sit_down();
+  /// It wants no bat, and watches from now on.
+  void watch();
+  /// The own bat is in sight.
+  void see_bat();
+  /// It is called to the start barrier; take_call() is true once, when it can go there.
+  void call() { is_called_ = true; }
+  bool take_call() { return state_ == State::ready && std::exchange(is_called_, false); }
+  /// Nobody waits for it any more: all are at the barrier, or it came late. Without effect unless
+  /// it is ready.
+  void play();
+
+ private:
+  State state_ = State::joining;
+  bool is_called_ = false;  ///< to the start barrier
+  std::optional<SeatOffer> seat_;
+  std::optional<rti::Refusal> refusal_;
+  std::string trouble_;
+};
+
+}  // namespace rink::game

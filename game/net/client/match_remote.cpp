@@ -1,0 +1,23 @@
+// What a player may say of a match at any time; whether it counts the server decides.
+#include "game/net/client/match_remote.h"
+
+#include "game/replication/attributes.h"
+
+namespace rink::game {
+
+MatchRemote::MatchRemote(rti::Ambassador& ambassador, const ObjectModel& model)
+    : ambassador_(ambassador), model_(model) {
+  for (const rti::InteractionClassHandle interaction : {model.pause, model.rematch, model.ping})
+    ambassador.publish_interaction_class(interaction);
+  ambassador.subscribe_interaction_class(model.pong);
+  ambassador.subscribe_object_class_attributes(
+      model.match, {model.match_state, model.match_scene, model.match_tick});
+}
+
+void MatchRemote::pause(bool is_wanted) {
+  const PauseWish wish{static_cast<std::uint8_t>(is_wanted)};
+  std::vector<std::byte> bytes;
+  ambassador_.send_interaction(model_.pause, encode(bytes, wish), {});
+}
+
+}  // namespace rink::game

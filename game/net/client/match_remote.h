@@ -1,0 +1,41 @@
+// A player's hand on a hosted match beside the keys: stops it, asks for another, asks for the time.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "game/replication/object_model.h"
+#include "rti/ambassador.h"
+
+namespace rink::game {
+
+class MatchRemote {
+ public:
+  /// The server's answer to ping(): which, and when it arrived on the server's real clock [s].
+  struct Pong {
+    std::uint64_t number = 0;
+    double server_s = 0.0;
+  };
+
+  /// Declares what is sent and heard of a match. Both must outlive the remote.
+  MatchRemote(rti::Ambassador& ambassador, const ObjectModel& model);
+
+  /// Stops the match or has it go on.
+  void pause(bool is_wanted);
+  void ask_rematch() { ambassador_.send_interaction(model_.rematch, {}, {}); }
+  void ping(std::uint64_t number) {
+    ambassador_.send_interaction(model_.ping, {}, {.time = 0.0, .tag = number});
+  }
+  void hear(const Pong& pong) { pong_ = pong; }
+  /// Given once.
+  std::optional<Pong> take_pong() { return std::exchange(pong_, std::nullopt); }
+
+ private:
+  rti::Ambassador& ambassador_;
+  const ObjectModel& model_;
+  std::optional<Pong> pong_;
+};
+
+}  // namespace rink::game
