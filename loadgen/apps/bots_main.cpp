@@ -185,11 +185,11 @@ loadgen::LivePlayers players_of(const Options& options) {
 }
 
 std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) {
-  const loadgen::Measurements& measured = crowd.measurements();
+  const loadgen::Measurements& measured = crowd.meter().measurements();
   if (game::is_interrupted) return "interrupted";
-  if (crowd.lost_count() > 0)
-    return std::to_string(crowd.lost_count()) + " of " + std::to_string(options.count) +
-           " bots were lost: " + crowd.first_trouble();
+  if (crowd.bots().lost_count() > 0)
+    return std::to_string(crowd.bots().lost_count()) + " of " + std::to_string(options.count) +
+           " bots were lost: " + crowd.bots().first_trouble();
   if (!crowd.has_started()) return "the game did not start";
   if (measured.keys_sent < measured.keys_due)
     return std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
@@ -198,11 +198,11 @@ std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) 
 
 game::ExitStatus status(const loadgen::BotCrowd& crowd) {
   if (game::is_interrupted) return game::ExitStatus::interrupted;
-  if (!crowd.has_started() || crowd.lost_count() > 0) {
-    game::complain(
-        crowd.lost_count(), " of ", crowd.bot_count(), " bots were lost: ",
-        crowd.first_trouble().empty() ? "the game did not start" : crowd.first_trouble());
-    return crowd.first_status();
+  if (!crowd.has_started() || crowd.bots().lost_count() > 0) {
+    game::complain(crowd.bots().lost_count(), " of ", crowd.bots().size(), " bots were lost: ",
+                   crowd.bots().first_trouble().empty() ? "the game did not start"
+                                                        : crowd.bots().first_trouble());
+    return crowd.bots().first_status();
   }
   return game::ExitStatus::ok;
 }
@@ -235,6 +235,7 @@ game::ExitStatus play(const Options& options) {
   rti::SocketTransport transport(options.transport);
   const loadgen::BotCrowdSettings settings{.federation = file.federation,
                                            .first = options.first,
+                                           .count = options.count,
                                            .names = file.members(),
                                            .view_fraction = options.view_fraction,
                                            .view_area = options.view_area,
@@ -250,7 +251,7 @@ game::ExitStatus play(const Options& options) {
       gate,
       {.key_file = options.key_file, .role = rti::Role::federate, .federation = file.federation},
       now_s);
-  loadgen::BotCrowd crowd(fom, gate, settings, options.count, plan, now_s);
+  loadgen::BotCrowd crowd(fom, gate, settings, plan, now_s);
   if (!options.evidence.empty()) crowd.collect_evidence(options.seed);
   const double histogram_ns = histogram_ns_per_record();
   crowd.connect([&](std::uint32_t) { return transport.connect(node.address, node.port); });
@@ -259,7 +260,7 @@ game::ExitStatus play(const Options& options) {
   while (!game::is_interrupted && !crowd.is_over() &&
          (crowd.has_started() || now_s() < give_up_s)) {
     crowd.run_once();
-    load.look(crowd.is_measuring());
+    load.look(crowd.meter().is_measuring());
   }
   for (const double until_s = now_s() + 0.1; !game::is_interrupted && now_s() < until_s;)
     crowd.run_once();  // the kernel's count lags by an acknowledgement

@@ -101,6 +101,7 @@ game::ServerSettings VirtualRun::server_settings(const game::Scene& scene,
 
 BotCrowdSettings VirtualRun::crowd_settings(const Experiment& experiment, const Cell& cell) {
   BotCrowdSettings settings;
+  settings.count = cell.clients;
   settings.view_fraction = cell.parameters.view_fraction;
   settings.view_area = experiment.view_area;
   settings.view_margin = cell.parameters.view_margin;
@@ -136,8 +137,7 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
           game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
           [this] { return now_s(); }, [this] { return simulated_now(); }),
       server_(serving_.server()),
-      crowd_(fom, bots_end_, crowd_settings(experiment, cell), cell.clients, keys,
-             [this] { return now_s(); }) {
+      crowd_(fom, bots_end_, crowd_settings(experiment, cell), keys, [this] { return now_s(); }) {
   if (settings.wants_truth) {
     serving_.collect_evidence({.seed = cell.seed,
                                .clients = cell.clients,
@@ -182,7 +182,7 @@ void VirtualRun::await(const std::string& what, Condition is_met) {
   while (!is_met()) {
     heed_interrupt();
     if (!server_.trouble().empty()) throw Failure{"the server: " + server_.trouble()};
-    if (crowd_.lost_count() > 0) throw Failure{"the bots: " + crowd_.first_trouble()};
+    if (crowd_.bots().lost_count() > 0) throw Failure{"the bots: " + crowd_.bots().first_trouble()};
     if (network_.now_ns() > limit_ns) throw Failure{"waited in vain for " + what};
     advance_until(network_.now_ns() + step_ns);
     serving_.exchange(0.0);
@@ -270,11 +270,11 @@ Json VirtualRun::server_report() const {
 }
 
 Json VirtualRun::bots_report() const {
-  const Measurements& measured = crowd_.measurements();
+  const Measurements& measured = crowd_.meter().measurements();
   std::string why;
-  if (crowd_.lost_count() > 0)
-    why = std::to_string(crowd_.lost_count()) + " of " + std::to_string(cell_.clients) +
-          " bots were lost: " + crowd_.first_trouble();
+  if (crowd_.bots().lost_count() > 0)
+    why = std::to_string(crowd_.bots().lost_count()) + " of " + std::to_string(cell_.clients) +
+          " bots were lost: " + crowd_.bots().first_trouble();
   else if (!crowd_.is_over()) why = "the game did not end";
   else if (measured.keys_sent < measured.keys_due)
     why = std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";

@@ -93,12 +93,12 @@ TEST_P(ThreadedSockets, CarryTheVeryGameThatIsPlayedAlone) {
 
   const rti::Fom fom = load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml");
   rti::TcpTransport transport;
-  loadgen::BotCrowd crowd(fom, transport, {.duration_s = duration_s - 0.1}, 2, log, now_s);
+  loadgen::BotCrowd crowd(fom, transport, {.count = 2, .duration_s = duration_s - 0.1}, log, now_s);
   crowd.connect([&](std::uint32_t) { return transport.connect("127.0.0.1", port); });
   const double give_up_s = now_s() + 20.0;
   while (!crowd.is_over() && now_s() < give_up_s) crowd.run_once();
-  const loadgen::CrowdTraffic total = crowd.total_traffic();
-  const std::string trouble = crowd.first_trouble();
+  const loadgen::CrowdTraffic total = crowd.bots().traffic();
+  const std::string trouble = crowd.bots().first_trouble();
   crowd.resign();
   for (const double until_s = now_s() + 0.2; now_s() < until_s;) crowd.run_once();
   server.join();

@@ -12,11 +12,13 @@ namespace rink::loadgen {
 using Json = nlohmann::ordered_json;
 
 Json bots_report(const BotCrowd& crowd, const std::string& why_invalid) {
-  const Measurements& measured = crowd.measurements();
-  const CrowdTraffic traffic = crowd.traffic(), total = crowd.total_traffic();
+  const Crowd& bots = crowd.bots();
+  const Meter& meter = crowd.meter();
+  const Measurements& measured = meter.measurements();
+  const CrowdTraffic traffic = meter.traffic(), total = bots.traffic();
   return {{"schema", game::report_schema},
-          {game::report::clients, crowd.bot_count()},
-          {game::report::measured_s, crowd.measured_s()},
+          {game::report::clients, bots.size()},
+          {game::report::measured_s, meter.measured_s()},
           {game::report::bytes_received, traffic.bytes_received},
           {game::report::bytes_sent, traffic.bytes_sent},
           {game::report::segments_sent, traffic.segments_sent},
@@ -27,16 +29,15 @@ Json bots_report(const BotCrowd& crowd, const std::string& why_invalid) {
           {game::report::key_to_effect_ms, measured.key_to_effect.to_json()},
           {game::report::keys_due, measured.keys_due},
           {game::report::keys_sent, measured.keys_sent},
-          {game::report::keys_unanswered, crowd.unanswered_keys()},
+          {game::report::keys_unanswered, bots.unanswered_keys()},
           {game::report::late_sends_fraction,
            static_cast<double>(measured.late_sends) /
                std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
           {game::report::send_lateness_ms, measured.send_lateness.to_json()},
           {game::report::schedule_trouble, measured.schedule_trouble()},
-          {game::report::federates_lost, crowd.lost_count()},
-          {game::report::bytes_received_by_bot, crowd.bytes_received_by_bot()},
-          {"memory_bytes_per_client",
-           crowd.client_memory_bytes() / std::max<std::size_t>(1, crowd.bot_count())},
+          {game::report::federates_lost, bots.lost_count()},
+          {game::report::bytes_received_by_bot, meter.received_by_bot()},
+          {"memory_bytes_per_client", bots.memory_bytes() / std::max<std::size_t>(1, bots.size())},
           {game::report::evidence_bytes, crowd.evidence_bytes()},
           {game::report::total_bytes_received, total.bytes_received},
           {game::report::total_bytes_sent, total.bytes_sent},

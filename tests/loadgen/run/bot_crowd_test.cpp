@@ -78,8 +78,9 @@ class StalledCrowd : public testing::Test {
   void start(const std::vector<game::InputEvent>& plan, double warm_up_s, double duration_s) {
     crowd_.emplace(
         fom_, reads_,
-        BotCrowdSettings{.view_fraction = 1.0, .warm_up_s = warm_up_s, .duration_s = duration_s},
-        bots, plan, [this] { return network_.now_s(); });
+        BotCrowdSettings{
+            .count = bots, .view_fraction = 1.0, .warm_up_s = warm_up_s, .duration_s = duration_s},
+        plan, [this] { return network_.now_s(); });
     crowd_->connect([this](std::uint32_t) { return bots_end_.connect("server"); });
     game::TickCosts uncounted;
     const auto step = [&] {
@@ -131,7 +132,7 @@ class StalledCrowd : public testing::Test {
     play(2.0);
     return serving_.evidence().value();
   }
-  const Measurements& measured() const { return crowd_->measurements(); }
+  const Measurements& measured() const { return crowd_->meter().measurements(); }
   static game::InputEvent key(double instant_s) {
     return {
         .time = instant_s, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right};
@@ -239,7 +240,7 @@ TEST_F(StalledCrowd, AKeysLatencyCountsFromWhenItWasDueAndNotFromWhenItWasSent) 
   EXPECT_NEAR(measured().key_to_effect.max_s(), 0.2, 1e-9)
       << "due at 1 s, felt by the tick at 1.2 s";
   EXPECT_NEAR(measured().key_to_effect.min_s(), 0.2, 1e-9);
-  EXPECT_EQ(crowd_->unanswered_keys(), 0u);
+  EXPECT_EQ(crowd_->bots().unanswered_keys(), 0u);
 }
 
 TEST_F(StalledCrowd, AKeyIsLateFromTenMillisecondsOn) {
@@ -280,18 +281,18 @@ TEST_F(StalledCrowd, WhatHappensBeforeTheSpanOrAtItsEndIsNotCounted) {
   play(0.48);
   EXPECT_EQ(measured().update_age.count(), 0u);
   EXPECT_EQ(measured().keys_due, 0u);
-  const CrowdTraffic before = crowd_->total_traffic();
+  const CrowdTraffic before = crowd_->bots().traffic();
   play(1.2);
   EXPECT_EQ(measured().update_age.count(), 25u * bots);
   EXPECT_EQ(measured().keys_due, 2u);
   EXPECT_EQ(measured().keys_sent, 2u);
   EXPECT_EQ(measured().key_to_effect.count(), 2u);
-  EXPECT_NEAR(crowd_->measured_s(), 0.5, 1e-9);
-  const CrowdTraffic whole = crowd_->total_traffic(), within = crowd_->traffic();
+  EXPECT_NEAR(crowd_->meter().measured_s(), 0.5, 1e-9);
+  const CrowdTraffic whole = crowd_->bots().traffic(), within = crowd_->meter().traffic();
   EXPECT_EQ(within.updates_received * 36, (whole.updates_received - before.updates_received) * 25)
       << "of ticks 25 to 60 those before the 50th; each has as many";
   std::uint64_t by_bot = 0;
-  for (const std::uint64_t bytes : crowd_->bytes_received_by_bot()) by_bot += bytes;
+  for (const std::uint64_t bytes : crowd_->meter().received_by_bot()) by_bot += bytes;
   EXPECT_EQ(by_bot, within.bytes_received);
 }
 
