@@ -7,7 +7,7 @@
 
 #include "game/net/view.h"
 #include "game/replication/attributes.h"
-#include "im/region.h"
+#include "rti/types.h"
 
 namespace rink::game {
 
