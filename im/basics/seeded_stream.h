@@ -17,10 +17,7 @@ class SeededStream {
   std::uint64_t next() { return mixed(state_ += 0x9e3779b97f4a7c15u); }
   /// Within [0, 1), a multiple of 2^-53.
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
-  double uniform(double low, double high) {
-    assert(low <= high);
-    return low + (high - low) * uniform();
-  }
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
   /// Within [0, count), for count far below 2^32, where the bias of the multiplication is below
   /// 1e-9.
   std::uint32_t below(std::uint32_t count) {

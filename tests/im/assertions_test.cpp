@@ -55,7 +55,6 @@ TEST(ImDeathTest, NamesWhatIsWrongWithFiltersAndWhatTheyAreMadeOf) {
 
 TEST(ImDeathTest, NamesWhatIsWrongWithNumbers) {
   EXPECT_DEATH(SeededStream().below(0), "count > 0");
-  EXPECT_DEATH(SeededStream().uniform(1.0, 0.0), "low <= high");
   EXPECT_DEATH(Wedge({1.0, 0.0}, 181.0), "half_angle_deg <= 180");
   EXPECT_DEATH(at_time({}, 1.0, -1.0), "drag >= 0");
 }
