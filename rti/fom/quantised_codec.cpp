@@ -38,7 +38,6 @@ double load(const QuantisedField& field, Bytes at) {
 
 template <class Number>
 void append_as(const QuantisedField& field, double number, std::vector<std::byte>& value) {
-  assert(static_cast<double>(static_cast<Number>(number)) == number);  // its form holds the grid
   auto bytes = std::bit_cast<std::array<std::byte, sizeof(Number)>>(static_cast<Number>(number));
   if (field.is_big_endian) std::ranges::reverse(bytes);
   value.insert(value.end(), bytes.begin(), bytes.end());

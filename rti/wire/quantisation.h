@@ -41,7 +41,7 @@ struct Quantisation {
     grid.last = static_cast<std::uint64_t>(static_cast<std::int64_t>(last) - grid.first);
     grid.bits = static_cast<unsigned>(std::bit_width(grid.last));
     if (grid.bits > bits_max) return std::nullopt;
-    assert(grid.contains(low) && grid.contains(high) && grid.error() <= error);
+    assert(grid.error() <= error);
     return grid;
   }
 
