@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -14,7 +15,10 @@ enum class Key : std::uint8_t { left, right, up, down };
 inline constexpr std::array<Key, 4> all_keys{Key::left, Key::right, Key::up, Key::down};
 
 /// a, d, w, s for left, right, up, down, as the paper's KeyDown and KeyUp carry them.
-constexpr char key_character(Key key) { return "adws"[static_cast<std::size_t>(key)]; }
+constexpr char key_character(Key key) {
+  assert(static_cast<std::size_t>(key) < all_keys.size());
+  return "adws"[static_cast<std::size_t>(key)];
+}
 
 /// Nothing if `character` is none of a, d, w, s.
 constexpr std::optional<Key> key_from_character(char character) {
@@ -26,6 +30,7 @@ constexpr std::optional<Key> key_from_character(char character) {
 /// "left", "right", "up" or "down".
 constexpr std::string_view key_name(Key key) {
   constexpr std::array<std::string_view, 4> names{"left", "right", "up", "down"};
+  assert(static_cast<std::size_t>(key) < names.size());
   return names[static_cast<std::size_t>(key)];
 }
 
@@ -41,6 +46,7 @@ class KeysHeld {
  public:
   constexpr bool is_down(Key key) const { return (bits_ >> static_cast<unsigned>(key) & 1u) != 0; }
   constexpr void set(Key key, bool is_down) {
+    assert(static_cast<std::size_t>(key) < all_keys.size());
     const unsigned bit = 1u << static_cast<unsigned>(key);
     bits_ = static_cast<std::uint8_t>(is_down ? bits_ | bit : bits_ & ~bit);
   }

@@ -1,6 +1,7 @@
 // Finds a place for every body of a scene: those placed by hand are checked, populations are drawn
 // from the seed.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -65,6 +66,7 @@ class Placement {
       for (std::size_t k = 0; k < scene_.populations.size(); ++k)
         if (scene_.populations[k].kind == kind) populate_at_random(k);
     place_pucks();
+    assert(world_.body_count() == wanted_count() && world_.body_count() == placed_count());
   }
 
  private:
@@ -74,6 +76,17 @@ class Placement {
   static constexpr double random_packing_max = 0.4;
   static constexpr double clearance =
       1e-9;  ///< between the sites of a lattice, relative, so that rounding makes nobody overlap
+
+  /// Bodies that the scene asks for, and those that have a place.
+  std::uint64_t wanted_count() const {
+    std::uint64_t count = count_of(scene_.placed);
+    for (const Population& population : scene_.populations) count += population.count;
+    return count;
+  }
+  std::uint64_t placed_count() const { return count_of(scene_.bodies); }
+  static std::uint64_t count_of(const Bodies& bodies) {
+    return bodies.pucks.size() + bodies.bats.size() + bodies.posts.size();
+  }
 
   void check_placed() {
     const Bodies& placed = scene_.placed;
@@ -156,6 +169,7 @@ class Placement {
 
   std::optional<Vector2> random_place(RandomStream& random, const Vector2& half_extent,
                                       double radius, physics::Half half) const {
+    assert(half_extent.minCoeff() >= 0.0 && radius >= 0.0);
     const Vector2 reach = half_extent + Vector2::Constant(radius);
     Vector2 low = reach, high = Vector2(field_.length, field_.width) - reach;
     if (half == physics::Half::left) high.x() = field_.length / 2 - reach.x();
@@ -212,6 +226,7 @@ class Placement {
 
   static double speed(const Population& population, RandomStream& random) {
     const double mean = population.mean_speed;
+    assert(mean >= 0.0);
     if (population.speeds == SpeedDistribution::fixed) return mean;
     if (population.speeds == SpeedDistribution::uniform) return random.uniform(0.0, 2.0 * mean);
     double drawn = random.maxwell(mean);
@@ -238,6 +253,7 @@ class Placement {
       if (population.kind == BodyKind::puck)
         area += population.count * std::numbers::pi * radius * radius;
     }
+    assert(area >= 0.0 && field_.length > 0.0 && field_.width > 0.0);
     return area / (field_.length * field_.width);
   }
 
@@ -265,6 +281,7 @@ class Placement {
       sites = free_sites(spacing, radius);
     }
     RandomStream random = stream_of(scene_.populations.size());
+    assert(spacing >= least && "discs on neighbouring sites do not overlap");
     for (std::size_t i = 0; i < sites.size(); ++i)
       std::swap(sites[i], sites[i + random.below(static_cast<std::uint32_t>(sites.size() - i))]);
     take_sites(sites, spacing, random);
@@ -272,6 +289,7 @@ class Placement {
 
   /// Sites whose discs of `radius` are free of what is placed already.
   std::vector<Vector2> free_sites(double spacing, double radius) const {
+    assert(spacing > 0.0 && radius >= 0.0);
     std::vector<Vector2> sites;
     const double height = spacing * std::sqrt(3.0) / 2;
     for (int row = 0; radius + row * height <= field_.width - radius; ++row)

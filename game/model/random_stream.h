@@ -1,6 +1,7 @@
 // What the game draws at random: points, directions and speeds, the same bits on every machine.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -34,6 +35,7 @@ class RandomStream : public SeededStream {
   }
   /// A speed of a two-dimensional gas in equilibrium (Rayleigh's distribution).
   double maxwell(double mean) {
+    assert(mean >= 0.0);
     constexpr double mode_of_mean = 0.79788456080286535588;  // sqrt(2/pi)
     return mean * mode_of_mean * std::sqrt(-2.0 * physics::log1p_of(-uniform()));
   }

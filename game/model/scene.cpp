@@ -2,6 +2,7 @@
 #include "game/model/scene.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "game/model/state_hash.h"
@@ -43,6 +44,7 @@ void drop_keys_of_absent(Scene& scene, std::uint32_t bat_count) {
 }
 
 void scale_places(Bodies& bodies, double factor) {
+  assert(factor > 0.0);
   for (Puck& puck : bodies.pucks) puck.body.position *= factor;
   for (Bat& bat : bodies.bats) bat.body.position *= factor;
   for (Post& post : bodies.posts) post.body.position *= factor;
@@ -54,13 +56,16 @@ void share(std::vector<Population>& populations, BodyKind kind, std::uint64_t wa
   std::uint64_t total = 0, before = 0, given = 0;
   for (const Population& population : populations)
     total += population.kind == kind ? population.count : 0;
+  assert(total > 0 && "somebody must be there to share among");
   for (Population& population : populations) {
     if (population.kind != kind) continue;
     before += population.count;
     const std::uint64_t until_here = (2 * wanted * before + total) / (2 * total);
+    assert(until_here >= given);
     population.count = static_cast<std::uint32_t>(until_here - given);
     given = until_here;
   }
+  assert(before == total && given == wanted);
 }
 
 /// A scene without friction has the fingerprint that it had before there was any.
@@ -143,18 +148,22 @@ Scene scaled_to_bats(Scene scene, std::uint32_t bat_count) {
   for (Population& population : scene.populations)
     if (population.kind != BodyKind::bat)
       population.count = static_cast<std::uint32_t>(std::llround(population.count * area_factor));
+  assert(placed <= bat_count && factor > 0.0);
   share(scene.populations, BodyKind::bat, bat_count - placed);
   drop_keys_of_absent(scene, bat_count);
   populate(scene);
+  assert(scene.bodies.bats.size() == bat_count);
   return scene;
 }
 
 Scene with_count(Scene scene, BodyKind kind, std::uint32_t count) {
+  assert(kind != BodyKind::post && "no scene is asked for a number of posts");
   if (count_of(scene, kind) == count) return scene;
   require_reachable(scene, kind, count);
   share(scene.populations, kind, count - placed_count(scene, kind));
   if (kind == BodyKind::bat) drop_keys_of_absent(scene, count);
   populate(scene);
+  assert((kind == BodyKind::bat ? scene.bodies.bats.size() : scene.bodies.pucks.size()) == count);
   return scene;
 }
 

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -44,6 +45,9 @@ class SceneReader {
     for (SceneTable& table : keys) read_key(table);
     std::stable_sort(scene_.keys.begin(), scene_.keys.end(),
                      [](const InputEvent& a, const InputEvent& b) { return a.time < b.time; });
+    assert(lines_.size() == scene_.placed.posts.size() + scene_.placed.bats.size() +
+                                scene_.placed.pucks.size() + scene_.populations.size() &&
+           "each body and each population has a name and a line of its own");
     return std::move(scene_);
   }
 
@@ -226,6 +230,7 @@ class SceneReader {
         std::round(density * scene_.world.field.length * scene_.world.field.width);
     if (by_density > static_cast<double>(body_max))
       table.refuse("density", "at most " + std::to_string(body_max) + " bodies in all");
+    assert(count <= body_max && by_density >= 0.0);
     population.count =
         has_count ? static_cast<std::uint32_t>(count) : static_cast<std::uint32_t>(by_density);
   }
@@ -265,6 +270,7 @@ class SceneReader {
                                     [&](const Bat& candidate) { return candidate.name == bat; });
     if (place == bats.end()) table.refuse("bat", "the name of a bat");
     event.player = static_cast<std::uint32_t>(place - bats.begin());
+    assert(event.player < bats.size());
     std::string key;
     bool is_down = true;
     table.require_text("key", key);
@@ -348,6 +354,7 @@ std::vector<std::string> preset_names() {
     if (entry.is_regular_file() && entry.path().extension() == ".toml")
       names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
+  assert(std::ranges::adjacent_find(names) == names.end() && "a folder has each file once");
   return names;
 }
 

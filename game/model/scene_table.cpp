@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -53,6 +54,8 @@ std::size_t edits(std::string_view a, std::string_view b) {
       diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, change}));
     }
   }
+  assert(row.back() <= std::max(a.size(), b.size()) &&
+         "no more than to change or add every letter");
   return row.back();
 }
 
@@ -63,6 +66,7 @@ std::string at(const std::string& file, const toml::source_region& source) {
 }  // namespace
 
 std::string Range::text() const {
+  assert(least <= most);
   const std::string from = (is_open ? "above " : "from ") + text_of(least);
   if (most < std::numeric_limits<double>::max()) return from + " to " + text_of(most);
   return is_open ? from : from + " up";
@@ -81,6 +85,7 @@ void SceneTable::require(bool was_there, const char* key, const std::string& exp
 
 void SceneTable::refuse(const char* key, const std::string& expected) const {
   const toml::node* node = table_.get(key);
+  assert(node != nullptr && "a key that is missing is refused by refuse_all");
   throw SceneError(at(file_, node->source()) + name_ + "." + key + " is " + text_of(*node) +
                    ": expected " + expected);
 }
@@ -106,6 +111,7 @@ bool SceneTable::number(const char* key, double& into, const Range& range) {
 
 bool SceneTable::whole(const char* key, std::uint64_t& into, std::uint64_t least,
                        std::uint64_t most) {
+  assert(least <= most);
   const toml::node* node = find(key);
   if (!node) return false;
   const std::optional<std::int64_t> number =
@@ -168,6 +174,7 @@ bool SceneTable::span(const char* key, double& low, double& high, const Range& r
   if (pair.x() > pair.y()) refuse(key, "a number, or the least and the greatest in this order");
   low = pair.x();
   high = pair.y();
+  assert(range.holds(low) && range.holds(high) && low <= high);
   return true;
 }
 

@@ -1,6 +1,7 @@
 // Binary grids for the instants of matches: exact as doubles, and short on the wire and in records.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 
 namespace rink::game {
@@ -12,7 +13,13 @@ inline constexpr double key_grid = 0x1p-16;
 inline constexpr double tick_grid = 0x1p-10;
 
 /// The first multiple of `grid` not before `instant`, and the last not after it [s].
-inline double next_on(double grid, double instant) { return std::ceil(instant / grid) * grid; }
-inline double last_on(double grid, double instant) { return std::floor(instant / grid) * grid; }
+inline double next_on(double grid, double instant) {
+  assert(grid > 0.0);
+  return std::ceil(instant / grid) * grid;
+}
+inline double last_on(double grid, double instant) {
+  assert(grid > 0.0);
+  return std::floor(instant / grid) * grid;
+}
 
 }  // namespace rink::game
