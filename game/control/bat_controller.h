@@ -1,6 +1,8 @@
 // Turns the keys that a player holds into the thrust of a bat.
 #pragma once
 
+#include <cassert>
+#include <cmath>
 #include <cstdint>
 
 #include "game/model/key.h"
@@ -20,10 +22,13 @@ inline physics::Vector2 direction(const KeysHeld& keys) {
 /// accumulates forces, so opposed keys cancel and two neighbours push diagonally.
 class BatController {
  public:
-  explicit BatController(double thrust) : thrust_(thrust) {}
+  /// `thrust` [m/s^2] is 0 or more.
+  explicit BatController(double thrust) : BatController(thrust, {}, 0) {}
   /// Hands that hold `keys` after so many inputs.
   BatController(double thrust, const KeysHeld& keys, std::uint32_t input_count)
-      : thrust_(thrust), keys_(keys), input_count_(input_count) {}
+      : thrust_(thrust), keys_(keys), input_count_(input_count) {
+    assert(std::isfinite(thrust) && thrust >= 0.0);
+  }
 
   /// Counts the input, whether or not it changes anything: a key that is down may be pressed again.
   void press(Key key, bool is_down) {

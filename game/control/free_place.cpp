@@ -3,6 +3,7 @@
 #include "game/control/free_place.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace rink::game {
@@ -15,6 +16,7 @@ using physics::Vector2;
 template <class IsFree>
 std::optional<Vector2> first_free(const physics::Field& field, const Vector2& spot, double step,
                                   const IsFree& is_free) {
+  assert(step > 0.0 && spot.allFinite());
   const int ring_max = static_cast<int>(std::ceil(std::max(field.length, field.width) / step));
   if (is_free(spot)) return spot;
   for (int ring = 1; ring <= ring_max; ++ring)
@@ -38,12 +40,14 @@ std::optional<Vector2> nearest_free_disc(const physics::Simulator& simulator, co
 
 std::vector<Vector2> places_for_disc(const physics::Field& field, const Vector2& spot,
                                      double radius, std::size_t first, std::size_t count) {
+  assert(radius > 0.0 && count > 0);
   std::vector<Vector2> places;
   std::size_t number = 0;
   first_free(field, spot, radius / 4, [&](const Vector2& place) {
     if (number++ >= first) places.push_back(place);
     return places.size() == count;
   });
+  assert(places.size() <= count);
   return places;
 }
 

@@ -9,15 +9,10 @@
 #include <tuple>
 
 #include "game/control/free_place.h"
+#include "im/checked.h"
 
 namespace rink::game {
 namespace {
-
-/// A heap's order: the input that is to be applied first is the greatest.
-constexpr auto is_later = [](const auto& a, const auto& b) {
-  return std::tuple(a.event.time, a.event.player, a.number) >
-         std::tuple(b.event.time, b.event.player, b.number);
-};
 
 Team other(Team team) { return team == Team::left ? Team::right : Team::left; }
 
@@ -49,6 +44,8 @@ Game::Game(const Scene& scene, const physics::SimulatorChoice& engine)
   }
   spawned_.clear();
   for (const InputEvent& event : scene.keys) submit(event);
+  assert(player_count() == scene.bodies.bats.size());
+  if constexpr (checks_whole_structures) check();
 }
 
 Game::Game(const Game& other)
@@ -69,10 +66,13 @@ Game::Game(const Game& other)
 
 void Game::spawn_bat(std::uint32_t player, const Vector2& position, const Vector2& velocity) {
   Seat& seat = seats_[player];
+  assert(!seat.entity && "a player has one bat");
   physics::BatSpec body = seat.bat.body;
   body.position = position;
   body.velocity = velocity;
   seat.entity = simulator_->add(body);
+  assert((entities_.empty() || entities_.back().id < *seat.entity) &&
+         "a new body has the greatest id, so entities stay in order");
   entities_.push_back({.id = *seat.entity,
                        .kind = physics::BodyKind::bat,
                        .team = seat.bat.team,
@@ -86,7 +86,7 @@ InputEvent Game::submit(InputEvent event) {
   if (event.time == over_)
     event.time = std::nextafter(over_, std::numeric_limits<double>::infinity());
   inputs_.push_back({event, submitted_++});
-  std::push_heap(inputs_.begin(), inputs_.end(), is_later);
+  std::push_heap(inputs_.begin(), inputs_.end(), QueuedInput::is_later);
   return event;
 }
 
@@ -101,6 +101,9 @@ void Game::advance(double until) {
     face_off_until(now());
     apply_inputs_until(now());
   } while (now() < until);
+  assert(next_instant(std::numeric_limits<double>::infinity()) > now() &&
+         "all that was due has been done");
+  if constexpr (checks_whole_structures) check();
 }
 
 /// The earliest instant at which more than motion happens, at most `until`.
@@ -120,6 +123,7 @@ void Game::play_until(double until) {
 
 void Game::count_goal(const physics::Goal& goal) {
   if (is_over_) return;
+  assert(simulator_->kind(goal.puck) == physics::BodyKind::puck);
   const Team conceding = goal.end == physics::End::left ? Team::left : Team::right,
              scoring = other(conceding);
   std::uint32_t& goals = scoring == Team::left ? score_.left : score_.right;
@@ -134,6 +138,7 @@ void Game::schedule(const FaceOff& due) {
   const auto is_before = [](const FaceOff& a, const FaceOff& b) {
     return std::tuple(a.time, a.puck) < std::tuple(b.time, b.puck);
   };
+  assert(std::isfinite(due.time) && !is_over_);
   face_offs_.insert(std::upper_bound(face_offs_.begin(), face_offs_.end(), due, is_before), due);
 }
 
@@ -147,6 +152,7 @@ void Game::face_off_until(double instant) {
 }
 
 void Game::face_off(const FaceOff& due) {
+  assert(!simulator_->is_in_play(due.puck) && "it lies in the goal into which it went");
   const physics::Field& field = simulator_->spec().field;
   const double from_end = rules_.face_off_distance * field.length;
   const Vector2 spot(due.conceding == Team::left ? from_end : field.length - from_end,
@@ -160,13 +166,14 @@ void Game::apply_inputs_until(double instant) {
   while (!inputs_.empty() && inputs_.front().event.time <= instant) {
     over_ = instant;
     const InputEvent event = inputs_.front().event;
-    std::pop_heap(inputs_.begin(), inputs_.end(), is_later);
+    std::pop_heap(inputs_.begin(), inputs_.end(), QueuedInput::is_later);
     inputs_.pop_back();
     apply(event);
   }
 }
 
 void Game::apply(const InputEvent& event) {
+  assert(event.player < player_count());
   if (event.kind == InputKind::enter) return enter(event.player);
   if (event.kind == InputKind::leave) return leave(event.player);
   Seat& seat = seats_[event.player];
@@ -189,6 +196,7 @@ void Game::leave(std::uint32_t player) {
   if (!seat.entity) return;
   const auto there = std::lower_bound(entities_.begin(), entities_.end(), *seat.entity,
                                       [](const Entity& a, EntityId id) { return a.id < id; });
+  assert(there != entities_.end() && there->id == *seat.entity && there->player == player);
   removed_.push_back(*there);
   entities_.erase(there);
   simulator_->remove(*seat.entity);
@@ -208,6 +216,30 @@ const Entity& Game::entity(EntityId entity) const {
                            [](const Entity& a, EntityId id) { return a.id < id; });
 }
 
+void Game::check() const {
+  assert(std::ranges::is_sorted(entities_, {}, &Entity::id));
+  std::size_t bats = 0;
+  for (const Entity& entity : entities_) {
+    assert(entity.id.index < simulator_->body_count() &&
+           simulator_->kind(entity.id) == entity.kind);
+    assert(entity.player.has_value() == (entity.kind == physics::BodyKind::bat));
+    assert(!entity.player || seats_[*entity.player].entity == entity.id);
+    bats += entity.player ? 1u : 0u;
+  }
+  assert(bats == static_cast<std::size_t>(std::ranges::count_if(
+                     seats_, [](const Seat& seat) { return seat.entity.has_value(); })) &&
+         "every bat of a seat is an entity");
+  assert(std::ranges::is_heap(inputs_, QueuedInput::is_later));
+  assert(std::ranges::all_of(inputs_, [this](const QueuedInput& input) {
+    return input.event.time >= now() && input.number < submitted_;
+  }));
+  assert(std::ranges::is_sorted(
+      face_offs_, {}, [](const FaceOff& due) { return std::tuple(due.time, due.puck.index); }));
+  assert(std::ranges::all_of(
+      face_offs_, [this](const FaceOff& due) { return !simulator_->is_in_play(due.puck); }));
+  assert(over_ <= now() && (!is_over_ || face_offs_.empty()));
+}
+
 std::uint64_t Game::hash() const {
   std::vector<const BatController*> players;
   for (const Seat& seat : seats_) players.push_back(&seat.controller);
@@ -218,6 +250,7 @@ std::uint64_t Game::hash() const {
 
 StateHash begun_game_hash(std::uint64_t world, std::span<const Entity> entities,
                           std::span<const BatController* const> players, const Score& score) {
+  assert(std::ranges::is_sorted(entities, {}, &Entity::id));
   StateHash hash;
   hash.add(world);
   for (const Entity& entity : entities) hash.add(std::uint64_t{entity.id.index});

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "game/control/bat_controller.h"
@@ -100,10 +101,17 @@ class Game {
 
   /// Bats of the scene, there or not.
   std::uint32_t player_count() const { return static_cast<std::uint32_t>(seats_.size()); }
-  std::optional<EntityId> bat(std::uint32_t player) const { return seats_[player].entity; }
-  const KeysHeld& keys_held(std::uint32_t player) const { return seats_[player].controller.keys(); }
+  std::optional<EntityId> bat(std::uint32_t player) const {
+    assert(player < player_count());
+    return seats_[player].entity;
+  }
+  const KeysHeld& keys_held(std::uint32_t player) const {
+    assert(player < player_count());
+    return seats_[player].controller.keys();
+  }
   /// Key events that `player`'s bat has felt since the start.
   std::uint32_t input_count(std::uint32_t player) const {
+    assert(player < player_count());
     return seats_[player].controller.input_count();
   }
 
@@ -120,6 +128,10 @@ class Game {
   /// equal games.
   std::uint64_t hash() const;
 
+  /// Asserts that entities and seats name each other, that what is to come is in its order and not
+  /// in the past, and that the score can be.
+  void check() const;
+
  private:
   friend class GameState;  // saves and restores it
   Game(const Game& other);
@@ -132,6 +144,11 @@ class Game {
   struct QueuedInput {
     InputEvent event;
     std::uint64_t number;  ///< of submission
+    std::tuple<double, std::uint32_t, std::uint64_t> turn() const {
+      return {event.time, event.player, number};
+    }
+    /// A heap's order: the input that is to be applied first is the greatest.
+    static bool is_later(const QueuedInput& a, const QueuedInput& b) { return a.turn() > b.turn(); }
   };
   struct FaceOff {
     double time;

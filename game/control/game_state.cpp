@@ -123,11 +123,19 @@ bool GameState::is_sound(const Game& game) {
     const std::optional<EntityId> bat = game.bat(player);
     if (bat && !(game.is_there(*bat) && game.entity(*bat).player == player)) return false;
   }
+  if (!(game.over_ <= game.now()) || (game.is_over_ && !game.face_offs_.empty()) ||
+      !std::ranges::is_heap(game.inputs_, Game::QueuedInput::is_later))
+    return false;
+  std::vector<EntityId> due_pucks;
+  for (const Game::FaceOff& due : game.face_offs_) due_pucks.push_back(due.puck);
+  std::ranges::sort(due_pucks);
+  if (std::ranges::adjacent_find(due_pucks) != due_pucks.end()) return false;
   const auto is_due = [&game](double time) { return std::isfinite(time) && time >= game.now(); };
   return std::ranges::all_of(game.inputs_,
                              [&](const Game::QueuedInput& input) {
                                return is_due(input.event.time) &&
-                                      input.event.player < game.player_count();
+                                      input.event.player < game.player_count() &&
+                                      input.number < game.submitted_;
                              }) &&
          std::ranges::all_of(game.face_offs_,
                              [&](const Game::FaceOff& due) {
@@ -148,7 +156,8 @@ std::vector<std::uint8_t> GameState::save(const Game& game, const Scene& scene) 
   std::uint64_t kind = magic, of_scene = fingerprint(scene);
   std::uint32_t format = version;
   writer.numbers(kind, format, of_scene);
-  exchange(writer, state);
+  [[maybe_unused]] const bool is_written = exchange(writer, state);
+  assert(is_written);
   return writer.finish();
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -240,6 +241,7 @@ class Writer {
 
  private:
   void write(const InputEvent& event) {
+    assert(static_cast<std::size_t>(event.kind) < input_names.size());
     std::string text = exact(event.time) + ' ' + std::to_string(event.player) + ' ' +
                        std::string(input_names[static_cast<std::size_t>(event.kind)]);
     if (has_key(event.kind)) text += ' ' + std::string(key_name(event.key));

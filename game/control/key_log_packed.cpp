@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -34,6 +35,7 @@ std::int64_t bits_of(double time) { return std::bit_cast<std::int64_t>(time); }
 
 /// Where a time is among the multiples of a step, and what its event adds to that.
 std::uint64_t steps_of(double time, double step) {
+  assert(time >= 0.0 && step > 0.0);
   return static_cast<std::uint64_t>(std::floor(time / step));
 }
 
@@ -41,7 +43,10 @@ class PackedWriter {
  public:
   explicit PackedWriter(std::string& bytes) : bytes_(bytes) {}
 
-  void byte(unsigned value) { bytes_ += static_cast<char>(static_cast<unsigned char>(value)); }
+  void byte(unsigned value) {
+    assert(value <= 0xff);
+    bytes_ += static_cast<char>(static_cast<unsigned char>(value));
+  }
   void varint(std::uint64_t value) {
     std::array<std::byte, varint_size_max> raw;
     bytes_.append(reinterpret_cast<const char*>(raw.data()),
@@ -77,6 +82,7 @@ std::uint8_t parts_of(const KeyLog& log) {
 }
 
 void write_event(PackedWriter& out, const InputEvent& event, double before) {
+  assert(std::isfinite(event.time) && event.time >= before && "times are told by what they add");
   const bool is_on_grid = next_on(key_grid, event.time) == event.time;
   const auto milliseconds = static_cast<std::uint64_t>(std::round(event.time / millisecond)),
              milliseconds_before = steps_of(before, millisecond);
@@ -86,6 +92,7 @@ void write_event(PackedWriter& out, const InputEvent& event, double before) {
   const TimeForm form = is_on_grid ? TimeForm::on_grid
                         : is_near  ? TimeForm::near_millisecond
                                    : TimeForm::in_full;
+  assert(static_cast<unsigned>(event.kind) < 4 && static_cast<unsigned>(event.key) < 4);
   const unsigned player = std::min<unsigned>(event.player, player_elsewhere);
   out.byte(static_cast<unsigned>(event.kind) | static_cast<unsigned>(event.key) << 2 |
            static_cast<unsigned>(form) << 4 | player << 6);
@@ -221,6 +228,7 @@ std::string read_up_to(std::istream& stream, std::uint64_t size) {
     stream.read(bytes.data() + had, static_cast<std::streamsize>(bytes.size() - had));
     bytes.resize(had + static_cast<std::size_t>(stream.gcount()));
   }
+  assert(bytes.size() <= size);
   return bytes;
 }
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+
+#include "im/checked.h"
 
 namespace rink::game {
 
@@ -27,6 +30,7 @@ std::optional<std::string> match_objection(const Scene& scene) {
 }
 
 void MatchFlow::begin_match(double now_s) {
+  assert(are_all_here());
   state_ = {.number = state_.number + 1, .winner = std::nullopt};
   count_down(now_s);
 }
@@ -42,7 +46,21 @@ void MatchFlow::stop(double now_s) {
   state_.clock_real_s = now_s;
 }
 
+void MatchFlow::check() const {
+  [[maybe_unused]] const MatchPhase phase = state_.phase;
+  assert((phase == MatchPhase::waiting || state_.number > 0) && phase != MatchPhase::lost);
+  assert(phase != MatchPhase::waiting || !are_all_here());
+  assert(phase != MatchPhase::away || is_here_[0] != is_here_[1]);
+  assert((phase != MatchPhase::countdown && phase != MatchPhase::playing &&
+          phase != MatchPhase::paused) ||
+         are_all_here());
+  assert(state_.winner.has_value() == (phase == MatchPhase::over) && state_.winner != Team::none);
+  for (std::size_t player = 0; player < is_here_.size(); ++player)
+    assert(!state_.wants_rematch[player] || (phase == MatchPhase::over && is_here_[player]));
+}
+
 void MatchFlow::advance(double now_s) {
+  assert(std::isfinite(now_s));
   if (now_s < state_.until_s) return;
   if (state_.phase == MatchPhase::countdown) {
     state_.clock_real_s = state_.until_s;
@@ -50,6 +68,7 @@ void MatchFlow::advance(double now_s) {
   } else if (state_.phase == MatchPhase::away) {
     win(is_here_[0] ? Team::left : Team::right, now_s);
   }
+  if constexpr (checks_whole_structures) check();
 }
 
 void MatchFlow::enter(std::uint32_t player, double now_s) {
@@ -61,6 +80,7 @@ void MatchFlow::enter(std::uint32_t player, double now_s) {
   // Over, but for lack of the other: that one's successor plays anew.
   if (state_.phase == MatchPhase::waiting || state_.phase == MatchPhase::over) begin_match(now_s);
   else if (state_.phase == MatchPhase::away) count_down(now_s);
+  if constexpr (checks_whole_structures) check();
 }
 
 void MatchFlow::leave(std::uint32_t player, double now_s) {
@@ -78,6 +98,7 @@ void MatchFlow::leave(std::uint32_t player, double now_s) {
     state_.phase = MatchPhase::away;
     state_.until_s = now_s + times_.patience_s;
   }
+  if constexpr (checks_whole_structures) check();
 }
 
 void MatchFlow::pause(bool is_wanted, double now_s) {
@@ -88,6 +109,7 @@ void MatchFlow::pause(bool is_wanted, double now_s) {
   } else if (!is_wanted && state_.phase == MatchPhase::paused) {
     count_down(now_s);
   }
+  if constexpr (checks_whole_structures) check();
 }
 
 void MatchFlow::ask_rematch(std::uint32_t player, double now_s) {
@@ -96,9 +118,12 @@ void MatchFlow::ask_rematch(std::uint32_t player, double now_s) {
   if (state_.phase != MatchPhase::over || !is_here_[player]) return;
   state_.wants_rematch[player] = true;
   if (state_.wants_rematch[0] && state_.wants_rematch[1]) begin_match(now_s);
+  if constexpr (checks_whole_structures) check();
 }
 
 void MatchFlow::win(Team winner, double now_s) {
+  assert(winner != Team::none &&
+         (state_.phase == MatchPhase::playing || state_.phase == MatchPhase::away));
   stop(now_s);
   state_.phase = MatchPhase::over;
   state_.winner = winner;

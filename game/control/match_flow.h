@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -55,7 +56,9 @@ struct FlowTimes {
 /// Player 0 is on the left.
 class MatchFlow {
  public:
-  explicit MatchFlow(const FlowTimes& times = {}) : times_(times) {}
+  explicit MatchFlow(const FlowTimes& times = {}) : times_(times) {
+    assert(times.countdown_s >= 0.0 && times.patience_s >= 0.0);
+  }
 
   /// Lets time pass: countdowns end, patience runs out.
   void advance(double now_s);
@@ -66,13 +69,19 @@ class MatchFlow {
   void pause(bool is_wanted, double now_s);
   /// Counts once the match is over. When both have asked the next one begins.
   void ask_rematch(std::uint32_t player, double now_s);
-  /// The game has come to `winner`'s last goal.
+  /// The game that is played has come to the last goal of `winner`, a team that has an end.
   void win(Team winner, double now_s);
 
   const MatchState& state() const { return state_; }
   /// Whether simulated time runs.
   bool runs() const { return state_.phase == MatchPhase::playing; }
-  bool is_here(std::uint32_t player) const { return is_here_[player]; }
+  bool is_here(std::uint32_t player) const {
+    assert(player < is_here_.size());
+    return is_here_[player];
+  }
+
+  /// Asserts that the phase agrees with who is here, who won and who asks for another match.
+  void check() const;
 
  private:
   bool are_all_here() const { return is_here_[0] && is_here_[1]; }

@@ -10,6 +10,7 @@
 
 #include "game/players/player_kinds.h"
 #include "game/players/random_plan.h"
+#include "im/checked.h"
 
 namespace rink::game {
 namespace {
@@ -32,6 +33,7 @@ Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std:
       continue;
     }
     if (kind == hand) continue;
+    assert(is_player_kind(kind));
     const Bat& bat = scene.bodies.bats[number];
     const PlayerSeat seat{.number = number, .team = bat.team, .half_extent = bat.body.half_extent};
     seats_.push_back({number,
@@ -44,6 +46,22 @@ Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std:
   for (const InputEvent& event : planned_) game_.submit(event);
   std::stable_sort(seats_.begin(), seats_.end(),
                    [](const Seat& a, const Seat& b) { return a.phase < b.phase; });
+  if constexpr (checks_whole_structures) check();
+}
+
+void Playing::check() const {
+  assert(std::ranges::is_sorted(seats_, {}, &Seat::phase));
+  for ([[maybe_unused]] const Seat& seat : seats_) {
+    assert(seat.player != nullptr && seat.number < game_.player_count());
+    assert(seat.phase >= 0.0 && seat.phase < decision_period);
+  }
+  for ([[maybe_unused]] const std::vector<InputEvent>* keys : {&planned_, &decided_}) {
+    assert(std::ranges::is_sorted(*keys, is_earlier));
+    assert(std::ranges::all_of(*keys, [this](const InputEvent& event) {
+      return event.time >= 0.0 && event.player < game_.player_count();
+    }));
+  }
+  assert(located_s_ <= game_.now());
 }
 
 void Playing::record_events(bool is_wanted) {
@@ -67,9 +85,11 @@ void Playing::advance(double until) {
     if (game_.now() < instant)
       play_until(instant);  // those who decide at one instant see the same and press together, as
                             // they will when the log is played
+    assert(game_.now() == instant);
     decide(seat, instant);
   }
   play_until(until);
+  if constexpr (checks_whole_structures) check();
 }
 
 void Playing::decide(Seat& seat, double instant) {
@@ -128,6 +148,7 @@ void Playing::press(std::uint32_t player, Key key, bool is_down) {
 
 void Playing::submit(const InputEvent& event) {
   const InputEvent queued = game_.submit(event);
+  assert(queued.time >= event.time && queued.player == event.player && queued.key == event.key);
   decided_.insert(std::upper_bound(decided_.begin(), decided_.end(), queued, is_earlier), queued);
 }
 

@@ -40,6 +40,9 @@ class Playing {
   /// All that was pressed up to now(), ordered by time, then player.
   std::vector<InputEvent> keys() const;
 
+  /// Asserts that seats are in order of phase and keys in order of time, each of a player.
+  void check() const;
+
  private:
   struct Seat {
     std::uint32_t number;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "game/control/game.h"
 #include "game/model/listed.h"
 #include "game/model/scene_file.h"
+#include "im/checked.h"
 
 namespace rink::game {
 
@@ -62,15 +64,27 @@ KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text,
 Replay::Replay(KeyLog log, Scene scene)
     : log_(std::move(log)), scene_(std::move(scene)), game_(scene_) {
   assert(log_.until && log_.hash);
+  assert(!log_.fingerprint || *log_.fingerprint == fingerprint(scene_));
   for (const InputEvent& event : log_.events) game_.submit(event);
   kept_.push_back(game_.copy());
 }
 
 void Replay::seek(double instant) {
+  assert(!std::isnan(instant));
   instant = std::clamp(instant, 0.0, end());
   const auto before = std::min(kept_.size() - 1, static_cast<std::size_t>(instant / kept_every));
+  assert(kept_[before].now() <= instant);
   if (instant < game_.now() || kept_[before].now() > game_.now()) game_ = kept_[before].copy();
   play(instant);
+  assert(game_.now() == instant);
+  if constexpr (checks_whole_structures) check();
+}
+
+void Replay::check() const {
+  assert(!kept_.empty() && end() >= 0.0 && now() >= 0.0 && now() <= end());
+  for (std::size_t k = 0; k < kept_.size(); ++k)
+    assert(kept_[k].now() == kept_every * static_cast<double>(k));
+  assert(kept_.back().now() <= end());
 }
 
 /// Where a game stops on the way changes nothing in it.

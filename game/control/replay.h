@@ -49,6 +49,9 @@ class Replay {
   /// Whether the game was at its end in the state that was recorded; nothing before it was there.
   std::optional<bool> is_as_recorded() const { return is_as_recorded_; }
 
+  /// Asserts that the games that are kept are those of the instants at which they are looked for.
+  void check() const;
+
  private:
   void play(double until);
 

@@ -1,11 +1,13 @@
 // The rest is estimated from the run so far: simulated time passes evenly in most scenes.
 #include "game/control/simulate_progress.h"
 
+#include <cassert>
 #include <cstdio>
 
 namespace rink::game {
 
 void SimulateProgress::reached(double simulated_s, std::uint64_t event_count, double wall_s) {
+  assert(simulated_s >= 0.0 && wall_s >= 0.0);
   if (wall_s < next_s_ || simulated_s >= until_) return;
   next_s_ = wall_s + (is_terminal_ ? between_overwrites_s : between_lines_s);
   const double part = simulated_s / until_;
