@@ -122,8 +122,10 @@ void MatchFlow::ask_rematch(std::uint32_t player, double now_s) {
 }
 
 void MatchFlow::win(Team winner, double now_s) {
-  assert(winner != Team::none &&
-         (state_.phase == MatchPhase::playing || state_.phase == MatchPhase::away));
+  assert(winner != Team::none);
+  assert((state_.phase == MatchPhase::playing || state_.phase == MatchPhase::countdown ||
+          state_.phase == MatchPhase::away) &&
+         "a match goes on; that a countdown has ended may not have been noticed yet");
   stop(now_s);
   state_.phase = MatchPhase::over;
   state_.winner = winner;
