@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "game/control/free_place.h"
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::game {
 namespace {

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::game {
 

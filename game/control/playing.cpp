@@ -10,7 +10,7 @@
 
 #include "game/players/player_kinds.h"
 #include "game/players/random_plan.h"
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::game {
 namespace {

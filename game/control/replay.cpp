@@ -9,7 +9,7 @@
 #include "game/control/game.h"
 #include "game/model/listed.h"
 #include "game/model/scene_file.h"
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::game {
 
