@@ -1,6 +1,8 @@
 // How a place that turned out to be wrong is left behind without a jump.
 #pragma once
 
+#include <cassert>
+
 #include "game/physics/body.h"
 
 namespace rink::game {
@@ -15,10 +17,12 @@ class Blend {
   /// From `now` [s] on `offset` [m] is to vanish; what was still left of an earlier one must be
   /// part of it.
   void begin(const physics::Vector2& offset, double now) {
+    assert(now >= since_);
     offset_ = offset;
     since_ = now;
   }
   physics::Vector2 at(double now) const {
+    assert(now >= since_ && "before it begins there is nothing to leave behind");
     const double u = (now - since_) / duration;
     if (u >= 1.0) return {0.0, 0.0};
     return offset_ * ((1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u));

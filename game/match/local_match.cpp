@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "game/control/replay.h"
@@ -28,6 +29,7 @@ void LocalMatch::begin(double now_s) {
   finish();
   is_finished_ = false;
   match_number_ = flow_.state().number;
+  assert(match_number_ > 0 && flow_.is_here(0) && flow_.is_here(1));
   played_s_ = 0.0;
   constexpr double forever = 0.0;  // no bot here has its keys drawn beforehand
   playing_ = std::make_unique<Playing>(scene_, settings_.players,
@@ -35,6 +37,7 @@ void LocalMatch::begin(double now_s) {
 }
 
 void LocalMatch::advance(double now_s) {
+  assert(std::isfinite(now_s) && now_s >= now_s_ && "real time never falls");
   const double elapsed = now_s_ < 0.0 ? 0.0 : std::min(now_s - now_s_, frame_max_s);
   now_s_ = now_s;
   const bool was_running = flow_.runs();
@@ -42,6 +45,7 @@ void LocalMatch::advance(double now_s) {
   if (flow_.state().number != match_number_ || match_number_ == 0) begin(now_s);
   if (was_running && flow_.runs()) play(elapsed);
   if (flow_.state().phase == MatchPhase::over) finish(), pressed_.clear();
+  assert(playing_ != nullptr && playing_->game().player_count() == 2);
   for (const PressedKey& pressed : std::exchange(pressed_, {}))
     playing_->press(hands_[pressed.hand], pressed.key, pressed.is_down);
   show();
@@ -54,10 +58,12 @@ void LocalMatch::finish() {
 }
 
 void LocalMatch::play(double duration_s) {
+  assert(duration_s >= 0.0 && duration_s <= frame_max_s);
   played_s_ += duration_s;
   playing_->advance(std::max(playing_->game().now(), last_on(key_grid, played_s_)));
   if (!playing_->game().is_over()) return;
   const Score& score = playing_->game().score();
+  assert(score.left != score.right && "a match that is won has a winner");
   flow_.win(score.left > score.right ? Team::left : Team::right, now_s_);
 }
 

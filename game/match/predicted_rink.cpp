@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "game/control/bat_controller.h"
+#include "im/basics/checked.h"
 
 namespace rink::game {
 namespace {
@@ -31,6 +32,7 @@ Vector2 thrust_of(const KeysHeld& held, double thrust) {
 }  // namespace
 
 void Corrections::count(double jump) {
+  assert(jump >= 0.0);
   greatest = std::max(greatest, jump);
   if (jump <= visible) return;
   ++visible_count;
@@ -50,12 +52,31 @@ PredictedRink::PredictedRink(const Scene& scene, std::optional<std::uint32_t> ow
       shown_pucks_(scene.bodies.pucks.size()) {
   assert(!own_player || *own_player < scene.bodies.bats.size());
   scene_.world.allow_overlap = true;  // what is told is rounded
+  if constexpr (checks_whole_structures) check();
+}
+
+void PredictedRink::check() const {
+  assert(ids_.size() == body_count() && left_at_.size() == body_count() &&
+         blends_.size() == body_count());
+  assert(held_.size() == scene_.bodies.bats.size() && shown_bats_.size() == held_.size());
+  assert(lags_.size() == scene_.bodies.pucks.size() && shown_pucks_.size() == lags_.size());
+  assert(applied_ <= keys_.size() && (own_ || keys_.empty()));
+  assert(std::ranges::is_sorted(keys_, {}, &PressedKey::instant));
+  assert(std::ranges::none_of(lags_, [](double lag) { return lag < 0.0; }));
+  assert(has_heard() == !track_.empty() && (has_heard() || !has_looked_));
+  for (std::size_t k = 0; k < track_.size(); ++k) {
+    assert(track_[k].positions.size() == body_count() &&
+           track_[k].velocities.size() == body_count());
+    assert(k == 0 || track_[k - 1].time < track_[k].time);
+  }
+  assert(!has_heard() || track_.back().time >= told_.time);
 }
 
 void PredictedRink::press(Key key, bool is_down, double instant) {
-  assert(own_ && instant >= now_);
+  assert(own_ && std::isfinite(instant) && instant >= now_);
   keys_.push_back(
       {keys_.empty() ? instant : std::max(instant, keys_.back().instant), key, is_down});
+  if constexpr (checks_whole_structures) check();
 }
 
 void PredictedRink::hear(const ToldRink& told) {
@@ -88,15 +109,19 @@ void PredictedRink::hear(const ToldRink& told) {
       blends_[body].begin(jump + blends_[body].at(now_), now_);
     }
   }
+  if constexpr (checks_whole_structures) check();
 }
 
 void PredictedRink::rewind(double now) {
+  assert(std::isfinite(now));
   now_ = now;
   blends_.assign(body_count(), {});
   if (world_) set_up();
+  if constexpr (checks_whole_structures) check();
 }
 
 Corrections& PredictedRink::corrections_of(std::size_t body) {
+  assert(body < body_count());
   if (body >= held_.size()) return puck_corrections_;
   return own_ == body ? own_corrections_ : other_corrections_;
 }
@@ -171,6 +196,7 @@ void PredictedRink::apply_keys_until(double instant) {
 }
 
 void PredictedRink::play(double until) {
+  assert(world_ && !track_.empty());
   double time = track_.back().time;
   apply_keys_until(time);
   while (time < until) {
@@ -199,6 +225,7 @@ void PredictedRink::forget_before(double time) {
 }
 
 ShownBody PredictedRink::at(std::size_t body, double time) const {
+  assert(body < body_count() && !track_.empty());
   const auto after =
       std::lower_bound(track_.begin(), track_.end(), time,
                        [](const Sample& sample, double t) { return sample.time < t; });
@@ -211,6 +238,7 @@ ShownBody PredictedRink::at(std::size_t body, double time) const {
   if (way.norm() > blended_furthest)
     return {before->positions[body], before->velocities[body], time};
   const double part = (time - before->time) / (after->time - before->time);
+  assert(part >= 0.0 && part <= 1.0);
   return {before->positions[body] + part * way, before->velocities[body], time};
 }
 
@@ -228,6 +256,7 @@ void PredictedRink::advance(double now, double delay) {
   for (std::size_t bat = 0; bat < shown_bats_.size(); ++bat) shown_bats_[bat] = shown(bat);
   for (std::size_t puck = 0; puck < shown_pucks_.size(); ++puck)
     shown_pucks_[puck] = shown(held_.size() + puck);
+  if constexpr (checks_whole_structures) check();
 }
 
 double PredictedRink::time_of(std::size_t body) const {
@@ -244,6 +273,7 @@ ShownBody PredictedRink::shown(std::size_t body) const {
 /// Solves lag = delay w(x(now - lag)), as far as a puck's time may run slower or faster than real
 /// time.
 double PredictedRink::puck_lag(std::size_t puck, double lag, double dt) const {
+  assert(puck < lags_.size() && dt >= 0.0);
   double wanted = std::min(lag, delay_);
   for (int round = 0; round < 4; ++round)
     wanted =
@@ -268,6 +298,7 @@ double PredictedRink::portion_of_delay(const Vector2& puck) const {
 /// Among many bats, or where the other is out of sight: 0 near the own one, on all sides, and 1
 /// where that cannot get soon.
 double PredictedRink::portion_in_crowd(const Vector2& puck) const {
+  assert(own_ && *own_ < held_.size());
   const Vector2 beside =
       ((puck - at(*own_, now_).position).cwiseAbs() - scene_.bodies.bats[*own_].body.half_extent)
           .cwiseMax(0.0);

@@ -89,6 +89,10 @@ class PredictedRink {
     return keys_.size();
   }  ///< pressed, but not yet known to be felt
 
+  /// Asserts that there is one of everything for each body, that keys and track are in order of
+  /// time, and that what is shown of pucks is no later than now.
+  void check() const;
+
  private:
   struct PressedKey {
     double instant;

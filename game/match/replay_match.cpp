@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "game/control/key_log_file.h"
 
@@ -24,7 +25,7 @@ void ReplayMatch::seek(double instant) {
 }
 
 void ReplayMatch::set_speed(double speed) {
-  assert(speed >= 0.0);
+  assert(std::isfinite(speed) && speed >= 0.0);
   speed_ = speed;
 }
 
@@ -34,10 +35,12 @@ void ReplayMatch::rematch() {
 }
 
 void ReplayMatch::advance(double now_s) {
+  assert((!has_begun_ || now_s >= now_s_) && "real time never falls");
   if (has_begun_ && !is_paused_ && !is_sought_)
     wanted_ = std::min(end(), wanted_ + speed_ * (now_s - now_s_));
   has_begun_ = true;
   now_s_ = now_s;
+  assert(wanted_ >= 0.0 && wanted_ <= end());
   replay_.seek(wanted_);
   game_sight_.show(replay_.game(), sight_);
   sight_.phase = wanted_ == end() ? MatchPhase::over

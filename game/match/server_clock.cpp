@@ -4,13 +4,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
+
+#include "im/basics/checked.h"
 
 namespace rink::game {
 namespace {
 
 double slewed(double from, double to, double most, double jump_from) {
+  assert(most >= 0.0 && jump_from >= 0.0);
   return std::abs(to - from) > jump_from ? to : std::clamp(to, from - most, from + most);
 }
 
@@ -23,6 +28,7 @@ std::optional<std::uint64_t> ServerClock::ask(double now_s) {
   next_at_s_ = now_s + (next_ <= hasty ? 0.1 : 1.0) * question_period;
   questions_.push_back({next_, now_s, false});
   while (questions_.size() > 2 * remembered) questions_.pop_front();
+  assert(next_at_s_ > now_s);
   return next_++;
 }
 
@@ -31,6 +37,7 @@ void ServerClock::answered(std::uint64_t number, double server_s, double now_s) 
       std::find_if(questions_.begin(), questions_.end(),
                    [number](const Question& asked) { return asked.number == number; });
   if (question == questions_.end() || question->is_answered || !std::isfinite(server_s)) return;
+  assert(now_s >= question->sent_s && "an answer follows its question");
   question->is_answered = true;
   const Answer answer{.offset = server_s - question->sent_s + margin,
                       .round_trip = now_s - question->sent_s};
@@ -39,6 +46,18 @@ void ServerClock::answered(std::uint64_t number, double server_s, double now_s) 
   answers_.push_back(answer);
   while (answers_.size() > remembered) answers_.pop_front();
   advance(now_s);
+  if constexpr (checks_whole_structures) check();
+}
+
+void ServerClock::check() const {
+  assert(questions_.size() <= 2 * remembered && answers_.size() <= remembered);
+  assert(std::ranges::adjacent_find(questions_, std::greater_equal<>(), &Question::number) ==
+         questions_.end());
+  assert(std::ranges::all_of(questions_, [this](const Question& q) { return q.number < next_; }));
+  assert(std::ranges::is_sorted(questions_, {}, &Question::sent_s));
+  assert(std::ranges::none_of(answers_, [](const Answer& a) { return a.round_trip < 0.0; }));
+  assert(is_set() != is_first_ && "the first answer sets the estimates");
+  assert(round_trip_ >= 0.0 && jitter_ >= 0.0);
 }
 
 void ServerClock::advance(double now_s) {
@@ -58,6 +77,7 @@ void ServerClock::advance(double now_s) {
     offset = std::max(offset, answer.offset);
     round_trip = std::max(round_trip, answer.round_trip);
   }
+  assert(std::isfinite(offset) && "the middle answer always counts");
   offset_ = is_first_ ? offset : slewed(offset_, offset, most, jump_from);
   round_trip_ = is_first_ ? round_trip : slewed(round_trip_, round_trip, most, jump_from);
   is_first_ = false;
@@ -69,6 +89,7 @@ double ServerClock::loss() const {
     if (question.is_answered || now_s_ - question.sent_s > 1.0) ++asked;
     if (!question.is_answered && now_s_ - question.sent_s > 1.0) ++lost;
   }
+  assert(lost <= asked);
   return asked == 0 ? 0.0 : static_cast<double>(lost) / static_cast<double>(asked);
 }
 

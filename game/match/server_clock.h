@@ -2,6 +2,7 @@
 // does.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -28,7 +29,10 @@ class ServerClock {
   double arrival(double now_s) const { return now_s + offset_; }
   /// How far behind arrival() everything is known that the server has said [s], if it says
   /// something every `tick_s`.
-  double delay(double tick_s) const { return round_trip_ + tick_s + margin; }
+  double delay(double tick_s) const {
+    assert(tick_s >= 0.0);
+    return round_trip_ + tick_s + margin;
+  }
 
   double ping_s() const {
     return answers_.empty() ? 0.0 : answers_.back().round_trip;
@@ -37,6 +41,10 @@ class ServerClock {
     return jitter_;
   }                     ///< mean difference of one round trip to the next (RFC 3550, 6.4.1)
   double loss() const;  ///< fraction of the last questions that had no answer within a second
+
+  /// Asserts that questions are numbered in order, that no more is remembered than is looked at,
+  /// and that estimates exist once there is an answer.
+  void check() const;
 
  private:
   static constexpr double margin =

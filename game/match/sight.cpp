@@ -2,7 +2,10 @@
 #include "game/match/sight.h"
 
 #include <algorithm>
+#include <cassert>
 #include <span>
+
+#include "im/basics/checked.h"
 
 namespace rink::game {
 
@@ -51,10 +54,20 @@ void GameSight::show(const Game& game, MatchSight& sight) {
   for (const std::span<const physics::BodyId> bodies : {movers_.changed(), movers_.moving()})
     for (const physics::BodyId id : bodies) {
       if (place_of_[id.index] == nowhere) continue;
+      assert(place_of_[id.index] < sight.things.size());
       Thing& thing = sight.things[place_of_[id.index]];
       thing.position = game.position(id);
       thing.velocity = game.velocity(id);
     }
+  if constexpr (checks_whole_structures) check(sight);
+}
+
+void GameSight::check(const MatchSight& sight) const {
+  assert(sight.things.size() == shown_);
+  for (std::size_t place = 0; place < sight.things.size(); ++place)
+    assert(sight.things[place].id < place_of_.size() && place_of_[sight.things[place].id] == place);
+  assert(shown_ == static_cast<std::size_t>(std::ranges::count_if(
+                       place_of_, [](std::uint32_t place) { return place != nowhere; })));
 }
 
 void GameSight::show_all(const Game& game, MatchSight& sight) {
@@ -72,9 +85,11 @@ void GameSight::show_all(const Game& game, MatchSight& sight) {
   }
   shown_ = sight.things.size();
   is_over_ = game.is_over();
+  if constexpr (checks_whole_structures) check(sight);
 }
 
 void GoalWatch::look(MatchSight& sight, double now_s, double face_off_delay) {
+  assert(face_off_delay >= 0.0);
   const bool is_anew = sight.score.left < score_.left || sight.score.right < score_.right;
   if (sight.score != score_ && !is_anew) {
     scorer_ = sight.score.left > score_.left ? Team::left : Team::right;
@@ -82,6 +97,7 @@ void GoalWatch::look(MatchSight& sight, double now_s, double face_off_delay) {
     goal_real_s_ = now_s;
   }
   if (is_anew || sight.time > goal_time_ + face_off_delay) scorer_.reset();
+  assert((!scorer_ || now_s >= goal_real_s_) && "real time never falls");
   score_ = sight.score;
   sight.scorer = scorer_;
   sight.since_goal_s = scorer_ ? now_s - goal_real_s_ : 0.0;

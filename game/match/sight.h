@@ -21,6 +21,10 @@ class GameSight {
   /// in number.
   void show(const Game& game, MatchSight& sight);
 
+  /// Asserts that every thing of `sight`, which was shown last, is at the place that is noted of
+  /// it.
+  void check(const MatchSight& sight) const;
+
  private:
   static constexpr std::uint32_t nowhere = 0xffffffff;
   void show_all(const Game& game, MatchSight& sight);
