@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,7 @@ class Nearest {
         std::upper_bound(found_.begin(), found_.end(), square,
                          [](double value, const Entry& entry) { return value < entry.square; });
     found_.insert(place, Entry{square, thing});
+    assert(found_.size() <= most_);
   }
   struct Entry {
     double square;

@@ -3,6 +3,7 @@
 #include "game/players/chaser.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -48,6 +49,8 @@ Chaser::Chaser(const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t s
     spans_[k] = {ahead, ahead + delay_.puck_ahead, physics::warp(ahead, rules.bat_drag),
                  physics::warp(ahead + delay_.puck_ahead, rules.puck_drag)};
   }
+  assert(std::ranges::is_sorted(spans_, {}, &Span::ahead));
+  assert(skill.aim_error >= 0.0 && skill.effort > 0.0 && skill.effort <= 1.0);
 }
 
 KeysHeld Chaser::decide(const PlayerView& view, double) {

@@ -2,7 +2,10 @@
 #include "game/players/hotspot.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+
+#include "im/basics/checked.h"
 
 namespace rink::game {
 namespace {
@@ -27,9 +30,17 @@ HotPlaces::HotPlaces(const physics::Field& field, std::uint64_t seed) {
     centres_.push_back(anywhere(inner, random));
     cumulative_.push_back(sum += 1.0 / static_cast<double>(place + 1));
   }
+  if constexpr (checks_whole_structures) check();
+}
+
+void HotPlaces::check() const {
+  assert(centres_.size() == cumulative_.size());
+  for (std::size_t place = 1; place < cumulative_.size(); ++place)
+    assert(cumulative_[place] > cumulative_[place - 1] && weight(place) < weight(place - 1));
 }
 
 double HotPlaces::weight(std::size_t place) const {
+  assert(place < centres_.size());
   return 1.0 / static_cast<double>(place + 1) / cumulative_.back();
 }
 
@@ -41,6 +52,7 @@ std::size_t HotPlaces::choose(RandomStream& random) const {
 }
 
 Vector2 HotPlaces::point_in(std::size_t place, RandomStream& random) const {
+  assert(place < centres_.size());
   return centres_[place] + radius_ * random.in_disc();
 }
 

@@ -29,6 +29,9 @@ class HotPlaces {
   /// A point in that hot disc, uniform within it.
   Vector2 point_in(std::size_t place, RandomStream& random) const;
 
+  /// Asserts that every place has a weight, the earlier the more.
+  void check() const;
+
  private:
   std::vector<Vector2> centres_;
   std::vector<double> cumulative_;

@@ -9,7 +9,9 @@ namespace rink::game {
 double decision_phase(std::uint32_t number) {
   constexpr double slots = 25.0;
   const double turns = 0.61803398874989484820 * static_cast<double>(number);
-  return decision_period * std::floor(slots * (turns - std::floor(turns))) / slots;
+  const double phase = decision_period * std::floor(slots * (turns - std::floor(turns))) / slots;
+  assert(phase >= 0.0 && phase < decision_period);
+  return phase;
 }
 
 PlayerRules rules_of(const Scene& scene, std::uint32_t number) {

@@ -18,6 +18,7 @@ constexpr Key keys_of_axis[2][2] = {{Key::left, Key::right}, {Key::up, Key::down
 /// a last-bit difference between two libraries' logarithms cannot reach the plan. The logarithm's
 /// argument is within (0, 1].
 std::int64_t wait_us(RandomStream& random, double mean_s, double shortest_s) {
+  assert(shortest_s > 0.0 && mean_s > shortest_s);
   return std::llround((shortest_s - (mean_s - shortest_s) * std::log(random.uniform() + 0x1p-53)) *
                       1e6);
 }
@@ -25,6 +26,7 @@ std::int64_t wait_us(RandomStream& random, double mean_s, double shortest_s) {
 void plan_axis(std::vector<InputEvent>& keys, std::uint64_t seed, std::uint32_t player,
                std::size_t axis, double duration_s, const PressHabits& habits) {
   RandomStream random(seed, 2 * std::uint64_t{player} + axis);
+  assert(axis < 2 && std::isfinite(duration_s));
   const auto end_us = static_cast<std::int64_t>(std::floor(duration_s * 1e6));
   std::int64_t now_us = 0;
   while (true) {
@@ -53,6 +55,7 @@ std::vector<InputEvent> random_player_plan(std::uint64_t seed, std::uint32_t pla
   std::vector<InputEvent> keys;
   for (const std::size_t axis : {0u, 1u}) plan_axis(keys, seed, player, axis, duration_s, habits);
   sort_by_time(keys);
+  assert(keys.empty() || keys.back().time < duration_s);
   return keys;
 }
 

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "im/basics/checked.h"
+
 namespace rink::game {
 
 KeysHeld keys_towards(int push_x, int push_y) {
@@ -15,14 +17,18 @@ KeysHeld keys_towards(int push_x, int push_y) {
 }
 
 double speed_to_stop_within(double distance, double thrust) {
+  assert(!(distance < 0.0) && thrust >= 0.0);
   return std::sqrt(2.0 * thrust * distance);
 }
 
 double top_speed(const PlayerRules& rules) {
+  assert(rules.thrust >= 0.0 && rules.bat_drag >= 0.0);
   return rules.bat_drag > 0.0 ? rules.thrust / rules.bat_drag : rules.thrust;
 }
 
 int pushed_along(int held, double need, double start, double stop) {
+  assert(held >= -1 && held <= 1);
+  assert(start >= stop && stop >= 0.0 && "or a key that goes down would go up at once");
   if (held != 0 && held * need > stop) return held;
   return need > start ? 1 : need < -start ? -1 : 0;
 }
@@ -54,6 +60,7 @@ KeysHeld keys_to_reach(const PlayerView& view, const Vector2& target, double cru
 
 physics::WarpedTime under_friction(const physics::WarpedTime& free, double ahead,
                                    const Vector2& velocity, const PlayerRules& rules) {
+  assert(ahead >= 0.0 && rules.puck_friction >= 0.0 && rules.puck_drag >= 0.0);
   if (rules.puck_friction == 0.0 || velocity.isZero(0.0)) return free;
   const double drag = rules.puck_drag, slowing = rules.puck_friction / velocity.norm();
   const double rest = drag > 0.0 ? physics::log1p_of(drag / slowing) / drag : 1.0 / slowing;
@@ -62,8 +69,15 @@ physics::WarpedTime under_friction(const physics::WarpedTime& free, double ahead
   return {whole.s - slowing * whole.q, 0.0, 0.0};
 }
 
+void Hands::check() const {
+  assert(delay_ <= delay_max && next_ <= delay_max);
+  assert(stuck_ < stuck_decisions && escaping_ <= escape_decisions);
+  assert(!(escape_.is_down(Key::left) && escape_.is_down(Key::right)));
+  assert(!(escape_.is_down(Key::up) && escape_.is_down(Key::down)));
+}
+
 KeysHeld Hands::hold(KeysHeld wanted, const Vector2& velocity, RandomStream& random) {
-  assert(delay_ <= delay_max);
+  if constexpr (checks_whole_structures) check();
   wishes_[next_] = wanted;
   const KeysHeld due = wishes_[(next_ + delay_max + 1 - delay_) % (delay_max + 1)];
   next_ = (next_ + 1) % (delay_max + 1);

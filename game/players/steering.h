@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -49,7 +50,7 @@ class Hands {
   static constexpr std::uint32_t delay_max = 8;
 
   /// `delay`: decisions from a wish to the key, at most delay_max.
-  explicit Hands(std::uint32_t delay = 0) : delay_(delay) {}
+  explicit Hands(std::uint32_t delay = 0) : delay_(delay) { assert(delay <= delay_max); }
 
   /// What is pressed now that `wanted` is wished for. A bat that has stood still under pressed keys
   /// for `stuck_decisions` is pushed at random for as long as `escape_decisions`.
@@ -60,8 +61,12 @@ class Hands {
   /// What was wished `age` decisions ago, 1 to delay_max; what is older than delay() has been
   /// pressed.
   KeysHeld wished(std::uint32_t age) const {
+    assert(age >= 1 && age <= delay_max);
     return wishes_[(next_ + delay_max + 1 - age) % (delay_max + 1)];
   }
+
+  /// Asserts that delay and counters are in their ranges and that no escape is by opposed keys.
+  void check() const;
 
  private:
   static constexpr std::uint32_t stuck_decisions = 8, escape_decisions = 6;

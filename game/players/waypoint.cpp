@@ -1,6 +1,7 @@
 // Trips, pauses, and giving up a trip that others block.
 #include "game/players/waypoint.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace rink::game {
@@ -30,6 +31,7 @@ void Traveller::go_to(const Vector2& target, const PlayerView& view, double inst
 }
 
 KeysHeld Traveller::travel(const PlayerView& view, KeysHeld held) const {
+  assert(state_ != State::idle && "it was told where to go");
   return is_resting() ? KeysHeld{} : keys_to_reach(view, target_, speed_, rules_, held);
 }
 
