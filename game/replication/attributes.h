@@ -2,6 +2,7 @@
 // each (docs/wire.md).
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -186,7 +187,8 @@ template <class... Values>
 rti::Bytes encode(std::vector<std::byte>& buffer, Values... values) {
   buffer.clear();
   rti::Writer writer(buffer);
-  (exchange(writer, values), ...);
+  [[maybe_unused]] const bool is_sound = (exchange(writer, values) && ...);
+  assert(is_sound && "what we tell others, they must be able to take");
   return buffer;
 }
 

@@ -19,7 +19,9 @@ void InputCodec::encode(rti::Bytes value, double, std::vector<std::byte>& coded)
   [[maybe_unused]] const bool is_sound = game::decode(value, input);
   assert(is_sound && input.held < 1u << held_bits);
   std::uint64_t packed = static_cast<std::uint64_t>(input.count) << held_bits | input.held;
+  [[maybe_unused]] const std::size_t begin = coded.size();
   rti::Writer(coded).varint(packed);
+  assert(coded.size() - begin <= size_max);
 }
 
 std::optional<std::size_t> InputCodec::size(rti::Bytes coded) const {

@@ -1,8 +1,11 @@
 // Applies discoveries, reflections and changes of scope to the mirror.
 #include "game/replication/mirror.h"
 
+#include <bit>
+#include <cassert>
 #include <cmath>
 
+#include "im/basics/checked.h"
 #include "rti/wire/message.h"
 
 namespace rink::game {
@@ -13,6 +16,9 @@ void Mirror::discover(rti::ObjectHandle object, rti::ObjectClassHandle object_cl
     known_[object] = {Kind::entity, static_cast<std::uint32_t>(entities_.size())};
     MirroredEntity& entity = entities_.emplace_back();
     entity.object = object;
+    // All of them at every discovery would take time in proportion to their square.
+    if constexpr (checks_whole_structures)
+      if (std::has_single_bit(entities_.size())) check();
   } else if (object_class == model_.score) {
     known_[object].kind = Kind::score;
   } else if (object_class == model_.field) {
@@ -20,6 +26,16 @@ void Mirror::discover(rti::ObjectHandle object, rti::ObjectClassHandle object_cl
   } else if (object_class == model_.match) {
     known_[object].kind = Kind::match;
   }
+}
+
+void Mirror::check() const {
+  std::size_t count = 0;
+  known_.for_each([&]([[maybe_unused]] rti::ObjectHandle object, const Known& known) {
+    if (known.kind != Kind::entity) return;
+    ++count;
+    assert(known.slot < entities_.size() && entities_[known.slot].object == object);
+  });
+  assert(count == entities_.size());
 }
 
 void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
@@ -30,6 +46,7 @@ void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti
   newest_ = stamp;
   bool is_sound = true;
   if (told->kind == Kind::entity) {
+    assert(told->slot < entities_.size() && entities_[told->slot].object == object);
     MirroredEntity& entity = entities_[told->slot];
     entity.stamp = stamp;
     is_sound = reflect_entity(entity, attributes, values);
@@ -164,10 +181,13 @@ void Mirror::set_scope(rti::ObjectHandle object, bool in_scope) {
 void Mirror::remove(rti::ObjectHandle object) {
   if (entity(object) == nullptr) return;
   const std::uint32_t slot = known_.find(object)->slot;
+  assert(slot < entities_.size() && known_.find(entities_.back().object) != nullptr);
   known_.find(entities_.back().object)->slot = slot;
   entities_[slot] = entities_.back();
   entities_.pop_back();
   known_.erase(object);
+  if constexpr (checks_whole_structures)
+    if (std::has_single_bit(entities_.size())) check();
 }
 
 MirroredEntity* Mirror::entity(rti::ObjectHandle object) {

@@ -96,6 +96,9 @@ class Mirror {
     return known_.memory_bytes() + entities_.capacity() * sizeof(MirroredEntity);
   }
 
+  /// Asserts that each entity is found where it is kept, and nothing else is taken for one.
+  void check() const;
+
  private:
   enum class Kind : std::uint8_t { entity, score, field, match };
   struct Known {

@@ -2,10 +2,13 @@
 #include "game/replication/publisher.h"
 
 #include <algorithm>
+#include <cassert>
+#include <functional>
 #include <limits>
 
 #include "game/replication/names.h"
 #include "game/replication/trajectory.h"
+#include "im/basics/checked.h"
 #include "rti/time/federate_clock.h"
 
 namespace rink::game {
@@ -68,10 +71,33 @@ void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt,
     }
   }
   counters_.entities_looked_at += looked_.size();
+  assert(said <= game.entities().size());
   counters_.entities_skipped += game.entities().size() - said;
   retire_gone(game);
   if (!moved_.empty()) ambassador_.commit_region_modifications(moved_);
   publish_score(game, stamp);
+  if constexpr (checks_whole_structures) check();
+}
+
+void Publisher::check() const {
+  assert(std::ranges::adjacent_find(active_, std::greater_equal<>()) == active_.end());
+  assert(active_.empty() || active_.back().index < published_.size());
+  assert(std::is_heap(wakes_.begin(), wakes_.end()));
+  std::vector<bool> is_awaited(published_.size());
+  for (const Wake& wake : wakes_) {
+    assert(wake.entity.index < published_.size());
+    if (published_[wake.entity.index].wake_s == wake.time_s) is_awaited[wake.entity.index] = true;
+  }
+  std::vector<std::uint32_t> objects;
+  for (std::size_t index = 0; index < published_.size(); ++index) {
+    const Published& published = published_[index];
+    if (!published.object) continue;
+    assert(published.entity.id.index == index && is_entity(published.object));
+    assert(published.wake_s == never || is_awaited[index]);
+    objects.push_back(published.object.value);
+  }
+  std::ranges::sort(objects);
+  assert(std::ranges::adjacent_find(objects) == objects.end());
 }
 
 /// Whom this tick concerns: whose motion changed, who is to be looked at at each tick or by now,
@@ -95,11 +121,13 @@ void Publisher::gather(const Game& game, std::span<const std::uint32_t> felt) {
     }
   std::sort(looked_.begin(), looked_.end());
   looked_.erase(std::unique(looked_.begin(), looked_.end()), looked_.end());
+  assert(looked_.empty() || looked_.back().index < published_.size());
 }
 
 void Publisher::add(const Game& game, const Entity& entity, const Input& input,
                     const rti::Stamp& stamp) {
   Published& published = published_[entity.id.index];
+  assert(!published.object && "an entity is registered once");
   published.object = ambassador_.register_object_instance(
       model_.entity, entity.player ? bat_name(*entity.player) : "");
   if (published.object && keeps_order_)
@@ -197,6 +225,7 @@ bool Publisher::fly(const Game& game, const Entity& entity, Published& published
 bool Publisher::update(const Game& game, Published& published, const Input& input,
                        const rti::Stamp& stamp) {
   const Entity& entity = published.entity;
+  assert(published.object && published_[entity.id.index].object == published.object);
   follow(game, entity, published);
   const bool is_due = policy_.is_due(game, entity), has_felt = input != published.input;
   if (is_due || has_felt) {
@@ -260,6 +289,7 @@ void Publisher::retire_gone(const Game& game) {
 }
 
 void Publisher::retire(Published& published) {
+  assert(published.object && published.region);
   ambassador_.delete_object_instance(published.object);
   ambassador_.delete_region(published.region);
   published = {};

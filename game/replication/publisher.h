@@ -2,6 +2,7 @@
 // the server.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -66,12 +67,19 @@ class Publisher {
   std::span<const Flown> flights() const { return flights_; }
 
   /// The RTI object of `entity`, which must be in the game.
-  rti::ObjectHandle object(EntityId entity) const { return published_[entity.index].object; }
+  rti::ObjectHandle object(EntityId entity) const {
+    assert(entity.index < published_.size());
+    return published_[entity.index].object;
+  }
 
   /// False of the field and the score.
   bool is_entity(rti::ObjectHandle object) const { return object != field_ && object != score_; }
 
   const PublisherCounters& counters() const { return counters_; }
+
+  /// Asserts that whom the next tick looks at is in order, that whoever is to be woken will be, and
+  /// that no two entities have one object.
+  void check() const;
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();

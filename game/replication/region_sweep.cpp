@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,7 @@ double turning_instant(const physics::Motion& motion, int axis) {
 /// The speed on the present path is at most that at its start, or what thrust can reach against
 /// drag.
 double speed_bound(const physics::Motion& motion, double ahead_s) {
+  assert(ahead_s >= 0.0);
   physics::Vector2 reach;
   for (int axis = 0; axis < 2; ++axis) {
     const double terminal =
@@ -40,6 +42,7 @@ double speed_bound(const physics::Motion& motion, double ahead_s) {
 }  // namespace
 
 im::Region path_box(const physics::Motion& motion, double from, double until) {
+  assert(from <= until);
   const physics::Vector2 first = motion.at(from).position, last = motion.at(until).position;
   std::array<double, 2> low{std::min(first.x(), last.x()), std::min(first.y(), last.y())},
       high{std::max(first.x(), last.x()), std::max(first.y(), last.y())};
@@ -50,6 +53,7 @@ im::Region path_box(const physics::Motion& motion, double from, double until) {
     low[static_cast<std::size_t>(axis)] = std::min(low[static_cast<std::size_t>(axis)], extreme);
     high[static_cast<std::size_t>(axis)] = std::max(high[static_cast<std::size_t>(axis)], extreme);
   }
+  assert(low[0] <= high[0] && low[1] <= high[1]);
   return {low[0], low[1], high[0], high[1]};
 }
 
@@ -86,6 +90,7 @@ im::Region RegionSweep::region(const physics::World& world, physics::BodyId body
   const im::Region path = path_box(world.motion(body), now, swept.until_s);
   const double own = body.index < speeds_.size() ? speeds_[body.index] : fastest_,
                growth = 2.0 * (own + fastest_) * tick_s_;
+  assert(is_on() && growth >= 0.0);
   return {path.low_x - half_extent.x() - growth, path.low_y - half_extent.y() - growth,
           path.high_x + half_extent.x() + growth, path.high_y + half_extent.y() + growth};
 }

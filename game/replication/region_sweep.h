@@ -2,6 +2,7 @@
 // filter's decision still holds when it has aged.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace rink::game {
 /// The bounding box of a body with its centre there.
 inline im::Region bounding_box(const physics::Vector2& centre,
                                const physics::Vector2& half_extent) {
+  assert(half_extent.x() >= 0.0 && half_extent.y() >= 0.0);
   return {centre.x() - half_extent.x(), centre.y() - half_extent.y(), centre.x() + half_extent.x(),
           centre.y() + half_extent.y()};
 }
@@ -36,7 +38,9 @@ class RegionSweep {
   };
 
   RegionSweep() = default;
-  RegionSweep(std::uint32_t ticks, double tick_s) : ticks_(ticks), tick_s_(tick_s) {}
+  RegionSweep(std::uint32_t ticks, double tick_s) : ticks_(ticks), tick_s_(tick_s) {
+    assert(ticks == 0 || tick_s > 0.0);
+  }
 
   bool is_on() const { return ticks_ > 0; }
   /// To be called once a tick before all others: learns how fast the fastest body may be from those

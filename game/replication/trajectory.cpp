@@ -2,6 +2,7 @@
 #include "game/replication/trajectory.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -11,7 +12,10 @@ namespace {
 using physics::Motion;
 using physics::Vector2;
 
-double rounded_to(double step, double value) { return std::nearbyint(value / step) * step; }
+double rounded_to(double step, double value) {
+  assert(step > 0.0);
+  return std::nearbyint(value / step) * step;
+}
 Vector2 rounded_to(double step, const Vector2& value) {
   return {rounded_to(step, value.x()), rounded_to(step, value.y())};
 }
@@ -63,6 +67,7 @@ Trajectory trajectory_of(const physics::World& world, physics::BodyId body) {
   const Motion motion = world.motion(body);
   const Resistance own = own_resistance(world, body);
   const double time = std::floor(world.now() / trajectory_time_step) * trajectory_time_step;
+  assert(time <= world.now() && world.now() - time < trajectory_time_step);
   const Motion there = at_or_before(motion, time);
   Trajectory told{.time = time,
                   .position = rounded_to(trajectory_position_step, there.position),
@@ -76,6 +81,8 @@ Trajectory trajectory_of(const physics::World& world, physics::BodyId body) {
 
 Trajectory extrapolation_of(const Vector2& position, const Vector2& velocity, double now,
                             const Resistance& own) {
+  assert(position.allFinite() && velocity.allFinite() && std::isfinite(now));
+  assert(own.drag >= 0.0 && own.friction >= 0.0);
   Motion onwards{.time = now,
                  .position = position,
                  .velocity = velocity,
@@ -92,6 +99,7 @@ Trajectory extrapolation_of(const Vector2& position, const Vector2& velocity, do
 }
 
 physics::Motion motion_of(const Trajectory& told, const Resistance& own) {
+  assert(own.drag >= 0.0 && own.friction >= 0.0);
   const auto drag = [&own](double value) {
     return value == Trajectory::of_its_kind ? own.drag : value;
   };
@@ -133,6 +141,7 @@ double holds_until(const physics::World& world, physics::BodyId body, const Traj
       (told.acceleration - thrust).norm() * 0.5 * trajectory_age_max * trajectory_age_max;
   const double room = trajectory_error_max - astray - thrust_error, g = motion.drag.minCoeff();
   if (room <= 0.0) return never;
+  assert(room <= trajectory_error_max && growth >= 0.0 && g >= 0.0);
   if (growth * 1.0 <= g * room) return oldest;
   const double s = room / growth;
   return std::min(oldest, now + (g == 0.0 ? s : -std::log1p(-g * s) / g));

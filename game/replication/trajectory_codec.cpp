@@ -33,6 +33,7 @@ using rti::BitReader, rti::BitWriter;
 
 /// The `count` lowest bits of `value`.
 void put(BitWriter& bits, std::uint64_t value, unsigned count) {
+  assert(count > 0 && count < 64);
   bits.bits(value & ((std::uint64_t{1} << count) - 1), count);
 }
 /// Must not be asked for more than is there.
@@ -43,6 +44,7 @@ std::uint64_t get(BitReader& bits, unsigned count) {
   return value;
 }
 std::int64_t get_signed(BitReader& bits, unsigned count) {
+  assert(count > 0 && count < 64);
   const auto value = static_cast<std::int64_t>(get(bits, count));
   return value >> (count - 1) == 0 ? value : value - (std::int64_t{1} << count);
 }
@@ -67,6 +69,7 @@ bool is_near(const Vector2& position) {
 }
 
 void put(BitWriter& bits, const Vector2& value, double step, unsigned count) {
+  assert(fits(value, step, count));
   for (const double each : {value.x(), value.y()})
     put(bits, static_cast<std::uint64_t>(static_cast<std::int64_t>(each / step)), count);
 }
@@ -148,6 +151,7 @@ static_assert(push_short_at < 8 * driven_size);
 /// Along each axis 0, 1 forwards or 2 backwards; then how hard: the upper half of a float if the
 /// lower one is 0.
 void encode_push(const Vector2& acceleration, BitWriter& bits, std::vector<std::byte>& coded) {
+  assert(is_push(acceleration));
   for (const double each : {acceleration.x(), acceleration.y()})
     put(bits, each == 0.0 ? 0u : each > 0.0 ? 1u : 2u, push_bits);
   const auto size =
@@ -181,6 +185,7 @@ double resolved(std::uint64_t residue, double time) {
       static_cast<std::int64_t>(std::floor((time + time_ahead) / trajectory_time_step));
   const std::int64_t behind =
       (latest - static_cast<std::int64_t>(residue)) & ((1 << time_bits) - 1);
+  assert(residue < 1u << time_bits && behind >= 0);
   return static_cast<double>(latest - behind) * trajectory_time_step;
 }
 

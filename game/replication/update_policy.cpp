@@ -3,6 +3,7 @@
 #include "game/replication/update_policy.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "game/replication/attributes.h"
@@ -53,6 +54,7 @@ class Snapshots : public UpdatePolicy {
     return model.snapshot;
   }
   bool is_due(const Game& game, const Entity& entity) override {
+    assert(entity.id.index < told_.size());
     return entity.kind != physics::BodyKind::post &&
            snapshot_of(game.world(), entity.id) != told_[entity.id.index];
   }
@@ -80,6 +82,7 @@ class OnEvent : public UpdatePolicy {
 
   bool is_due(const Game& game, const Entity& entity) override {
     if (entity.kind == physics::BodyKind::post) return false;
+    assert(entity.id.index < told_.size() && "it was written before");
     Told& told = told_[entity.id.index];
     const std::uint32_t version = game.world().motion_version(entity.id);
     if (version == told.version && game.now() <= told.until_s) return false;
@@ -119,7 +122,9 @@ class OnEvent : public UpdatePolicy {
 class DeadReckoning : public UpdatePolicy {
  public:
   DeadReckoning(double threshold, bool knows_drag)
-      : threshold_(threshold), knows_drag_(knows_drag) {}
+      : threshold_(threshold), knows_drag_(knows_drag) {
+    assert(threshold > 0.0);
+  }
   rti::AttributeHandle motion_attribute(const ObjectModel& model) const override {
     return model.trajectory;
   }
@@ -129,6 +134,7 @@ class DeadReckoning : public UpdatePolicy {
 
   bool is_due(const Game& game, const Entity& entity) override {
     if (entity.kind == physics::BodyKind::post) return false;
+    assert(entity.id.index < told_.size() && "it was written before");
     const Told& told = told_[entity.id.index];
     const bool is_resting = told.trajectory.is_resting();
     if (!is_resting && game.now() > told.trajectory.time + trajectory_age_max) return true;
