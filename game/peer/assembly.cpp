@@ -1,6 +1,7 @@
 // The protocol of peer.h, everybody after everybody.
 #include "game/peer/assembly.h"
 
+#include <algorithm>
 #include <cassert>
 #include <stdexcept>
 
@@ -19,6 +20,7 @@ Assembly::Assembly(const physics::World& whole, const Division& division, double
 }
 
 void Assembly::press(const Key& key) {
+  assert(!has_begun_ && key.bat < owners_.size());
   for (Peer& peer : peers_) peer.press_first(key);
 }
 
@@ -62,6 +64,7 @@ void Assembly::advance() {
   const double next = window_ * static_cast<double>(count_ + 1);
   exchange_all([&](Peer& from, PeerNumber to) { return from.arrivals_for(to, next); });
   for (Peer& peer : peers_) peer.commit(next);
+  assert(std::ranges::all_of(peers_, [this](const Peer& peer) { return peer.now() == now(); }));
   note_owners();
 }
 

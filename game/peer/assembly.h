@@ -2,6 +2,7 @@
 // costs before there is a network.
 #pragma once
 
+#include <cassert>
 #include <deque>
 #include <optional>
 #include <string>
@@ -20,14 +21,20 @@ class Assembly {
   /// Before the first window: when keys change.
   void press(const Key& key);
   /// From the end of the next window on, zones are these; for as many peers as there are.
-  void divide(const Division& division) { next_division_ = division; }
+  void divide(const Division& division) {
+    assert(division.peer_count() == peers_.size());
+    next_division_ = division;
+  }
   /// Plays one window, repeated as often as it takes.
   void advance();
 
   double now() const { return window_ * static_cast<double>(count_); }
   std::deque<Peer>& peers() { return peers_; }
   /// Of the body, by its owner. Looks for it among all peers' own.
-  BodyState state(std::uint32_t body) const { return peers_[owners_[body]].state(body); }
+  BodyState state(std::uint32_t body) const {
+    assert(body < owners_.size() && owners_[body] < peers_.size());
+    return peers_[owners_[body]].state(body);
+  }
   /// How many bodies have not exactly one owner.
   std::uint32_t misowned() const { return misowned_; }
   /// The first accusation of any peer; empty if there is none.

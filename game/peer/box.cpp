@@ -1,6 +1,7 @@
 // The extremes of a path.
 #include "game/peer/box.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace rink::peer {
@@ -17,6 +18,7 @@ double turning_time(double velocity, double acceleration, double drag) {
 }  // namespace
 
 Box swept(const physics::Motion& motion, double begin, double end, const Vector2& extent) {
+  assert(extent.x() >= 0.0 && extent.y() >= 0.0);
   begin = std::max(begin, motion.time), end = std::max(begin, end);
   Box box = Box::around(motion.at(begin).position, extent)
                 .with(Box::around(motion.at(end).position, extent));

@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <functional>
 #include <tuple>
 #include <utility>
+
+#include "im/basics/checked.h"
 
 namespace rink::peer {
 
@@ -17,14 +21,36 @@ std::pair<Box, Box> Cuts::parts_of(const Box& box, bool is_along_x, double side)
 
 Cuts Cuts::by_count(const physics::Field& field, std::vector<Vector2> places,
                     PeerNumber peer_count) {
+  assert(peer_count > 0 && field.length > 0.0 && field.width > 0.0);
   Cuts cuts(field);
   cuts.root_ = cuts.cut({0.0, 0.0, field.length, field.width}, places, 0, peer_count);
+  assert(cuts.nodes_.size() == 2 * std::size_t{peer_count} - 1);
+  if constexpr (checks_whole_structures) cuts.check();
   return cuts;
+}
+
+void Cuts::check() const {
+  assert(root_ < nodes_.size());
+  assert(checked_count(root_, {0.0, 0.0, field_.length, field_.width}) == nodes_.size());
+  const std::vector<PeerNumber> all = peers();
+  assert(std::ranges::adjacent_find(all, std::greater_equal<>()) == all.end());
+}
+
+/// How many nodes there are in that part, each of which is looked at.
+std::size_t Cuts::checked_count(std::size_t node, const Box& box) const {
+  const Node& here = nodes_[node];
+  if (is_leaf(node)) return 1;
+  assert(here.low < nodes_.size() && here.high < nodes_.size() && here.low != here.high);
+  assert((here.is_along_x ? box.low_x : box.low_y) <= here.side &&
+         here.side <= (here.is_along_x ? box.high_x : box.high_y));
+  const auto [below, above] = parts_of(box, here.is_along_x, here.side);
+  return 1 + checked_count(here.low, below) + checked_count(here.high, above);
 }
 
 /// A part of the field for `peer_count` peers from `first` on, and what is in it.
 std::size_t Cuts::cut(const Box& box, std::span<Vector2> places, PeerNumber first,
                       PeerNumber peer_count) {
+  assert(peer_count > 0);
   const std::size_t node = nodes_.size();
   nodes_.push_back({.low = node, .peer = first});
   if (peer_count == 1) return node;
@@ -41,6 +67,7 @@ std::size_t Cuts::cut(const Box& box, std::span<Vector2> places, PeerNumber firs
   double side = count == 0 ? low : 0.5 * (along(places[count - 1]) + along(places[count]));
   // All in one place, or too few: by area.
   if (!(side > low && side < high)) side = low + (high - low) * lower / peer_count;
+  assert(side > low && side < high);
   const auto second = static_cast<std::size_t>(
       std::partition_point(places.begin(), places.end(),
                            [&](const Vector2& place) { return along(place) < side; }) -
@@ -123,6 +150,8 @@ Cuts Cuts::without(PeerNumber peer) const {
   assert(has(peer) && !is_leaf(root_));
   Cuts cuts(field_);
   cuts.root_ = copied(root_, peer, cuts.nodes_);
+  assert(!cuts.has(peer) && cuts.nodes_.size() + 2 == nodes_.size());
+  if constexpr (checks_whole_structures) cuts.check();
   return cuts;
 }
 
@@ -130,6 +159,7 @@ Cuts Cuts::with(PeerNumber newcomer, PeerNumber of) const {
   assert(!has(newcomer) && has(of));
   Cuts cuts = *this;
   Box box{};
+  assert(nodes_.size() == 2 * peers().size() - 1);
   const auto node = static_cast<std::size_t>(
       find(root_, {0.0, 0.0, field_.length, field_.width}, of, box) - nodes_.data());
   const bool is_long = box.high_x - box.low_x >= box.high_y - box.low_y;
@@ -141,10 +171,13 @@ Cuts Cuts::with(PeerNumber newcomer, PeerNumber of) const {
                        .is_along_x = is_long,
                        .side = side,
                        .peer = 0};
+  if constexpr (checks_whole_structures) cuts.check();
   return cuts;
 }
 
 std::optional<Cuts> Cuts::balanced(std::span<const double> loads, double tolerance) const {
+  assert(tolerance >= 1.0 && peers().back() < loads.size());
+  assert(std::ranges::all_of(loads, [](double l) { return std::isfinite(l) && l >= 0.0; }));
   Cuts cuts = *this;
   const Box whole{0.0, 0.0, field_.length, field_.width};
   return cuts.shift(root_, whole, whole, loads, tolerance) ? std::optional(std::move(cuts))
@@ -162,6 +195,7 @@ bool Cuts::shift(std::size_t node, const Box& from, const Box& to, std::span<con
   const auto high_of = [&](const Box& box) { return here.is_along_x ? box.high_x : box.high_y; };
   const auto load_of = [&](const std::vector<PeerNumber>& peers) {
     double load = 0.0;
+    assert(!peers.empty());
     for (const PeerNumber peer : peers) load += loads[peer];
     return load;
   };

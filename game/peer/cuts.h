@@ -39,6 +39,10 @@ class Cuts {
   /// know these; nothing if no cut moves.
   std::optional<Cuts> balanced(std::span<const double> loads, double tolerance) const;
 
+  /// Asserts that these are one tree: each part below one cut, which lies within what it cuts, and
+  /// each peer with one zone.
+  void check() const;
+
   /// To a message and back, into cuts of the same field; false for what are no cuts of it, as one
   /// of zones so thin that they are none.
   template <class Stream>
@@ -94,6 +98,7 @@ class Cuts {
                   PeerNumber peer_count);
   void lay_out(std::size_t node, const Box& box, std::vector<Zone>& zones) const;
   std::vector<PeerNumber> peers_below(std::size_t node) const;
+  std::size_t checked_count(std::size_t node, const Box& box) const;
   bool shift(std::size_t node, const Box& from, const Box& to, std::span<const double> loads,
              double tolerance);
 

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "im/basics/checked.h"
+
 namespace rink::peer {
 
 namespace {
@@ -70,9 +72,19 @@ Division::Division(const physics::Field& field, std::vector<Zone> zones, PeerNum
     }
   }
   begins_.push_back(zones_.size());
+  assert(zones_.size() == zones.size());
+  if constexpr (checks_whole_structures) check();
+}
+
+void Division::check() const {
+  assert(begins_.size() == peer_count_ + std::size_t{1} && begins_.front() == 0);
+  assert(std::is_sorted(begins_.begin(), begins_.end()) && begins_.back() == zones_.size());
+  for ([[maybe_unused]] const Box& zone : zones_)
+    assert(zone.low_x < zone.high_x && zone.low_y < zone.high_y);
 }
 
 Division Division::into_strips(const physics::Field& field, PeerNumber peer_count) {
+  assert(peer_count > 0 && field.length > 0.0 && field.width > 0.0);
   std::vector<Zone> zones;
   const bool is_long = field.length >= field.width;
   const auto side = [&](PeerNumber k, double whole) {
@@ -97,16 +109,19 @@ PeerNumber Division::owner_of(const Vector2& place) const {
 }
 
 std::span<const Box> Division::zones_of(PeerNumber peer) const {
+  assert(peer < peer_count_);
   return std::span(zones_).subspan(begins_[peer], begins_[peer + 1] - begins_[peer]);
 }
 
 bool Division::is_near(PeerNumber peer, const Box& box, double halo) const {
+  assert(halo >= 0.0);
   for (const Box& zone : zones_of(peer))
     if (zone.grown(halo).meets(box)) return true;
   return false;
 }
 
 bool Division::is_within(PeerNumber peer, const Box& box, double halo) const {
+  assert(halo >= 0.0);
   for (const Box& zone : zones_of(peer))
     if (zone.grown(halo).holds(box)) return true;
   return false;

@@ -42,6 +42,9 @@ class Division {
   bool is_near(PeerNumber peer, const Box& box, double halo) const;
   bool is_within(PeerNumber peer, const Box& box, double halo) const;
 
+  /// Asserts that each peer's zones are where its beginning says, with room in them.
+  void check() const;
+
  private:
   PeerNumber peer_count_;
   std::vector<Box> zones_;           // in order of peers

@@ -2,6 +2,7 @@
 #include "game/peer/messages.h"
 
 #include <array>
+#include <cassert>
 
 #include "game/peer/message_bytes.h"
 #include "game/physics/snapshot_stream.h"
@@ -30,7 +31,8 @@ class Measure : public physics::SnapshotStream<Measure> {
 /// Puts words into room that is there.
 class Scribe : public physics::SnapshotStream<Scribe> {
  public:
-  explicit Scribe(std::uint8_t* to) : to_(to) {}
+  explicit Scribe(std::uint8_t* to) : begin_(to), to_(to) {}
+  std::size_t written() const { return static_cast<std::size_t>(to_ - begin_); }
   bool word(std::uint64_t& value, int byte_count) {
     for (int byte = 0; byte < byte_count; ++byte)
       to_[byte] = static_cast<std::uint8_t>(value >> (8 * byte));
@@ -39,13 +41,15 @@ class Scribe : public physics::SnapshotStream<Scribe> {
   static std::uint64_t count_max() { return 0xffffffff; }
 
  private:
+  const std::uint8_t* begin_;
   std::uint8_t* to_;
 };
 
 template <class Message>
 std::size_t size_of(Message& message) {
   Measure measure;
-  exchange(measure, message);
+  [[maybe_unused]] const bool is_sound = exchange(measure, message);
+  assert(is_sound && "what we say, others must be able to take");
   return measure.byte_count() + short_checksum;
 }
 
@@ -75,6 +79,7 @@ bool are_same(BodyState a, BodyState b) {
       bytes_b{};  // no number takes more room as bytes
   Scribe scribe_a(bytes_a.data()), scribe_b(bytes_b.data());
   exchange(scribe_a, a), exchange(scribe_b, b);
+  assert(scribe_a.written() == scribe_b.written() && scribe_a.written() <= bytes_a.size());
   return bytes_a == bytes_b;
 }
 

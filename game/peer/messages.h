@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
@@ -185,6 +186,7 @@ bool exchange_short(Stream& stream, Number& number) {
 class Head {
  public:
   explicit Head(std::initializer_list<bool> parts) : count_(static_cast<int>(parts.size())) {
+    assert(parts.size() <= 7 && "the eighth bit is always set");
     int bit = 0;
     for (const bool is_there : parts) bits_ |= static_cast<std::uint64_t>(is_there) << bit++;
   }
@@ -192,7 +194,10 @@ class Head {
   bool exchange(Stream& stream) {
     return stream.word(bits_, 1) && bits_ >> count_ == 0x80u >> count_;
   }
-  bool has(int part) const { return (bits_ >> part & 1) != 0; }
+  bool has(int part) const {
+    assert(part >= 0 && part < count_);
+    return (bits_ >> part & 1) != 0;
+  }
 
  private:
   int count_;

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <tuple>
 #include <utility>
+
+#include "im/basics/checked.h"
 
 namespace rink::peer {
 
@@ -54,6 +57,7 @@ Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber 
 }
 
 void Peer::consider(std::uint32_t body, const BodyState& state) {
+  assert(body < portion_.body_count() && !portion_.is_there(body));
   const Vector2 place(state.flight.x, state.flight.y);
   extent_max_ = std::max(extent_max_, state.extent().maxCoeff());
   const PeerNumber owner = division_.owner_of(place);
@@ -69,26 +73,58 @@ bool Peer::is_sound(PeerNumber from, const Message& message, Instants... instant
 }
 
 void Peer::hear(PeerNumber from, Claims claims) {
+  assert(from < claims_.size() && from != number_);
   if (is_sound(from, claims, end_)) claims_[from] = std::move(claims);
 }
 
 void Peer::hear(PeerNumber from, const Verdict& verdict) {
+  assert(from < verdicts_.size() && from != number_);
   if (is_sound(from, verdict)) verdicts_[from] = verdict;
 }
 
 void Peer::hear(PeerNumber from, Arrivals arrivals) {
+  assert(from < arrivals_.size() && from != number_);
   if (is_sound(from, arrivals, told_)) arrivals_[from] = std::move(arrivals);
 }
 
 void Peer::begin(double until) {
+  assert(until >= start_ && owned_.empty());
   if (!entered_holds_.empty()) set_holds(std::exchange(entered_holds_, {}));
   portion_.begin_window();
   settle(ghosts_);
   share_keys(until);
   choose_watched();
+  if constexpr (checks_whole_structures) check();
+}
+
+void Peer::check() const {
+  [[maybe_unused]] const std::size_t peer_count = division_.peer_count();
+  assert(halos_.size() == peer_count && known_.size() == peer_count &&
+         verdicts_.size() == peer_count && arrivals_.size() == peer_count);
+  assert(std::ranges::all_of(halos_, [](double halo) { return halo >= 0.0; }));
+  for (std::size_t place = 0; place < owned_.size(); ++place) {
+    assert(roles_[owned_[place]] == own && owned_places_[owned_[place]] == place);
+    assert(portion_.is_there(owned_[place]) && homes_[owned_[place]] <= interiors_.size());
+  }
+  assert(std::ranges::adjacent_find(ghosts_, std::greater_equal<>()) == ghosts_.end());
+  for ([[maybe_unused]] const std::uint32_t body : ghosts_)
+    assert(roles_[body] == ghost && owners_[body] != number_ && portion_.is_there(body));
+  [[maybe_unused]] const auto with_role = [this](Role role) {
+    return static_cast<std::size_t>(std::ranges::count(roles_, std::uint8_t{role}));
+  };
+  assert(with_role(own) == owned_.size() && with_role(ghost) == ghosts_.size());
+  assert(known_[number_].empty());
+  for ([[maybe_unused]] const std::vector<std::uint32_t>& known : known_) {
+    assert(std::ranges::adjacent_find(known, std::greater_equal<>()) == known.end());
+    assert(std::ranges::all_of(known, [this](std::uint32_t body) { return roles_[body] == own; }));
+  }
+  assert(watched_.size() == is_watched_.size() - static_cast<std::size_t>(std::ranges::count(
+                                                     is_watched_, std::uint8_t{not_watched})));
+  assert(std::ranges::is_sorted(due_, is_before) && end_ >= start_);
 }
 
 Vector2 Peer::start_place(std::uint32_t body) const {
+  assert(body < roles_.size());
   if (portion_.was_gone(body)) return portion_.motion_before(body).position;
   return portion_.motion_before(body).at(start_).position;
 }
@@ -119,6 +155,7 @@ void Peer::play_anew() {
 }
 
 void Peer::play_keys(double until) {
+  assert(std::ranges::is_sorted(due_, is_before));
   for (const Key& key : due_) {
     portion_.advance(std::max(key.time, portion_.world().now()));
     portion_.set_thrust(key.bat, key.thrust);
@@ -129,6 +166,7 @@ void Peer::play_keys(double until) {
 /// The same decision everywhere, for all have heard the same.
 Outcome Peer::conclude() {
   bool is_hopeless = false, is_final = true, are_whole = true;
+  assert(verdicts_.size() == division_.peer_count() && is_present_[number_]);
   for (PeerNumber peer = 0; peer < verdicts_.size(); ++peer) {
     if (!is_present_[peer])
       verdicts_[peer] = {.accepts = true, .halo = static_cast<float>(halos_[peer])};
@@ -173,6 +211,7 @@ void Peer::set_holds(std::vector<Hold> holds) {
 }
 
 void Peer::replay() {
+  assert(is_repeating_[number_]);
   portion_.undo();
   std::vector<Hold> holds = portion_.holds();
   for (PeerNumber from = 0; from < arrivals_.size(); ++from) {
@@ -196,6 +235,7 @@ void Peer::replay() {
 /// Ghosts that went astray: to which nothing happened, they are what they were; all others come
 /// anew, or are gone.
 void Peer::correct_doubtful() {
+  assert(doubts_.size() == ghosts_.size() && is_unmoved_.size() == ghosts_.size());
   for (std::size_t k = 0; k < ghosts_.size(); ++k) {
     if (doubts_[k] == infinity) continue;
     if (is_unmoved_[k]) portion_.put(ghosts_[k], portion_.state_before(ghosts_[k]));
@@ -239,9 +279,11 @@ void Peer::commit(double until) {
   settle(std::move(candidates));
   share_keys(until);
   if (!is_watch_fit()) choose_watched();
+  if constexpr (checks_whole_structures) check();
 }
 
 void Peer::own_from_now(std::uint32_t body) {
+  assert(roles_[body] != own && portion_.is_there(body));
   roles_[body] = own;
   owned_places_[body] = static_cast<std::uint32_t>(owned_.size());
   owned_.push_back(body);
@@ -254,6 +296,7 @@ void Peer::disown(std::uint32_t body) {
   ++counters_.hand_overs;
   if (keeps_changes_) left_.push_back(body);
   const std::uint32_t place = owned_places_[body], last = owned_.back();
+  assert(place < owned_.size() && owned_[place] == body);
   owned_[place] = last, owned_places_[last] = place;
   owned_.pop_back();
 }
@@ -309,6 +352,7 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
 }
 
 void Peer::end_at(double until) {
+  assert(until >= start_);
   keys_.insert(keys_.end(), due_.begin(), due_.end());
   share_keys(until);
 }
@@ -325,6 +369,7 @@ void Peer::share_keys(double until) {
   }
   std::stable_sort(due_.begin(), due_.end(), is_before);
   keys_ = std::move(later);
+  assert(std::ranges::all_of(keys_, [until](const Key& key) { return !(key.time <= until); }));
 }
 
 }  // namespace rink::peer

@@ -2,6 +2,7 @@
 // window among ghosts of their neighbours, and proves each window right.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -67,8 +68,14 @@ class Peer {
   void begin(double until);
 
   /// Between windows: who plays on. Nothing is expected of the others, who have no zones.
-  void set_present(PeerNumber peer, bool is_present) { is_present_[peer] = is_present; }
-  bool is_present(PeerNumber peer) const { return is_present_[peer]; }
+  void set_present(PeerNumber peer, bool is_present) {
+    assert(peer < is_present_.size() && (is_present || peer != number_));
+    is_present_[peer] = is_present;
+  }
+  bool is_present(PeerNumber peer) const {
+    assert(peer < is_present_.size());
+    return is_present_[peer];
+  }
   /// With the next verdicts, until told otherwise.
   void wish_to_leave(bool wishes) { wishes_to_leave_ = wishes; }
   void announce(Admission admission) { admission_ = std::move(admission); }
@@ -82,13 +89,19 @@ class Peer {
   /// After a commit: a puck that went into a goal, as its owner has it, is back in play at `place`,
   /// which is free for everybody.
   void put_back(const Arrivals::Body& scored, const Vector2& place);
-  bool owns(std::uint32_t body) const { return roles_[body] == own; }
+  bool owns(std::uint32_t body) const {
+    assert(body < roles_.size());
+    return roles_[body] == own;
+  }
 
   /// Of a bat that it owns, before the first window.
   void press_first(const Key& key) { keys_.push_back(key); }
 
   /// Between windows, the same at all peers: who plays the bat. One player for each.
-  void seat(const Seat& seat) { seats_.push_back(seat); }
+  void seat(const Seat& seat) {
+    assert(seat.bat < roles_.size() && seat.period >= 0.0);
+    seats_.push_back(seat);
+  }
   /// What the own players may see now, since the last commit.
   const std::vector<Glimpse>& glimpses() const { return glimpses_; }
   /// Of all own bats that `player` plays, whether it is due or not.
@@ -97,7 +110,10 @@ class Peer {
   /// `owner`, the one that the newest glimpse of the bat names. It is stamped there with the end of
   /// that window or, if that is later, with the instant that it names, though not more than
   /// `ahead_max` later; a player's keys must name instants that do not fall.
-  void press(PeerNumber owner, const Press& press) { presses_[owner].push_back(press); }
+  void press(PeerNumber owner, const Press& press) {
+    assert(owner < presses_.size() && press.input != 0);
+    presses_[owner].push_back(press);
+  }
   static constexpr double ahead_max = 1.0;  ///< s
   /// Of the window that comes next [s].
   double end() const { return end_; }
@@ -114,8 +130,14 @@ class Peer {
   void hear(PeerNumber from, const Verdict& verdict);
   Outcome conclude();
   const Verdict& verdict() const { return verdicts_[number_]; }
-  const Verdict& verdict_of(PeerNumber peer) const { return verdicts_[peer]; }
-  bool repeats(PeerNumber peer) const { return is_repeating_[peer]; }
+  const Verdict& verdict_of(PeerNumber peer) const {
+    assert(peer < verdicts_.size());
+    return verdicts_[peer];
+  }
+  bool repeats(PeerNumber peer) const {
+    assert(peer < is_repeating_.size());
+    return is_repeating_[peer];
+  }
   /// Between the arrivals for `peer` and the commit: whether it will have the own body in the next
   /// window, as its own or as a ghost.
   bool will_have(PeerNumber peer, std::uint32_t body) const;
@@ -145,6 +167,10 @@ class Peer {
   /// Why another peer's message cannot be true, naming it; empty if all could.
   const std::string& accusation() const { return accusation_; }
   PeerNumber accused() const { return accused_; }
+
+  /// At a window's start: asserts that every body has one role, that lists of own bodies and ghosts
+  /// hold those of that role, each once, and that what others have of ours is ours.
+  void check() const;
 
  private:
   enum Role : std::uint8_t { away, ghost, own };

@@ -1,5 +1,6 @@
 // What goes from hand to hand between two windows, and who has whose bodies then.
 #include <algorithm>
+#include <cassert>
 #include <string>
 #include <utility>
 
@@ -27,6 +28,7 @@ Box Peer::start_reach(std::uint32_t body) const {
 }
 
 Arrivals Peer::arrivals_for_repeat(PeerNumber peer) {
+  assert(peer < known_.size() && peer != number_);
   Arrivals message;
   message.window = window_;
   std::vector<std::uint32_t> sent;
@@ -48,6 +50,7 @@ Arrivals Peer::arrivals_for_repeat(PeerNumber peer) {
 }
 
 Arrivals Peer::arrivals_for(PeerNumber peer, double until) {
+  assert(peer < coming_.size() && peer != number_ && until >= end_);
   Arrivals message;
   message.window = window_;
   std::vector<std::uint32_t> there;

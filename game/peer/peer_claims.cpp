@@ -1,6 +1,7 @@
 // What happened in a window, and what is claimed of it: docs/peer-to-peer.md, "The rule".
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <utility>
 
 #include "game/peer/peer.h"
@@ -59,6 +60,7 @@ void Peer::trace() {
 
 void Peer::enter_event(Events event) {
   const std::vector<physics::Change>& changes = portion_.journal().changes;
+  assert(event.begin < event.end && event.end <= changes.size());
   std::uint64_t concerned = 0;
   for (std::size_t k = event.begin; k < event.end; ++k)
     concerned += mixed(0x9ae16a3b2f90404fULL, std::uint64_t{changes[k].body});
@@ -80,7 +82,10 @@ std::span<const Peer::Step> Peer::steps_of(std::uint32_t body) const {
 
 physics::Motion Peer::motion_after(const Step& step) const {
   const physics::Journal& journal = portion_.journal();
+  assert(step.change < journal.changes.size());
   const physics::Change& c = journal.changes[step.change];
+  assert(c.body == step.body);
+  assert(c.motion == physics::Change::straight || c.motion < journal.motions.size());
   if (c.motion != physics::Change::straight) return journal.motions[c.motion];
   return {c.since,
           {c.x, c.y},
@@ -113,6 +118,7 @@ void Peer::lay_out_paths() {
                           is_out ? Box::around(motion.position, extent)
                                  : swept(motion, time_of(k), time_of(k + 1), extent)});
     }
+    assert(flights_.size() == first + 1 + steps.size());
     paths_.push_back({body, first, flights_.size()});
   }
   hull_ = {infinity, infinity, -infinity, -infinity};
@@ -120,6 +126,7 @@ void Peer::lay_out_paths() {
 }
 
 Claims Peer::claims_for(PeerNumber peer) {
+  assert(peer < known_.size() && peer != number_);
   Claims message;
   message.window = window_;
   message.known_count = static_cast<std::uint32_t>(known_[peer].size());

@@ -1,6 +1,7 @@
 // Which own bodies are deep in their zones, where no other peer's halo reaches: nothing is said of
 // them, and hardly any is looked at.
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "game/peer/peer.h"
@@ -18,6 +19,7 @@ constexpr double windows_watched = 24.0;
 }  // namespace
 
 std::uint8_t Peer::home_of(const Vector2& place, std::uint8_t likely) const {
+  assert(likely <= interiors_.size());
   const Box point = Box::around(place, {0.0, 0.0});
   if (likely != 0 && interiors_[likely - 1u].holds(point)) return likely;
   for (std::size_t k = 0; k < interiors_.size(); ++k)
@@ -41,6 +43,7 @@ bool Peer::is_margin_fit() const {
 /// has been played must be played anew.
 void Peer::choose_margin() {
   margin_ = margin_room * least_margin();
+  assert(is_margin_fit());
   interiors_.clear();
   for (const Box& zone : division_.zones_of(number_)) interiors_.push_back(zone.grown(-margin_));
   for (const std::uint32_t body : owned_) {
@@ -53,6 +56,7 @@ void Peer::choose_margin() {
 }
 
 void Peer::watch(std::uint32_t body, Watch how) {
+  assert(roles_[body] == own && how != not_watched);
   if (is_watched_[body] != not_watched) return;
   is_watched_[body] = how;
   watched_.push_back(body);
@@ -61,6 +65,7 @@ void Peer::watch(std::uint32_t body, Watch how) {
 
 bool Peer::stays(std::uint8_t home, const Vector2& place, const Vector2& velocity,
                  double since) const {
+  assert(home > 0 && home <= interiors_.size());
   const Box& interior = interiors_[home - 1u];
   const Vector2 farthest =
       place + velocity * (watched_until_ - since);  // drag only makes it shorter
@@ -107,10 +112,12 @@ void Peer::find_edge() {
       note_edge(body);
   }
   std::sort(edge_.begin(), edge_.end());
+  assert(std::ranges::adjacent_find(edge_) == edge_.end() && outskirts_.size() <= owned_.size());
 }
 
 /// Without its infinite sides, from which nothing has a distance.
 Box Peer::room_at_home(std::uint32_t body) const {
+  assert(homes_[body] > 0 && homes_[body] <= interiors_.size());
   const physics::Field& field = portion_.world().spec().field;
   const Box& room = interiors_[homes_[body] - 1u];
   return {std::max(room.low_x, -field.length), std::max(room.low_y, -field.width),

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cassert>
 
+#include "im/basics/checked.h"
+
 #include "game/peer/peer.h"
 
 namespace rink::peer {
 
 void Peer::enter(std::uint32_t window, double start) {
+  assert(owned_.empty() && ghosts_.empty() && start >= portion_.world().now());
   window_ = window, start_ = start;
   portion_.advance(start);
 }
@@ -26,6 +29,7 @@ void Peer::take(const Arrivals& part) {
 
 /// Who comes has no halo of its own until its first verdict, nor a zone.
 void Peer::make_room(PeerNumber peer_count) {
+  assert(peer_count > halos_.size());
   halos_.resize(peer_count, usual_halo_);
   is_repeating_.resize(peer_count, false), is_present_.resize(peer_count, false);
   known_.resize(peer_count), coming_.resize(peer_count), presses_.resize(peer_count);
@@ -85,6 +89,7 @@ PartChange Peer::change(bool is_whole) const {
 /// had.
 void Peer::put_back(const Arrivals::Body& scored, const Vector2& place) {
   const std::uint32_t body = scored.number;
+  assert(body < roles_.size() && place.allFinite());
   const bool was_own = roles_[body] == own;
   std::erase(ghosts_, body);
   for (std::vector<std::uint32_t>& known : known_) std::erase(known, body);
@@ -113,6 +118,7 @@ void Peer::put_back(const Arrivals::Body& scored, const Vector2& place) {
   }
   if (!is_margin_fit()) choose_margin();
   portion_.begin_window();
+  if constexpr (checks_whole_structures) check();
 }
 
 }  // namespace rink::peer

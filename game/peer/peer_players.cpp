@@ -1,5 +1,6 @@
 // Live players: what they see of the bats that others own, and how their keys get there.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +9,7 @@
 namespace rink::peer {
 
 bool Seat::is_due(double begin, double end) const {
+  assert(period >= 0.0 && begin <= end);
   if (period == 0.0) return true;
   const auto count = [this](double time) { return std::floor((time - phase) / period); };
   return end >= phase && (begin < phase || count(end) > count(begin));
@@ -21,6 +23,7 @@ Glimpse Peer::glimpse_of(const Seat& seat) const {
                   .position = world.position({seat.bat}),
                   .velocity = world.velocity({seat.bat}),
                   .pucks = {}};
+  assert(roles_[seat.bat] == own && world.kind({seat.bat}) == physics::BodyKind::bat);
   glimpse.owner = division_.owner_of(glimpse.position);
   std::vector<std::pair<double, std::uint32_t>> nearest;
   if (seat.puck_count > 0)

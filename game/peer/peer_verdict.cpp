@@ -2,6 +2,7 @@
 // rule".
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 #include <string>
 
@@ -41,6 +42,7 @@ bool Peer::accuse(PeerNumber peer, const std::string& of) {
 void Peer::blame(bool doubts_ghosts) {
   const auto doubted =
       std::find_if(doubts_.begin(), doubts_.end(), [](double doubt) { return doubt < infinity; });
+  assert(!doubts_ghosts || doubts_.size() == ghosts_.size());
   if (doubts_ghosts && doubted != doubts_.end()) {
     const std::uint32_t body = ghosts_[static_cast<std::size_t>(doubted - doubts_.begin())];
     accuse(owners_[body], "claims what cannot be agreed with of body " + std::to_string(body));
@@ -112,6 +114,7 @@ const Verdict& Peer::judge() {
       verdict.halo = std::numeric_limits<float>::infinity();
     else usual_halo_ = wider, verdict.halo = rounded_up(wider);
   }
+  assert(verdict.halo >= 0.0f && (verdict.accepts || verdict.halo > 0.0f));
   counters_.verdict_bytes += measured(verdict);
   return verdict;
 }
@@ -135,6 +138,7 @@ std::vector<Goal> Peer::goals() const {
 }
 
 std::vector<std::uint8_t> Peer::parts_of_events() const {
+  assert(end_ >= start_);
   std::vector<std::uint8_t> parts;
   const std::vector<double>& times = portion_.journal().times;
   if (static_cast<PeerNumber>(std::count(is_present_.begin(), is_present_.end(), true)) <=
@@ -150,6 +154,7 @@ std::vector<std::uint8_t> Peer::parts_of_events() const {
 /// At least as many as came at any one instant in the whole. An instant, which is a few roundings
 /// long, may lie on both sides of where two parts of the window meet.
 std::uint64_t Peer::at_once_bound() const {
+  assert(verdicts_.size() == halos_.size());
   std::uint64_t sum = 0, unlisted = 0;
   for (const Verdict& verdict : verdicts_) sum += verdict.at_once_max;
   if (sum < physics::events_at_once_local) return sum;
@@ -246,6 +251,7 @@ bool Peer::trusts_ghosts() {
     }
   }
   for (std::size_t k = 0; k < ghosts_.size(); ++k) {
+    assert(roles_[ghosts_[k]] == ghost && owners_[ghosts_[k]] != number_);
     is_unmoved_[k] = claimed_of[k].empty();
     doubts_[k] = first_difference(ghosts_[k], claimed_of[k], beyond);
   }

@@ -1,6 +1,8 @@
 // The steps of peer.h in their order, message by message.
 #include "game/peer/protocol.h"
 
+#include <cassert>
+
 #include "game/physics/body_hash.h"
 
 namespace rink::peer {
@@ -39,6 +41,7 @@ bool flies_straight(const BodyState& state, const physics::WorldSpec& spec) {
 
 std::vector<std::vector<std::uint8_t>> Mail::share(PeerNumber own, PeerNumber peer_count,
                                                    std::vector<std::uint8_t> bytes) {
+  assert(own < peer_count && bytes.size() <= shared_max);
   std::vector<std::vector<std::uint8_t>> all(peer_count);
   for (PeerNumber to = 0; to < peer_count; ++to)
     if (to != own) send(to, bytes);
@@ -50,6 +53,7 @@ std::vector<std::vector<std::uint8_t>> Mail::share(PeerNumber own, PeerNumber pe
 
 void agree(Peer& peer, PeerNumber peer_count, Mail& mail) {
   const auto verdicts = mail.share(peer.number(), peer_count, written(peer.verdict()));
+  assert(verdicts.size() == peer_count && "who carries the mail gives one of each");
   for (PeerNumber from = 0; from < peer_count; ++from)
     if (from != peer.number()) hear<Verdict>(peer, from, verdicts[from]);
   if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
@@ -71,6 +75,7 @@ Arrivals own_bodies(const Peer& peer) {
       all.flown.push_back(Flown::of(body, state.flight));
     else all.bodies.push_back({body, state});
   }
+  assert(all.flown.size() + all.bodies.size() == peer.owned().size());
   return all;
 }
 

@@ -1,6 +1,7 @@
 // Doubles as floats that are certainly no greater, or no less: what is claimed holds what is meant.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -8,9 +9,11 @@ namespace rink::peer {
 
 inline float rounded_down(double x) {
   const auto nearest = static_cast<float>(x);
-  return static_cast<double>(nearest) <= x
-             ? nearest
-             : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+  const float rounded = static_cast<double>(nearest) <= x
+                            ? nearest
+                            : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+  assert(!(static_cast<double>(rounded) > x));
+  return rounded;
 }
 inline float rounded_up(double x) { return -rounded_down(-x); }
 

@@ -2,6 +2,7 @@
 #include "game/peer/validation.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 
@@ -62,6 +63,7 @@ Validator::Validator(const physics::World& world)
     constants_of_.push_back(static_cast<std::uint32_t>(known - constants_.begin()));
     if (known == constants_.end()) constants_.push_back(own);
   }
+  assert(constants_of_.size() == world.body_count() && constants_.size() <= constants_of_.size());
 }
 
 bool Validator::is_place(const Vector2& place) const {

@@ -1,8 +1,12 @@
 // The steps of play_window, each begun when something from everybody is there.
 #include "game/peer/window_play.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
+
+#include "im/basics/checked.h"
 
 namespace rink::peer {
 
@@ -16,6 +20,7 @@ template <class Message>
 void WindowPlay::take_from_all() {
   for (PeerNumber from = 0; from < peer_count_; ++from) {
     if (from == peer_.number()) continue;
+    assert(!inboxes_[from].empty());
     Message message;
     if (!read(inboxes_[from].front(), message))
       throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
@@ -27,7 +32,7 @@ void WindowPlay::take_from_all() {
 }
 
 void WindowPlay::begin(double next) {
-  assert(!is_playing());
+  assert(!is_playing() && std::isfinite(next) && next > peer_.end());
   next_ = next;
   peer_.play();
   say_to_all(Subject::claims, [&](PeerNumber to) { return peer_.claims_for(to); });
@@ -36,6 +41,7 @@ void WindowPlay::begin(double next) {
 }
 
 void WindowPlay::hear(PeerNumber from, std::vector<std::uint8_t> bytes) {
+  assert(from < peer_count_ && from != peer_.number());
   heard_ += inboxes_[from].empty();
   inboxes_[from].push_back(std::move(bytes));
   go_on();
@@ -43,6 +49,14 @@ void WindowPlay::hear(PeerNumber from, std::vector<std::uint8_t> bytes) {
 
 void WindowPlay::go_on() {
   while (is_playing() && heard_ + 1 == peer_count_) advance();
+  if constexpr (checks_whole_structures) check();
+}
+
+void WindowPlay::check() const {
+  assert(inboxes_.size() == peer_count_ && inboxes_[peer_.number()].empty());
+  assert(heard_ == static_cast<PeerNumber>(std::ranges::count_if(
+                       inboxes_, [](const auto& inbox) { return !inbox.empty(); })));
+  assert((!is_playing() || heard_ + 1 < peer_count_) && "what all have said was taken at once");
 }
 
 void WindowPlay::advance() {

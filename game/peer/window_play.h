@@ -2,6 +2,7 @@
 // reaches.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -18,7 +19,9 @@ class WindowPlay {
   using Say = std::function<void(PeerNumber to, Subject about, std::vector<std::uint8_t> bytes)>;
   /// `peer` and what `say` needs must outlive it.
   WindowPlay(Peer& peer, PeerNumber peer_count, Say say)
-      : peer_(peer), peer_count_(peer_count), say_(std::move(say)), inboxes_(peer_count) {}
+      : peer_(peer), peer_count_(peer_count), say_(std::move(say)), inboxes_(peer_count) {
+    assert(peer.number() < peer_count && say_);
+  }
 
   /// Called when all have accepted, before anything is handed over: what the peer's own bodies are
   /// now is final.
@@ -30,7 +33,11 @@ class WindowPlay {
   /// Plays the window that is prepared (only if none is being played), and prepares the next, which
   /// ends at `next` [s], once it is final. Throws ProtocolError, as `hear` does.
   void begin(double next);
+  /// `from` is another peer.
   void hear(PeerNumber from, std::vector<std::uint8_t> bytes);
+
+  /// Asserts that those who were heard are counted, and that nothing is heard of the own peer.
+  void check() const;
 
  private:
   enum class Step : std::uint8_t { resting, claims, verdicts, repeats, arrivals };

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "game/peer/message_bytes.h"
+#include "im/basics/checked.h"
 
 namespace rink::peer {
 
@@ -19,7 +20,13 @@ bool Mirror::add(PartChange change) {
   if (!change.is_whole && (!step || change.step != *step + 1)) return false;
   apply();
   last_ = std::move(change);
+  if constexpr (checks_whole_structures) check();
   return true;
+}
+
+void Mirror::check() const {
+  assert(!last_ || last_->is_whole || (base_ && last_->step == base_->step + 1));
+  assert(!last_ || last_->is_whole || last_->time >= base_->time);
 }
 
 void Mirror::apply() {
@@ -37,12 +44,14 @@ void Mirror::apply() {
   part.keys = std::move(change.keys);
   part.log.insert(part.log.end(), change.log.begin(), change.log.end());
   last_.reset();
+  if constexpr (checks_whole_structures) check();
 }
 
 bool Mirror::rewind(std::uint64_t step) {
   if (last_ && last_->step == step) return true;
   if (!base_ || base_->step != step) return false;
   last_.reset();
+  if constexpr (checks_whole_structures) check();
   return true;
 }
 

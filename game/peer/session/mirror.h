@@ -58,6 +58,9 @@ class Mirror {
   /// Likewise, but that step stays.
   std::vector<Key> log() const;
 
+  /// Asserts that the last change, unless it is whole, leads on from what was there before.
+  void check() const;
+
  private:
   void apply();
   std::optional<Part> base_;

@@ -46,6 +46,8 @@ struct Scoring {
   }
   /// Likewise, of those that are due after `time`.
   double next_after(double time) const;
+  /// Asserts that pucks are due in order of time, and none once all is over.
+  void check() const;
 };
 
 /// What one peer says of a puck that is due: which of 64 places are taken, by what it has; and the

@@ -7,11 +7,14 @@
 #include <numeric>
 #include <utility>
 
+#include "im/basics/checked.h"
+
 namespace rink::peer {
 
 Whole Whole::of(const physics::World& world) {
   Whole whole{.spec = world.spec(), .body_count = world.body_count()};
   if (whole.spec.field.goal_width == 0.0) return whole;
+  assert(whole.spec.field.goal_width > 0.0);
   for (std::uint32_t body = 0; body < whole.body_count; ++body)
     whole.puck_radii.push_back(world.kind({body}) == physics::BodyKind::puck ? world.radius({body})
                                                                              : 0.0);
@@ -27,6 +30,8 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
       now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts},
       before_(now_),
       division_(cuts.division(settings_.peer_count)) {
+  assert(settings_.number < settings_.peer_count && settings_.halo > 0.0);
+  assert(whole.now() == 0.0 && settings_.window_count > 0 && settings_.end_of);
   std::iota(now_.members.begin(), now_.members.end(), PeerNumber{0});
   now_.slots = now_.next_number = settings_.peer_count;
   now_.players = settings_.players;
@@ -51,9 +56,11 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
     for (const Seat& seat : settings_.seats_of(player)) peer_->seat(seat);
   if (settings_.is_mirrored) peer_->keep_changes();
   peer_->begin(settings_.end_of(1));
+  if constexpr (checks_whole_structures) now_.check();
 }
 
 void Session::make_room(PeerNumber slots) {
+  assert(mirrors_.size() == losses_.size());
   if (slots <= mirrors_.size()) return;
   mirrors_.resize(slots);
   losses_.resize(slots);
@@ -161,6 +168,7 @@ void Session::play_window() {
 void Session::play_stretch() {
   peer_->wish_to_leave(wishes_to_leave_);
   if (settings_.is_mirrored) announce();
+  assert(now_.has(settings_.number));
   State next = now_;
   double next_end = 0.0;
   const auto enter_next = [&] {
@@ -201,6 +209,7 @@ void Session::play_stretch() {
   } else {
     log_.insert(log_.end(), peer_->log().begin(), peer_->log().end());
   }
+  assert(next.step == now_.step + 1 && next.time > now_.time);
   has_left_ = !next.has(settings_.number) || (wishes_to_leave_ && next.members.size() == 1);
   adopt(std::move(next));
   is_newcomer_ = false;
@@ -231,6 +240,7 @@ State Session::after_stretch() const {
 /// deviations of a Poisson number, moves nothing.
 void Session::balance(State& next) const {
   constexpr double tolerance = 1.1, deviations = 3.0;
+  assert(next.events.size() <= now_.slots && next.members.size() > 0);
   next.events.resize(now_.slots, 0.0);
   for (const PeerNumber peer : now_.members)
     next.events[peer] += static_cast<double>(peer_->verdict_of(peer).events);
@@ -249,7 +259,8 @@ void Session::balance(State& next) const {
 /// that leads to `next`.
 void Session::mirror(const State& next, PartChange change) {
   change.step = next.step;
-  mirrors_[settings_.number].add(change);
+  [[maybe_unused]] const bool is_next = mirrors_[settings_.number].add(change);
+  assert(is_next);
   const auto to = next.has(settings_.number) ? mirror_of(settings_.number, next) : std::nullopt;
   if (to) {
     if (!change.is_whole &&
@@ -281,6 +292,7 @@ void Session::adopt(State next) {
   make_room(next.slots);
   if (settings_.is_mirrored && next.has(settings_.number)) greet(next);
   before_ = std::exchange(now_, std::move(next));
+  if constexpr (checks_whole_structures) now_.check();
   std::erase_if(sent_, [&](const Sent& sent) { return sent.step + 2 <= now_.step; });
 }
 

@@ -2,6 +2,7 @@
 // docs/peer-to-peer.md, "Goals".
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "game/peer/session/session.h"
 
@@ -46,10 +47,12 @@ void Session::face_off(State& next) {
 /// False if none is.
 bool Session::put_back(const FaceOff& due) {
   constexpr std::size_t asked = 64;
+  assert(whole_.has_puck(due.puck) && settings_.goals);
   const double radius = whole_.puck_radii[due.puck];
   for (std::size_t first = 0;; first += asked) {
     const std::vector<Vector2> places = settings_.goals->places(due.is_left, radius, first, asked);
     if (places.empty()) return false;
+    assert(places.size() <= asked && "a word has one bit for each");
     FaceOffWord word{.puck = due.puck, .taken = 0, .body = {}};
     for (std::size_t k = 0; k < places.size(); ++k)
       if (!peer_->world().is_free(places[k], radius)) word.taken |= std::uint64_t{1} << k;
@@ -57,6 +60,7 @@ bool Session::put_back(const FaceOff& due) {
     const std::uint64_t taken = agree_on(word);
     const auto free = static_cast<std::size_t>(std::countr_one(taken));
     if (free < places.size()) {
+      assert(word.body.front().number == due.puck);
       peer_->put_back(word.body.front(), places[free]);
       return true;
     }

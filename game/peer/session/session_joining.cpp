@@ -50,6 +50,7 @@ void Session::give_zones(State& next) const {
                            next.cuts.area_of(peer));
       if (!most || load > *most) most = load, busiest = peer;
     }
+    assert(most && next.has(newcomer));
     next.cuts = next.cuts.with(newcomer, busiest);
     ++next.zones;
   }
@@ -107,6 +108,7 @@ void Session::admit(State& next) const {
       if (objection(next, newcomer)) continue;
       next.candidates.push_back({next.next_number++, sponsor, next.bats_taken, newcomer});
       next.bats_taken += newcomer.bat_count;
+      assert(next.next_number <= numbers_max && next.candidates.size() < members_max);
     }
   }
 }

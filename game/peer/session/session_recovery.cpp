@@ -1,9 +1,12 @@
 // When a peer is gone: who is left agrees on the last step that all have, and goes on from there.
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <utility>
+
+#include "im/basics/checked.h"
 
 #include "game/peer/session/session.h"
 
@@ -100,6 +103,7 @@ void Session::go_back(PeerNumber as) {
   for (const PeerNumber peer : before_.members)
     if (!now_.has(peer) && !is_gone(peer)) mail_.rejoin(peer);
   now_ = before_;
+  assert(now_.has(settings_.number));
 }
 
 /// All candidates: what they were to be let in with may be undone elsewhere.
@@ -116,6 +120,7 @@ Session::Majority Session::majority_of(std::vector<PeerNumber> voters) const {
       std::count_if(voters.begin(), voters.end(), [&](PeerNumber peer) { return !is_gone(peer); }));
   if (left > 0 && (2 * left > count || (2 * left == count && !is_gone(voters.front()))))
     return Majority::sure;
+  assert(left <= count);
   return left > 0 && count == 2 ? Majority::doubtful : Majority::none;
 }
 
@@ -167,6 +172,8 @@ Arrivals Session::share(std::span<const PeerNumber> parts, const Division& divis
 }
 
 void Session::rebuild() {
+  assert(std::ranges::adjacent_find(gone_, std::greater_equal<>()) == gone_.end());
+  assert(std::ranges::includes(gone_, finished_) && !is_gone(settings_.number));
   const std::vector<PeerNumber> parts = stood_for();
   State next = now_;
   ++next.step;
@@ -178,6 +185,7 @@ void Session::rebuild() {
   next.gone = gone_;
   for (const PeerNumber peer : now_.members)
     if (is_gone(peer) && next.cuts.has(peer)) next.cuts = next.cuts.without(peer), ++next.zones;
+  assert(next.has(settings_.number));
   division_ = next.division();
   std::vector<Arrivals> shares(next.slots);
   for (const PeerNumber to : next.members) {
@@ -197,6 +205,7 @@ void Session::rebuild() {
   }
   mirror(next, std::move(change));
   before_ = std::exchange(now_, std::move(next));
+  if constexpr (checks_whole_structures) now_.check();
   press_again();
 }
 

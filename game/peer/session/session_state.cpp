@@ -1,9 +1,11 @@
 // Who may go on, and what a newcomer is told.
 #include "game/peer/session/session_state.h"
 
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <tuple>
 
 #include "game/peer/message_bytes.h"
 
@@ -12,6 +14,22 @@ namespace rink::peer {
 std::vector<std::uint8_t> written(Entry message) { return bytes_from(message); }
 bool read(std::span<const std::uint8_t> bytes, Entry& message) {
   return read_whole(bytes, message);
+}
+
+void State::check() const {
+  const std::vector<PeerNumber> zoned = cuts.peers();
+  for ([[maybe_unused]] const std::vector<PeerNumber>* list : {&members, &fresh, &gone, &zoned})
+    assert(std::ranges::adjacent_find(*list, std::greater_equal<>()) == list->end() &&
+           (list->empty() || list->back() < next_number));
+  assert(!members.empty() && members.back() < slots && slots <= next_number);
+  assert(std::ranges::includes(members, fresh) && std::ranges::includes(members, zoned));
+  assert(events.size() <= slots);
+  assert(std::ranges::none_of(gone, [this](PeerNumber peer) { return has(peer); }));
+  for ([[maybe_unused]] const Candidate& candidate : candidates)
+    assert(candidate.number < next_number && !has(candidate.number));
+  for ([[maybe_unused]] const Player& player : players) assert(player.peer < next_number);
+  assert(std::isfinite(time) && time >= 0.0 && scoring.next() > time);
+  scoring.check();
 }
 
 std::vector<PeerNumber> State::voters() const {
@@ -47,11 +65,16 @@ bool State::is_sound_for(PeerNumber newcomer) const {
     return std::isfinite(due.time) && due.time > time;
   };
   if (!std::isfinite(time) || time < 0.0 ||
-      !std::all_of(scoring.face_offs.begin(), scoring.face_offs.end(), is_due))
+      !std::all_of(scoring.face_offs.begin(), scoring.face_offs.end(), is_due) ||
+      !std::ranges::is_sorted(scoring.face_offs, {},
+                              [](const FaceOff& due) { return std::tuple(due.time, due.puck); }) ||
+      (scoring.is_over && !scoring.face_offs.empty()))
     return false;
   return !members.empty() && members.back() < slots && holds_all(members, fresh) &&
-         holds_all(members, zoned) && is_fresh(newcomer) && !is_in(zoned, newcomer) &&
-         !is_in(gone, newcomer) && events.size() <= slots &&
+         holds_all(members, zoned) &&
+         !std::ranges::any_of(gone, [&](PeerNumber peer) { return has(peer); }) &&
+         is_fresh(newcomer) && !is_in(zoned, newcomer) && !is_in(gone, newcomer) &&
+         events.size() <= slots &&
          std::all_of(events.begin(), events.end(),
                      [](double count) { return std::isfinite(count) && count >= 0.0; }) &&
          std::all_of(candidates.begin(), candidates.end(),

@@ -59,6 +59,9 @@ struct State {
   Division division() const { return cuts.division(slots); }
   /// Whether a stranger's state can be one, with `newcomer` as a member of it.
   bool is_sound_for(PeerNumber newcomer) const;
+  /// Asserts that lists of numbers are sorted, and each number one that was given, that zones and
+  /// what is new belong to members, and that what is due is still to come.
+  void check() const;
 };
 
 /// Tells an Entry from all other messages: "RnkEntry".
