@@ -161,7 +161,6 @@ void VirtualEndpoint::give_up(Line& line, std::int64_t instant_ns) {
 }
 
 void VirtualEndpoint::poll(std::chrono::nanoseconds, TransportListener& listener) {
-  assert(reporting_.empty());  // callbacks don't poll
   reporting_.swap(inbox_);
   for (const std::uint32_t parcel : reporting_) {
     report(parcel, listener);
