@@ -12,6 +12,9 @@
 
 #include "game/physics/cell_grid.h"
 #include "game/physics/change_log.h"
+#include "game/physics/contact/contact_problem.h"
+#include "game/physics/contact/impact_solver.h"
+#include "game/physics/contact/separation_solver.h"
 #include "game/physics/engine/body_records.h"
 #include "game/physics/engine/contact.h"
 #include "game/physics/engine/journal.h"
@@ -197,28 +200,7 @@ class Engine {
   bool is_crowded(std::uint32_t body, Partner partner) const;
   bool is_endless() const;
   bool collide_together(const Contact& contact, Real time);
-  /// The speed at which the two sides part in a field of velocities: also the field's product,
-  /// weighed by the masses, with the one that an impulse of 1 causes.
-  Real parting(const Touch& touch, const std::vector<RealVector>& velocities) const {
-    const RealVector there =
-        touch.other == fixed_place ? RealVector(0.0, 0.0) : velocities[touch.other];
-    return touch.normal.dot(velocities[touch.body] - there);
-  }
-  Real joint_product(const std::vector<RealVector>& a, const std::vector<RealVector>& b) const;
-  Real joint_energy() const { return 0.5 * joint_product(joint_velocities_, joint_velocities_); }
-  Real joint_speed() const;
-  bool solve_joint();
-  bool propagate();
-  bool yield_as_one(Real restitution_max);
-  bool come_to_rest();
-  void part_what_rounding_closes();
-  bool find_pushing();
-  bool push_until_blocked(std::uint32_t touch);
-  Real orthogonalise(const Touch& touch);
-  void append_pushing(std::uint32_t touch, Real length);
-  void drop_pushing(std::size_t place);
-  void reflect(bool as_wanted, Real restitution_max = 1.0);
-  void apply_joint(Real time);
+  void apply_joint(const Contact& contact, Real time);
 
   // engine_rest.cpp
   bool can_rest(const Contact& contact) const;
@@ -253,15 +235,9 @@ class Engine {
   void add_contact(std::uint32_t place, Partner partner, Real speed_max, Real time);
   std::uint32_t place_in_cluster(std::uint32_t body, Real time);
   bool freeze(Real thrust_max);
-  void part_cluster(Real separation, Real gain_max);
   Real turning() const;
   Real joint_thrust() const;
-  void solve_cluster(Real separation);
-  bool give_way();
   bool freeze_loosely(const Contact& contact, Real speed_max, Real time);
-  void hold_jammed();
-  void sweep_cluster(Real separation, Real friction = 0.0);
-  Real resist_in_cluster(Real friction);
   Real still_speed() const;
   Real glancing_speed(Real thrust_max, Real pressing, Real speed) const;
 
@@ -321,23 +297,16 @@ class Engine {
       looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
   std::vector<std::uint32_t> touched_, pending_, frozen_;
   std::vector<std::uint32_t> near_;
-  std::vector<RealVector> cluster_friction_;  // impulses per mass
   std::vector<Real> accelerations_;
   std::vector<std::uint32_t> joint_;  // bodies of the cluster or joint impact at hand
-  std::vector<RealVector> joint_velocities_, trial_velocities_, velocities_before_;
-  std::vector<Touch> touches_;
-  std::vector<std::uint32_t> closing_,
-      pushing_;  // touches of the problem at hand, and those of them that push
-  std::vector<std::vector<RealVector>>
-      basis_;  // what those that push can change, orthonormal in the metric of the masses
-  std::vector<std::vector<Real>> columns_;  // each one's effect in terms of the basis: a triangle
-  std::vector<RealVector>
-      direction_;  // of the touch that is looked at: the part of its effect beyond the basis,
-  std::vector<Real> column_, share_;  // and the part within
-  Real instant_begin_ = -1.0;         // of the events counted as coming at once
+  ContactProblem problem_;            // theirs, by their places in joint_
+  std::vector<Partner> partners_;     // of its touches
+  std::vector<RealVector> velocities_before_;
+  ImpactSolver impact_solver_;
+  SeparationSolver separation_solver_;
+  Real instant_begin_ = -1.0;  // of the events counted as coming at once
   std::uint64_t events_at_once_ = 0;
   Real gap_max_ = cluster_gap;  // up to which a contact belongs to a cluster
-  std::uint32_t blocked_ = 0;   // the touch at which find_pushing() failed
   bool is_hopeless_ = false;    // no joint impact could be solved at this instant
   std::optional<Goal> goal_;
   Counters counters_;

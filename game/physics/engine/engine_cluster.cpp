@@ -2,7 +2,6 @@
 // in equilibrium.
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "game/physics/engine/engine.h"
 #include "game/physics/engine/visit_partners.h"
@@ -14,8 +13,6 @@ constexpr std::uint32_t slow_impacts_max = 8;  // within contact_time, before a 
 constexpr std::uint32_t impacts_max =
     24;  // likewise, whatever their speed, where impacts lose energy
 constexpr std::size_t cluster_max = 256;
-constexpr std::size_t direct_max = 96;  // contacts
-constexpr int sweeps_max = 500;
 constexpr double glancing_part = 16.0;     // of contact_time
 constexpr std::uint32_t long_series = 64;  // of hops
 constexpr double loose_gaps = 8.0;
@@ -44,9 +41,10 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
   gather(c, std::max<Real>(rest_speed_, 2.0 * approach), time);
   const Real thrust_max = joint_thrust();
   Real given_back = 1.0;
-  for (const Touch& contact : touches_) given_back = std::min(given_back, contact.restitution);
+  for (const Touch& contact : problem_.touches)
+    given_back = std::min(given_back, contact.restitution);
   const Real pressure = std::max(thrust_max, pressing);
-  if (touches_.size() < 2 && (pressure <= 0.0 || approach >= rest_speed_)) return false;
+  if (problem_.touches.size() < 2 && (pressure <= 0.0 || approach >= rest_speed_)) return false;
   if (pressure <= 0.0 && given_back == 1.0 && !is_rattling(approach) && !is_hemmed_in(c))
     return false;
   note(EventKind::hop, time, c.body, c.partner);
@@ -67,27 +65,31 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
     note(EventKind::freeze, time, c.body, c.partner);
     return true;
   }
-  joint_velocities_.clear();
-  for (const std::uint32_t body : joint_) joint_velocities_.push_back(velocity_of(body));
-  const Real speed = joint_speed();
+  for (std::size_t place = 0; place < joint_.size(); ++place)
+    problem_.velocities[place] = velocity_of(joint_[place]);
+  const Real speed = problem_.speed();
   if (thrust_max == 0.0 && speed < still_speed()) {
-    std::fill(joint_velocities_.begin(), joint_velocities_.end(), RealVector(0.0, 0.0));
+    std::fill(problem_.velocities.begin(), problem_.velocities.end(), RealVector(0.0, 0.0));
   } else {
     const Real least = parting_min * speed;
     const Real driven = std::max(
                    least, std::clamp<Real>(0.5 * pressure * contact_time_, 0.0, 0.5 * rest_speed_)),
-               sum = driven * static_cast<Real>(touches_.size());
+               sum = driven * static_cast<Real>(problem_.touches.size());
     Real mass = 0.0;
     for (const std::uint32_t body : joint_) mass += builds_[body].mass;
     const Real glancing = glancing_speed(thrust_max, pressing, speed);
-    if (glancing > driven) part_cluster(glancing, 0.5 * mass * glancing * glancing);
-    else
-      part_cluster(pressure > 0.0 ? driven : std::max(least, 0.5 * turning() * contact_time_),
-                   0.5 * mass * sum * sum);
+    const Real gained =
+        glancing > driven
+            ? separation_solver_.part(problem_, glancing, 0.5 * mass * glancing * glancing)
+            : separation_solver_.part(
+                  problem_,
+                  pressure > 0.0 ? driven : std::max(least, 0.5 * turning() * contact_time_),
+                  0.5 * mass * sum * sum);
+    counters_.hop_energy += std::max(0.0, static_cast<double>(gained));
   }
   for (std::size_t place = 0; place < joint_.size(); ++place) {
-    bodies_[joint_[place]].vx = joint_velocities_[place].x();
-    bodies_[joint_[place]].vy = joint_velocities_[place].y();
+    bodies_[joint_[place]].vx = problem_.velocities[place].x();
+    bodies_[joint_[place]].vy = problem_.velocities[place].y();
   }
   return true;
 }
@@ -111,13 +113,13 @@ Real Engine::joint_thrust() const {
 /// The acceleration at which contacts close because their normals turn, at most [m/s^2]: v^2/R.
 Real Engine::turning() const {
   Real most = 0.0;
-  for (const Touch& c : touches_) {
+  for (const Touch& c : problem_.touches) {
     const bool is_partner_moved = c.other != fixed_place;
-    const RealVector there = is_partner_moved ? joint_velocities_[c.other] : RealVector(0.0, 0.0);
+    const RealVector there = is_partner_moved ? problem_.velocities[c.other] : RealVector(0.0, 0.0);
     const Real reach = bodies_[joint_[c.body]].radius +
                        (is_partner_moved ? bodies_[joint_[c.other]].radius : Real(0.0));
     if (reach > 0.0)
-      most = std::max(most, (joint_velocities_[c.body] - there).squaredNorm() / reach);
+      most = std::max(most, (problem_.velocities[c.body] - there).squaredNorm() / reach);
   }
   return most;
 }
@@ -146,6 +148,8 @@ std::uint32_t Engine::place_in_cluster(std::uint32_t body, Real time) {
   for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
   rebase(body, time);
   joint_.push_back(body);
+  problem_.add_body(builds_[body].mass, builds_[body].inverse_mass, velocity_of(body),
+                    is_slowed(body));
   return static_cast<std::uint32_t>(joint_.size() - 1);
 }
 
@@ -156,173 +160,34 @@ void Engine::add_contact(std::uint32_t place, Partner p, Real speed_max, Real ti
   const RealVector there = is_fixed(p) ? RealVector(0.0, 0.0) : at(p, time).velocity;
   if (std::abs(c.gap.normal.dot(velocity_of(body) - there)) > speed_max) return;
   if (is_fixed(p)) {
-    touches_.push_back(
-        {place, fixed_place, p, c.gap.normal, restitution(body, p), 0.0, 0.0, false, false});
+    problem_.touches.push_back({place, fixed_place, c.gap.normal, restitution(body, p)});
     return;
   }
   const bool is_known = std::find(joint_.begin(), joint_.end(), p) != joint_.end();
   if (!is_known && joint_.size() >= cluster_max) return;
   const std::uint32_t other = place_in_cluster(p, time);
-  if (other > place)
-    touches_.push_back(
-        {place, other, p, c.gap.normal, restitution(body, p), 0.0, 0.0, false, false});
+  if (other > place) problem_.touches.push_back({place, other, c.gap.normal, restitution(body, p)});
 }
 
 /// Every body connected with the contact by gaps below `cluster_gap` that close or open no faster
 /// than `speed_max`, in an order that depends on ids alone.
 void Engine::gather(const Contact& c, Real speed_max, Real time) {
   joint_.clear();
-  touches_.clear();
+  problem_.clear();
   place_in_cluster(c.body, time);
   if (!is_fixed(c.partner)) place_in_cluster(c.partner, time);
   for (std::uint32_t place = 0; place < joint_.size(); ++place)
     visit_partners(joint_[place], [&](Partner p) { add_contact(place, p, speed_max, time); });
 }
 
-/// Parts the cluster at `separation`. Energy may grow by `gain_max`; what it takes beyond that, the
-/// bodies pay from their motion against each other (from all their motion where the cluster leans
-/// on something fixed), which leaves the momentum and slows the parting in the same measure.
-void Engine::part_cluster(Real separation, Real gain_max) {
-  Real mass = 0.0;
-  RealVector momentum(0.0, 0.0);
-  for (std::size_t place = 0; place < joint_.size(); ++place) {
-    mass += builds_[joint_[place]].mass;
-    momentum += builds_[joint_[place]].mass * joint_velocities_[place];
-  }
-  const bool is_leaning = std::any_of(touches_.begin(), touches_.end(),
-                                      [](const Touch& c) { return c.other == fixed_place; });
-  const RealVector frame = is_leaning ? RealVector(0.0, 0.0) : RealVector(momentum / mass);
-  const auto energy = [&] {
-    Real sum = 0.0;
-    for (std::size_t place = 0; place < joint_.size(); ++place)
-      sum += 0.5 * builds_[joint_[place]].mass * (joint_velocities_[place] - frame).squaredNorm();
-    return sum;
-  };
-  const Real energy_before = energy(), energy_max = energy_before + gain_max;
-  solve_cluster(separation);
-  Real energy_after = energy();
-  if (energy_after > energy_max) {
-    const Real share = std::sqrt(energy_max / energy_after);
-    for (RealVector& velocity : joint_velocities_) velocity = frame + share * (velocity - frame);
-    energy_after = energy_max;
-  }
-  counters_.hop_energy += std::max(0.0, static_cast<double>(energy_after - energy_before));
-}
-
-/// The nearest velocities, in the metric of the masses, that part every contact at `separation` or
-/// faster.
-void Engine::solve_cluster(Real separation) {
-  for (Touch& touch : touches_) touch.wanted = separation;
-  closing_.resize(touches_.size());
-  std::iota(closing_.begin(), closing_.end(), 0u);
-  for (bool is_jammed = false; touches_.size() <= direct_max; is_jammed = true) {
-    if (find_pushing()) {
-      joint_velocities_ = trial_velocities_;
-      if (is_jammed) hold_jammed();
-      return;
-    }
-    if (!give_way()) break;
-  }
-  sweep_cluster(separation);
-}
-
-/// After find_pushing() met contacts that cannot all part, for they hold what is between them from
-/// opposite sides: these shall only not close. Answers whether that asks for less.
-bool Engine::give_way() {
-  if (blocked_ == fixed_place) return false;
-  bool is_less = touches_[blocked_].wanted > 0.0;
-  touches_[blocked_].wanted = 0.0;
-  for (std::size_t k = 0; k < share_.size() && k < pushing_.size(); ++k) {
-    Touch& touch = touches_[pushing_[k]];
-    if (share_[k] >= 0.0) continue;
-    is_less = is_less || touch.wanted > 0.0;
-    touch.wanted = 0.0;
-  }
-  return is_less;
-}
-
-/// Bodies that are held from opposite sides along an axis get the same velocity along it, to the
-/// bit (none, where something fixed holds them): what rounding leaves would let them meet again at
-/// once, and for ever.
-void Engine::hold_jammed() {
-  const auto fixed = static_cast<std::uint32_t>(joint_.size());
-  const Real slowest = 1e-9 * joint_speed();
-  std::vector<std::uint32_t> leaders(fixed + 1);
-  const auto leader = [&](std::uint32_t place) {
-    while (leaders[place] != place) place = leaders[place];
-    return place;
-  };
-  for (int axis = 0; axis < 2; ++axis) {
-    std::iota(leaders.begin(), leaders.end(), 0u);
-    for (const Touch& c : touches_) {
-      if (c.wanted > 0.0 || c.normal[1 - axis] != 0.0 ||
-          std::abs(parting(c, joint_velocities_)) > slowest)
-        continue;
-      const std::uint32_t one = leader(c.body),
-                          two = leader(c.other == fixed_place ? fixed : c.other);
-      leaders[std::min(one, two)] = std::max(one, two);
-    }
-    for (std::uint32_t place = 0; place < fixed; ++place)
-      if (const std::uint32_t first = leader(place); first != place)
-        joint_velocities_[place][axis] =
-            first == fixed ? Real(0.0) : joint_velocities_[first][axis];
-  }
-}
-
-/// Gauss-Seidel on impulses: for clusters so large that the direct way would take milliseconds, at
-/// the price of poor convergence where light bodies lie between heavy ones. Where `friction` is
-/// above 0, pucks resist their motion by up to that impulse per mass.
-void Engine::sweep_cluster(Real separation, Real friction) {
-  const auto yielding = [&](std::uint32_t place) {
-    return place == fixed_place ? 0.0 : builds_[joint_[place]].inverse_mass;
-  };
-  const Real accuracy = separation > 0.0 ? 0.1 * separation : 1e-9 * joint_speed();
-  for (Touch& c : touches_) c.impulse = 0.0;
-  cluster_friction_.assign(joint_.size(), RealVector(0.0, 0.0));
-  for (int sweep = 0; sweep < sweeps_max; ++sweep) {
-    Real change = friction > 0.0 ? resist_in_cluster(friction) : Real(0.0);
-    for (Touch& c : touches_) {
-      const Real own = yielding(c.body), other = yielding(c.other),
-                 lacking = separation - parting(c, joint_velocities_);
-      const Real impulse = std::max<Real>(0.0, c.impulse + lacking / (own + other)),
-                 step = impulse - c.impulse;
-      c.impulse = impulse;
-      joint_velocities_[c.body] += step * own * c.normal;
-      if (c.other != fixed_place) joint_velocities_[c.other] -= step * other * c.normal;
-      change = std::max(change, std::abs(step) * (own + other));
-    }
-    if (change <= accuracy) return;
-  }
-}
-
-/// One sweep of static friction in sweep_cluster(); answers its largest change.
-Real Engine::resist_in_cluster(Real friction) {
-  Real change = 0.0;
-  for (std::size_t place = 0; place < joint_.size(); ++place) {
-    if (!is_slowed(joint_[place])) continue;
-    RealVector resistance = cluster_friction_[place] - joint_velocities_[place];
-    const Real length = resistance.norm();
-    if (length > friction) resistance *= friction / length;
-    const RealVector step = resistance - cluster_friction_[place];
-    joint_velocities_[place] += step;
-    cluster_friction_[place] = resistance;
-    change = std::max(change, step.norm());
-  }
-  return change;
-}
-
 /// Brings a slow cluster whose contacts and friction can bear all its thrust to a stop, for as long
 /// as nothing else acts on it. Answers whether it could.
 bool Engine::freeze(Real thrust_max) {
-  joint_velocities_.clear();
-  for (const std::uint32_t body : joint_) {
-    if (velocity_of(body).norm() > rest_speed_) return false;
-    joint_velocities_.push_back(builds_[body].thrust);
+  for (std::size_t place = 0; place < joint_.size(); ++place) {
+    if (velocity_of(joint_[place]).norm() > rest_speed_) return false;
+    problem_.velocities[place] = builds_[joint_[place]].thrust;
   }
-  if (is_slowed()) sweep_cluster(0.0, spec_.puck_friction);
-  else solve_cluster(0.0);
-  for (const RealVector& acceleration : joint_velocities_)
-    if (acceleration.norm() > 1e-6 * thrust_max) return false;
+  if (!separation_solver_.bears(problem_, spec_.puck_friction, 1e-6 * thrust_max)) return false;
   stop_cluster();
   return true;
 }

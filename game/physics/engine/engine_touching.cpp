@@ -82,7 +82,7 @@ std::uint32_t Engine::place_in_joint(std::uint32_t body, Real time) {
   const auto found = std::find(joint_.begin(), joint_.end(), body);
   if (found != joint_.end()) return static_cast<std::uint32_t>(found - joint_.begin());
   joint_.push_back(body);
-  joint_velocities_.push_back(at(body, time).velocity);
+  problem_.add_body(builds_[body].mass, builds_[body].inverse_mass, at(body, time).velocity, false);
   return static_cast<std::uint32_t>(joint_.size() - 1);
 }
 
@@ -92,7 +92,7 @@ void Engine::add_touch(std::uint32_t place, Partner p, const Contact& at_hand, R
   const bool is_at_hand = (body == at_hand.body && p == at_hand.partner) ||
                           (p == at_hand.body && body == at_hand.partner);
   const Real rounding =
-      tolerance_ + std::numeric_limits<Real>::epsilon() * time * joint_velocities_[place].norm();
+      tolerance_ + std::numeric_limits<Real>::epsilon() * time * problem_.velocities[place].norm();
   if (!is_at_hand && c.gap.distance > touch_roundings * rounding) return;
   std::uint32_t other = fixed_place;
   if (!is_fixed(p)) {
@@ -101,16 +101,16 @@ void Engine::add_touch(std::uint32_t place, Partner p, const Contact& at_hand, R
     other = place_in_joint(p, time);
     if (other < place) return;  // known from the other side
   }
-  touches_.push_back(
-      {place, other, p, c.gap.normal, restitution(body, p), 0.0, 0.0, is_at_hand, false});
+  problem_.touches.push_back({place, other, c.gap.normal, restitution(body, p)});
+  partners_.push_back(p);
 }
 
 /// All bodies that touch those of `c`, directly or through others, in an order that depends on ids
 /// alone. False if no other contact among them closes now.
 bool Engine::gather_touching(const Contact& c, Real time) {
   joint_.clear();
-  joint_velocities_.clear();
-  touches_.clear();
+  problem_.clear();
+  partners_.clear();
   place_in_joint(c.body, time);
   if (!is_fixed(c.partner)) place_in_joint(c.partner, time);
   for (std::uint32_t place = 0; place < joint_.size(); ++place)
@@ -118,9 +118,13 @@ bool Engine::gather_touching(const Contact& c, Real time) {
   // Slower than this, the time of an impact is too uncertain to tell whether it belongs to the
   // instant.
   const Real slowest = 2.0 * touch_roundings * tolerance_ / Real(instant);
-  return std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) {
-    return !touch.is_at_hand && -parting(touch, joint_velocities_) > slowest;
-  });
+  const auto closes = [&](std::size_t i) {
+    const bool is_at_hand = problem_.touches[i].body == 0 && partners_[i] == c.partner;
+    return !is_at_hand && -parting(problem_.touches[i], problem_.velocities) > slowest;
+  };
+  for (std::size_t i = 0; i < partners_.size(); ++i)
+    if (closes(i)) return true;
+  return false;
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -12,9 +12,6 @@ namespace rink::physics::inline RINK_PRECISION {
 constexpr double instant = 1e-9;
 /// Bodies nearer than this take part in a hop [m].
 constexpr double cluster_gap = 2e-6;
-/// The least separation an impulse leaves, relative to the speeds: far above rounding, far below
-/// anything seen.
-constexpr Real separation_min = 1e-14 * fineness;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace rink::physics::inline RINK_PRECISION

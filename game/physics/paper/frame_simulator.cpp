@@ -12,7 +12,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The least separation that an impulse leaves, relative to the speeds, so that no impact is found
 /// twice: as in the exact engine.
-constexpr double separation_min = 1e-14;
+constexpr double frame_separation_min = 1e-14;
 
 }  // namespace
 
@@ -200,7 +200,8 @@ void FrameSimulator::respond(std::uint32_t index, Partner partner, const Vector2
   Body& body = bodies_[index];
   Body& other = is_body(partner) ? bodies_[partner] : still;
   const double approach = normal.dot(other.start.velocity - body.start.velocity);
-  const double least = separation_min * (body.start.velocity.norm() + other.start.velocity.norm());
+  const double least =
+      frame_separation_min * (body.start.velocity.norm() + other.start.velocity.norm());
   double change = std::max(0.0, normal.dot(other.chord - body.chord)) + least;
   if (approach > 0.0)
     change =
