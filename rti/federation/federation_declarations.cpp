@@ -146,7 +146,7 @@ void FederationParts::tell_relevance(std::uint32_t slot, std::size_t row) {
   const bool is_interaction = row >= object_classes;
   const Subscription others = federates_[slot].told_relevance[row] = others_hear(slot, row);
   const auto number = static_cast<std::uint16_t>(is_interaction ? row - object_classes : row);
-  say(federates_[slot].control,
+  federates_[slot].outbox.before_updates(
       ClassRelevanceMessage{is_interaction, number, others.heard.bits, others.active.bits});
 }
 
@@ -201,7 +201,7 @@ void FederationParts::tell_object_relevance() {
       if (heard == (before != nullptr ? *before : AttributeSet())) continue;
       if (heard.is_empty()) told.erase(handle);
       else told[handle] = heard;
-      say(federates_[owner].control, ObjectRelevanceMessage{handle.value, heard.bits});
+      federates_[owner].outbox.before_updates(ObjectRelevanceMessage{handle.value, heard.bits});
     }
   }
   touched.clear();

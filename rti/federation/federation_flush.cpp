@@ -76,7 +76,7 @@ void FederationParts::flush_federate(std::uint32_t slot, Outlet& outlet) {
         each);  // what this flush's runs say of them is part of what was told
   begin_datagrams(federate, outlet);
   if (federate.upward) acknowledge_datagrams(federate, outlet);
-  scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
+  scratch_.insert(scratch_.end(), federate.outbox.head().begin(), federate.outbox.head().end());
   const std::size_t entry_end = scratch_.size() + entry_room(slot, outlet);
   write_scope_events(slot, entry_end);
   const bool is_held = holds_back(slot, outlet);
@@ -91,10 +91,8 @@ void FederationParts::flush_federate(std::uint32_t slot, Outlet& outlet) {
     send_datagrams(federate, outlet);
   }
   federate.counts.reflections_received += counters_.updates_sent - before;
-  scratch_.insert(scratch_.end(), federate.tail.begin(), federate.tail.end());
-  federate.control.clear();
-  federate.tail.clear();
-  federate.tail_block.close();
+  scratch_.insert(scratch_.end(), federate.outbox.tail().begin(), federate.outbox.tail().end());
+  federate.outbox.clear();
   federate.looked_at = federate.said = 0;
   FederateInterest& interest = interest_.of(slot);
   interest.events.clear();
@@ -141,7 +139,7 @@ void FederationParts::write_scope_events(std::uint32_t slot, std::size_t end) {
         interest.unannounced.visit_from(interest.announced_to, [&](ObjectSlot object) {
           if (scratch_.size() >= end) return false;
           if (is_too_late(object)) interest.unannounced.erase(object);
-          else announce(slot, object);
+          else announce(slot, object, scratch_);
           return true;
         });
     interest.has_unannounced = scratch_.size() >= end;
@@ -159,7 +157,7 @@ void FederationParts::write_scope_events(std::uint32_t slot, std::size_t end) {
       else if (interest.known.contains(event.slot))
         say(scratch_, OutOfScopeMessage{object.handle.value});
     } else if (scratch_.size() < end) {
-      announce(slot, event.slot);
+      announce(slot, event.slot, scratch_);
     } else {
       interest.unannounced.insert(event.slot);
       interest.has_unannounced = true;
@@ -169,11 +167,11 @@ void FederationParts::write_scope_events(std::uint32_t slot, std::size_t end) {
   counters_.scope_bytes_sent += scratch_.size() - before;
 }
 
-void FederationParts::announce(std::uint32_t slot, ObjectSlot at) {
+void FederationParts::announce(std::uint32_t slot, ObjectSlot at, std::vector<std::byte>& bytes) {
   FederateInterest& interest = interest_.of(slot);
   const Object& object = objects_[at];
   if (!interest.known.contains(at)) {
-    say(scratch_, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
+    say(bytes, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
     ++federates_[slot].objects_discovered;
     if (is_auto_providing_) ask_owners(slot, at, interest.told(at, object.object_class), {});
   }
@@ -181,17 +179,14 @@ void FederationParts::announce(std::uint32_t slot, ObjectSlot at) {
     offer_to(slot, at, ownership_.all(at));
   interest.known.insert(at);
   interest.unannounced.erase(at);
-  say(scratch_, InScopeMessage{object.handle.value});
+  say(bytes, InScopeMessage{object.handle.value});
 }
 
 /// A message in time-stamp order is about to speak of it: it is announced, and its state told,
 /// before all else that this flush says.
 void FederationParts::press(std::uint32_t slot, ObjectSlot object) {
   FederateInterest& interest = interest_.of(slot);
-  std::vector<std::byte>& control = federates_[slot].control;
-  scratch_.swap(control);
-  announce(slot, object);
-  scratch_.swap(control);
+  announce(slot, object, federates_[slot].outbox.head());
   say_last_state(slot, object, newest_of(object));
   interest.fresh.erase(object);
   interest.has_fresh = true;

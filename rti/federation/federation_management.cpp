@@ -14,9 +14,8 @@ Outcome FederationParts::register_point(Reader& reader, std::uint32_t slot) {
   SynchronizationPoint point;
   point.registrar = federates_[slot].handle;
   const auto failure = find_members(message, point);
-  say(federates_[slot].control,
-      SynchronizationPointRegisteredMessage{
-          message.label, static_cast<std::uint8_t>(failure.value_or(SynchronizationFailure{}))});
+  federates_[slot].outbox.before_updates(SynchronizationPointRegisteredMessage{
+      message.label, static_cast<std::uint8_t>(failure.value_or(SynchronizationFailure{}))});
   if (failure) return std::nullopt;
   point.label = message.label;
   point.tag.assign(message.tag.begin(), message.tag.end());
@@ -51,7 +50,8 @@ std::optional<SynchronizationFailure> FederationParts::find_members(
 }
 
 void FederationParts::announce(const SynchronizationPoint& point, std::uint32_t slot) {
-  say(federates_[slot].control, AnnounceSynchronizationPointMessage{point.label, point.tag});
+  federates_[slot].outbox.before_updates(
+      AnnounceSynchronizationPointMessage{point.label, point.tag});
 }
 
 Outcome FederationParts::achieve_point(Reader& reader, std::uint32_t slot) {
@@ -102,7 +102,7 @@ void FederationParts::complete_points() {
   for (const SynchronizationPoint& point : points_)
     if (point.awaited.empty())
       for (const std::uint32_t member : point.members)
-        say(federates_[member].control,
+        federates_[member].outbox.before_updates(
             FederationSynchronizedMessage{point.label, list_of(point.failed)});
   std::erase_if(points_, [](const SynchronizationPoint& point) { return point.awaited.empty(); });
 }

@@ -50,7 +50,7 @@ void FederationParts::report_to_all(std::uint32_t asking, InteractionClassHandle
       static_cast<std::uint16_t>(report.value), FederateHandle::none, {}, parameters};
   if (!receivers.empty()) federates_[asking].said += interaction_head + parameters.size();
   for (const std::uint32_t receiver : receivers) {
-    say(federates_[receiver].tail, message);
+    federates_[receiver].outbox.after_updates(message);
     counters_.interaction_bytes_sent += measure(message);
     ++counters_.interactions_sent;
     ++federates_[receiver].counts.interactions_received;

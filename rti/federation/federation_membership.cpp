@@ -187,10 +187,10 @@ void FederationParts::admit(ConnectionId connection, const JoinMessage& message)
   connections_[connection].federate = slot;
   ++federate_count_;
   ++counters_.joins;
-  say(federate.control, JoinedMessage{federate.handle.value, federate.block});
+  federate.outbox.before_updates(JoinedMessage{federate.handle.value, federate.block});
   for (Federate& other : federates_)
     if (other.is_watching)
-      say(other.control,
+      other.outbox.before_updates(
           FederateJoinedMessage{federate.handle.value, federate.name, federate.type});
   join_points(slot);
   if (management_objects_) management_objects_->joined(slot);
@@ -215,9 +215,8 @@ void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
   leave_points(slot);
   for (Federate& other : federates_)
     if (other.is_watching)
-      say(other.tail,
-          FederateResignedMessage{federate.handle.value, static_cast<std::uint8_t>(reason),
-                                  federate.name, federate.type});
+      other.outbox.after_updates(FederateResignedMessage{
+          federate.handle.value, static_cast<std::uint8_t>(reason), federate.name, federate.type});
   --federate_count_;
   ++counters_.resigns;
   leave_time(slot);
@@ -230,7 +229,8 @@ FederationParts::Outcome FederationParts::watch(Federate& federate) {
   federate.is_watching = true;
   for (const Federate& other : federates_)
     if (other.is_joined)
-      say(federate.control, FederateJoinedMessage{other.handle.value, other.name, other.type});
+      federate.outbox.before_updates(
+          FederateJoinedMessage{other.handle.value, other.name, other.type});
   return std::nullopt;
 }
 

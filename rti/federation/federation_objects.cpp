@@ -66,7 +66,7 @@ Outcome FederationParts::take_names(std::uint32_t slot, Reader& reader) {
 }
 
 void FederationParts::answer_names(std::uint32_t slot, NameAnswer answer, Bytes names) {
-  say(federates_[slot].control,
+  federates_[slot].outbox.before_updates(
       InstanceNamesAnswerMessage{static_cast<std::uint8_t>(answer), names});
 }
 
@@ -106,7 +106,7 @@ Outcome FederationParts::delete_locally(std::uint32_t slot, Reader& reader) {
   interest.in_scope.erase(object);
   interest.fresh.erase(object);
   interest.unannounced.erase(object);
-  say(federates_[slot].control, RemoveObjectMessage{message.object});
+  federates_[slot].outbox.before_updates(RemoveObjectMessage{message.object});
   return std::nullopt;
 }
 
@@ -177,7 +177,7 @@ Outcome FederationParts::change_transportation(std::uint32_t slot, Reader& reade
                   [&](const auto& each) { return each.first == message.number; });
     federate.changed_transportation.emplace_back(static_cast<std::uint16_t>(message.number),
                                                  transportation);
-    say(federate.tail, answer);
+    federate.outbox.after_updates(answer);
     return std::nullopt;
   }
   const ObjectSlot object = objects_.find({message.number});
@@ -192,7 +192,7 @@ Outcome FederationParts::change_transportation(std::uint32_t slot, Reader& reade
   changed_transportation_[objects_[object].handle] = transportation == Transportation::best_effort
                                                          ? before | attributes
                                                          : before.without(attributes);
-  say(federate.tail, answer);
+  federate.outbox.after_updates(answer);
   return std::nullopt;
 }
 
@@ -223,7 +223,7 @@ Outcome FederationParts::query_transportation(std::uint32_t slot, Reader& reader
     if (best_effort.contains({message.which})) found = Transportation::best_effort;
   }
   answer.transportation = static_cast<std::uint8_t>(found);
-  say(federates_[slot].tail, answer);
+  federates_[slot].outbox.after_updates(answer);
   return std::nullopt;
 }
 

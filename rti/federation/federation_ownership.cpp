@@ -183,9 +183,7 @@ Stamp FederationParts::newest_of(ObjectSlot object) const {
 void FederationParts::notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object,
                              AttributeSet attributes, Bytes tag) {
   if (attributes.is_empty()) return;
-  Federate& federate = federates_[slot];
-  federate.tail_block.append(
-      federate.tail,
+  federates_[slot].outbox.in_block(
       OwnershipNoticeMessage{static_cast<std::uint8_t>(notice), attributes.bits, tag},
       object.value);
   ++counters_.ownership_notices_sent;
@@ -235,7 +233,7 @@ void FederationParts::say_last_state(std::uint32_t slot, ObjectSlot object, cons
   const Object& moved = objects_[object];
   const AttributeSet set = interest_.of(slot).told(object, moved.object_class) & moved.valued;
   if (set.is_empty()) return;
-  std::vector<std::byte>& bytes = federates_[slot].control;
+  std::vector<std::byte>& bytes = federates_[slot].outbox.head();
   const std::size_t before = bytes.size();
   say(bytes, StampMessage{newest});
   say(bytes, UpdatesMessage{moved.object_class, set.bits});
@@ -255,10 +253,9 @@ Outcome FederationParts::query_ownership(std::uint32_t slot, Reader& reader) {
     return outcome;
   if (!ownership_.all(object).contains({message.attribute})) return Violation::unknown_name;
   const std::uint32_t owner = ownership_.owner_of(object, {message.attribute});
-  say(federates_[slot].tail,
-      InformOwnershipMessage{
-          message.object, message.attribute,
-          owner == no_federate ? FederateHandle::none : federates_[owner].handle.value});
+  federates_[slot].outbox.after_updates(InformOwnershipMessage{
+      message.object, message.attribute,
+      owner == no_federate ? FederateHandle::none : federates_[owner].handle.value});
   return std::nullopt;
 }
 

@@ -229,7 +229,7 @@ class FederationParts {
   void flush_federate(std::uint32_t slot, Outlet& outlet);
   std::size_t entry_room(std::uint32_t slot, const Outlet& outlet) const;
   void write_scope_events(std::uint32_t slot, std::size_t end);
-  void announce(std::uint32_t slot, ObjectSlot object);
+  void announce(std::uint32_t slot, ObjectSlot object, std::vector<std::byte>& bytes);
   void press(std::uint32_t slot, ObjectSlot object);
   void write_fresh_states(std::uint32_t slot, std::size_t end);
   // Tiers and budgets (federation_turns.cpp). Nothing is done for a filter that says neither.

@@ -171,7 +171,7 @@ Outcome FederationParts::register_object(std::uint32_t slot, Reader& reader) {
   if (++federate.objects_registered == object_block / 2 &&
       (!free_blocks_.empty() || next_block_ < object_block_max)) {
     federate.further_block = take_block();
-    say(federate.control, FurtherBlockMessage{*federate.further_block});
+    federate.outbox.before_updates(FurtherBlockMessage{*federate.further_block});
   }
   federate.name_bytes += message.name.size();
   // Those who have more than their share are refused first, so nobody's hoard keeps others from
@@ -205,7 +205,7 @@ void FederationParts::extend_block(Federate& federate) {
 /// Its registrar hears that it is removed; what it says of it meanwhile is late and no crime.
 void FederationParts::refuse_object(std::uint32_t slot, ObjectHandle object) {
   objects_.pass_over(object);
-  say(federates_[slot].tail, RemoveObjectMessage{object.value});
+  federates_[slot].outbox.after_updates(RemoveObjectMessage{object.value});
 }
 
 Outcome FederationParts::delete_object(std::uint32_t slot, Reader& reader) {
@@ -238,7 +238,7 @@ void FederationParts::delete_object(ObjectSlot object) {
     interest_.of(i).known.erase(object);
     ++federates_[i].objects_removed;
     RemoveObjectMessage removal{objects_[object].handle.value};
-    say(federates_[i].tail, removal);
+    federates_[i].outbox.after_updates(removal);
     counters_.scope_bytes_sent += measure(removal);
   }
   if (!objects_[object].name.empty()) instance_names_.erase(objects_[object].name);
@@ -331,7 +331,7 @@ Outcome FederationParts::deliver_interaction(std::uint32_t slot, InteractionMess
     if (!regions.empty() && !hears_everywhere(receiver, message.interaction_class) &&
         !interest_.hears(receiver, message.interaction_class, slot, regions))
       continue;
-    say(federates_[receiver].tail, message);
+    federates_[receiver].outbox.after_updates(message);
     counters_.interaction_bytes_sent += measure(message);
     ++counters_.interactions_sent;
     ++federates_[receiver].counts.interactions_received;

@@ -204,7 +204,7 @@ void FederationParts::settle_update_requests() {
   }
   for (const auto& [whom, attributes] : updates_to_provide_) {
     const auto& [owner, object, tag] = whom;
-    say(federates_[owner].tail,
+    federates_[owner].outbox.after_updates(
         ProvideUpdateMessage{object, attributes.bits, std::as_bytes(std::span(tag))});
   }
   updates_to_provide_.clear();

@@ -94,8 +94,8 @@ void FederationParts::answer_queries(Outlet& outlet) {
       outlet.send(id, std::span(&bytes, 1));
       continue;
     }
-    std::vector<std::byte>& control = federates_[connections_[id].federate].control;
-    control.insert(control.end(), bytes.begin() + frame_header_size, bytes.end());
+    std::vector<std::byte>& head = federates_[connections_[id].federate].outbox.head();
+    head.insert(head.end(), bytes.begin() + frame_header_size, bytes.end());
   }
   management_queries_.clear();
 }

@@ -311,7 +311,7 @@ Outcome FederationParts::Time::retract(std::uint32_t slot, Reader& reader) {
       management_->withdraw(
           at, {message.stamp.time, message.sender.value, message.number, index, place});
     if (receiver.has_it)
-      say(parts_.federates_[at].tail,
+      parts_.federates_[at].outbox.after_updates(
           RequestRetractionMessage{message.sender.value, message.number, message.stamp.time});
     receiver.is_waiting = false;
   }

@@ -21,7 +21,7 @@ void FederationParts::Time::settle() {
   arrived_.clear();
   management_->settle(*this);
   for (const std::uint32_t slot : asking_)
-    say(parts_.federates_[slot].tail,
+    parts_.federates_[slot].outbox.after_updates(
         TimeBoundsMessage{management_->galt(slot), management_->lits(slot)});
   asking_.clear();
 }
@@ -128,7 +128,7 @@ bool FederationParts::Time::tell(std::uint32_t slot, const Message& message, Att
     }
   }
   write_content(message, told);
-  say(parts_.federates_[slot].tail,
+  parts_.federates_[slot].outbox.after_updates(
       TimedDeliveryMessage{message.sender.value, static_cast<std::uint8_t>(is_in_order),
                            message.number, message.stamp, content_});
   ++parts_.counters_.timed_sent;
@@ -210,13 +210,13 @@ void FederationParts::Time::release(std::uint32_t index) {
 
 void FederationParts::Time::regulation_enabled(std::uint32_t federate, double time,
                                                double earliest) {
-  say(parts_.federates_[federate].tail, TimeRegulationEnabledMessage{time, earliest});
+  parts_.federates_[federate].outbox.after_updates(TimeRegulationEnabledMessage{time, earliest});
 }
 void FederationParts::Time::constrained_enabled(std::uint32_t federate, double time) {
-  say(parts_.federates_[federate].tail, TimeConstrainedEnabledMessage{time});
+  parts_.federates_[federate].outbox.after_updates(TimeConstrainedEnabledMessage{time});
 }
 void FederationParts::Time::grant(std::uint32_t federate, double time) {
-  say(parts_.federates_[federate].tail, TimeAdvanceGrantMessage{time});
+  parts_.federates_[federate].outbox.after_updates(TimeAdvanceGrantMessage{time});
   parts_.federates_[federate].is_advancing = false;
   ++parts_.counters_.time_advance_grants;
 }

@@ -12,6 +12,7 @@
 #include "rti/distribution/data_distribution.h"
 #include "rti/federate_ambassador.h"
 #include "rti/federation/datagram_way.h"
+#include "rti/federation/outbox.h"
 #include "rti/federation/upward_way.h"
 #include "rti/fom/fom.h"
 #include "rti/handles.h"
@@ -20,7 +21,6 @@
 #include "rti/ownership/holding.h"
 #include "rti/types.h"
 #include "rti/wire/bytes.h"
-#include "rti/wire/object_block.h"
 
 namespace rink::rti {
 
@@ -44,9 +44,7 @@ struct JoinedFederate {
       told_relevance;  ///< what it was told that others hear, by row of `Relevance`
   std::unique_ptr<ObjectMap<AttributeSet>>
       told_objects;  ///< likewise of objects, if it asked for it: those that others hear
-  std::vector<std::byte> control;  ///< messages that go out before this flush's updates
-  std::vector<std::byte> tail;     ///< and after them
-  ObjectBlockWriter tail_block;    ///< the block at the end of `tail`, if any
+  Outbox outbox;
   std::vector<std::pair<std::uint16_t, Transportation>>
       changed_transportation;  ///< of interactions that it sends otherwise than the model says
   ResignAction resign_action = ResignAction::cancel_then_delete_then_divest;
