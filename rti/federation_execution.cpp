@@ -50,13 +50,13 @@ void FederationExecution::set_object_role(ObjectHandle object, const im::Role& r
 }
 
 void FederationExecution::set_federate_role(FederateHandle federate, const im::Role& role) {
-  if (const auto slot = parts_->joined_slot(federate))
+  if (const auto slot = parts_->federates_.joined(federate))
     parts_->interest_.set_federate_role(*slot, role);
 }
 
 void FederationExecution::set_federate_heading(FederateHandle federate,
                                                const im::Heading& heading) {
-  if (const auto slot = parts_->joined_slot(federate))
+  if (const auto slot = parts_->federates_.joined(federate))
     parts_->interest_.set_federate_heading(*slot, heading);
 }
 
@@ -75,7 +75,9 @@ void FederationExecution::flush(Outlet& outlet) {
 }
 const std::string& FederationExecution::name() const { return parts_->settings_.federation; }
 const Fom& FederationExecution::fom() const { return parts_->fom_; }
-std::size_t FederationExecution::federate_count() const { return parts_->federate_count_; }
+std::size_t FederationExecution::federate_count() const {
+  return parts_->federates_.joined_count();
+}
 std::size_t FederationExecution::object_count() const { return parts_->objects_.size(); }
 const FederationCounters& FederationExecution::counters() const { return parts_->counters_; }
 const BaselineCounters& FederationExecution::baseline_counters() const {
@@ -86,14 +88,14 @@ const DataDistribution& FederationExecution::distribution() const { return parts
 
 bool FederationExecution::is_in_scope(FederateHandle federate, ObjectHandle object) const {
   const ObjectSlot slot = parts_->objects_.find(object);
-  const auto federate_slot = parts_->joined_slot(federate);
+  const auto federate_slot = parts_->federates_.joined(federate);
   return slot != no_object && federate_slot &&
          parts_->interest_.of(*federate_slot).in_scope.contains(slot);
 }
 
 void FederationExecution::list_scope(FederateHandle federate,
                                      std::vector<ObjectHandle>& objects) const {
-  const auto federate_slot = parts_->joined_slot(federate);
+  const auto federate_slot = parts_->federates_.joined(federate);
   if (!federate_slot) return;
   parts_->interest_.of(*federate_slot).in_scope.for_each([&](ObjectSlot slot) {
     objects.push_back(parts_->objects_[slot].handle);

@@ -39,10 +39,9 @@ std::optional<SynchronizationFailure> FederationParts::find_members(
       if (federates_[slot].is_joined) point.members.push_back(slot);
   }
   for (const FederateHandle handle : handles_of(message.members)) {
-    const bool is_joined = handle.value < slot_of_handle_.size() &&
-                           federates_[slot_of_handle_[handle.value]].handle == handle;
-    if (!is_joined) return SynchronizationFailure::member_not_joined;
-    point.members.push_back(slot_of_handle_[handle.value]);
+    const std::optional<std::uint32_t> member = federates_.joined(handle);
+    if (!member) return SynchronizationFailure::member_not_joined;
+    point.members.push_back(*member);
   }
   std::sort(point.members.begin(), point.members.end());
   point.members.erase(std::unique(point.members.begin(), point.members.end()), point.members.end());
@@ -157,8 +156,9 @@ Outcome FederationParts::answer_stranger(ConnectionId connection, MessageKind ki
     }
     case MessageKind::list_federation_executions:
       if (std::exchange(questions.wants_list, true)) return std::nullopt;
-      answer(connection, FederationExecutionMessage{0, settings_.federation, fom_.name(),
-                                                    static_cast<std::uint32_t>(federate_count_)});
+      answer(connection,
+             FederationExecutionMessage{0, settings_.federation, fom_.name(),
+                                        static_cast<std::uint32_t>(federates_.joined_count())});
       return answer(connection, FederationExecutionMessage{1, {}, {}, 0}), std::nullopt;
     case MessageKind::query_management:
       return query_management(connection), std::nullopt;

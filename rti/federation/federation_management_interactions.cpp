@@ -25,13 +25,13 @@ Outcome FederationParts::take_management(std::uint32_t slot, const InteractionMe
     return std::nullopt;
   }
   if (asked == management_.request_points) return report_points(slot), std::nullopt;
-  const std::uint32_t handle = reader.handle();
+  const FederateHandle federate{reader.handle()};
   const std::int32_t period = asked == management_.set_timing ? reader.count() : 0;
-  if (!reader.is_whole() || !reader.is_at_end() || period < 0 || handle >= slot_of_handle_.size())
+  if (!reader.is_whole() || !reader.is_at_end() || period < 0 || !federates_.was_given(federate))
     return Violation::malformed;
-  const std::uint32_t about = slot_of_handle_[handle];
-  if (federates_[about].handle.value != handle)
-    return ++counters_.late_requests, std::nullopt;  // it has left
+  const std::optional<std::uint32_t> found = federates_.joined(federate);
+  if (!found) return ++counters_.late_requests, std::nullopt;  // it has left
+  const std::uint32_t about = *found;
   if (asked == management_.set_timing) {
     federates_[about].report_period = period;
     if (management_objects_) management_objects_->timed(about);

@@ -22,10 +22,7 @@ FederationParts::ManagementObjects::ManagementObjects(FederationParts& parts)
     : parts_(parts),
       federation_class_(parts.management_.federation),
       federate_class_(parts.management_.federate),
-      slot_(parts.take_federate_slot()) {
-  parts_.federates_[slot_] = {};
-  parts_.federates_[slot_].block = parts_.take_block();
-}
+      slot_(parts.federates_.add()) {}
 
 bool FederationParts::ManagementObjects::owns(ObjectSlot object) const {
   return parts_.objects_[object].owner == slot_;
@@ -67,7 +64,7 @@ void FederationParts::ManagementObjects::add(Told& told, ObjectClassHandle objec
   if (self.objects_registered ==
       object_block) {  // those who come and go have used up all handles of the block
     parts_.objects_.close_block(self.block);
-    self.block = parts_.take_block();
+    self.block = parts_.federates_.take_block();
     self.objects_registered = 0;
   }
   told = {};

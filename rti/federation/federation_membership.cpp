@@ -111,10 +111,10 @@ FederationParts::Outcome FederationParts::join(ConnectionId connection, Reader& 
   if (!settings_.members.empty() &&
       std::ranges::find(settings_.members, message.name) == settings_.members.end())
     return refuse(connection, Refusal::not_listed), std::nullopt;
-  if (names_.contains(std::string(message.name)))
+  if (federates_.is_taken(message.name))
     return refuse(connection, Refusal::name_taken), std::nullopt;
-  const bool is_full = federate_count_ >= settings_.federate_max ||
-                       (free_blocks_.empty() && next_block_ >= object_block_max);
+  const bool is_full =
+      federates_.joined_count() >= settings_.federate_max || !federates_.has_block();
   if (is_full) return refuse(connection, Refusal::federation_full), std::nullopt;
   admit(connection, message);
   return std::nullopt;
@@ -138,54 +138,18 @@ std::vector<std::byte> FederationParts::framed_digest() const {
                                  std::as_bytes(std::span(entries))});
 }
 
-/// Nothing if it has left, or there was none of that handle.
-std::optional<std::uint32_t> FederationParts::joined_slot(FederateHandle federate) const {
-  if (federate.value >= slot_of_handle_.size()) return std::nullopt;
-  const std::uint32_t slot = slot_of_handle_[federate.value];
-  return slot < federates_.size() && federates_[slot].is_joined &&
-                 federates_[slot].handle == federate
-             ? std::optional(slot)
-             : std::nullopt;
-}
-
-std::uint32_t FederationParts::take_federate_slot() {
-  if (free_federates_.empty()) {
-    federates_.emplace_back();
-    return static_cast<std::uint32_t>(federates_.size() - 1);
-  }
-  const std::uint32_t slot = free_federates_.back();
-  free_federates_.pop_back();
-  return slot;
-}
-
-std::uint32_t FederationParts::take_block() {
-  if (free_blocks_.empty()) return next_block_++;
-  const std::uint32_t block = free_blocks_.back();
-  free_blocks_.pop_back();
-  return block;
-}
-
 void FederationParts::admit(ConnectionId connection, const JoinMessage& message) {
-  const std::uint32_t slot = take_federate_slot();
-  Federate& federate = federates_[slot] = {};
-  federate.is_joined = true;
-  federate.connection = connection;
-  federate.handle = {next_handle_++};
-  federate.block = take_block();
-  federate.name = message.name;
-  federate.type = message.type;
+  const std::uint32_t slot = federates_.admit(connection, message.name, message.type);
+  Federate& federate = federates_[slot];
   federate.published.resize(fom_.object_classes().size());
   federate.published_interactions.resize(fom_.interaction_classes().size());
   federate.subscribed_interactions.resize(fom_.interaction_classes().size());
   federate.told_relevance.resize(relevance_.row_count());
   federate.last_said = now_;
   federate.resign_action = fom_.switches().automatic_resign_action;
-  slot_of_handle_.push_back(slot);
-  names_.emplace(federate.name, slot);
   interest_.add_federate(slot);
   connections_[connection].phase = Phase::joined;
   connections_[connection].federate = slot;
-  ++federate_count_;
   ++counters_.joins;
   federate.outbox.before_updates(JoinedMessage{federate.handle.value, federate.block});
   for (Federate& other : federates_)
@@ -197,31 +161,32 @@ void FederationParts::admit(ConnectionId connection, const JoinMessage& message)
 }
 
 void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
-  Federate& federate = federates_[slot];
   leave_objects(slot);
   interest_.remove_federate(slot);
   forget_update_requests(slot);
   buffering_->remove_federate(slot);
   baselines_.forget(slot);
-  if (federate.further_block) free_blocks_.push_back(*federate.further_block);
-  if (federate.objects_registered == 0) free_blocks_.push_back(federate.block);
-  else objects_.close_block(federate.block);  // its handles have been seen
-  names_.erase(federate.name);
-  federate.is_joined = federate.is_watching = false;
+  give_back_blocks(federates_[slot]);
+  federates_.retire(slot);
   subscribed(slot);
   if (management_objects_) management_objects_->left(slot);
   groups_->remove_federate(slot);
   leave_names(slot);
   leave_points(slot);
+  const Federate& federate = federates_[slot];
   for (Federate& other : federates_)
     if (other.is_watching)
       other.outbox.after_updates(FederateResignedMessage{
           federate.handle.value, static_cast<std::uint8_t>(reason), federate.name, federate.type});
-  --federate_count_;
   ++counters_.resigns;
   leave_time(slot);
-  federate = {};
-  free_federates_.push_back(slot);
+  federates_.release(slot);
+}
+
+void FederationParts::give_back_blocks(const Federate& federate) {
+  if (federate.further_block) federates_.give_back(*federate.further_block);
+  if (federate.objects_registered == 0) federates_.give_back(federate.block);
+  else objects_.close_block(federate.block);  // its handles have been seen
 }
 
 FederationParts::Outcome FederationParts::watch(Federate& federate) {

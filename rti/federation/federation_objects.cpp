@@ -204,10 +204,9 @@ Outcome FederationParts::query_transportation(std::uint32_t slot, Reader& reader
   if (message.is_interaction != 0) {
     if (message.number >= fom_.interaction_classes().size()) return Violation::unknown_name;
     found = fom_.at(InteractionClassHandle{message.number}).transportation;
-    if (message.which < slot_of_handle_.size() &&
-        federates_[slot_of_handle_[message.which]].handle.value == message.which)
+    if (const auto sender = federates_.joined({message.which}))
       for (const auto& [interaction_class, transportation] :
-           federates_[slot_of_handle_[message.which]].changed_transportation)
+           federates_[*sender].changed_transportation)
         if (interaction_class == message.number) found = transportation;
   } else {
     ObjectSlot object = no_object;

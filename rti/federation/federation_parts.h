@@ -14,6 +14,7 @@
 #include "rti/central_component.h"
 #include "rti/distribution/relevance.h"
 #include "rti/federation/datagram_way.h"
+#include "rti/federation/federate_table.h"
 #include "rti/federation/federation_connection.h"
 #include "rti/federation/joined_federate.h"
 #include "rti/federation/synchronization_point.h"
@@ -62,10 +63,8 @@ class FederationParts {
   void refuse(ConnectionId connection, Refusal refusal, const std::string& why);
   std::vector<std::byte> framed_digest() const;
   void admit(ConnectionId connection, const JoinMessage& message);
-  std::uint32_t take_federate_slot();
-  std::optional<std::uint32_t> joined_slot(FederateHandle federate) const;
-  std::uint32_t take_block();
   void remove_federate(std::uint32_t slot, ResignReason reason);
+  void give_back_blocks(const Federate& federate);
   void expel(ConnectionId connection, Violation violation, ResignReason reason,
              std::string_view why);
   Outcome watch(Federate& federate);
@@ -306,13 +305,7 @@ class FederationParts {
   Baselines baselines_;
   bool is_keyframe_begun_ = false;       ///< in the frame that grows in `scratch_`
   std::vector<Connection> connections_;  ///< by id
-  std::vector<Federate> federates_;      ///< by slot
-  std::vector<std::uint32_t> free_federates_, free_blocks_;
-  std::uint32_t next_handle_ = 0, next_block_ = 0;
-  std::size_t federate_count_ = 0;
-  std::vector<std::uint32_t>
-      slot_of_handle_;  ///< by federate handle; stale once it left, so compare
-  std::unordered_map<std::string, std::uint32_t> names_;
+  FederateTable federates_;
   std::vector<SynchronizationPoint> points_;
   Relevance relevance_;
   std::unique_ptr<GroupCommunication>

@@ -168,16 +168,15 @@ Outcome FederationParts::register_object(std::uint32_t slot, Reader& reader) {
   // Handles come in order, so that a stranger can't make the table grow by naming a great one.
   if (message.object != federate.block * object_block + federate.objects_registered)
     return Violation::unknown_name;
-  if (++federate.objects_registered == object_block / 2 &&
-      (!free_blocks_.empty() || next_block_ < object_block_max)) {
-    federate.further_block = take_block();
+  if (++federate.objects_registered == object_block / 2 && federates_.has_block()) {
+    federate.further_block = federates_.take_block();
     federate.outbox.before_updates(FurtherBlockMessage{*federate.further_block});
   }
   federate.name_bytes += message.name.size();
   // Those who have more than their share are refused first, so nobody's hoard keeps others from
   // theirs.
-  const bool is_full =
-      objects_.size() >= settings_.object_max && alive >= settings_.object_max / federate_count_;
+  const bool is_full = objects_.size() >= settings_.object_max &&
+                       alive >= settings_.object_max / federates_.joined_count();
   if (is_full || federate.name_bytes > settings_.name_bytes_per_federate_max)
     return refuse_object(slot, {message.object}), std::nullopt;
   const bool has_name = message.name.empty() || take_name(slot, message.name);

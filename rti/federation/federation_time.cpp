@@ -174,12 +174,12 @@ std::uint32_t FederationParts::Time::find_culprit() const {
   for (const Message& message : messages_) {
     const std::size_t weight = sizeof message + message.body.size();
     if (message.is_retractable) {
-      blamed[parts_.slot_of_handle_[message.sender.value]] += weight;
+      blamed[parts_.federates_.slot_of(message.sender)] += weight;
       continue;
     }
     for (const Message::Receiver& each : message.receivers) {
       const std::uint32_t receiver =
-          each.is_waiting ? parts_.slot_of_handle_[each.federate.value] : no_federate;
+          each.is_waiting ? parts_.federates_.slot_of(each.federate) : no_federate;
       const std::uint32_t culprit =
           receiver == no_federate || message.stamp.time < galt[receiver] ? receiver : last;
       if (culprit != no_federate) blamed[culprit] += weight;
@@ -306,7 +306,7 @@ Outcome FederationParts::Time::retract(std::uint32_t slot, Reader& reader) {
   for (std::uint32_t place = 0; place < message.receivers.size(); ++place) {
     Message::Receiver& receiver = message.receivers[place];
     if (!is_here(receiver.federate)) continue;
-    const std::uint32_t at = parts_.slot_of_handle_[receiver.federate.value];
+    const std::uint32_t at = parts_.federates_.slot_of(receiver.federate);
     if (receiver.is_waiting)
       management_->withdraw(
           at, {message.stamp.time, message.sender.value, message.number, index, place});

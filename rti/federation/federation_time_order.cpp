@@ -27,8 +27,7 @@ void FederationParts::Time::settle() {
 }
 
 bool FederationParts::Time::is_here(FederateHandle federate) const {
-  const std::uint32_t slot = parts_.slot_of_handle_[federate.value];
-  return parts_.federates_[slot].is_joined && parts_.federates_[slot].handle == federate;
+  return parts_.federates_.joined(federate).has_value();
 }
 
 void FederationParts::Time::find_receivers(Message& message) {
@@ -41,7 +40,7 @@ void FederationParts::Time::find_receivers(Message& message) {
     // there is.
     for (const std::uint32_t slot : parts_.groups_->receivers(
              message.class_number,
-             is_here(message.sender) ? parts_.slot_of_handle_[message.sender.value] : no_federate))
+             is_here(message.sender) ? parts_.federates_.slot_of(message.sender) : no_federate))
       if (!message.only || parts_.federates_[slot].handle == message.only) add(slot, {});
     return;
   }
@@ -69,7 +68,7 @@ void FederationParts::Time::distribute(std::uint32_t index) {
   if (!message.is_retracted) find_receivers(message);
   for (std::uint32_t place = 0; place < message.receivers.size(); ++place) {
     Message::Receiver& receiver = message.receivers[place];
-    const std::uint32_t slot = parts_.slot_of_handle_[receiver.federate.value];
+    const std::uint32_t slot = parts_.federates_.slot_of(receiver.federate);
     receiver.is_waiting = management_->is_constrained(slot);
     if (!receiver.is_waiting) {
       receiver.has_it = tell(slot, message, receiver.told, false);

@@ -1,0 +1,67 @@
+// Slots, handles and blocks are given out in a fixed order, for all of them show on the wire.
+#include "rti/federation/federate_table.h"
+
+namespace rink::rti {
+
+std::uint32_t FederateTable::take_slot() {
+  if (free_.empty()) {
+    federates_.emplace_back();
+    return size() - 1;
+  }
+  const std::uint32_t slot = free_.back();
+  free_.pop_back();
+  federates_[slot] = {};
+  return slot;
+}
+
+std::uint32_t FederateTable::take_block() {
+  if (free_blocks_.empty()) return next_block_++;
+  const std::uint32_t block = free_blocks_.back();
+  free_blocks_.pop_back();
+  return block;
+}
+
+std::uint32_t FederateTable::add() {
+  const std::uint32_t slot = take_slot();
+  federates_[slot].block = take_block();
+  return slot;
+}
+
+std::uint32_t FederateTable::admit(ConnectionId connection, std::string_view name,
+                                   std::string_view type) {
+  assert(!is_taken(name));
+  const std::uint32_t slot = add();
+  JoinedFederate& federate = federates_[slot];
+  federate.is_joined = true;
+  federate.connection = connection;
+  federate.handle = {static_cast<std::uint32_t>(slot_of_handle_.size())};
+  federate.name = name;
+  federate.type = type;
+  slot_of_handle_.push_back(slot);
+  names_.emplace(federate.name, slot);
+  ++joined_count_;
+  return slot;
+}
+
+void FederateTable::retire(std::uint32_t slot) {
+  JoinedFederate& federate = federates_[slot];
+  assert(federate.is_joined);
+  names_.erase(federate.name);
+  federate.is_joined = federate.is_watching = false;
+  --joined_count_;
+}
+
+void FederateTable::release(std::uint32_t slot) {
+  assert(!federates_[slot].is_joined);
+  federates_[slot] = {};
+  free_.push_back(slot);
+}
+
+std::optional<std::uint32_t> FederateTable::joined(FederateHandle federate) const {
+  if (!was_given(federate)) return std::nullopt;
+  const std::uint32_t slot = slot_of_handle_[federate.value];
+  return federates_[slot].is_joined && federates_[slot].handle == federate ? std::optional(slot)
+                                                                           : std::nullopt;
+}
+
+}  // namespace rink::rti
