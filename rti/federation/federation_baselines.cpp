@@ -109,8 +109,7 @@ void FederationParts::begin_keyframe(const Stamp& stamp) {
   say(scratch_, BeginKeyframeMessage{*baselines_.keyframe()});
 }
 
-FederationParts::Outcome FederationParts::take_keyframe(std::uint32_t slot, MessageKind kind,
-                                                        Reader& reader) {
+Outcome FederationParts::take_keyframe(std::uint32_t slot, MessageKind kind, Reader& reader) {
   AcknowledgeKeyframeMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (kind == MessageKind::acknowledge_keyframe) baselines_.acknowledge(slot, message.number);

@@ -7,8 +7,6 @@
 
 namespace rink::rti {
 
-using Outcome = std::optional<Violation>;
-
 Outcome FederationParts::take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader) {
   if (kind == MessageKind::publish_object_class) return publish_object_class(slot, reader);
   if (kind == MessageKind::subscribe_object_class) return subscribe_object_class(slot, reader);
@@ -18,7 +16,6 @@ Outcome FederationParts::take_declaration(std::uint32_t slot, MessageKind kind, 
 
 Outcome FederationParts::publish_object_class(std::uint32_t slot, Reader& reader) {
   PublishObjectClassMessage message;
-  Federate& federate = federates_[slot];
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   const ObjectClassHandle object_class{message.object_class};
@@ -26,7 +23,7 @@ Outcome FederationParts::publish_object_class(std::uint32_t slot, Reader& reader
     return Violation::unknown_name;
   if (fom_.is_management(object_class)) return Violation::not_owned;
   const AttributeSet before =
-      std::exchange(federate.published[message.object_class], AttributeSet(message.attributes));
+      publications_.set_class(slot, message.object_class, AttributeSet(message.attributes));
   published_changed(slot, message.object_class, before);
   tell_relevance(slot, message.object_class);
   return std::nullopt;
@@ -57,7 +54,7 @@ Outcome FederationParts::declare_interaction(std::uint32_t slot, MessageKind kin
     const InteractionClassHandle interaction_class{message.interaction_class};
     if (fom_.is_management(interaction_class) && !fom_.is_for_rti(interaction_class))
       return Violation::not_owned;
-    federates_[slot].published_interactions[message.interaction_class] = message.is_declared != 0;
+    publications_.set_interaction(slot, message.interaction_class, message.is_declared != 0);
     tell_relevance(slot, fom_.object_classes().size() + message.interaction_class);
     return std::nullopt;
   }
@@ -136,8 +133,9 @@ void FederationParts::tell_publishers(std::size_t row) {
 
 bool FederationParts::publishes(std::uint32_t slot, std::size_t row) const {
   const std::size_t object_classes = fom_.object_classes().size();
-  return row < object_classes ? !federates_[slot].published[row].is_empty()
-                              : federates_[slot].published_interactions[row - object_classes];
+  const auto number = static_cast<std::uint32_t>(row < object_classes ? row : row - object_classes);
+  return row < object_classes ? !publications_.of_class(slot, number).is_empty()
+                              : publications_.has_interaction(slot, number);
 }
 
 void FederationParts::tell_relevance(std::uint32_t slot, std::size_t row) {

@@ -5,8 +5,6 @@
 
 namespace rink::rti {
 
-using Outcome = std::optional<Violation>;
-
 namespace {
 /// A list of labels ends before it would be longer than an interaction may be.
 constexpr std::size_t label_bytes_max = 30'000;
@@ -95,13 +93,12 @@ void FederationParts::report_interactions(std::uint32_t asking, std::uint32_t ab
 }
 
 void FederationParts::report_publications(std::uint32_t asking, std::uint32_t about) {
-  const Federate& federate = federates_[about];
   report_classes(
       asking, about, management_.report_object_publication,
-      [&](std::uint32_t i) { return federate.published[i]; },
+      [&](std::uint32_t i) { return publications_.of_class(about, i); },
       [](ManagementWriter&, std::uint32_t) {});
   report_interactions(asking, about, management_.report_interaction_publication,
-                      [&](std::uint32_t i) { return bool{federate.published_interactions[i]}; });
+                      [&](std::uint32_t i) { return publications_.has_interaction(about, i); });
 }
 
 /// What it hears of each class, by that or a superclass, in whatever region.
@@ -125,7 +122,7 @@ void FederationParts::report_subscriptions(std::uint32_t asking, std::uint32_t a
 
 void FederationParts::report_points(std::uint32_t asking) {
   std::vector<std::byte> labels, parameters;
-  for (const SynchronizationPoint& each : points_)
+  for (const SynchronizationPoint& each : synchronization_.points())
     if (labels.size() + each.label.size() <= label_bytes_max)
       ManagementWriter(labels).text(each.label);
   ManagementWriter(parameters).text({reinterpret_cast<const char*>(labels.data()), labels.size()});

@@ -42,6 +42,8 @@ FederationParts::FederationParts(const Fom& fom, const FederationSettings& setti
     : fom_(fom),
       settings_(settings),
       make_time_management_(services.time_management),
+      publications_(fom),
+      names_(federates_, 2 * std::size_t{settings.object_max}),
       objects_(fom),
       ownership_(fom, objects_),
       distribution_(distribution_of(services, fom, objects_, ownership_, std::move(filter))),
@@ -95,7 +97,7 @@ void FederationParts::expel(ConnectionId connection, Violation violation, Resign
                         was_joined ? framed(ExpelledMessage{why}) : std::vector<std::byte>()});
 }
 
-FederationParts::Outcome FederationParts::join(ConnectionId connection, Reader& reader) {
+Outcome FederationParts::join(ConnectionId connection, Reader& reader) {
   JoinMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.version != protocol_version)
@@ -141,8 +143,7 @@ std::vector<std::byte> FederationParts::framed_digest() const {
 void FederationParts::admit(ConnectionId connection, const JoinMessage& message) {
   const std::uint32_t slot = federates_.admit(connection, message.name, message.type);
   Federate& federate = federates_[slot];
-  federate.published.resize(fom_.object_classes().size());
-  federate.published_interactions.resize(fom_.interaction_classes().size());
+  publications_.joined(slot);
   federate.subscribed_interactions.resize(fom_.interaction_classes().size());
   federate.told_relevance.resize(relevance_.row_count());
   federate.last_said = now_;
@@ -156,7 +157,7 @@ void FederationParts::admit(ConnectionId connection, const JoinMessage& message)
     if (other.is_watching)
       other.outbox.before_updates(
           FederateJoinedMessage{federate.handle.value, federate.name, federate.type});
-  join_points(slot);
+  synchronization_.joined(slot);
   if (management_objects_) management_objects_->joined(slot);
 }
 
@@ -171,8 +172,8 @@ void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
   subscribed(slot);
   if (management_objects_) management_objects_->left(slot);
   groups_->remove_federate(slot);
-  leave_names(slot);
-  leave_points(slot);
+  names_.left(slot);
+  synchronization_.left(slot);
   const Federate& federate = federates_[slot];
   for (Federate& other : federates_)
     if (other.is_watching)
@@ -180,6 +181,7 @@ void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
           federate.handle.value, static_cast<std::uint8_t>(reason), federate.name, federate.type});
   ++counters_.resigns;
   leave_time(slot);
+  publications_.left(slot);
   federates_.release(slot);
 }
 
@@ -189,7 +191,7 @@ void FederationParts::give_back_blocks(const Federate& federate) {
   else objects_.close_block(federate.block);  // its handles have been seen
 }
 
-FederationParts::Outcome FederationParts::watch(Federate& federate) {
+Outcome FederationParts::watch(Federate& federate) {
   if (federate.is_watching) return std::nullopt;
   federate.is_watching = true;
   for (const Federate& other : federates_)

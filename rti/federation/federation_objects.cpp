@@ -1,4 +1,4 @@
-// Object management at the RTI beyond updates: names, local deletion, requests for updates,
+// Object management at the RTI beyond updates: local deletion, requests for updates,
 // transportation.
 #include <algorithm>
 
@@ -6,8 +6,6 @@
 #include "rti/wire/region_messages.h"
 
 namespace rink::rti {
-
-using Outcome = std::optional<Violation>;
 
 namespace {
 std::string as_text(Bytes bytes) {
@@ -18,7 +16,7 @@ std::string as_text(Bytes bytes) {
 Outcome FederationParts::take_object_request(std::uint32_t slot, MessageKind kind, Reader& reader) {
   switch (kind) {
     case MessageKind::instance_names:
-      return take_names(slot, reader);
+      return names_.handle(slot, reader);
     case MessageKind::local_delete:
       return delete_locally(slot, reader);
     case MessageKind::request_update:
@@ -28,69 +26,6 @@ Outcome FederationParts::take_object_request(std::uint32_t slot, MessageKind kin
     default:
       return query_transportation(slot, reader);
   }
-}
-
-/// A set is granted whole or not at all (6.5).
-Outcome FederationParts::take_names(std::uint32_t slot, Reader& reader) {
-  InstanceNamesMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  const FederateHandle federate = federates_[slot].handle;
-  const auto request = static_cast<NameRequest>(message.word);
-  std::vector<std::string> names;
-  if (!for_each_name(message.names, [&](std::string_view name) { names.emplace_back(name); }))
-    return Violation::malformed;
-  if (request == NameRequest::reserve && names.size() != 1) return Violation::malformed;
-  if (request == NameRequest::release) {
-    for (const std::string& name : names) {
-      const auto found = instance_names_.find(name);
-      if (found == instance_names_.end() || found->second != federate)
-        return Violation::unknown_name;
-      instance_names_.erase(found);
-    }
-    return std::nullopt;
-  }
-  std::ranges::sort(names);
-  const bool is_unique = std::ranges::adjacent_find(names) == names.end();
-  const bool is_free = is_unique && std::ranges::none_of(names, [this](const std::string& name) {
-                         return name.starts_with("HLA") || instance_names_.contains(name);
-                       });
-  const bool has_room =
-      instance_names_.size() + names.size() <= 2 * std::size_t{settings_.object_max};
-  if (is_free && has_room)
-    for (const std::string& name : names) instance_names_.emplace(name, federate);
-  const bool is_set = request == NameRequest::reserve_set;
-  if (is_free && has_room)
-    answer_names(slot, is_set ? NameAnswer::set_granted : NameAnswer::granted, message.names);
-  else answer_names(slot, is_set ? NameAnswer::set_refused : NameAnswer::refused, message.names);
-  return std::nullopt;
-}
-
-void FederationParts::answer_names(std::uint32_t slot, NameAnswer answer, Bytes names) {
-  federates_[slot].outbox.before_updates(
-      InstanceNamesAnswerMessage{static_cast<std::uint8_t>(answer), names});
-}
-
-/// For an object that is being registered: its sender's reservation, or a name that is free. Else
-/// its sender is told.
-bool FederationParts::take_name(std::uint32_t slot, std::string_view name) {
-  const auto [found, is_new] = instance_names_.emplace(name, FederateHandle{});
-  if ((is_new && !name.starts_with("HLA")) ||
-      (!is_new && found->second && found->second == federates_[slot].handle)) {
-    found->second = {};
-    return true;
-  }
-  if (is_new) instance_names_.erase(found);
-  std::vector<std::byte> text;
-  Writer(text).text(name, text_max);
-  answer_names(slot, NameAnswer::registration_refused, text);
-  return false;
-}
-
-/// What it reserved and did not use is free again.
-void FederationParts::leave_names(std::uint32_t slot) {
-  const FederateHandle federate = federates_[slot].handle;
-  std::erase_if(instance_names_,
-                [federate](const auto& each) { return each.second && each.second == federate; });
 }
 
 /// Its confirmation comes before whatever makes the object discovered anew.
@@ -172,7 +107,7 @@ Outcome FederationParts::change_transportation(std::uint32_t slot, Reader& reade
   Federate& federate = federates_[slot];
   if (message.is_interaction != 0) {
     if (message.number >= fom_.interaction_classes().size()) return Violation::unknown_name;
-    if (!federate.published_interactions[message.number]) return Violation::undeclared;
+    if (!publications_.has_interaction(slot, message.number)) return Violation::undeclared;
     std::erase_if(federate.changed_transportation,
                   [&](const auto& each) { return each.first == message.number; });
     federate.changed_transportation.emplace_back(static_cast<std::uint16_t>(message.number),

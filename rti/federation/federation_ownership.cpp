@@ -8,8 +8,6 @@
 
 namespace rink::rti {
 
-using Outcome = std::optional<Violation>;
-
 namespace {
 
 bool is_of_owner(OwnershipRequest request) { return request < OwnershipRequest::acquire; }
@@ -78,7 +76,7 @@ Outcome FederationParts::find_known(std::uint32_t slot, ObjectHandle handle, Obj
 }
 
 AttributeSet FederationParts::acquirable(std::uint32_t slot, ObjectSlot object) const {
-  const AttributeSet published = federates_[slot].published[objects_[object].object_class];
+  const AttributeSet published = publications_.of_class(slot, objects_[object].object_class);
   return published.is_empty() ? published : published | AttributeSet{privilege_to_delete_object};
 }
 
@@ -263,7 +261,7 @@ Outcome FederationParts::query_ownership(std::uint32_t slot, Reader& reader) {
 /// has no owner.
 void FederationParts::published_changed(std::uint32_t slot, std::uint16_t object_class,
                                         AttributeSet before) {
-  const AttributeSet now = federates_[slot].published[object_class];
+  const AttributeSet now = publications_.of_class(slot, object_class);
   AttributeSet lost = before.without(now), won = now.without(before);
   if (now.is_empty()) lost.insert(privilege_to_delete_object);
   if (before.is_empty()) won.insert(privilege_to_delete_object);

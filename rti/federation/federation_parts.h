@@ -17,7 +17,10 @@
 #include "rti/federation/federate_table.h"
 #include "rti/federation/federation_connection.h"
 #include "rti/federation/joined_federate.h"
-#include "rti/federation/synchronization_point.h"
+#include "rti/federation/outcome.h"
+#include "rti/federation/services/object_names.h"
+#include "rti/federation/services/publications.h"
+#include "rti/federation/services/synchronization.h"
 #include "rti/federation_counters.h"
 #include "rti/federation_services.h"
 #include "rti/federation_settings.h"
@@ -46,11 +49,6 @@ class FederationParts {
   using Federate = JoinedFederate;
   using Connection = FederationConnection;
   using Phase = Connection::Phase;
-  using Outcome = std::optional<Violation>;  ///< nothing: all is well
-  static constexpr std::size_t synchronization_point_max =
-      64;  ///< of one federate, not reached yet
-  static constexpr std::size_t points_left_max =
-      256;  ///< that live on after their registrars have left
 
   // Connections and membership (federation_membership.cpp).
   void connect(ConnectionId connection);
@@ -97,14 +95,6 @@ class FederationParts {
   void report_publications(std::uint32_t asking, std::uint32_t about);
   void report_subscriptions(std::uint32_t asking, std::uint32_t about);
   void report_points(std::uint32_t asking);
-  Outcome register_point(Reader& reader, std::uint32_t slot);
-  std::optional<SynchronizationFailure> find_members(
-      const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const;
-  Outcome achieve_point(Reader& reader, std::uint32_t slot);
-  void announce(const SynchronizationPoint& point, std::uint32_t slot);
-  void join_points(std::uint32_t slot);
-  void leave_points(std::uint32_t slot);
-  void complete_points();
 
   // What a federate says (federation_receive.cpp).
   void receive(ConnectionId connection, Bytes bytes);
@@ -152,18 +142,12 @@ class FederationParts {
 
   // Objects beyond updates (federation_objects.cpp).
   Outcome take_object_request(std::uint32_t slot, MessageKind kind, Reader& reader);
-  Outcome take_names(std::uint32_t slot, Reader& reader);
-  void answer_names(std::uint32_t slot, NameAnswer answer, Bytes names);
-  bool take_name(std::uint32_t slot, std::string_view name);
-  void leave_names(std::uint32_t slot);
   Outcome delete_locally(std::uint32_t slot, Reader& reader);
   Outcome request_update(std::uint32_t slot, Reader& reader);
   void ask_owners(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes tag);
   Outcome change_transportation(std::uint32_t slot, Reader& reader);
   Outcome query_transportation(std::uint32_t slot, Reader& reader);
   AttributeSet by_datagram(ObjectSlot object) const;
-  /// Names of objects that are reserved or in use, and by which federate they are reserved.
-  std::unordered_map<std::string, FederateHandle> instance_names_;
   ObjectMap<AttributeSet>
       changed_transportation_;  ///< of objects whose attributes travel otherwise than the model
                                 ///< says: those by best effort
@@ -291,6 +275,10 @@ class FederationParts {
   const Fom& fom_;
   FederationSettings settings_;
   std::function<std::unique_ptr<TimeManagement>()> make_time_management_;
+  FederateTable federates_;
+  Publications publications_;
+  ObjectNames names_;
+  Synchronization synchronization_{federates_};
   ObjectTable objects_;
   Ownership ownership_;
   std::vector<Stamp> inherited_;  ///< by object slot: the newest stamp of former owners; as long as
@@ -305,8 +293,6 @@ class FederationParts {
   Baselines baselines_;
   bool is_keyframe_begun_ = false;       ///< in the frame that grows in `scratch_`
   std::vector<Connection> connections_;  ///< by id
-  FederateTable federates_;
-  std::vector<SynchronizationPoint> points_;
   Relevance relevance_;
   std::unique_ptr<GroupCommunication>
       groups_;  ///< of federate slots: a group for each interaction class

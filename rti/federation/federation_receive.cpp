@@ -9,8 +9,6 @@
 
 namespace rink::rti {
 
-using Outcome = std::optional<Violation>;
-
 void FederationParts::receive(ConnectionId id, Bytes bytes) {
   if (id >= connections_.size() || connections_[id].phase == Phase::unknown) return;
   counters_.bytes_received += bytes.size();
@@ -90,9 +88,9 @@ Outcome FederationParts::take_message(ConnectionId id, std::uint32_t slot, Reade
     case MessageKind::heartbeat:
       return std::nullopt;
     case MessageKind::register_synchronization_point:
-      return register_point(reader, slot);
+      return synchronization_.handle_register(slot, reader);
     case MessageKind::synchronization_point_achieved:
-      return achieve_point(reader, slot);
+      return synchronization_.handle_achieved(slot, reader);
     case MessageKind::watch_federates:
       return watch(federates_[slot]);
     case MessageKind::query_management:
@@ -161,7 +159,7 @@ Outcome FederationParts::register_object(std::uint32_t slot, Reader& reader) {
   Federate& federate = federates_[slot];
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
-  if (federate.published[message.object_class].is_empty()) return Violation::undeclared;
+  if (publications_.of_class(slot, message.object_class).is_empty()) return Violation::undeclared;
   const std::size_t alive = registered_alive(federate);
   if (alive >= settings_.objects_per_federate_max) return Violation::over_limit;
   if (federate.objects_registered == object_block) extend_block(federate);
@@ -179,7 +177,7 @@ Outcome FederationParts::register_object(std::uint32_t slot, Reader& reader) {
                        alive >= settings_.object_max / federates_.joined_count();
   if (is_full || federate.name_bytes > settings_.name_bytes_per_federate_max)
     return refuse_object(slot, {message.object}), std::nullopt;
-  const bool has_name = message.name.empty() || take_name(slot, message.name);
+  const bool has_name = message.name.empty() || names_.take(slot, message.name);
   interest_.object_registered(objects_.insert({message.object}, slot, message.object_class,
                                               has_name ? message.name : std::string_view()));
   return std::nullopt;
@@ -240,7 +238,7 @@ void FederationParts::delete_object(ObjectSlot object) {
     federates_[i].outbox.after_updates(removal);
     counters_.scope_bytes_sent += measure(removal);
   }
-  if (!objects_[object].name.empty()) instance_names_.erase(objects_[object].name);
+  if (!objects_[object].name.empty()) names_.give_back(objects_[object].name);
   if (changed_transportation_.size() > 0) changed_transportation_.erase(objects_[object].handle);
   objects_.erase(object);
 }
@@ -260,7 +258,7 @@ Outcome FederationParts::take_updates(std::uint32_t slot, Reader& reader) {
   const AttributeSet attributes{message.attributes};
   if (!fom_.attributes(object_class).includes(attributes) || attributes.is_empty())
     return Violation::unknown_name;
-  if (!federates_[slot].published[message.object_class].includes(attributes))
+  if (!publications_.of_class(slot, message.object_class).includes(attributes))
     return Violation::undeclared;
   Outcome outcome;
   const bool is_read = read_records(reader, fom_.at(object_class), attributes,
@@ -310,8 +308,7 @@ Outcome FederationParts::take_interaction(std::uint32_t slot, Reader& reader) {
 
 Outcome FederationParts::deliver_interaction(std::uint32_t slot, InteractionMessage& message,
                                              std::span<const RegionHandle> regions) {
-  if (!federates_[slot].published_interactions[message.interaction_class])
-    return Violation::undeclared;
+  if (!publications_.has_interaction(slot, message.interaction_class)) return Violation::undeclared;
   ++counters_.interactions_received;
   ++federates_[slot].counts.interactions_sent;
   // Interactions are never held back, so a shouter would fill the queues of those who listen, and

@@ -6,8 +6,6 @@
 
 namespace rink::rti {
 
-using Outcome = std::optional<Violation>;
-
 namespace {
 
 /// Calls `take(record)` for each record until it returns a violation.

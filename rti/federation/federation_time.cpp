@@ -9,8 +9,6 @@
 
 namespace rink::rti {
 
-using Outcome = std::optional<Violation>;
-
 Outcome FederationParts::take_time(std::uint32_t slot, MessageKind kind, Reader& reader) {
   federates_[slot].has_stream_only =
       true;  // whose messages wait for its time, which no datagram could keep up with
@@ -211,7 +209,7 @@ Outcome FederationParts::Time::read_update(std::uint32_t slot, Reader& content, 
   const AttributeSet attributes{header.attributes};
   if (!parts_.fom_.attributes(object_class).includes(attributes) || attributes.is_empty())
     return Violation::unknown_name;
-  if (!parts_.federates_[slot].published[header.object_class].includes(attributes))
+  if (!parts_.publications_.of_class(slot, header.object_class).includes(attributes))
     return Violation::undeclared;
   std::size_t records = 0;
   const bool is_read = read_records(content, parts_.fom_.at(object_class), attributes,
@@ -240,7 +238,7 @@ Outcome FederationParts::Time::read_interaction(std::uint32_t slot, Reader& cont
   if (!exchange(content, wire)) return Violation::malformed;
   if (wire.interaction_class >= parts_.fom_.interaction_classes().size())
     return Violation::unknown_name;
-  if (!parts_.federates_[slot].published_interactions[wire.interaction_class])
+  if (!parts_.publications_.has_interaction(slot, wire.interaction_class))
     return Violation::undeclared;
   message.class_number = wire.interaction_class;
   message.only = {wire.federate};

@@ -37,9 +37,7 @@ struct JoinedFederate {
   std::size_t looked_at = 0, said = 0;  ///< since the last flush: objects, for its requests for
                                         ///< updates; bytes of interactions
   std::string name, type;
-  std::vector<AttributeSet> published;             ///< by object class
-  std::vector<bool> published_interactions;        ///< by interaction class
-  std::vector<Listening> subscribed_interactions;  ///< likewise
+  std::vector<Listening> subscribed_interactions;  ///< by class
   std::vector<Subscription>
       told_relevance;  ///< what it was told that others hear, by row of `Relevance`
   std::unique_ptr<ObjectMap<AttributeSet>>

@@ -1,0 +1,43 @@
+// Names of objects: which are reserved by whom, and which are in use (IEEE 1516.1-2010, 6.2 to
+// 6.7).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "rti/federation/federate_table.h"
+#include "rti/federation/outcome.h"
+#include "rti/wire/object_messages.h"
+
+namespace rink::rti {
+
+class ObjectNames {
+ public:
+  /// No more than `name_max` names are reserved or in use at once.
+  ObjectNames(FederateTable& federates, std::size_t name_max)
+      : federates_(federates), name_max_(name_max) {}
+
+  Outcome handle(std::uint32_t slot, Reader& reader);
+  /// For an object that is being registered: its sender's reservation, or a name that is free. Else
+  /// its sender is told.
+  bool take(std::uint32_t slot, std::string_view name);
+  /// The object that had it is gone.
+  void give_back(const std::string& name) { names_.erase(name); }
+  /// What it reserved and did not use is free again.
+  void left(std::uint32_t slot);
+
+ private:
+  bool reserve(FederateHandle federate, std::vector<std::string>& names);
+  Outcome release(FederateHandle federate, const std::vector<std::string>& names);
+  void answer(std::uint32_t slot, NameAnswer answer, Bytes names);
+
+  FederateTable& federates_;
+  std::size_t name_max_;
+  std::unordered_map<std::string, FederateHandle> names_;  ///< none: in use
+};
+
+}  // namespace rink::rti

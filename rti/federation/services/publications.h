@@ -1,0 +1,55 @@
+// What each federate publishes, which most services ask and only declarations write.
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "rti/fom/fom.h"
+#include "rti/types.h"
+
+namespace rink::rti {
+
+class Publications {
+ public:
+  explicit Publications(const Fom& fom)
+      : object_classes_(fom.object_classes().size()),
+        interaction_classes_(fom.interaction_classes().size()) {}
+
+  /// Nothing yet.
+  void joined(std::uint32_t slot) {
+    if (slot >= federates_.size()) federates_.resize(slot + 1);
+    federates_[slot].objects.assign(object_classes_, {});
+    federates_[slot].interactions.assign(interaction_classes_, false);
+  }
+  void left(std::uint32_t slot) { federates_[slot] = {}; }
+
+  AttributeSet of_class(std::uint32_t slot, std::uint32_t object_class) const {
+    assert(object_class < object_classes_);
+    return federates_[slot].objects[object_class];
+  }
+  bool has_interaction(std::uint32_t slot, std::uint32_t interaction_class) const {
+    assert(interaction_class < interaction_classes_);
+    return federates_[slot].interactions[interaction_class];
+  }
+  /// What it published of the class before.
+  AttributeSet set_class(std::uint32_t slot, std::uint32_t object_class, AttributeSet attributes) {
+    assert(object_class < object_classes_);
+    return std::exchange(federates_[slot].objects[object_class], attributes);
+  }
+  void set_interaction(std::uint32_t slot, std::uint32_t interaction_class, bool is_published) {
+    assert(interaction_class < interaction_classes_);
+    federates_[slot].interactions[interaction_class] = is_published;
+  }
+
+ private:
+  struct Published {
+    std::vector<AttributeSet> objects;  ///< by class
+    std::vector<bool> interactions;     ///< likewise
+  };
+  std::size_t object_classes_, interaction_classes_;
+  std::vector<Published> federates_;  ///< by slot
+};
+
+}  // namespace rink::rti

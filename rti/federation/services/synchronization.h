@@ -1,0 +1,44 @@
+// Synchronisation points: who registers them, who must achieve them, and when they are reached
+// (IEEE 1516.1-2010, 4.11 to 4.15).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "rti/federation/federate_table.h"
+#include "rti/federation/outcome.h"
+#include "rti/federation/synchronization_point.h"
+#include "rti/wire/federation_messages.h"
+
+namespace rink::rti {
+
+class Synchronization {
+ public:
+  static constexpr std::size_t point_max = 64;  ///< of one federate, not reached yet
+  static constexpr std::size_t left_max =
+      256;  ///< points that live on after their registrars have left
+
+  explicit Synchronization(FederateTable& federates) : federates_(federates) {}
+
+  Outcome handle_register(std::uint32_t slot, Reader& reader);
+  Outcome handle_achieved(std::uint32_t slot, Reader& reader);
+  /// Who joins belongs to every point that is for all.
+  void joined(std::uint32_t slot);
+  /// Who leaves is not waited for any more.
+  void left(std::uint32_t slot);
+  const std::vector<SynchronizationPoint>& points() const { return points_; }
+
+ private:
+  std::optional<SynchronizationFailure> find_members(
+      const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const;
+  void announce(const SynchronizationPoint& point, std::uint32_t slot);
+  void orphan(FederateHandle registrar);
+  void complete();
+
+  FederateTable& federates_;
+  std::vector<SynchronizationPoint> points_;
+};
+
+}  // namespace rink::rti
