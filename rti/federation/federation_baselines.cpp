@@ -50,37 +50,39 @@ class Wanted {
 
 }  // namespace
 
-void FederationParts::gather_periodic(std::size_t index, std::uint32_t slot) {
-  const UpdateRun& run = runs_[index];
-  const Wanted wanted(run, interest_.of(slot));
+void FederationParts::gather_periodic(std::size_t index, FlushContext& context) {
+  const UpdateRun& run = context.runs[index];
+  const std::uint32_t slot = context.slot;
+  const Wanted wanted(run, context.interest);
   const DeltaBlock& block = baselines_.block(run, index, slot);
   bool is_any = false, knows_all = true;
   for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
     const std::uint64_t bits = wanted.word(i);
     if (bits == 0) continue;
-    if (!is_any && baselines_.keyframe()) begin_keyframe(run.stamp);
+    if (!is_any && baselines_.keyframe()) begin_keyframe(run.stamp, context.frame);
     is_any = true;
     knows_all = knows_all && (block.differences.word(i) & bits & ~baselines_.known(slot, i)) == 0;
     if (baselines_.keyframe()) baselines_.tell(slot, i, bits);
   }
   if (!is_any) return;
-  write_stamp(run.stamp);
-  if (!knows_all || !wanted.is_all()) return cut_periodic(run, block, slot);
+  context.frame.write_stamp(run.stamp);
+  if (!knows_all || !wanted.is_all()) return cut_periodic(run, block, context);
   ++baselines_.counters().blocks_shared;
   count_periodic(block.records.size(), block.difference_count);
-  add_shared(block.message);
+  context.frame.add_shared(block.message);
 }
 
 /// The records in the federate's interest, bit by bit; those whose baseline it lacks are absolute.
 void FederationParts::cut_periodic(const UpdateRun& run, const DeltaBlock& block,
-                                   std::uint32_t slot) {
-  say(scratch_, DeltasMessage{run.object_class});
-  BitWriter bits(scratch_);
+                                   FlushContext& context) {
+  const std::uint32_t slot = context.slot;
+  context.frame.say(DeltasMessage{run.object_class});
+  BitWriter bits(context.frame.bytes());
   DeltaHeader header = block.header;
   exchange(bits, header, baselines_.codec(block.run).fields().size());
   std::uint32_t previous = 0;
   std::size_t records = 0, differences = 0;
-  Wanted(run, interest_.of(slot)).for_each([&](std::size_t index) {
+  Wanted(run, context.interest).for_each([&](std::size_t index) {
     write_handle(bits, previous, run.records[index].handle);
     previous = run.records[index].handle;
     const DeltaBlock::Record& record = block.records[index];
@@ -101,12 +103,10 @@ void FederationParts::count_periodic(std::size_t records, std::size_t difference
   baselines_.counters().absolutes_sent += records - differences;
 }
 
-/// Says once in a frame that what follows is to be kept.
-void FederationParts::begin_keyframe(const Stamp& stamp) {
-  if (is_keyframe_begun_) return;
-  is_keyframe_begun_ = true;
-  write_stamp(stamp);
-  say(scratch_, BeginKeyframeMessage{*baselines_.keyframe()});
+void FederationParts::begin_keyframe(const Stamp& stamp, GatheredFrame& frame) {
+  if (!frame.begins_keyframe()) return;
+  frame.write_stamp(stamp);
+  frame.say(BeginKeyframeMessage{*baselines_.keyframe()});
 }
 
 Outcome FederationParts::take_keyframe(std::uint32_t slot, MessageKind kind, Reader& reader) {

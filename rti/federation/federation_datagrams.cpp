@@ -45,13 +45,12 @@ void FederationParts::append_apart(std::uint32_t slot, ObjectSlot object, Attrib
 }
 
 /// Where nothing is best-effort this is one comparison per federate and flush.
-void FederationParts::begin_datagrams(Federate& federate, Outlet& outlet) {
-  way_ = nullptr;
-  if (!has_best_effort_) return;
+DatagramChannel FederationParts::begin_datagrams(Federate& federate, Outlet& outlet) {
+  if (!has_best_effort_) return {};
   const std::size_t size_max =
       federate.has_stream_only ? 0 : outlet.datagram_max(federate.connection);
   const bool is_open = size_max >= 256;  // less is no use
-  if (!federate.way && !is_open) return;
+  if (!federate.way && !is_open) return {};
   if (!federate.way) {
     federate.way = std::make_unique<DatagramWay>(batch_.lists());
     has_ways_ = true;
@@ -68,10 +67,10 @@ void FederationParts::begin_datagrams(Federate& federate, Outlet& outlet) {
   }
   if (way.has_fallen_back && is_open && now_ - way.probed_s >= DatagramWay::probe_period_s)
     probe(federate, outlet);
-  if (way.has_fallen_back) return;
-  way_ = &way;
-  datagram_size_max_ = size_max - DatagramHead::size;
-  batch_.begin(datagram_size_max_);
+  if (way.has_fallen_back) return {};
+  const DatagramChannel channel{&way, size_max - DatagramHead::size};
+  batch_.begin(channel.size_max);
+  return channel;
 }
 
 void FederationParts::probe(Federate& federate, Outlet& outlet) {
@@ -87,9 +86,10 @@ void FederationParts::probe(Federate& federate, Outlet& outlet) {
 }
 
 /// What was lost goes out as it is now, by datagram again or, after a fallback, by the stream.
-void FederationParts::write_due_states(std::uint32_t slot) {
-  DatagramWay& way = *federates_[slot].way;
-  const FederateInterest& interest = interest_.of(slot);
+void FederationParts::write_due_states(FlushContext& context) {
+  DatagramWay& way = *context.federate.way;
+  const FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
   for (const DatagramLedger::Lost& each : way.due) {
     const ObjectSlot object = objects_.find({each.handle});
     if (object == no_object || interest.fresh.contains(object))
@@ -102,20 +102,21 @@ void FederationParts::write_due_states(std::uint32_t slot) {
     const Stamp stamp = newest_of(object);
     ++counters_.updates_sent;
     ++counters_.updates_repaired;
-    if (way_ != nullptr &&
+    if (context.channel.way != nullptr &&
         batch_.add(objects_[object].object_class, set, stamp, each.handle, values_))
       continue;
-    write_stamp(stamp);
-    say(scratch_, UpdatesMessage{objects_[object].object_class, set.bits});
-    RecordWriter(scratch_).add(each.handle, values_);
+    frame.write_stamp(stamp);
+    frame.say(UpdatesMessage{objects_[object].object_class, set.bits});
+    RecordWriter(frame.bytes()).add(each.handle, values_);
   }
   way.due.clear();
 }
 
-bool FederationParts::gather_datagrams(std::size_t index, const FederateInterest& interest) {
-  const UpdateRun& run = runs_[index];
+bool FederationParts::gather_datagrams(std::size_t index, FlushContext& context) {
+  const UpdateRun& run = context.runs[index];
+  const FederateInterest& interest = context.interest;
   if (!best_effort_[run.object_class].includes(run.attributes)) return false;
-  const CutRun& cut = batch_.cut(index, run, datagram_size_max_);
+  const CutRun& cut = batch_.cut(index, run, context.channel.size_max);
   if (!cut.fits) return false;
   const bool has_changed = changed_transportation_.size() > 0;
   const bool is_whole = !has_changed && interest.is_uniform && !interest.has_fresh &&
@@ -138,16 +139,18 @@ bool FederationParts::gather_datagrams(std::size_t index, const FederateInterest
     if (!has_changed || by_datagram(run.slots[record]).includes(wanted))
       return void(
           batch_.add(run.object_class, wanted, run.stamp, run.records[record].handle, values));
-    write_stamp(run.stamp);
-    say(scratch_, UpdatesMessage{run.object_class, wanted.bits});
-    RecordWriter(scratch_).add(run.records[record].handle, values);
+    context.frame.write_stamp(run.stamp);
+    context.frame.say(UpdatesMessage{run.object_class, wanted.bits});
+    RecordWriter(context.frame.bytes()).add(run.records[record].handle, values);
   });
   return true;
 }
 
-void FederationParts::send_datagrams(Federate& federate, Outlet& outlet) {
-  if (way_ == nullptr || batch_.is_empty()) return;
-  const std::span<const Datagram> datagrams = batch_.finish(federate.frames, way_->ledger, now_);
+void FederationParts::send_datagrams(FlushContext& context, Outlet& outlet) {
+  JoinedFederate& federate = context.federate;
+  DatagramWay* way = context.channel.way;
+  if (way == nullptr || batch_.is_empty()) return;
+  const std::span<const Datagram> datagrams = batch_.finish(federate.frames, way->ledger, now_);
   std::size_t size = 0;
   for (const Datagram& each : datagrams) size += each.head.size() + each.body.size();
   counters_.bytes_sent += size;
@@ -155,7 +158,7 @@ void FederationParts::send_datagrams(Federate& federate, Outlet& outlet) {
   counters_.datagrams_sent += datagrams.size();
   federate.counts.bytes_received += size;
   // Who hears of us by datagrams, as its answers tell, needs no heartbeat beside them.
-  if (const auto since = way_->ledger.unanswered_since();
+  if (const auto since = way->ledger.unanswered_since();
       !since || now_ - *since < settings_.patience.heartbeat_s)
     federate.last_said = now_;
   outlet.send_datagrams(federate.connection, datagrams);

@@ -1,7 +1,6 @@
 // What goes out: one gathered write per destination, shared blocks without a copy.
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 #include "rti/buffering/run_scope.h"
 #include "rti/federation/federation_parts.h"
@@ -26,15 +25,17 @@ void fetch(const Value& value) {
 void FederationParts::flush(Outlet& outlet) {
   send_answers(outlet);
   settle_update_requests();
-  runs_ = buffering_->seal();
-  baselines_.begin(runs_, federates_.size());
+  const std::span<const UpdateRun> runs = buffering_->seal();
+  baselines_.begin(runs, federates_.size());
   batch_.begin_tick();
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot) {
     look_ahead(slot);
-    if (federates_[slot].is_joined) flush_federate(slot, outlet);
+    if (!federates_[slot].is_joined) continue;
+    told_whole_.clear();
+    FlushContext context{slot, federates_[slot], interest_.of(slot), runs, frame_, told_whole_};
+    flush_federate(context, outlet);
   }
   baselines_.end();
-  runs_ = {};
   buffering_->clear();
   objects_.recycle();
   for (const Farewell& each : farewells_) {
@@ -60,89 +61,86 @@ void FederationParts::look_ahead(std::uint32_t slot) {
   }
 }
 
-void FederationParts::flush_federate(std::uint32_t slot, Outlet& outlet) {
-  Federate& federate = federates_[slot];
-  scratch_.resize(frame_header_size);
-  scratch_taken_ = 0;
-  frame_stamp_.reset();
-  is_keyframe_begun_ = false;
-  pieces_.clear();
-  told_whole_.clear();
-  is_all_told_ = false;
+void FederationParts::flush_federate(FlushContext& context, Outlet& outlet) {
+  JoinedFederate& federate = context.federate;
+  FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
   const std::uint64_t before = counters_.updates_sent;
-  std::ranges::sort(interest_.of(slot).pressing);
-  for (const ObjectSlot each : interest_.of(slot).pressing)
-    interest_.of(slot).fresh.insert(
-        each);  // what this flush's runs say of them is part of what was told
-  begin_datagrams(federate, outlet);
+  frame.begin();
+  std::ranges::sort(interest.pressing);
+  for (const ObjectSlot each : interest.pressing)
+    interest.fresh.insert(each);  // what this flush's runs say of them is part of what was told
+  context.channel = begin_datagrams(federate, outlet);
   if (federate.upward) acknowledge_datagrams(federate, outlet);
-  scratch_.insert(scratch_.end(), federate.outbox.head().begin(), federate.outbox.head().end());
-  const std::size_t entry_end = scratch_.size() + entry_room(slot, outlet);
-  write_scope_events(slot, entry_end);
-  const bool is_held = holds_back(slot, outlet);
-  if (is_held) {
-    hold_back(slot);
-  } else {
-    if (interest_.of(slot).turns) take_turns(slot);
-    write_fresh_states(slot, entry_end);
-    if (interest_.of(slot).turns) catch_up(slot);
-    if (federate.way && !federate.way->due.empty()) write_due_states(slot);
-    gather_runs(slot);
-    send_datagrams(federate, outlet);
-  }
+  frame.append(federate.outbox.head());
+  tell(context, outlet);
   federate.counts.reflections_received += counters_.updates_sent - before;
-  scratch_.insert(scratch_.end(), federate.outbox.tail().begin(), federate.outbox.tail().end());
+  frame.append(federate.outbox.tail());
   federate.outbox.clear();
   federate.looked_at = federate.said = 0;
-  FederateInterest& interest = interest_.of(slot);
-  interest.events.clear();
-  if (is_all_told_) interest.has_fresh = false;
-  for (const ObjectSlot told : interest.pressing) interest.fresh.erase(told);
-  interest.pressing.clear();
-  for (const ObjectSlot told : told_whole_) {
-    interest.fresh.erase(
-        told);  // not before: their updates in this flush are part of what was told
-    if (interest.turns) interest.turns->late.told(told);
-  }
-  if (pieces_.empty() && scratch_.size() == frame_header_size) {
+  settle_interest(context);
+  if (frame.is_empty()) {
     if (now_ - federate.last_said < settings_.patience.heartbeat_s) return;
-    say(scratch_, HeartbeatMessage{});
+    frame.say(HeartbeatMessage{});
   }
-  send_pieces(federate, outlet);
+  send_frame(federate, outlet);
 }
 
-void FederationParts::write_stamp(const Stamp& stamp) {
-  if (frame_stamp_ == stamp) return;
-  frame_stamp_ = stamp;
-  say(scratch_, StampMessage{stamp});
+/// Who is in scope, and what is new of them.
+void FederationParts::tell(FlushContext& context, Outlet& outlet) {
+  FederateInterest& interest = context.interest;
+  const std::size_t entry_end = context.frame.size() + entry_room(context, outlet);
+  write_scope_events(context, entry_end);
+  if (holds_back(context, outlet)) return hold_back(context);
+  if (interest.turns) take_turns(context);
+  write_fresh_states(context, entry_end);
+  if (interest.turns) catch_up(context);
+  if (context.federate.way && !context.federate.way->due.empty()) write_due_states(context);
+  gather_runs(context);
+  send_datagrams(context, outlet);
+}
+
+/// What was told whole is fresh no longer; not before, for its updates in this flush are part of
+/// what was told.
+void FederationParts::settle_interest(FlushContext& context) {
+  FederateInterest& interest = context.interest;
+  interest.events.clear();
+  if (context.is_all_told) interest.has_fresh = false;
+  for (const ObjectSlot told : interest.pressing) interest.fresh.erase(told);
+  interest.pressing.clear();
+  for (const ObjectSlot told : context.told_whole) {
+    interest.fresh.erase(told);
+    if (interest.turns) interest.turns->late.told(told);
+  }
 }
 
 /// Who comes into a large world would be closed for a queue that no reader empties in one tick:
 /// what does not fit is told by the next flushes.
-std::size_t FederationParts::entry_room(std::uint32_t slot, const Outlet& outlet) const {
-  const FederateInterest& interest = interest_.of(slot);
+std::size_t FederationParts::entry_room(const FlushContext& context, const Outlet& outlet) const {
+  const FederateInterest& interest = context.interest;
   if (interest.events.empty() && !interest.has_fresh && !interest.has_unannounced) return 0;
   return settings_.entry_bytes_per_flush_max -
          std::min(settings_.entry_bytes_per_flush_max,
-                  outlet.waiting_bytes(federates_[slot].connection));
+                  outlet.waiting_bytes(context.federate.connection));
 }
 
-/// Up to `end` bytes in `scratch_`.
-void FederationParts::write_scope_events(std::uint32_t slot, std::size_t end) {
-  FederateInterest& interest = interest_.of(slot);
-  const std::size_t before = scratch_.size();
+/// Up to `end` bytes in the frame.
+void FederationParts::write_scope_events(FlushContext& context, std::size_t end) {
+  FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  const std::size_t before = frame.size();
   const auto is_too_late = [&](ObjectSlot object) {
     return objects_[object].is_leaving && !interest.known.contains(object);
   };  // nobody discovers it any more
   if (interest.has_unannounced) {
     interest.announced_to =
         interest.unannounced.visit_from(interest.announced_to, [&](ObjectSlot object) {
-          if (scratch_.size() >= end) return false;
+          if (frame.size() >= end) return false;
           if (is_too_late(object)) interest.unannounced.erase(object);
-          else announce(slot, object, scratch_);
+          else announce(context.slot, object, frame.bytes());
           return true;
         });
-    interest.has_unannounced = scratch_.size() >= end;
+    interest.has_unannounced = frame.size() >= end;
   }
   for (const ScopeEvent& event : interest.events) {
     const Object& object = objects_[event.slot];
@@ -155,16 +153,16 @@ void FederationParts::write_scope_events(std::uint32_t slot, std::size_t end) {
     if (event.transition == im::Transition::left) {
       if (interest.unannounced.contains(event.slot)) interest.unannounced.erase(event.slot);
       else if (interest.known.contains(event.slot))
-        say(scratch_, OutOfScopeMessage{object.handle.value});
-    } else if (scratch_.size() < end) {
-      announce(slot, event.slot, scratch_);
+        frame.say(OutOfScopeMessage{object.handle.value});
+    } else if (frame.size() < end) {
+      announce(context.slot, event.slot, frame.bytes());
     } else {
       interest.unannounced.insert(event.slot);
       interest.has_unannounced = true;
       ++counters_.entries_postponed;
     }
   }
-  counters_.scope_bytes_sent += scratch_.size() - before;
+  counters_.scope_bytes_sent += frame.size() - before;
 }
 
 void FederationParts::announce(std::uint32_t slot, ObjectSlot at, std::vector<std::byte>& bytes) {
@@ -193,19 +191,20 @@ void FederationParts::press(std::uint32_t slot, ObjectSlot object) {
   interest.pressing.push_back(object);
 }
 
-/// Up to `end` bytes in `scratch_`. Their stamp is their owner's newest, not that of the update
+/// Up to `end` bytes in the frame. Their stamp is their owner's newest, not that of the update
 /// which said it: what they are was not changed until then.
-void FederationParts::write_fresh_states(std::uint32_t slot, std::size_t end) {
-  FederateInterest& interest = interest_.of(slot);
+void FederationParts::write_fresh_states(FlushContext& context, std::size_t end) {
+  FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
   if (!interest.has_fresh) return;
   bool is_whole = !interest.has_unannounced;
-  const std::size_t before = scratch_.size();
+  const std::size_t before = frame.size();
   std::optional<UpdatesBlock> block;
   interest.told_to = interest.fresh.visit_from(interest.told_to, [&](ObjectSlot fresh) {
     if (interest.unannounced.contains(fresh) ||
         std::ranges::binary_search(interest.pressing, fresh))
       return true;
-    if (scratch_.size() >= end) {
+    if (frame.size() >= end) {
       is_whole = false;
       return false;
     }
@@ -213,38 +212,38 @@ void FederationParts::write_fresh_states(std::uint32_t slot, std::size_t end) {
       is_whole = false;
       return true;
     }
-    told_whole_.push_back(fresh);
+    context.told_whole.push_back(fresh);
     const Object& object = objects_[fresh];
     if (!object.is_alive) return true;
     const AttributeSet set = interest.told(fresh, object.object_class) & object.valued;
     if (set.is_empty()) return true;
     const Stamp stamp = newest_of(fresh);
-    if (!block || frame_stamp_ != stamp) {
+    if (!block || !frame.is_stamped(stamp)) {
       block.reset();
-      write_stamp(stamp);
-      block.emplace(scratch_);
+      frame.write_stamp(stamp);
+      block.emplace(frame.bytes());
     }
     block->append(object.object_class, set, object.handle,
-                  [&] { objects_.append(fresh, set, scratch_); });
+                  [&] { objects_.append(fresh, set, frame.bytes()); });
     ++counters_.updates_sent;
     return true;
   });
   block.reset();
-  is_all_told_ = is_whole;
-  counters_.entry_bytes_sent += scratch_.size() - before;
+  context.is_all_told = is_whole;
+  counters_.entry_bytes_sent += frame.size() - before;
 }
 
-bool FederationParts::holds_back(std::uint32_t slot, const Outlet& outlet) {
-  if (runs_.empty() && !interest_.of(slot).has_fresh) return false;
-  return buffering_->holds_back(slot, outlet.waiting_bytes(federates_[slot].connection));
+bool FederationParts::holds_back(const FlushContext& context, const Outlet& outlet) {
+  if (context.runs.empty() && !context.interest.has_fresh) return false;
+  return buffering_->holds_back(context.slot, outlet.waiting_bytes(context.federate.connection));
 }
 
 /// What it would have heard of becomes due whole, as if it had come into scope: the newest state,
 /// once, however many updates there were.
-void FederationParts::hold_back(std::uint32_t slot) {
-  FederateInterest& interest = interest_.of(slot);
-  for (const UpdateRun& run : runs_) {
-    if (run.owner == slot ||
+void FederationParts::hold_back(FlushContext& context) {
+  FederateInterest& interest = context.interest;
+  for (const UpdateRun& run : context.runs) {
+    if (run.owner == context.slot ||
         (interest.is_uniform && (interest.by_class[run.object_class] & run.attributes).is_empty()))
       continue;
     for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
@@ -256,108 +255,84 @@ void FederationParts::hold_back(std::uint32_t slot) {
   }
 }
 
-void FederationParts::gather_runs(std::uint32_t slot) {
-  const FederateInterest& interest = interest_.of(slot);
-  const std::size_t before = scratch_.size();
-  for (const UpdateRun& run : runs_) {
-    if (run.owner == slot) continue;
-    const auto index = static_cast<std::size_t>(&run - runs_.data());
-    if (way_ != nullptr && gather_datagrams(index, interest)) continue;
+void FederationParts::gather_runs(FlushContext& context) {
+  const FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  const std::size_t before = frame.size();
+  for (const UpdateRun& run : context.runs) {
+    if (run.owner == context.slot) continue;
+    const auto index = static_cast<std::size_t>(&run - context.runs.data());
+    if (context.channel.way != nullptr && gather_datagrams(index, context)) continue;
     if (baselines_.covers(index)) {
-      gather_periodic(index, slot);
+      gather_periodic(index, context);
       continue;
     }
     if (!interest.is_uniform) {
-      gather_cut_run(run, interest);
+      gather_cut_run(run, context);
       continue;
     }
     const AttributeSet wanted = interest.by_class[run.object_class] & run.attributes;
     if (wanted.is_empty()) continue;
-    if (wanted != run.attributes) gather_cut_run(run, interest);
+    if (wanted != run.attributes) gather_cut_run(run, context);
     else if (!interest.has_fresh && is_all_in_scope(run, interest.heard())) {
-      write_stamp(run.stamp);
-      add_shared(run.message);
+      frame.write_stamp(run.stamp);
+      frame.add_shared(run.message);
       counters_.updates_sent += run.slots.size();
     } else {
-      gather_run(run, interest);
+      gather_run(run, context);
     }
   }
-  counters_.update_bytes_sent += scratch_.size() - before;
+  counters_.update_bytes_sent += frame.size() - before;
 }
 
-void FederationParts::gather_run(const UpdateRun& run, const FederateInterest& interest) {
+void FederationParts::gather_run(const UpdateRun& run, FlushContext& context) {
+  GatheredFrame& frame = context.frame;
   std::optional<RecordWriter> writer;
-  for_each_record(run, interest, [&](std::size_t index) {
+  for_each_record(run, context.interest, [&](std::size_t index) {
     if (!writer) {
-      write_stamp(run.stamp);
-      say(scratch_, UpdatesMessage{run.object_class, run.attributes.bits});
-      writer.emplace(scratch_);
+      frame.write_stamp(run.stamp);
+      frame.say(UpdatesMessage{run.object_class, run.attributes.bits});
+      writer.emplace(frame.bytes());
     }
     writer->add(run.records[index].handle, run.values(index));
     ++counters_.updates_sent;
   });
 }
 
-void FederationParts::gather_cut_run(const UpdateRun& run, const FederateInterest& interest) {
+void FederationParts::gather_cut_run(const UpdateRun& run, FlushContext& context) {
+  const FederateInterest& interest = context.interest;
+  std::vector<std::byte>& bytes = context.frame.bytes();
   const ObjectClass& object_class = fom_.at(ObjectClassHandle{run.object_class});
   std::optional<UpdatesBlock> block;
   for_each_record(run, interest, [&](std::size_t index) {
     const AttributeSet wanted = interest.told(run.slots[index], run.object_class) & run.attributes;
     if (wanted.is_empty()) return;
     if (!block) {
-      write_stamp(run.stamp);
-      block.emplace(scratch_);
+      context.frame.write_stamp(run.stamp);
+      block.emplace(bytes);
     }
     block->append(run.object_class, wanted, {run.records[index].handle}, [&] {
       for (std::uint32_t bits = wanted.bits; bits != 0; bits &= bits - 1) {
         const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
         const Bytes value = coded_value(object_class, run.attributes, attribute, run.values(index));
-        scratch_.insert(scratch_.end(), value.begin(), value.end());
+        bytes.insert(bytes.end(), value.begin(), value.end());
       }
     });
     ++counters_.updates_sent;
   });
 }
 
-void FederationParts::take_scratch() {
-  if (scratch_.size() > scratch_taken_) pieces_.push_back({{}, scratch_taken_, scratch_.size()});
-  scratch_taken_ = scratch_.size();
-}
-
-void FederationParts::add_shared(Bytes bytes) {
-  // A short block is cheaper copied than gathered, and a write takes only so many parts.
-  constexpr std::size_t copied_max = 512, piece_max = 64;
-  if (bytes.size() <= copied_max || pieces_.size() >= piece_max) {
-    scratch_.insert(scratch_.end(), bytes.begin(), bytes.end());
-    return;
-  }
-  take_scratch();
-  pieces_.push_back({bytes, 0, 0});
-  counters_.update_bytes_sent += bytes.size();
-}
-
-void FederationParts::send_pieces(Federate& federate, Outlet& outlet) {
-  take_scratch();
-  gathered_.clear();
-  std::size_t size = 0;
-  for (const Piece& piece : pieces_) {
-    gathered_.push_back(
-        piece.shared.empty()
-            ? Bytes(scratch_).subspan(piece.scratch_from, piece.scratch_to - piece.scratch_from)
-            : piece.shared);
-    size += gathered_.back().size();
-  }
+void FederationParts::send_frame(JoinedFederate& federate, Outlet& outlet) {
+  const std::size_t size = frame_.size();
   if (size - frame_header_size > frame_max_to_federate)
     return expel(federate.connection, Violation::over_limit, ResignReason::lost,
                  "more to tell in one tick than a frame holds");
-  const auto length = static_cast<std::uint32_t>(size - frame_header_size);
-  std::memcpy(scratch_.data(), &length, sizeof length);
   federate.last_said = now_;
   counters_.bytes_sent += size;
   federate.counts.bytes_received += size;
   ++counters_.frames_sent;
   ++federate.frames;
-  outlet.send(federate.connection, gathered_);
+  outlet.send(federate.connection, frame_.finish());
 }
 
 }  // namespace rink::rti

@@ -14,6 +14,7 @@
 #include "rti/central_component.h"
 #include "rti/distribution/relevance.h"
 #include "rti/federation/datagram_way.h"
+#include "rti/federation/delivery/flush_context.h"
 #include "rti/federation/federate_table.h"
 #include "rti/federation/federation_connection.h"
 #include "rti/federation/joined_federate.h"
@@ -209,24 +210,25 @@ class FederationParts {
   // What goes out (federation_flush.cpp).
   void flush(Outlet& outlet);
   void look_ahead(std::uint32_t slot);
-  void flush_federate(std::uint32_t slot, Outlet& outlet);
-  std::size_t entry_room(std::uint32_t slot, const Outlet& outlet) const;
-  void write_scope_events(std::uint32_t slot, std::size_t end);
+  void flush_federate(FlushContext& context, Outlet& outlet);
+  void tell(FlushContext& context, Outlet& outlet);
+  void settle_interest(FlushContext& context);
+  std::size_t entry_room(const FlushContext& context, const Outlet& outlet) const;
+  void write_scope_events(FlushContext& context, std::size_t end);
   void announce(std::uint32_t slot, ObjectSlot object, std::vector<std::byte>& bytes);
   void press(std::uint32_t slot, ObjectSlot object);
-  void write_fresh_states(std::uint32_t slot, std::size_t end);
+  void write_fresh_states(FlushContext& context, std::size_t end);
   // Tiers and budgets (federation_turns.cpp). Nothing is done for a filter that says neither.
-  void take_turns(std::uint32_t slot);
-  void note_late(std::uint32_t slot, Turns& turns);
+  void take_turns(FlushContext& context);
+  void note_late(const FlushContext& context, Turns& turns);
   std::size_t bytes_due(std::uint32_t slot, ObjectSlot object) const;
-  void catch_up(std::uint32_t slot);
-  bool holds_back(std::uint32_t slot, const Outlet& outlet);
-  void hold_back(std::uint32_t slot);
-  void gather_runs(std::uint32_t slot);
-  void gather_run(const UpdateRun& run, const FederateInterest& interest);
-  void gather_cut_run(const UpdateRun& run, const FederateInterest& interest);
-  void write_stamp(const Stamp& stamp);
-  void send_pieces(Federate& federate, Outlet& outlet);
+  void catch_up(FlushContext& context);
+  bool holds_back(const FlushContext& context, const Outlet& outlet);
+  void hold_back(FlushContext& context);
+  void gather_runs(FlushContext& context);
+  void gather_run(const UpdateRun& run, FlushContext& context);
+  void gather_cut_run(const UpdateRun& run, FlushContext& context);
+  void send_frame(Federate& federate, Outlet& outlet);
 
   // Time management (federation_time.h). Nothing is kept, and nothing done, before the first
   // message of that kind.
@@ -239,11 +241,11 @@ class FederationParts {
   void list_best_effort();
   void append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
                     const Stamp& stamp, Bytes values);
-  void begin_datagrams(Federate& federate, Outlet& outlet);
+  DatagramChannel begin_datagrams(Federate& federate, Outlet& outlet);
   void probe(Federate& federate, Outlet& outlet);
-  void write_due_states(std::uint32_t slot);
-  bool gather_datagrams(std::size_t run, const FederateInterest& interest);
-  void send_datagrams(Federate& federate, Outlet& outlet);
+  void write_due_states(FlushContext& context);
+  bool gather_datagrams(std::size_t run, FlushContext& context);
+  void send_datagrams(FlushContext& context, Outlet& outlet);
   void receive_datagram(ConnectionId connection, Bytes datagram);
   // Those of federates (federation_upward.cpp).
   bool take_datagram(std::uint32_t slot, Bytes datagram);
@@ -256,8 +258,6 @@ class FederationParts {
   bool has_best_effort_ = false;           ///< any at all
   bool has_ways_ = false;                  ///< some federate had a way
   DatagramBatch batch_;
-  DatagramWay* way_ = nullptr;  ///< of the federate at hand, while it is used
-  std::size_t datagram_size_max_ = 0;
   std::vector<std::byte> values_;
 
   template <class Message>
@@ -267,10 +267,10 @@ class FederationParts {
 
   // Periodic state by baselines (federation_baselines.cpp).
   Outcome take_keyframe(std::uint32_t slot, MessageKind kind, Reader& reader);
-  void gather_periodic(std::size_t run, std::uint32_t slot);
-  void cut_periodic(const UpdateRun& run, const DeltaBlock& block, std::uint32_t slot);
+  void gather_periodic(std::size_t run, FlushContext& context);
+  void cut_periodic(const UpdateRun& run, const DeltaBlock& block, FlushContext& context);
   void count_periodic(std::size_t records, std::size_t differences);
-  void begin_keyframe(const Stamp& stamp);
+  void begin_keyframe(const Stamp& stamp, GatheredFrame& frame);
 
   const Fom& fom_;
   FederationSettings settings_;
@@ -287,11 +287,7 @@ class FederationParts {
   std::unique_ptr<DataDistribution> distribution_;
   DataDistribution& interest_;  ///< the same
   std::unique_ptr<Buffering> buffering_;
-  std::vector<ObjectSlot> told_whole_;  ///< by the flush of the federate at hand
-  bool is_all_told_ = false;            ///< nothing stays fresh beyond it
-  std::span<const UpdateRun> runs_;     ///< of the flush at hand
   Baselines baselines_;
-  bool is_keyframe_begun_ = false;       ///< in the frame that grows in `scratch_`
   std::vector<Connection> connections_;  ///< by id
   Relevance relevance_;
   std::unique_ptr<GroupCommunication>
@@ -308,19 +304,9 @@ class FederationParts {
   bool is_auto_providing_ = false;
   double now_ = 0.0;
 
-  /// A part of the message to one destination: a stretch of `scratch_`, or of somebody's bytes.
-  struct Piece {
-    Bytes shared;
-    std::size_t scratch_from = 0, scratch_to = 0;
-  };
-  std::vector<std::byte> scratch_;
-  std::optional<Stamp>
-      frame_stamp_;  ///< of the updates in the frame that grows in `scratch_`, once it was written
-  std::vector<Piece> pieces_;
-  std::size_t scratch_taken_ = 0;  ///< up to here `scratch_` is in `pieces_`
-  std::vector<Bytes> gathered_;
-  void take_scratch();
-  void add_shared(Bytes bytes);
+  /// Lent to the flush at hand.
+  GatheredFrame frame_;
+  std::vector<ObjectSlot> told_whole_;
 };
 
 template <class Visit>

@@ -10,11 +10,12 @@ namespace rink::rti {
 /// Decides for the flush at hand. Of whom it is the turn, that goes out by this flush's updates if
 /// they say all that is late of him, so that it is shared, goes by datagram or as a difference like
 /// anybody's; else by `catch_up`.
-void FederationParts::take_turns(std::uint32_t slot) {
-  FederateInterest& interest = interest_.of(slot);
+void FederationParts::take_turns(FlushContext& context) {
+  const std::uint32_t slot = context.slot;
+  FederateInterest& interest = context.interest;
   Turns& turns = *interest.turns;
   interest_.take_turns(slot);
-  note_late(slot, turns);
+  note_late(context, turns);
   if (interest_.has_budget())
     interest_.share_out(slot, [this, slot](ObjectSlot object) { return bytes_due(slot, object); });
   turns.caught_up.clear();
@@ -25,7 +26,7 @@ void FederationParts::take_turns(std::uint32_t slot) {
   };
   for (std::size_t i = 0; i < turns.late.word_count(); ++i)
     turns.caught_up.insert_word(i, is_due(i));
-  for (const UpdateRun& run : runs_) {
+  for (const UpdateRun& run : context.runs) {
     if (run.owner == slot) continue;
     for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
       const std::uint64_t members = run.members.word(i);
@@ -44,14 +45,14 @@ void FederationParts::take_turns(std::uint32_t slot) {
 /// Of those who wait, or did so: what this flush's updates say becomes late; under a budget of all,
 /// for who waits is not known yet. What was late of whom is out of scope is forgotten: if he comes
 /// back he is told of whole.
-void FederationParts::note_late(std::uint32_t slot, Turns& turns) {
-  const FederateInterest& interest = interest_.of(slot);
+void FederationParts::note_late(const FlushContext& context, Turns& turns) {
+  const FederateInterest& interest = context.interest;
   for (std::size_t i = 0; i < turns.late.word_count(); ++i)
     if (const std::uint64_t gone = turns.late.any(i) & ~interest.in_scope.word(i); gone != 0)
       turns.late.told(i, gone);
   const bool has_budget = interest_.has_budget();
-  for (const UpdateRun& run : runs_) {
-    if (run.owner == slot ||
+  for (const UpdateRun& run : context.runs) {
+    if (run.owner == context.slot ||
         (interest.is_uniform && (interest.by_class[run.object_class] & run.attributes).is_empty()))
       continue;
     for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
@@ -76,10 +77,11 @@ std::size_t FederationParts::bytes_due(std::uint32_t slot, ObjectSlot object) co
 }
 
 /// The newest state of whom has waited, as far as it is late.
-void FederationParts::catch_up(std::uint32_t slot) {
-  const FederateInterest& interest = interest_.of(slot);
+void FederationParts::catch_up(FlushContext& context) {
+  const FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
   Turns& turns = *interest.turns;
-  const std::size_t before = scratch_.size();
+  const std::size_t before = frame.size();
   std::optional<UpdatesBlock> block;
   turns.caught_up.for_each([&](ObjectSlot late) {
     const Object& object = objects_[late];
@@ -89,18 +91,18 @@ void FederationParts::catch_up(std::uint32_t slot) {
     turns.late.told(late);
     if (set.is_empty()) return;
     const Stamp stamp = newest_of(late);
-    if (!block || frame_stamp_ != stamp) {
+    if (!block || !frame.is_stamped(stamp)) {
       block.reset();
-      write_stamp(stamp);
-      block.emplace(scratch_);
+      frame.write_stamp(stamp);
+      block.emplace(frame.bytes());
     }
     block->append(object.object_class, set, object.handle,
-                  [&] { objects_.append(late, set, scratch_); });
+                  [&] { objects_.append(late, set, frame.bytes()); });
     ++counters_.updates_sent;
     ++counters_.updates_caught_up;
   });
   block.reset();
-  counters_.update_bytes_sent += scratch_.size() - before;
+  counters_.update_bytes_sent += frame.size() - before;
 }
 
 }  // namespace rink::rti

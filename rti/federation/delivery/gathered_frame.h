@@ -1,0 +1,92 @@
+// The frame that one flush sends to one federate: its own bytes, and others' that it shares.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "rti/types.h"
+#include "rti/wire/frame.h"
+#include "rti/wire/message.h"
+
+namespace rink::rti {
+
+/// Grows at its end. What many are told alike is a part of its own, sent from where it lies. Its
+/// memory is used again by the next frame.
+class GatheredFrame {
+ public:
+  void begin() {
+    bytes_.resize(frame_header_size);
+    taken_ = shared_size_ = 0;
+    stamp_.reset();
+    is_keyframe_begun_ = false;
+    pieces_.clear();
+  }
+  /// With its header.
+  std::size_t size() const { return bytes_.size() + shared_size_; }
+  bool is_empty() const { return size() == frame_header_size; }
+  /// For who appends to it.
+  std::vector<std::byte>& bytes() { return bytes_; }
+  void append(Bytes bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  template <class Message>
+  void say(Message message) {
+    write(bytes_, message);
+  }
+  /// Of the updates that follow. Said where it differs from what was said before.
+  void write_stamp(const Stamp& stamp) {
+    if (stamp_ == stamp) return;
+    stamp_ = stamp;
+    say(StampMessage{stamp});
+  }
+  bool is_stamped(const Stamp& stamp) const { return stamp_ == stamp; }
+  /// True for the first who asks: what follows is to be kept, which is said once in a frame.
+  bool begins_keyframe() { return !std::exchange(is_keyframe_begun_, true); }
+  /// `bytes` must stay where they are until the frame was sent.
+  void add_shared(Bytes bytes) {
+    // A short block is cheaper copied than gathered, and a write takes only so many parts.
+    constexpr std::size_t copied_max = 512, piece_max = 64;
+    if (bytes.size() <= copied_max || pieces_.size() >= piece_max) return append(bytes);
+    take_own();
+    pieces_.push_back({bytes, 0, 0});
+    shared_size_ += bytes.size();
+  }
+  /// Writes its length into its header. The parts hold until the frame is touched again.
+  std::span<const Bytes> finish() {
+    assert(size() - frame_header_size <= frame_max_to_federate);
+    const auto length = static_cast<std::uint32_t>(size() - frame_header_size);
+    std::memcpy(bytes_.data(), &length, sizeof length);
+    take_own();
+    gathered_.clear();
+    for (const Piece& piece : pieces_)
+      gathered_.push_back(piece.shared.empty()
+                              ? Bytes(bytes_).subspan(piece.from, piece.to - piece.from)
+                              : piece.shared);
+    return gathered_;
+  }
+
+ private:
+  /// A stretch of `bytes_`, or of somebody's.
+  struct Piece {
+    Bytes shared;
+    std::size_t from = 0, to = 0;
+  };
+  void take_own() {
+    if (bytes_.size() > taken_) pieces_.push_back({{}, taken_, bytes_.size()});
+    taken_ = bytes_.size();
+  }
+
+  std::vector<std::byte> bytes_;
+  std::size_t taken_ = 0;  ///< up to here `bytes_` is in `pieces_`
+  std::size_t shared_size_ = 0;
+  std::optional<Stamp> stamp_;  ///< once it was written
+  bool is_keyframe_begun_ = false;
+  std::vector<Piece> pieces_;
+  std::vector<Bytes> gathered_;
+};
+
+}  // namespace rink::rti
