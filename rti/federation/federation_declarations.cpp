@@ -7,13 +7,6 @@
 
 namespace rink::rti {
 
-Outcome FederationParts::take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  if (kind == MessageKind::publish_object_class) return publish_object_class(slot, reader);
-  if (kind == MessageKind::subscribe_object_class) return subscribe_object_class(slot, reader);
-  if (kind == MessageKind::advisory_switch) return switch_advisory(slot, reader);
-  return declare_interaction(slot, kind, reader);
-}
-
 Outcome FederationParts::publish_object_class(std::uint32_t slot, Reader& reader) {
   PublishObjectClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;

@@ -13,9 +13,10 @@ void FederationParts::answer(ConnectionId connection, Message message) {
   answers_.back().bytes.insert(answers_.back().bytes.end(), frame.begin(), frame.end());
 }
 
-void FederationParts::query_management(ConnectionId connection) {
+Outcome FederationParts::query_management(ConnectionId connection) {
   if (!std::exchange(connections_[connection].questions.wants_report, true))
     management_queries_.push_back(connection);
+  return std::nullopt;
 }
 
 void FederationParts::send_answers(Outlet& outlet) {
@@ -60,7 +61,7 @@ Outcome FederationParts::answer_stranger(ConnectionId connection, MessageKind ki
                                         static_cast<std::uint32_t>(federates_.joined_count())});
       return answer(connection, FederationExecutionMessage{1, {}, {}, 0}), std::nullopt;
     case MessageKind::query_management:
-      return query_management(connection), std::nullopt;
+      return query_management(connection);
     default:
       return Violation::wrong_phase;
   }

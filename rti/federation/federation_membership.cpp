@@ -191,6 +191,14 @@ void FederationParts::give_back_blocks(const Federate& federate) {
   else objects_.close_block(federate.block);  // its handles have been seen
 }
 
+Outcome FederationParts::resign(std::uint32_t slot) {
+  const ConnectionId connection = federates_[slot].connection;
+  remove_federate(slot, ResignReason::resigned);
+  connections_[connection] = {};
+  farewells_.push_back({connection, "resigned", {}});
+  return std::nullopt;
+}
+
 Outcome FederationParts::watch(Federate& federate) {
   if (federate.is_watching) return std::nullopt;
   federate.is_watching = true;

@@ -13,21 +13,6 @@ std::string as_text(Bytes bytes) {
 }
 }  // namespace
 
-Outcome FederationParts::take_object_request(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  switch (kind) {
-    case MessageKind::instance_names:
-      return names_.handle(slot, reader);
-    case MessageKind::local_delete:
-      return delete_locally(slot, reader);
-    case MessageKind::request_update:
-      return request_update(slot, reader);
-    case MessageKind::change_transportation:
-      return change_transportation(slot, reader);
-    default:
-      return query_transportation(slot, reader);
-  }
-}
-
 /// Its confirmation comes before whatever makes the object discovered anew.
 Outcome FederationParts::delete_locally(std::uint32_t slot, Reader& reader) {
   LocalDeleteMessage message;

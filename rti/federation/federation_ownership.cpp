@@ -46,14 +46,14 @@ bool carries_tag(OwnershipRequest request, OwnershipEvent::Kind kind) {
 
 }  // namespace
 
-Outcome FederationParts::take_ownership(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  if (kind == MessageKind::query_ownership) return query_ownership(slot, reader);
-  if (kind == MessageKind::resign_directive) {
-    ResignDirectiveMessage message;
-    if (!exchange(reader, message)) return Violation::malformed;
-    federates_[slot].resign_action = static_cast<ResignAction>(message.action);
-    return std::nullopt;
-  }
+Outcome FederationParts::take_resign_directive(std::uint32_t slot, Reader& reader) {
+  ResignDirectiveMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  federates_[slot].resign_action = static_cast<ResignAction>(message.action);
+  return std::nullopt;
+}
+
+Outcome FederationParts::take_ownership_requests(std::uint32_t slot, Reader& reader) {
   OwnershipRequestMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   Outcome outcome;

@@ -66,13 +66,14 @@ class FederationParts {
   void give_back_blocks(const Federate& federate);
   void expel(ConnectionId connection, Violation violation, ResignReason reason,
              std::string_view why);
+  Outcome resign(std::uint32_t slot);
   Outcome watch(Federate& federate);
 
   // Federation management (federation_management.cpp).
   Outcome answer_stranger(ConnectionId connection, MessageKind kind, Reader& reader);
   template <class Message>
   void answer(ConnectionId connection, Message message);
-  void query_management(ConnectionId connection);
+  Outcome query_management(ConnectionId connection);
   void send_answers(Outlet& outlet);
   FederationReport report(const Outlet* outlet) const;
   std::vector<std::uint32_t> count_owned() const;
@@ -100,8 +101,6 @@ class FederationParts {
   // What a federate says (federation_receive.cpp).
   void receive(ConnectionId connection, Bytes bytes);
   Outcome take_frame(ConnectionId connection, Bytes frame);
-  Outcome take_message(ConnectionId connection, std::uint32_t slot, Reader& reader);
-  Outcome take_object(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome register_object(std::uint32_t slot, Reader& reader);
   void refuse_object(std::uint32_t slot, ObjectHandle object);
   Outcome delete_object(std::uint32_t slot, Reader& reader);
@@ -125,7 +124,6 @@ class FederationParts {
                               std::span<const RegionHandle> regions = {});
 
   // Declarations (federation_declarations.cpp).
-  Outcome take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome publish_object_class(std::uint32_t slot, Reader& reader);
   Outcome subscribe_object_class(std::uint32_t slot, Reader& reader);
   Outcome declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader);
@@ -142,7 +140,6 @@ class FederationParts {
   void tell_object_relevance();
 
   // Objects beyond updates (federation_objects.cpp).
-  Outcome take_object_request(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome delete_locally(std::uint32_t slot, Reader& reader);
   Outcome request_update(std::uint32_t slot, Reader& reader);
   void ask_owners(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes tag);
@@ -154,7 +151,6 @@ class FederationParts {
                                 ///< says: those by best effort
 
   // Regions (federation_regions.cpp).
-  Outcome take_region(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome create_or_delete_region(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome create_region(std::uint32_t slot, RegionHandle region, DimensionSet dimensions);
   Outcome create_region_over(std::uint32_t slot, Reader& reader);
@@ -181,7 +177,8 @@ class FederationParts {
   Outcome take_interaction_within(std::uint32_t slot, Reader& reader);
 
   // Ownership (federation_ownership.cpp).
-  Outcome take_ownership(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome take_resign_directive(std::uint32_t slot, Reader& reader);
+  Outcome take_ownership_requests(std::uint32_t slot, Reader& reader);
   Outcome take_ownership_request(std::uint32_t slot, const OwnershipRequestMessage& message,
                                  ObjectHandle object);
   Outcome query_ownership(std::uint32_t slot, Reader& reader);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rti/federation/federation_parts.h"
+#include "rti/federation/message_table.h"
 #include "rti/wire/membership_messages.h"
 #include "rti/wire/update_block.h"
 
@@ -55,7 +56,7 @@ Outcome FederationParts::take_frame(ConnectionId id, Bytes frame) {
   Reader reader(frame);
   while (!reader.is_at_end() && connections_[id].phase != Phase::unknown) {
     if (connections_[id].phase == Phase::joined) {
-      if (const Outcome outcome = take_message(id, connections_[id].federate, reader))
+      if (const Outcome outcome = take_message(*this, connections_[id].federate, reader))
         return outcome;
       continue;
     }
@@ -71,87 +72,6 @@ Outcome FederationParts::take_frame(ConnectionId id, Bytes frame) {
   const std::uint32_t slot = connections_[id].federate;
   if (federates_[slot].upward && !federates_[slot].upward->held.empty()) take_held_datagrams(slot);
   return std::nullopt;
-}
-
-Outcome FederationParts::take_message(ConnectionId id, std::uint32_t slot, Reader& reader) {
-  std::uint8_t number = 0;
-  reader.number(number);
-  const auto kind = static_cast<MessageKind>(number);
-  switch (kind) {
-    case MessageKind::join:
-      return Violation::wrong_phase;
-    case MessageKind::resign:
-      remove_federate(slot, ResignReason::resigned);
-      connections_[id] = {};
-      farewells_.push_back({id, "resigned", {}});
-      return std::nullopt;
-    case MessageKind::heartbeat:
-      return std::nullopt;
-    case MessageKind::register_synchronization_point:
-      return synchronization_.handle_register(slot, reader);
-    case MessageKind::synchronization_point_achieved:
-      return synchronization_.handle_achieved(slot, reader);
-    case MessageKind::watch_federates:
-      return watch(federates_[slot]);
-    case MessageKind::query_management:
-      return query_management(id), std::nullopt;
-    case MessageKind::publish_object_class:
-    case MessageKind::subscribe_object_class:
-    case MessageKind::publish_interaction_class:
-    case MessageKind::subscribe_interaction_class:
-    case MessageKind::advisory_switch:
-      return take_declaration(slot, kind, reader);
-    case MessageKind::create_region:
-    case MessageKind::modify_regions:
-    case MessageKind::associate_region:
-    case MessageKind::delete_region:
-    case MessageKind::create_region_over:
-    case MessageKind::modify_ranges:
-    case MessageKind::regional_class:
-    case MessageKind::regional_interaction:
-    case MessageKind::associate_regions:
-    case MessageKind::interaction_within:
-      return take_region(slot, kind, reader);
-    case MessageKind::register_object:
-    case MessageKind::delete_object:
-    case MessageKind::stamp:
-    case MessageKind::updates:
-    case MessageKind::spare_update:
-    case MessageKind::interaction:
-      return take_object(slot, kind, reader);
-    case MessageKind::instance_names:
-    case MessageKind::local_delete:
-    case MessageKind::request_update:
-    case MessageKind::change_transportation:
-    case MessageKind::query_transportation:
-      return take_object_request(slot, kind, reader);
-    case MessageKind::acknowledge_keyframe:
-    case MessageKind::refuse_keyframe:
-      return take_keyframe(slot, kind, reader);
-    case MessageKind::enable_time_regulation:
-    case MessageKind::time_switch:
-    case MessageKind::modify_lookahead:
-    case MessageKind::advance_request:
-    case MessageKind::timed_send:
-    case MessageKind::retract:
-    case MessageKind::query_time_bounds:
-      return take_time(slot, kind, reader);
-    case MessageKind::ownership_request:
-    case MessageKind::query_ownership:
-    case MessageKind::resign_directive:
-      return take_ownership(slot, kind, reader);
-    default:
-      return Violation::malformed;
-  }
-}
-
-Outcome FederationParts::take_object(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  if (kind == MessageKind::register_object) return register_object(slot, reader);
-  if (kind == MessageKind::delete_object) return delete_object(slot, reader);
-  if (kind == MessageKind::updates) return take_updates(slot, reader);
-  if (kind == MessageKind::stamp) return take_stamp(slot, reader);
-  if (kind == MessageKind::spare_update) return take_spare_update(slot, reader);
-  return take_interaction(slot, reader);
 }
 
 Outcome FederationParts::register_object(std::uint32_t slot, Reader& reader) {

@@ -29,29 +29,6 @@ std::vector<RegionHandle> regions_of(Bytes bytes) {
 
 }  // namespace
 
-Outcome FederationParts::take_region(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  switch (kind) {
-    case MessageKind::modify_regions:
-      return modify_regions(slot, reader);
-    case MessageKind::modify_ranges:
-      return modify_ranges(slot, reader);
-    case MessageKind::associate_region:
-      return associate_region(slot, reader);
-    case MessageKind::associate_regions:
-      return associate_regions(slot, reader);
-    case MessageKind::create_region_over:
-      return create_region_over(slot, reader);
-    case MessageKind::regional_class:
-      return take_regional_class(slot, reader);
-    case MessageKind::regional_interaction:
-      return take_regional_interaction(slot, reader);
-    case MessageKind::interaction_within:
-      return take_interaction_within(slot, reader);
-    default:
-      return create_or_delete_region(slot, kind, reader);
-  }
-}
-
 Outcome FederationParts::create_or_delete_region(std::uint32_t slot, MessageKind kind,
                                                  Reader& reader) {
   CreateRegionMessage message;

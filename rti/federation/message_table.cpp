@@ -1,0 +1,193 @@
+// One line for each kind of message.
+#include "rti/federation/message_table.h"
+
+#include <array>
+
+#include "rti/federation/federation_parts.h"
+
+namespace rink::rti {
+
+namespace {
+
+/// Federates' kinds and those that go both ways; what the RTI says alone begins here.
+constexpr std::size_t kind_count = static_cast<std::size_t>(MessageKind::joined);
+
+class MessageTable {
+  using Parts = FederationParts;
+  using Slot = std::uint32_t;
+  using Kind = MessageKind;
+  using Handler = Outcome (*)(Parts&, Slot, Reader&);
+
+ public:
+  constexpr MessageTable() {
+    handlers_.fill([](Parts&, Slot, Reader&) -> Outcome { return Violation::malformed; });
+    add_membership();
+    add_declarations();
+    add_objects();
+    add_regions();
+    add_ownership();
+    add_time();
+  }
+  Outcome take(Parts& parts, Slot slot, Reader& reader) const {
+    std::uint8_t kind = 0;
+    reader.number(kind);
+    return kind < kind_count ? handlers_[kind](parts, slot, reader) : Violation::malformed;
+  }
+
+ private:
+  constexpr Handler& at(MessageKind kind) { return handlers_[static_cast<std::size_t>(kind)]; }
+
+  constexpr void add_membership() {
+    at(Kind::join) = [](Parts&, Slot, Reader&) -> Outcome { return Violation::wrong_phase; };
+    at(Kind::heartbeat) = [](Parts&, Slot, Reader&) -> Outcome { return std::nullopt; };
+    at(Kind::resign) = [](Parts& parts, Slot slot, Reader&) { return parts.resign(slot); };
+    at(Kind::watch_federates) = [](Parts& parts, Slot slot, Reader&) {
+      return parts.watch(parts.federates_[slot]);
+    };
+    at(Kind::query_management) = [](Parts& parts, Slot slot, Reader&) {
+      return parts.query_management(parts.federates_[slot].connection);
+    };
+    at(Kind::register_synchronization_point) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.synchronization_.handle_register(slot, reader);
+    };
+    at(Kind::synchronization_point_achieved) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.synchronization_.handle_achieved(slot, reader);
+    };
+  }
+  constexpr void add_declarations() {
+    at(Kind::publish_object_class) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.publish_object_class(slot, reader);
+    };
+    at(Kind::subscribe_object_class) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.subscribe_object_class(slot, reader);
+    };
+    at(Kind::publish_interaction_class) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.declare_interaction(slot, Kind::publish_interaction_class, reader);
+    };
+    at(Kind::subscribe_interaction_class) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.declare_interaction(slot, Kind::subscribe_interaction_class, reader);
+    };
+    at(Kind::advisory_switch) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.switch_advisory(slot, reader);
+    };
+  }
+  constexpr void add_objects() {
+    at(Kind::register_object) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.register_object(slot, reader);
+    };
+    at(Kind::delete_object) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.delete_object(slot, reader);
+    };
+    at(Kind::local_delete) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.delete_locally(slot, reader);
+    };
+    at(Kind::instance_names) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.names_.handle(slot, reader);
+    };
+    at(Kind::stamp) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_stamp(slot, reader);
+    };
+    at(Kind::updates) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_updates(slot, reader);
+    };
+    at(Kind::spare_update) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_spare_update(slot, reader);
+    };
+    at(Kind::interaction) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_interaction(slot, reader);
+    };
+    at(Kind::request_update) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.request_update(slot, reader);
+    };
+    at(Kind::change_transportation) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.change_transportation(slot, reader);
+    };
+    at(Kind::query_transportation) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.query_transportation(slot, reader);
+    };
+    at(Kind::acknowledge_keyframe) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_keyframe(slot, Kind::acknowledge_keyframe, reader);
+    };
+    at(Kind::refuse_keyframe) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_keyframe(slot, Kind::refuse_keyframe, reader);
+    };
+  }
+  constexpr void add_regions() {
+    at(Kind::create_region) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.create_or_delete_region(slot, Kind::create_region, reader);
+    };
+    at(Kind::delete_region) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.create_or_delete_region(slot, Kind::delete_region, reader);
+    };
+    at(Kind::create_region_over) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.create_region_over(slot, reader);
+    };
+    at(Kind::modify_regions) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.modify_regions(slot, reader);
+    };
+    at(Kind::modify_ranges) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.modify_ranges(slot, reader);
+    };
+    at(Kind::associate_region) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.associate_region(slot, reader);
+    };
+    at(Kind::associate_regions) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.associate_regions(slot, reader);
+    };
+    at(Kind::regional_class) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_regional_class(slot, reader);
+    };
+    at(Kind::regional_interaction) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_regional_interaction(slot, reader);
+    };
+    at(Kind::interaction_within) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_interaction_within(slot, reader);
+    };
+  }
+  constexpr void add_ownership() {
+    at(Kind::ownership_request) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_ownership_requests(slot, reader);
+    };
+    at(Kind::query_ownership) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.query_ownership(slot, reader);
+    };
+    at(Kind::resign_directive) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_resign_directive(slot, reader);
+    };
+  }
+  constexpr void add_time() {
+    at(Kind::enable_time_regulation) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_time(slot, Kind::enable_time_regulation, reader);
+    };
+    at(Kind::modify_lookahead) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_time(slot, Kind::modify_lookahead, reader);
+    };
+    at(Kind::time_switch) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_time(slot, Kind::time_switch, reader);
+    };
+    at(Kind::advance_request) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_time(slot, Kind::advance_request, reader);
+    };
+    at(Kind::timed_send) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_time(slot, Kind::timed_send, reader);
+    };
+    at(Kind::retract) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_time(slot, Kind::retract, reader);
+    };
+    at(Kind::query_time_bounds) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.take_time(slot, Kind::query_time_bounds, reader);
+    };
+  }
+
+  std::array<Handler, kind_count> handlers_{};
+};
+
+constexpr MessageTable message_table;
+
+}  // namespace
+
+Outcome take_message(FederationParts& parts, std::uint32_t slot, Reader& reader) {
+  return message_table.take(parts, slot, reader);
+}
+
+}  // namespace rink::rti
