@@ -131,7 +131,7 @@ void Portion::put(std::uint32_t body, const BodyState& s) {
     e.reach_ = e.reach_of(body);
     return e.rebuild_grid();
   }
-  const Vector2 position = e.at(body, e.now_).position;
+  const Vector2 position = e.at(body, e.clock_.now).position;
   e.grid_.insert(body, position.x(), position.y());
   if (!e.is_fixed(body)) return e.require_prediction(body);
   // Posts look at nobody: those who are there must look at it.
@@ -202,8 +202,7 @@ void Portion::begin_window() {
   journal_.event = 0, journal_.quiet_events = 0, journal_.stirred = 0, journal_.at_once_max = 0,
   journal_.times.clear(), journal_.was_hopeless = false;
   holds_before_ = e.holds_, frozen_before_ = e.frozen_;
-  clock_before_ = {e.now_,       e.instant_begin_, e.events_at_once_,
-                   e.jam_count_, e.is_hopeless_,   e.is_played_};
+  clock_before_ = e.clock_, jam_count_before_ = e.jam_count_;
   counters_before_ = e.counters_;
 }
 
@@ -217,10 +216,7 @@ void Portion::undo() {
   for (const Journal::KeptFlight& kept : journal_.flights)
     static_cast<Flight&>(e.bodies_[kept.body]) = kept.flight;
   e.holds_ = holds_before_, e.frozen_ = frozen_before_;
-  e.now_ = clock_before_.now, e.instant_begin_ = clock_before_.instant_begin,
-  e.events_at_once_ = clock_before_.events_at_once;
-  e.jam_count_ = clock_before_.jam_count, e.is_hopeless_ = clock_before_.is_hopeless,
-  e.is_played_ = clock_before_.is_played;
+  e.clock_ = clock_before_, e.jam_count_ = jam_count_before_;
   e.counters_ = counters_before_;
   for (const std::uint32_t body : e.pending_)
     e.bodies_[body].flags = static_cast<std::uint8_t>(e.bodies_[body].flags & ~Engine::pending);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/physics/engine/clock.h"
 #include "game/physics/engine/journal.h"
 #include "game/physics/real.h"
 #include "game/physics/world.h"
@@ -103,12 +104,6 @@ class Portion {
   void advance(double until);
 
  private:
-  struct Clock {
-    double now, instant_begin;
-    std::uint64_t events_at_once;
-    std::uint32_t jam_count;
-    bool is_hopeless, is_played;
-  };
   Engine& engine() const { return *world_.engine_; }
   void write(std::uint32_t body, const BodyState& state);
 
@@ -117,7 +112,8 @@ class Portion {
   std::vector<std::uint8_t> is_there_;
   std::vector<Hold> holds_before_;
   std::vector<std::uint32_t> frozen_before_;
-  Clock clock_before_{};
+  Clock clock_before_;
+  std::uint32_t jam_count_before_ = 0;
   Counters counters_before_;
 };
 

@@ -46,7 +46,7 @@ void World::record_events(bool is_wanted) { engine_->records_events_ = is_wanted
 std::span<const Event> World::events() const { return engine_->events_; }
 void World::forget_events() { engine_->events_.clear(); }
 
-Real World::now() const { return engine_->now_; }
+Real World::now() const { return engine_->clock_.now; }
 
 Motion World::motion(BodyId body) const { return engine_->motion(body.index); }
 std::uint32_t World::motion_version(BodyId body) const {
@@ -59,12 +59,12 @@ std::span<const BodyId> World::changed(ChangeCursor& cursor) const {
 
 RealVector World::position(BodyId body) const {
   const Motion m = motion(body);
-  return is_in_play(body) ? m.at(engine_->now_).position : m.position;
+  return is_in_play(body) ? m.at(engine_->clock_.now).position : m.position;
 }
 
 RealVector World::velocity(BodyId body) const {
   const Motion m = motion(body);
-  return is_in_play(body) ? m.at(engine_->now_).velocity : m.velocity;
+  return is_in_play(body) ? m.at(engine_->clock_.now).velocity : m.velocity;
 }
 
 std::uint32_t World::body_count() const {

@@ -58,7 +58,7 @@ BodyId Engine::add(BodyKind kind, const RealVector& position, const RealVector& 
   assert(spec_.allow_overlap || is_free(position, {half_extent, radius}));
   const auto body = static_cast<std::uint32_t>(bodies_.size());
   const Real inverse_mass = kind == BodyKind::post ? 0.0 : 1.0 / mass;
-  bodies_.push_back({{position.x(), position.y(), velocity.x(), velocity.y(), now_, radius},
+  bodies_.push_back({{position.x(), position.y(), velocity.x(), velocity.y(), clock_.now, radius},
                      inverse_mass,
                      0,
                      kind,
@@ -95,7 +95,7 @@ void Engine::rebuild_grid() {
                 static_cast<std::uint32_t>(bodies_.size()), spec_.cell_size);
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     if (is_gone(body)) continue;
-    const RealVector position = at(body, now_).position;
+    const RealVector position = at(body, clock_.now).position;
     grid_.insert(body, static_cast<double>(position.x()), static_cast<double>(position.y()));
     require_prediction(body);
   }
@@ -146,9 +146,9 @@ void Engine::remove(std::uint32_t body) {
   if ((b.flags & removed) != 0) return;
   keep(body);
   if ((b.flags & out_of_play) == 0) {
-    wake(body, now_);
-    for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, now_);
-    rebase(body, now_);
+    wake(body, clock_.now);
+    for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, clock_.now);
+    rebase(body, clock_.now);
     if (spec_.accounts_energy) introduced_.add(-energy_of(body));
     grid_.remove(body);
     queue_.set(body, infinity, body, body);
@@ -164,7 +164,8 @@ void Engine::place(std::uint32_t puck, const RealVector& position, const RealVec
          velocity.allFinite());
   assert(is_free(position, {RealVector(0.0, 0.0), b.radius}));
   keep(puck);
-  b.x = position.x(), b.y = position.y(), b.vx = velocity.x(), b.vy = velocity.y(), b.time = now_;
+  b.x = position.x(), b.y = position.y(), b.vx = velocity.x(), b.vy = velocity.y(),
+  b.time = clock_.now;
   b.flags = static_cast<std::uint8_t>(b.flags & ~out_of_play);
   enter_mouth_if_inside(puck);
   if (is_rough()) spins_[puck] = 0.0;
@@ -178,31 +179,31 @@ void Engine::set_thrust(std::uint32_t bat, const RealVector& acceleration) {
   assert(bodies_[bat].kind == BodyKind::bat && acceleration.allFinite());
   if (builds_[bat].thrust == acceleration) return;
   keep(bat);
-  if (journal_ != nullptr) journal_->time = now_;
+  if (journal_ != nullptr) journal_->time = clock_.now;
   if (is_gone(bat)) {
     builds_[bat].thrust = acceleration;
     return;
   }
-  note(EventKind::thrust, now_, bat);
-  wake(bat, now_);
-  rebase_companions(bat, now_);
+  note(EventKind::thrust, clock_.now, bat);
+  wake(bat, clock_.now);
+  rebase_companions(bat, clock_.now);
   builds_[bat].thrust = acceleration;
   for (int axis = 0; axis < 2; ++axis) {
     if ((bodies_[bat].flags & held_along(axis)) != 0)
-      share(axis, companions(bat, held_along(axis)), now_);
+      share(axis, companions(bat, held_along(axis)), clock_.now);
     else set_law(bat, axis, acceleration[axis], own_drag(bat));
   }
   settle();
 }
 
 std::optional<Goal> Engine::advance(Real until) {
-  assert(until >= now_ && until < infinity);
+  assert(until >= clock_.now && until < infinity);
   // Or else a stop between two keys of one instant would let the first one's impacts come before
   // the second one.
-  if (is_played_ && until == now_) return std::nullopt;
-  if (journal_ != nullptr && is_played_) journal_->played = now_;
+  if (clock_.is_played && until == clock_.now) return std::nullopt;
+  if (journal_ != nullptr && clock_.is_played) journal_->played = clock_.now;
   predict_pending();
-  is_played_ = false;
+  clock_.is_played = false;
   const bool looks_ahead = bodies_.size() >= look_ahead_min && queue_.calendar() != nullptr;
   for (std::uint32_t body = queue_.first(until); body != EventQueue::none;
        body = queue_.first(until)) {
@@ -210,8 +211,7 @@ std::optional<Goal> Engine::advance(Real until) {
     process(body, queue_.time(body));
     if (goal_) return std::exchange(goal_, std::nullopt);
   }
-  now_ = until;
-  is_played_ = true;
+  clock_.arrive(until);
   return std::nullopt;
 }
 
@@ -264,7 +264,7 @@ void Engine::look_ahead() {
 }
 
 void Engine::process(std::uint32_t body, Real time) {
-  now_ = std::max(now_, time);
+  clock_.reach(time);
   const Slot& slot = slots_[body];
   if (slot.crossing_time < slot.impact_time) return cross_cell(body);
   const Partner p = slot.partner;
@@ -286,16 +286,11 @@ void Engine::process(std::uint32_t body, Real time) {
   settle();
 }
 
-/// Time that advances by roundings alone does not count as advancing.
 void Engine::count_event(Real time) {
-  if (time > instant_begin_ + 16.0 * std::numeric_limits<Real>::epsilon() * (1.0 + time)) {
-    instant_begin_ = time;
-    events_at_once_ = 0;
-    is_hopeless_ = false;
-  }
-  counters_.events_at_once_max = std::max(counters_.events_at_once_max, ++events_at_once_);
+  clock_.count_event(time);
+  counters_.events_at_once_max = std::max(counters_.events_at_once_max, clock_.events_at_once);
   if (journal_ != nullptr)
-    journal_->at_once_max = std::max(journal_->at_once_max, events_at_once_),
+    journal_->at_once_max = std::max(journal_->at_once_max, clock_.events_at_once),
     journal_->times.push_back(time);
 }
 

@@ -16,6 +16,7 @@
 #include "game/physics/contact/impact_solver.h"
 #include "game/physics/contact/separation_solver.h"
 #include "game/physics/engine/body_records.h"
+#include "game/physics/engine/clock.h"
 #include "game/physics/engine/contact.h"
 #include "game/physics/engine/journal.h"
 #include "game/physics/engine/partner.h"
@@ -198,7 +199,6 @@ class Engine {
 
   // engine_simultaneous.cpp
   bool is_crowded(std::uint32_t body, Partner partner) const;
-  bool is_endless() const;
   bool collide_together(const Contact& contact, Real time);
   void apply_joint(const Contact& contact, Real time);
 
@@ -266,10 +266,8 @@ class Engine {
   void rebuild_from_state();
 
   WorldSpec spec_;
-  Real now_ = 0.0;
-  bool is_played_ = false;  // advance() has been to now_: what happens to bodies from outside at
-                            // this instant takes effect beyond it
-  Real tolerance_;          // rounding error of an offset [m]
+  Clock clock_;
+  Real tolerance_;  // rounding error of an offset [m]
   Real puck_drag_;
   Real contact_time_;  // s
   Real rest_speed_;    // pressed contacts that close more slowly come to rest [m/s]
@@ -304,10 +302,7 @@ class Engine {
   std::vector<RealVector> velocities_before_;
   ImpactSolver impact_solver_;
   SeparationSolver separation_solver_;
-  Real instant_begin_ = -1.0;  // of the events counted as coming at once
-  std::uint64_t events_at_once_ = 0;
   Real gap_max_ = cluster_gap;  // up to which a contact belongs to a cluster
-  bool is_hopeless_ = false;    // no joint impact could be solved at this instant
   std::optional<Goal> goal_;
   Counters counters_;
   Sum introduced_, work_, loss_;

@@ -56,7 +56,7 @@ Real Engine::work_of_thrust() const {
   if (!spec_.accounts_energy) return 0.0;
   Sum sum = work_;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
-    if (!is_gone(body)) sum.add(expense_until(body, now_).work);
+    if (!is_gone(body)) sum.add(expense_until(body, clock_.now).work);
   return sum.value();
 }
 
@@ -64,7 +64,7 @@ Real Engine::dissipated() const {
   if (!spec_.accounts_energy) return 0.0;
   Sum sum = loss_;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
-    if (!is_gone(body)) sum.add(expense_until(body, now_).loss);
+    if (!is_gone(body)) sum.add(expense_until(body, clock_.now).loss);
   return sum.value();
 }
 

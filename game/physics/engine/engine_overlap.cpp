@@ -18,7 +18,7 @@ constexpr std::uint32_t hemmed_in_min = 10'000;
 /// Counts the impacts of each body at the instant at hand.
 void Engine::count_meeting(const Contact& c) {
   for (const Partner p : {c.body, c.partner})
-    if (!is_fixed(p)) rhythms_[p].meetings.add(instant_begin_);
+    if (!is_fixed(p)) rhythms_[p].meetings.add(clock_.instant_begin);
 }
 
 std::uint32_t Engine::meetings(const Contact& c) const {

@@ -294,13 +294,13 @@ void Engine::predict_release(std::uint32_t body) {
 }
 
 /// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as
-/// well, so now_ may be used.
+/// well, so clock_.now may be used.
 void Engine::predict_curved_crossing(std::uint32_t body) {
   Slot& slot = slots_[body];
   slot.crossing_time = infinity;
   const CellGrid::Place place = grid_.place(body);
   const Motion still, moving = motion(body);
-  const Real start = std::max(bodies_[body].time, now_);
+  const Real start = std::max(bodies_[body].time, clock_.now);
   const auto leave = [&](Real edge, const RealVector& normal, CellGrid::Direction direction) {
     if (std::abs(edge) == infinity) return;
     const Real limit = std::min(slot.impact_time, slot.crossing_time);

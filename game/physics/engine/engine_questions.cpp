@@ -21,7 +21,7 @@ bool Engine::is_free(const RealVector& centre, const RoundedBox& shape) const {
   grid_.around(column, row, 0, columns, 0, rows, [&](std::uint32_t body) {
     const RoundedBox both{builds_[body].half_extent + shape.half_extent,
                           bodies_[body].radius + shape.radius};
-    is_clear = is_clear && both.gap(centre - at(body, now_).position).distance >= 0.0;
+    is_clear = is_clear && both.gap(centre - at(body, clock_.now).position).distance >= 0.0;
   });
   return is_clear;
 }
@@ -30,7 +30,7 @@ Real Engine::kinetic_energy() const {
   Real sum = 0.0;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
     if (!is_gone(body) && builds_[body].inverse_mass > 0.0)
-      sum += 0.5 * builds_[body].mass * at(body, now_).velocity.squaredNorm();
+      sum += 0.5 * builds_[body].mass * at(body, clock_.now).velocity.squaredNorm();
   for (std::uint32_t body = 0; body < spins_.size(); ++body)
     if (!is_gone(body) && bodies_[body].kind == BodyKind::puck)
       sum += 0.25 * builds_[body].mass * std::pow(bodies_[body].radius * spins_[body], 2);
@@ -41,7 +41,7 @@ RealVector Engine::momentum() const {
   RealVector sum(0.0, 0.0);
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
     if (!is_gone(body) && builds_[body].inverse_mass > 0.0)
-      sum += builds_[body].mass * at(body, now_).velocity;
+      sum += builds_[body].mass * at(body, clock_.now).velocity;
   return sum;
 }
 
@@ -49,7 +49,7 @@ Real Engine::max_overlap() const {
   Real deepest = 0.0;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     if (is_gone(body) || bodies_[body].kind == BodyKind::post) continue;
-    const RealVector position = at(body, now_).position;
+    const RealVector position = at(body, clock_.now).position;
     const RealVector extent =
         builds_[body].half_extent + RealVector::Constant(bodies_[body].radius);
     const Real end =
@@ -62,7 +62,8 @@ Real Engine::max_overlap() const {
     grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
       if (other != body)
         deepest = std::max(
-            deepest, -shape_of(body, other).gap(position - at(other, now_).position).distance);
+            deepest,
+            -shape_of(body, other).gap(position - at(other, clock_.now).position).distance);
     });
   }
   return deepest;

@@ -6,35 +6,25 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-namespace {
-
-constexpr std::uint64_t endless_events =
-    64;  // at one instant, before all that touch yield as one now and then
-
-}  // namespace
-
 /// Whether another impact may come at the instant at hand. Never misses one: an impact is either
 /// the first of its body, and thus in the queue, or hidden behind that one.
 bool Engine::is_crowded(std::uint32_t body, Partner p) const {
-  return slots_[body].is_tied || (is_body(p) && slots_[p].is_tied) || is_endless() ||
+  return slots_[body].is_tied || (is_body(p) && slots_[p].is_tied) || clock_.is_endless() ||
          queue_.is_followed_within(instant);
 }
-
-/// Whether so many events have come at this instant that all that touch shall yield as one.
-bool Engine::is_endless() const { return events_at_once_ % endless_events == 0; }
 
 /// The impact at hand together with all others that close at this instant among bodies that touch,
 /// directly or through others. False if there are none, or if no solution was found that keeps the
 /// energy; then nothing has changed, and no other is looked for until the instant is over.
 bool Engine::collide_together(const Contact& c, Real time) {
-  if (is_rough() || is_hopeless_) return false;
-  const bool is_joint = gather_touching(c, time) || is_endless();
+  if (is_rough() || clock_.is_hopeless) return false;
+  const bool is_joint = gather_touching(c, time) || clock_.is_endless();
   note_looked_at();
   if (!is_joint) return false;
   velocities_before_ = problem_.velocities;
-  is_hopeless_ = !impact_solver_.solve(problem_, is_endless());
-  if (is_hopeless_ && journal_ != nullptr) journal_->was_hopeless = true;
-  if (is_hopeless_) return false;
+  clock_.is_hopeless = !impact_solver_.solve(problem_, clock_.is_endless());
+  if (clock_.is_hopeless && journal_ != nullptr) journal_->was_hopeless = true;
+  if (clock_.is_hopeless) return false;
   ++counters_.joint_impacts;
   apply_joint(c, time);
   return true;

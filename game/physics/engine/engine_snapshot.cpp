@@ -102,8 +102,9 @@ bool exchange_hold(Stream& stream, Hold& hold) {
 /// what observers asked for (recorded events) is not part of it.
 template <class Stream>
 bool Engine::exchange_state(Stream& stream) {
-  if (!stream.numbers(now_, jam_count_, instant_begin_, events_at_once_) ||
-      !stream.truth(is_played_) || !stream.truth(is_hopeless_) || !exchange(stream, counters_))
+  if (!stream.numbers(clock_.now, jam_count_, clock_.instant_begin, clock_.events_at_once) ||
+      !stream.truth(clock_.is_played) || !stream.truth(clock_.is_hopeless) ||
+      !exchange(stream, counters_))
     return false;
   if (!stream.size(bodies_) || !stream.size(holds_) || !stream.size(frozen_)) return false;
   const std::size_t count = bodies_.size();
@@ -140,7 +141,7 @@ bool Engine::is_sound() const {
         !is_finite(laws_[body].acceleration) || !is_finite(build.half_extent) ||
         !is_finite(build.thrust))
       return false;
-    if (!(b.time <= now_) || !(b.radius >= 0.0) || !std::isfinite(b.radius) ||
+    if (!(b.time <= clock_.now) || !(b.radius >= 0.0) || !std::isfinite(b.radius) ||
         !(build.mass > 0.0) || !(build.inverse_mass >= 0.0))
       return false;
     if (b.inverse_mass != build.inverse_mass) return false;
@@ -151,7 +152,7 @@ bool Engine::is_sound() const {
   const auto is_partner = [&](Partner p) {
     return p < count || (p >= partner::field_parts && p <= partner::halfway);
   };
-  return std::isfinite(now_) &&
+  return std::isfinite(clock_.now) &&
          std::all_of(frozen_.begin(), frozen_.end(),
                      [&](std::uint32_t body) { return body < count; }) &&
          std::all_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {

@@ -21,7 +21,7 @@ constexpr double touch_roundings = 16.0;
 /// instant, however far away, by somebody whom this world does not have. So it concerns all of
 /// them, and the journal says so; nothing else changes.
 void Engine::look_at_touching(const Contact& c, Real time) {
-  if (is_rough() || is_hopeless_ || !has_company(c.body, c.partner, time)) return;
+  if (is_rough() || clock_.is_hopeless || !has_company(c.body, c.partner, time)) return;
   gather_touching(c, time);
   note_looked_at();
 }
