@@ -42,9 +42,9 @@ void World::place(BodyId puck, const Vector2& position, const Vector2& velocity)
 }
 std::optional<Goal> World::advance(Real until) { return engine_->advance(until); }
 
-void World::record_events(bool is_wanted) { engine_->records_events_ = is_wanted; }
-std::span<const Event> World::events() const { return engine_->events_; }
-void World::forget_events() { engine_->events_.clear(); }
+void World::record_events(bool is_wanted) { engine_->record_.keep(is_wanted); }
+std::span<const Event> World::events() const { return engine_->record_.events(); }
+void World::forget_events() { engine_->record_.forget(); }
 
 Real World::now() const { return engine_->clock_.now; }
 
@@ -116,7 +116,7 @@ const WorldSpec& World::spec() const { return engine_->spec_; }
 const Counters& World::counters() const { return engine_->counters_; }
 Real World::kinetic_energy() const { return engine_->kinetic_energy(); }
 Real World::spin(BodyId body) const { return engine_->spin(body.index); }
-Real World::energy_introduced() const { return engine_->introduced_.value(); }
+Real World::energy_introduced() const { return engine_->ledger_.introduced(); }
 Real World::work_of_thrust() const { return engine_->work_of_thrust(); }
 Real World::dissipated() const { return engine_->dissipated(); }
 RealVector World::momentum() const { return engine_->momentum(); }

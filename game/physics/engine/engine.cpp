@@ -19,7 +19,8 @@ Engine::Engine(const WorldSpec& spec)
       puck_drag_(spec.puck_drag),
       contact_time_(spec.contact_time),
       rest_speed_(20.0 * contact_time_),
-      queue_(spec.queue) {
+      queue_(spec.queue),
+      ledger_(spec.accounts_energy) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 &&
          spec.field.goal_width <= spec.field.width);
   assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.contact_time > 0.0 &&
@@ -74,7 +75,7 @@ BodyId Engine::add(BodyKind kind, const RealVector& position, const RealVector& 
   write_law(body);
   if (is_rough()) spins_.push_back(spin);
   if (is_slowed()) rest_times_.push_back(infinity), slowing_.emplace_back(0.0, 0.0), slide(body);
-  if (spec_.accounts_energy) introduced_.add(energy_of(body));
+  ledger_.introduce(energy_of(body));
   enter_mouth_if_inside(body);
   const std::uint32_t count = body + 1;
   grid_.resize(count);
@@ -149,7 +150,7 @@ void Engine::remove(std::uint32_t body) {
     wake(body, clock_.now);
     for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, clock_.now);
     rebase(body, clock_.now);
-    if (spec_.accounts_energy) introduced_.add(-energy_of(body));
+    ledger_.introduce(-energy_of(body));
     grid_.remove(body);
     queue_.set(body, infinity, body, body);
   }
@@ -169,7 +170,7 @@ void Engine::place(std::uint32_t puck, const RealVector& position, const RealVec
   b.flags = static_cast<std::uint8_t>(b.flags & ~out_of_play);
   enter_mouth_if_inside(puck);
   if (is_rough()) spins_[puck] = 0.0;
-  if (spec_.accounts_energy) introduced_.add(energy_of(puck));
+  ledger_.introduce(energy_of(puck));
   grid_.insert(puck, static_cast<double>(b.x), static_cast<double>(b.y));
   touch(puck);
   settle();
@@ -184,7 +185,7 @@ void Engine::set_thrust(std::uint32_t bat, const RealVector& acceleration) {
     builds_[bat].thrust = acceleration;
     return;
   }
-  note(EventKind::thrust, clock_.now, bat);
+  record_.note(EventKind::thrust, clock_.now, bat);
   wake(bat, clock_.now);
   rebase_companions(bat, clock_.now);
   builds_[bat].thrust = acceleration;
@@ -295,7 +296,11 @@ void Engine::count_event(Real time) {
 }
 
 void Engine::settle() {
-  if (spec_.accounts_energy) enter_impacts();
+  if (ledger_.is_kept()) {
+    for (std::size_t i = 0; i < touched_.size(); ++i)
+      if (!is_gone(touched_[i])) ledger_.note_after(i, energy_of(touched_[i]));
+    ledger_.close_event();
+  }
   if (is_slowed()) slide_touched();
   if (journal_ != nullptr) enter_changes();
   for (std::size_t i = 0; i < touched_.size(); ++i) {
@@ -320,7 +325,7 @@ void Engine::cross_cell(std::uint32_t body) {
 }
 
 void Engine::stop(std::uint32_t body, Real time) {
-  note(EventKind::stop, time, body);
+  record_.note(EventKind::stop, time, body);
   wake(body, time);
   rebase_companions(body, time);
   bodies_[body].vx = bodies_[body].vy =
@@ -328,11 +333,11 @@ void Engine::stop(std::uint32_t body, Real time) {
 }
 
 void Engine::score(std::uint32_t body, Real time) {
-  note(EventKind::goal, time, body);
+  record_.note(EventKind::goal, time, body);
   wake(body, time);
   for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
   rebase(body, time);
-  if (spec_.accounts_energy) introduced_.add(-energy_of(body));
+  ledger_.introduce(-energy_of(body));
   Body& b = bodies_[body];
   b.flags |= out_of_play;
   b.mouth = no_mouth;

@@ -18,6 +18,8 @@
 #include "game/physics/engine/body_records.h"
 #include "game/physics/engine/clock.h"
 #include "game/physics/engine/contact.h"
+#include "game/physics/engine/energy_ledger.h"
+#include "game/physics/engine/event_record.h"
 #include "game/physics/engine/journal.h"
 #include "game/physics/engine/partner.h"
 #include "game/physics/engine/tolerances.h"
@@ -26,7 +28,6 @@
 #include "game/physics/flight/impact_time.h"
 #include "game/physics/large_pages.h"
 #include "game/physics/real.h"
-#include "game/physics/sum.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -80,7 +81,6 @@ class Engine {
                                  false};
 
   // engine.cpp: bodies and the loop
-  bool is_body(Partner p) const { return p < partner::field_parts; }
   bool is_fixed(Partner p) const { return !is_body(p) || builds_[p].inverse_mass == 0.0; }
   bool is_gone(std::uint32_t body) const { return (bodies_[body].flags & gone) != 0; }
   Real inverse_mass(Partner p) const { return is_body(p) ? builds_[p].inverse_mass : 0.0; }
@@ -101,13 +101,6 @@ class Engine {
   void count_event(Real time);
   void score(std::uint32_t body, Real time);
   void stop(std::uint32_t body, Real time);
-  /// Counts the event, and records it if it is wanted.
-  void note(EventKind kind, Real time, std::uint32_t body, Partner other = partner::none) {
-    ++counters_.of(kind);
-    if (records_events_)
-      events_.push_back(
-          {time, kind, BodyId{body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
-  }
 
   // engine_state.cpp: rewriting last-event states
   void rebase(std::uint32_t body, Real time);
@@ -118,6 +111,8 @@ class Engine {
     return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag;
   }
   void touch(std::uint32_t body);
+  Real energy_of(std::uint32_t body) const;
+  Expense expense_until(std::uint32_t body, Real time) const;
   void wake(std::uint32_t body, Real time);
 
   // engine_journal.cpp: what a portion of a world keeps of a window (portion.h)
@@ -221,8 +216,8 @@ class Engine {
   bool would_push_twice(const Contact& contact) const;
   bool are_held(std::uint32_t a, std::uint32_t b) const;
   void note_release(const Hold& hold, Real time) {
-    is_fixed(hold.low) ? note(EventKind::release, time, hold.high, hold.low)
-                       : note(EventKind::release, time, hold.low, hold.high);
+    is_fixed(hold.low) ? record_.note(EventKind::release, time, hold.high, hold.low)
+                       : record_.note(EventKind::release, time, hold.low, hold.high);
   }
 
   // engine_cluster.cpp
@@ -240,15 +235,6 @@ class Engine {
   bool freeze_loosely(const Contact& contact, Real speed_max, Real time);
   Real still_speed() const;
   Real glancing_speed(Real thrust_max, Real pressing, Real speed) const;
-
-  // engine_energy.cpp: the books of energy, of worlds that keep them
-  struct Expense {
-    Real work, loss;  // J
-  };
-  Real energy_of(std::uint32_t body) const;
-  Expense expense_until(std::uint32_t body, Real time) const;
-  void enter_expense(std::uint32_t body, Real time);
-  void enter_impacts();
 
   // engine_overlap.cpp
   void count_meeting(const Contact& contact);
@@ -305,10 +291,8 @@ class Engine {
   Real gap_max_ = cluster_gap;  // up to which a contact belongs to a cluster
   std::optional<Goal> goal_;
   Counters counters_;
-  Sum introduced_, work_, loss_;
-  std::vector<Real> energies_;  // of the bodies in touched_, before what happens to them now
-  bool records_events_ = false;
-  std::vector<Event> events_;
+  EventRecord record_{counters_};
+  EnergyLedger ledger_;
   ChangeLog changes_;
   Journal* journal_ = nullptr;
 };

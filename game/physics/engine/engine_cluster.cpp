@@ -47,7 +47,7 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
   if (problem_.touches.size() < 2 && (pressure <= 0.0 || approach >= rest_speed_)) return false;
   if (pressure <= 0.0 && given_back == 1.0 && !is_rattling(approach) && !is_hemmed_in(c))
     return false;
-  note(EventKind::hop, time, c.body, c.partner);
+  record_.note(EventKind::hop, time, c.body, c.partner);
   bool may_freeze = thrust_max > 0.0;
   for (const std::uint32_t body : joint_) {
     Rhythm& rhythm = rhythms_[body];
@@ -62,7 +62,7 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
   if (may_freeze && ((hops % 4 == 0 && freeze(thrust_max)) ||
                      (hops >= long_series && hops % 16 == 0 &&
                       freeze_loosely(c, std::max<Real>(rest_speed_, 2.0 * approach), time)))) {
-    note(EventKind::freeze, time, c.body, c.partner);
+    record_.note(EventKind::freeze, time, c.body, c.partner);
     return true;
   }
   for (std::size_t place = 0; place < joint_.size(); ++place)

@@ -89,7 +89,7 @@ bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
       return false;
     }
   }
-  note(EventKind::puck_puck, time, low, high);
+  record_.note(EventKind::puck_puck, time, low, high);
   changes_.note(low), changes_.note(high);
   counters_.evaluations += (before_a.time < time) + (before_b.time < time);
   counters_.bodies_touched += 2;
@@ -218,7 +218,7 @@ void Engine::count_impact(std::uint32_t body, Partner p, Real time) {
     if (!is(BodyKind::bat)) return EventKind::puck_puck;
     return is(BodyKind::puck) ? EventKind::puck_bat : EventKind::bat_bat;
   };
-  note(kind(), time, body, p);
+  record_.note(kind(), time, body, p);
 }
 
 void Engine::note_impact(std::uint32_t body, Real time) {

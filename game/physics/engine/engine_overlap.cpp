@@ -46,7 +46,7 @@ bool Engine::is_stuck(const Contact& c, Real time) {
 /// Stops all that hangs together with the contact, for as long as nothing else acts on it.
 void Engine::stop_around(const Contact& c, Real time) {
   gather(c, std::numeric_limits<Real>::infinity(), time);
-  note(EventKind::freeze, time, c.body, c.partner);
+  record_.note(EventKind::freeze, time, c.body, c.partner);
   stop_cluster();
 }
 

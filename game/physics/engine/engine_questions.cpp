@@ -45,6 +45,22 @@ RealVector Engine::momentum() const {
   return sum;
 }
 
+Real Engine::work_of_thrust() const {
+  if (!ledger_.is_kept()) return 0.0;
+  Sum sum = ledger_.work();
+  for (std::uint32_t body = 0; body < bodies_.size(); ++body)
+    if (!is_gone(body)) sum.add(expense_until(body, clock_.now).work);
+  return sum.value();
+}
+
+Real Engine::dissipated() const {
+  if (!ledger_.is_kept()) return 0.0;
+  Sum sum = ledger_.loss();
+  for (std::uint32_t body = 0; body < bodies_.size(); ++body)
+    if (!is_gone(body)) sum.add(expense_until(body, clock_.now).loss);
+  return sum.value();
+}
+
 Real Engine::max_overlap() const {
   Real deepest = 0.0;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {

@@ -63,7 +63,7 @@ bool Engine::can_rest(const Contact& c) const {
 
 /// Perfectly inelastic along the axis of the face: the groups on both sides become one.
 void Engine::rest(const Contact& c, Real time) {
-  note(EventKind::rest, time, c.body, c.partner);
+  record_.note(EventKind::rest, time, c.body, c.partner);
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
   holds_.push_back({is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis,
@@ -270,7 +270,7 @@ void Engine::release(std::uint32_t body, Real time) {
     const bool ends = std::min(hold.pull_time, slide_time(hold)) <= time;
     if (!ends && hold.turn_time > time) continue;
     if (ends) note_release(hold, time);
-    else note(EventKind::turn, time, body);
+    else record_.note(EventKind::turn, time, body);
     const Partner inside = is_fixed(hold.low) ? hold.high : hold.low;
     const std::vector<std::uint32_t> members = companions(inside, held_along(hold.axis));
     for (const std::uint32_t member : members) rebase_companions(member, time);

@@ -122,8 +122,7 @@ bool Engine::exchange_state(Stream& stream) {
     if (!stream.numbers(slowing.x(), slowing.y())) return false;
   for (Real& spin : spins_)
     if (!stream.number(spin)) return false;
-  if (!introduced_.exchange(stream) || !work_.exchange(stream) || !loss_.exchange(stream))
-    return false;
+  if (!ledger_.exchange(stream)) return false;
   for (Hold& hold : holds_)
     if (!exchange_hold(stream, hold)) return false;
   for (std::uint32_t& body : frozen_)

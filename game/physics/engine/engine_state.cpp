@@ -11,7 +11,24 @@ void Engine::touch(std::uint32_t body) {
   changes_.note(body);
   ++counters_.bodies_touched;
   touched_.push_back(body);
-  if (spec_.accounts_energy) energies_.push_back(energy_of(body));
+  if (ledger_.is_kept()) ledger_.note_before(energy_of(body));
+}
+
+/// Of its motion and spin at its last event [J].
+Real Engine::energy_of(std::uint32_t body) const {
+  const Body& b = bodies_[body];
+  if (b.kind == BodyKind::post) return 0.0;
+  const Real spin_energy = is_rough() && b.kind == BodyKind::puck
+                               ? 0.25 * b.radius * b.radius * spins_[body] * spins_[body]
+                               : 0.0;
+  return builds_[body].mass * (0.5 * (b.vx * b.vx + b.vy * b.vy) + spin_energy);
+}
+
+/// What the law of the body has cost since its last event, at `time`.
+Expense Engine::expense_until(std::uint32_t body, Real time) const {
+  if (builds_[body].inverse_mass == 0.0) return {0.0, 0.0};
+  return expense_of(motion(body), time, builds_[body].mass,
+                    is_slowed(body) ? &slowing_[body] : nullptr);
 }
 
 void Engine::rebase(std::uint32_t body, Real time) {
@@ -20,7 +37,7 @@ void Engine::rebase(std::uint32_t body, Real time) {
   keep(body);
   if (b.time < time) {
     ++counters_.evaluations;
-    if (spec_.accounts_energy) enter_expense(body, time);
+    if (ledger_.is_kept()) ledger_.spend(expense_until(body, time));
     const Real elapsed = time - b.time;
     if ((b.flags & curved) != 0) {
       const Motion there = at(body, time);

@@ -22,4 +22,6 @@ constexpr Partner release = field_parts + 12;  ///< a rest contact ends
 constexpr Partner stop = field_parts + 13;     ///< friction has brought a puck to rest
 }  // namespace partner
 
+constexpr bool is_body(Partner p) { return p < partner::field_parts; }
+
 }  // namespace rink::physics

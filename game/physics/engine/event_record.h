@@ -1,0 +1,38 @@
+// What happened, counted, and written down for whoever asked for it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "game/physics/counters.h"
+#include "game/physics/engine/partner.h"
+#include "game/physics/event.h"
+#include "game/physics/real.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+/// Counts every event; writes them down only while that is wanted. Never changes the motion.
+class EventRecord {
+ public:
+  explicit EventRecord(Counters& counters) : counters_(counters) {}
+
+  void keep(bool is_wanted) { is_kept_ = is_wanted; }
+  void note(EventKind kind, Real time, std::uint32_t body, Partner other = partner::none) {
+    ++counters_.of(kind);
+    if (is_kept_)
+      events_.push_back(
+          {time, kind, BodyId{body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
+  }
+  /// Written down since the last forget(), in order of time.
+  std::span<const Event> events() const { return events_; }
+  void forget() { events_.clear(); }
+
+ private:
+  Counters& counters_;
+  bool is_kept_ = false;
+  std::vector<Event> events_;
+};
+
+}  // namespace rink::physics::inline RINK_PRECISION
