@@ -1,8 +1,8 @@
 // All that the future of a body depends on, as a value that one world hands to another.
 #pragma once
 
+#include "game/physics/bodies/partner.h"
 #include "game/physics/body.h"
-#include "game/physics/engine/partner.h"
 #include "game/physics/flight/motion.h"
 #include "game/physics/flight/straight_flight.h"
 #include "game/physics/real.h"

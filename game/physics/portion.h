@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "game/physics/engine/clock.h"
-#include "game/physics/engine/journal.h"
+#include "game/physics/bodies/clock.h"
+#include "game/physics/bodies/journal.h"
 #include "game/physics/real.h"
 #include "game/physics/world.h"
 

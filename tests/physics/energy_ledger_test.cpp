@@ -1,5 +1,5 @@
 // The books of energy from plain values: what a law of motion costs, and what an event takes.
-#include "game/physics/engine/energy_ledger.h"
+#include "game/physics/bodies/energy_ledger.h"
 
 #include <gtest/gtest.h>
 

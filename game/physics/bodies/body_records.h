@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "game/physics/bodies/partner.h"
 #include "game/physics/body.h"
 #include "game/physics/cell_grid.h"
-#include "game/physics/engine/partner.h"
 #include "game/physics/flight/straight_flight.h"
 #include "game/physics/real.h"
 

@@ -1,5 +1,5 @@
 // The integrals that a body's law of motion costs.
-#include "game/physics/engine/energy_ledger.h"
+#include "game/physics/bodies/energy_ledger.h"
 
 #include <algorithm>
 

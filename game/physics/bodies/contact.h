@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "game/physics/engine/partner.h"
+#include "game/physics/bodies/partner.h"
 #include "game/physics/flight/impact_time.h"
 #include "game/physics/real.h"
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "game/physics/bodies/partner.h"
 #include "game/physics/counters.h"
-#include "game/physics/engine/partner.h"
 #include "game/physics/event.h"
 #include "game/physics/real.h"
 
