@@ -49,7 +49,7 @@ void Peer::divide(const Division& division) {
 /// Before the journal is forgotten.
 void Peer::note_changed() {
   changed_.clear(), flown_.clear(), left_.clear();
-  for (const auto& kept : portion_.journal().flights)
+  for (const auto& kept : portion_.before().flights())
     if (roles_[kept.body] == own)
       (portion_.has_only_flown(kept.body) ? flown_ : changed_).push_back(kept.body);
 }

@@ -125,7 +125,7 @@ std::vector<Goal> Peer::goals() const {
   std::vector<Goal> goals;
   if (world.spec().field.goal_width == 0.0) return goals;
   std::vector<std::uint32_t> pucks;
-  for (const physics::Journal::KeptState& kept : portion_.journal().states)
+  for (const physics::BeforeImages::KeptState& kept : portion_.before().states())
     if (roles_[kept.body] == own && kept.state.kind == physics::BodyKind::puck &&
         !world.is_in_play({kept.body}) && !portion_.was_gone(kept.body))
       pucks.push_back(kept.body);

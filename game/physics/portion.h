@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/physics/bodies/before_images.h"
 #include "game/physics/bodies/clock.h"
 #include "game/physics/bodies/journal.h"
 #include "game/physics/real.h"
@@ -49,16 +50,14 @@ class Portion {
   /// Whether it is in a rest contact along axis 0 or 1.
   static bool is_held_along(const BodyState& state, int axis);
   /// As it was when the window began.
-  BodyState state_before(std::uint32_t body) const;
+  BodyState state_before(std::uint32_t body) const { return before_.state(body); }
   /// The body's path from then to its first change.
   Motion motion_before(std::uint32_t body) const;
 
   const Flight& flight(std::uint32_t body) const;
   /// Whether it has changed in this window, and by nothing but free impacts, which leave all but
   /// its flight.
-  bool has_only_flown(std::uint32_t body) const {
-    return journal_.marks[body].number == journal_.mark;
-  }
+  bool has_only_flown(std::uint32_t body) const { return before_.has_only_flown(body); }
   /// Of a body in play that flies straight and has no companions; nothing of any other.
   std::optional<Flight> free_flight(std::uint32_t body) const;
 
@@ -86,6 +85,8 @@ class Portion {
   /// Back to where the window began.
   void undo();
   const Journal& journal() const { return journal_; }
+  /// Of all bodies that changed in this window.
+  const BeforeImages& before() const { return before_; }
   /// Free impacts of who stays in one of these rooms until `until` [s], if nothing else happens to
   /// it, are counted only.
   void set_rooms(std::vector<Journal::Room> rooms, double until) {
@@ -108,6 +109,7 @@ class Portion {
   void write(std::uint32_t body, const BodyState& state);
 
   World world_;
+  BeforeImages before_;
   Journal journal_;
   std::vector<std::uint8_t> is_there_;
   std::vector<Hold> holds_before_;

@@ -14,23 +14,45 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
+namespace {
+
+template <class Spec>
+BodyState state_at(const Spec& spec, BodyKind kind) {
+  BodyState state;
+  state.flight.x = spec.position.x(), state.flight.y = spec.position.y();
+  state.kind = kind;
+  state.material = spec.material;
+  return state;
+}
+
+}  // namespace
+
 BodyId World::add(const PuckSpec& spec) {
   assert(spec.radius > 0.0);
-  return engine_->add(BodyKind::puck, spec.position.cast<Real>(), spec.velocity.cast<Real>(),
-                      spec.radius, {0.0, 0.0}, spec.mass, spec.material, Half::both, spec.spin);
+  BodyState state = state_at(spec, BodyKind::puck);
+  state.flight.vx = spec.velocity.x(), state.flight.vy = spec.velocity.y();
+  state.flight.radius = spec.radius;
+  state.mass = spec.mass;
+  state.spin = spec.spin;
+  return engine_->add(state);
 }
 
 BodyId World::add(const BatSpec& spec) {
   assert(spec.half_extent.minCoeff() > 0.0);
-  return engine_->add(BodyKind::bat, spec.position.cast<Real>(), spec.velocity.cast<Real>(), 0.0,
-                      spec.half_extent.cast<Real>(), spec.mass, spec.material, spec.half, 0.0);
+  BodyState state = state_at(spec, BodyKind::bat);
+  state.flight.vx = spec.velocity.x(), state.flight.vy = spec.velocity.y();
+  state.half_extent = spec.half_extent.cast<Real>();
+  state.mass = spec.mass;
+  state.half = spec.half;
+  return engine_->add(state);
 }
 
 BodyId World::add(const PostSpec& spec) {
   assert(spec.radius >= 0.0);
-  return engine_->add(BodyKind::post, spec.position.cast<Real>(), {0.0, 0.0}, spec.radius,
-                      {0.0, 0.0}, std::numeric_limits<double>::infinity(), spec.material,
-                      Half::both, 0.0);
+  BodyState state = state_at(spec, BodyKind::post);
+  state.flight.radius = spec.radius;
+  state.mass = std::numeric_limits<double>::infinity();
+  return engine_->add(state);
 }
 
 void World::remove(BodyId body) { engine_->remove(body.index); }
@@ -48,13 +70,13 @@ void World::forget_events() { engine_->record_.forget(); }
 
 Real World::now() const { return engine_->clock_.now; }
 
-Motion World::motion(BodyId body) const { return engine_->motion(body.index); }
+Motion World::motion(BodyId body) const { return engine_->bodies_.motion(body.index); }
 std::uint32_t World::motion_version(BodyId body) const {
   return engine_->bodies_[body.index].version;
 }
 
 std::span<const BodyId> World::changed(ChangeCursor& cursor) const {
-  return engine_->changes_.read(cursor, body_count());
+  return engine_->bodies_.changes().read(cursor, body_count());
 }
 
 RealVector World::position(BodyId body) const {
@@ -67,20 +89,18 @@ RealVector World::velocity(BodyId body) const {
   return is_in_play(body) ? m.at(engine_->clock_.now).velocity : m.velocity;
 }
 
-std::uint32_t World::body_count() const {
-  return static_cast<std::uint32_t>(engine_->bodies_.size());
-}
+std::uint32_t World::body_count() const { return engine_->bodies_.count(); }
 BodyKind World::kind(BodyId body) const { return engine_->bodies_[body.index].kind; }
 Real World::radius(BodyId body) const { return engine_->bodies_[body.index].radius; }
 RealVector World::half_extent(BodyId body) const {
-  return engine_->builds_[body.index].half_extent + RealVector::Constant(radius(body));
+  return engine_->bodies_.build(body.index).half_extent + RealVector::Constant(radius(body));
 }
-Real World::mass(BodyId body) const { return engine_->builds_[body.index].mass; }
+Real World::mass(BodyId body) const { return engine_->bodies_.build(body.index).mass; }
 MaterialId World::material(BodyId body) const { return engine_->bodies_[body.index].material; }
-RealVector World::thrust(BodyId body) const { return engine_->builds_[body.index].thrust; }
-bool World::is_in_play(BodyId body) const { return !engine_->is_gone(body.index); }
+RealVector World::thrust(BodyId body) const { return engine_->bodies_.build(body.index).thrust; }
+bool World::is_in_play(BodyId body) const { return !engine_->bodies_.is_gone(body.index); }
 bool World::is_removed(BodyId body) const {
-  return (engine_->bodies_[body.index].flags & Engine::removed) != 0;
+  return (engine_->bodies_[body.index].flags & Body::removed) != 0;
 }
 
 bool World::is_resting(BodyId body) const {
@@ -89,7 +109,7 @@ bool World::is_resting(BodyId body) const {
 }
 
 bool World::is_held(BodyId body) const {
-  return (engine_->bodies_[body.index].flags & (Engine::held | Engine::frozen)) != 0;
+  return (engine_->bodies_[body.index].flags & (Body::held | Body::frozen)) != 0;
 }
 
 bool World::is_free(const Vector2& centre, double radius) const {
@@ -100,10 +120,12 @@ bool World::is_free(const Vector2& centre, const Vector2& half_extent) const {
 }
 
 World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
-std::vector<std::uint8_t> World::save() const { return engine_->save(); }
+std::vector<std::uint8_t> World::save() const { return to_snapshot(engine_->state()); }
 std::optional<World> World::restore(std::span<const std::uint8_t> bytes) {
-  auto engine = Engine::restore(bytes);
-  if (!engine) return std::nullopt;
+  std::optional<WorldState> state = from_snapshot(bytes);
+  if (!state) return std::nullopt;
+  auto engine = std::make_unique<Engine>(state->spec);
+  engine->restore(std::move(*state));
   return World(std::move(engine));
 }
 std::unique_ptr<Simulator> World::copy() const {
@@ -115,7 +137,9 @@ std::unique_ptr<Simulator> World::copy() const {
 const WorldSpec& World::spec() const { return engine_->spec_; }
 const Counters& World::counters() const { return engine_->counters_; }
 Real World::kinetic_energy() const { return engine_->kinetic_energy(); }
-Real World::spin(BodyId body) const { return engine_->spin(body.index); }
+Real World::spin(BodyId body) const {
+  return engine_->spec_.surface_friction ? engine_->bodies_.spin(body.index) : Real(0.0);
+}
 Real World::energy_introduced() const { return engine_->ledger_.introduced(); }
 Real World::work_of_thrust() const { return engine_->work_of_thrust(); }
 Real World::dissipated() const { return engine_->dissipated(); }

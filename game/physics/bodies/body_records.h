@@ -13,12 +13,30 @@ namespace rink::physics::inline RINK_PRECISION {
 
 /// What an impact of two pucks reads and writes: one cache line.
 struct alignas(64) Body : Flight {
+  enum Flag : std::uint8_t {
+    removed = 1,
+    out_of_play = 2,
+    curved = 4,
+    held_x = 8,
+    held_y = 16,
+    frozen = 32,
+    touched = 64,  // by the event at hand
+    pending = 128  // to be predicted when time goes on
+  };
+  static constexpr std::uint8_t gone = removed | out_of_play, held = held_x | held_y,
+                                lasting = gone | held | frozen;
+  static constexpr std::uint8_t held_along(int axis) { return axis == 0 ? held_x : held_y; }
+  enum Mouth : std::uint8_t { no_mouth, left_mouth, right_mouth };
+
   Real inverse_mass;
   std::uint32_t version;
   BodyKind kind;
   MaterialId material;
-  std::uint8_t flags;  // Engine::Flag
-  std::uint8_t mouth;  // Engine::Mouth
+  std::uint8_t flags;  // of Flag
+  std::uint8_t mouth;  // of Mouth
+
+  /// Any of `some`.
+  bool is(std::uint8_t some) const { return (flags & some) != 0; }
 };
 
 /// What the body is, and the thrust on it.

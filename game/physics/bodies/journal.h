@@ -1,4 +1,4 @@
-// What happened to which body in a window of time, and what it takes to undo it.
+// What happened to which body in a window of time.
 #pragma once
 
 #include <algorithm>
@@ -25,20 +25,6 @@ struct Change {
 
 /// Kept by a world for the portion that looks at it (portion.h).
 struct Journal {
-  struct KeptFlight {
-    std::uint32_t body;
-    Flight flight;
-  };
-  struct KeptState {
-    std::uint32_t body;
-    BodyState state;  ///< but for the flight
-  };
-  /// What is kept of a body, and where: its flight if `number` is that of this window, all of it if
-  /// it is one more.
-  struct Mark {
-    std::uint32_t number = 0, flight = 0, state = 0;
-  };
-
   /// A rectangle, sides included [m].
   struct Room {
     Real low_x, low_y, high_x, high_y;
@@ -50,11 +36,7 @@ struct Journal {
   std::vector<Change> changes;
   std::vector<Motion>
       motions;  ///< of those that went on along a curve, or have companions, or are out of play
-  std::vector<KeptFlight> flights;       ///< of all that changed, before that
-  std::vector<KeptState> states;         ///< of those that changed otherwise than in a free impact
   std::vector<std::uint32_t> looked_at;  ///< by the event at hand
-  std::vector<Mark> marks;               ///< by body
-  std::uint32_t mark = 2;
   std::uint32_t event = 0;
   std::uint64_t stirred = 0;  ///< a digest of what the event at hand does to the rhythm of impacts
   Real time = 0.0;            ///< of it
@@ -74,11 +56,6 @@ struct Journal {
                                        ///< of them: from then on all is
   HoldAge age;
 
-  void keep_flight(std::uint32_t body, const Flight& flight) {
-    if (marks[body].number >= mark) return;
-    marks[body] = {mark, static_cast<std::uint32_t>(flights.size()), 0};
-    flights.push_back({body, flight});
-  }
   void enter(std::uint32_t body, const Flight& f, std::uint64_t conditions) {
     if (rooms_of[body] != 0) rooms_of[body] = 0, entered.push_back(body);
     changes.push_back(

@@ -5,21 +5,23 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "game/physics/bodies/bodies.h"
 #include "game/physics/bodies/body_records.h"
 #include "game/physics/bodies/clock.h"
 #include "game/physics/bodies/contact.h"
 #include "game/physics/bodies/energy_ledger.h"
 #include "game/physics/bodies/event_record.h"
+#include "game/physics/bodies/impact_history.h"
+#include "game/physics/bodies/jams.h"
 #include "game/physics/bodies/journal.h"
+#include "game/physics/bodies/observers.h"
 #include "game/physics/bodies/partner.h"
 #include "game/physics/bodies/tolerances.h"
+#include "game/physics/bodies/world_state.h"
 #include "game/physics/cell_grid.h"
-#include "game/physics/change_log.h"
 #include "game/physics/contact/contact_problem.h"
 #include "game/physics/contact/impact_solver.h"
 #include "game/physics/contact/separation_solver.h"
@@ -36,42 +38,26 @@ class Engine {
  public:
   explicit Engine(const WorldSpec& spec);
 
-  BodyId add(BodyKind kind, const RealVector& position, const RealVector& velocity, Real radius,
-             const RealVector& half_extent, Real mass, MaterialId material, Half half, Real spin);
+  BodyId add(BodyState state);  ///< at now; the law, the time and 1/mass follow
   void remove(std::uint32_t body);
   void set_thrust(std::uint32_t bat, const RealVector& acceleration);
   void place(std::uint32_t puck, const RealVector& position, const RealVector& velocity);
   std::optional<Goal> advance(Real until);
 
-  Motion motion(std::uint32_t body) const;
   bool is_free(const RealVector& centre, const RoundedBox& shape) const;
   Real kinetic_energy() const;
   RealVector momentum() const;
   Real max_overlap() const;
-  Real spin(std::uint32_t body) const { return is_rough() ? spins_[body] : 0.0; }
   Real work_of_thrust() const;
   Real dissipated() const;
   std::uint64_t hash() const;
-  std::vector<std::uint8_t> save() const;
-  static std::unique_ptr<Engine> restore(std::span<const std::uint8_t> bytes);
+  WorldState state() const;
+  /// Goes on from there, with the same bits.
+  void restore(WorldState state);
 
  private:
   friend class World;
   friend class Portion;
-
-  enum Flag : std::uint8_t {
-    removed = 1,
-    out_of_play = 2,
-    curved = 4,
-    held_x = 8,
-    held_y = 16,
-    frozen = 32,
-    touched = 64,
-    pending = 128
-  };
-  static constexpr std::uint8_t gone = removed | out_of_play, held = held_x | held_y;
-  static std::uint8_t held_along(int axis) { return axis == 0 ? held_x : held_y; }
-  enum Mouth : std::uint8_t { no_mouth, left_mouth, right_mouth };
 
   static constexpr Slot no_event{std::numeric_limits<Real>::infinity(),
                                  std::numeric_limits<Real>::infinity(),
@@ -81,11 +67,6 @@ class Engine {
                                  false};
 
   // engine.cpp: bodies and the loop
-  bool is_fixed(Partner p) const { return !is_body(p) || builds_[p].inverse_mass == 0.0; }
-  bool is_gone(std::uint32_t body) const { return (bodies_[body].flags & gone) != 0; }
-  Real inverse_mass(Partner p) const { return is_body(p) ? builds_[p].inverse_mass : 0.0; }
-  Motion at(std::uint32_t body, Real time) const { return motion(body).at(time); }
-  RoundedBox shape_of(std::uint32_t a, std::uint32_t b) const;
   HalfPlane plane_of(std::uint32_t body, Partner wall) const;
   RealVector goal_edge(Partner edge) const;
   Real reach_of(std::uint32_t body) const;
@@ -102,39 +83,17 @@ class Engine {
   void score(std::uint32_t body, Real time);
   void stop(std::uint32_t body, Real time);
 
-  // engine_state.cpp: rewriting last-event states
-  void rebase(std::uint32_t body, Real time);
-  void rebase_companions(std::uint32_t body, Real time);
-  void write_law(std::uint32_t body);
-  void set_law(std::uint32_t body, int axis, Real acceleration, Real drag);
-  Real own_drag(std::uint32_t body) const {
-    return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag;
-  }
-  void touch(std::uint32_t body);
-  Real energy_of(std::uint32_t body) const;
-  Expense expense_until(std::uint32_t body, Real time) const;
-  void wake(std::uint32_t body, Real time);
-
-  // engine_journal.cpp: what a portion of a world keeps of a window (portion.h)
-  void keep(std::uint32_t body) {
-    if (journal_ != nullptr) keep_state(body);
-  }
-  void keep_state(std::uint32_t body);
+  // engine_journal.cpp: what a portion of a world is told (portion.h)
   void enter_changes();
-  BodyState state_of(std::uint32_t body) const;
   std::uint64_t conditions_of(std::uint32_t body) const;
 
   // engine_friction.cpp
-  bool is_slowed() const { return spec_.puck_friction > 0.0; }
-  bool is_slowed(std::uint32_t body) const {
-    return is_slowed() && bodies_[body].kind == BodyKind::puck;
-  }
   bool is_sliding(std::uint32_t body) const {
     return bodies_[body].vx != 0.0 || bodies_[body].vy != 0.0;
   }
   Real own_push(std::uint32_t body, int axis) const {
-    return is_slowed() ? builds_[body].thrust[axis] + slowing_[body][axis]
-                       : builds_[body].thrust[axis];
+    return bodies_.is_slowed() ? bodies_.build(body).thrust[axis] + bodies_.slowing(body)[axis]
+                               : bodies_.build(body).thrust[axis];
   }
   void slide_touched();
   void slide(std::uint32_t body);
@@ -172,17 +131,13 @@ class Engine {
   // engine_impact.cpp
   RealVector position_at(std::uint32_t body, Real time) const;
   Contact contact(std::uint32_t body, Partner partner, Real time) const;
-  RealVector velocity_of(Partner p) const;
-  RealVector acceleration_of(Partner p) const;
   Real restitution(std::uint32_t body, Partner partner) const;
   bool collide_freely(std::uint32_t body, Partner partner, Real time);
   void collide(std::uint32_t body, Partner partner, Real time);
   void collide_ordered(std::uint32_t body, Partner partner, Real time);
   void bounce(const Contact& contact, Real restitution, Real time);
-  bool is_rough() const { return spec_.surface_friction.has_value(); }
   void rub(const Contact& contact, Real normal_impulse);
   void count_impact(std::uint32_t body, Partner partner, Real time);
-  void note_impact(std::uint32_t body, Real time);
 
   // engine_touching.cpp
   bool gather_touching(const Contact& contact, Real time);
@@ -198,6 +153,7 @@ class Engine {
   void apply_joint(const Contact& contact, Real time);
 
   // engine_rest.cpp
+  void rebase_companions(std::uint32_t body, Real time);
   bool can_rest(const Contact& contact) const;
   void rest(const Contact& contact, Real time);
   void share(int axis, const std::vector<std::uint32_t>& members, Real time);
@@ -216,14 +172,13 @@ class Engine {
   bool would_push_twice(const Contact& contact) const;
   bool are_held(std::uint32_t a, std::uint32_t b) const;
   void note_release(const Hold& hold, Real time) {
-    is_fixed(hold.low) ? record_.note(EventKind::release, time, hold.high, hold.low)
-                       : record_.note(EventKind::release, time, hold.low, hold.high);
+    bodies_.is_fixed(hold.low) ? record_.note(EventKind::release, time, hold.high, hold.low)
+                               : record_.note(EventKind::release, time, hold.low, hold.high);
   }
 
   // engine_cluster.cpp
   template <class Visit>
   void visit_partners(std::uint32_t body, Visit&& visit);
-  bool is_pressed_hard(std::uint32_t body, Partner partner, Real approach, Real time) const;
   bool hop(const Contact& contact, Real approach, Real pressing, Real time);
   bool is_rattling(Real approach) const;
   void gather(const Contact& contact, Real speed_max, Real time);
@@ -236,19 +191,8 @@ class Engine {
   Real still_speed() const;
   Real glancing_speed(Real thrust_max, Real pressing, Real speed) const;
 
-  // engine_overlap.cpp
-  void count_meeting(const Contact& contact);
-  std::uint32_t meetings(const Contact& contact) const;
-  bool is_hemmed_in(const Contact& contact) const;
-  bool is_beyond_hope(const Contact& contact) const;
-  bool is_stuck(const Contact& contact, Real time);
   void stop_around(const Contact& contact, Real time);
-  void stop_cluster();
 
-  // engine_snapshot.cpp
-  template <class Stream>
-  bool exchange_state(Stream& stream);
-  bool is_sound() const;
   void rebuild_from_state();
 
   WorldSpec spec_;
@@ -257,29 +201,25 @@ class Engine {
   Real puck_drag_;
   Real contact_time_;  // s
   Real rest_speed_;    // pressed contacts that close more slowly come to rest [m/s]
-  LargeArray<Body> bodies_;
+  Counters counters_;
+  Observers observers_;
+  EventRecord record_{counters_};
+  EnergyLedger ledger_;
+  Bodies bodies_;
+  ImpactHistory history_;
+  Jams jams_;
   LargeArray<Slot> slots_;
-  std::vector<Law> laws_;
-  std::vector<Build> builds_;
-  std::vector<Rhythm> rhythms_;
-  std::vector<std::uint32_t> jams_;  // number of the jam that a frozen body belongs to
-  std::vector<Real>
-      rest_times_;  // of worlds with friction: when it will have brought the body to rest
-  std::vector<RealVector> slowing_;  // likewise: its part in the acceleration of the body
-  std::vector<Real> spins_;          // of worlds with surface friction [rad/s]
   std::vector<Hold> holds_;
   CellGrid grid_;
   EventSchedule queue_;
-  Real reach_ = 0.0;                 // largest half extent of any body [m]
-  std::uint32_t grid_capacity_ = 0;  // bodies that the grid was made for
-  std::uint32_t jam_count_ = 0;
+  Real reach_ = 0.0;                       // largest half extent of any body [m]
+  std::uint32_t grid_capacity_ = 0;        // bodies that the grid was made for
   bool has_free_impacts_;                  // decided by the spec: collide_freely() may serve
-  std::uint32_t curved_count_ = 0;         // bodies not in straight flight
   std::vector<std::uint32_t> candidates_;  // near the body that is being predicted
   bool is_everything_pending_ = false;
   std::array<std::int64_t, 4>
       looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
-  std::vector<std::uint32_t> touched_, pending_, frozen_;
+  std::vector<std::uint32_t> pending_;
   std::vector<std::uint32_t> near_;
   std::vector<Real> accelerations_;
   std::vector<std::uint32_t> joint_;  // bodies of the cluster or joint impact at hand
@@ -290,11 +230,6 @@ class Engine {
   SeparationSolver separation_solver_;
   Real gap_max_ = cluster_gap;  // up to which a contact belongs to a cluster
   std::optional<Goal> goal_;
-  Counters counters_;
-  EventRecord record_{counters_};
-  EnergyLedger ledger_;
-  ChangeLog changes_;
-  Journal* journal_ = nullptr;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -9,9 +9,6 @@
 namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
-constexpr std::uint32_t slow_impacts_max = 8;  // within contact_time, before a hop
-constexpr std::uint32_t impacts_max =
-    24;  // likewise, whatever their speed, where impacts lose energy
 constexpr std::size_t cluster_max = 256;
 constexpr double glancing_part = 16.0;     // of contact_time
 constexpr std::uint32_t long_series = 64;  // of hops
@@ -21,17 +18,6 @@ constexpr double loose_gaps = 8.0;
 constexpr Real parting_min = 1e-12 * fineness;
 constexpr double creep_speed = 1e-9;  // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
-
-bool Engine::is_pressed_hard(std::uint32_t body, Partner p, Real approach, Real time) const {
-  const auto is_worn = [&](std::uint32_t b) {
-    const Rhythm& rhythm = rhythms_[b];
-    if (rhythm.impacts >= impacts_max) return true;
-    return approach < rest_speed_ &&
-           (rhythm.impacts >= slow_impacts_max ||
-            (rhythm.last_hop >= 0.0 && time - rhythm.last_hop < 4.0 * contact_time_));
-  };
-  return is_worn(body) || (!is_fixed(p) && is_worn(p));
-}
 
 /// Gives the cluster around `c` the nearest velocities (in the metric of the masses) that part all
 /// its contacts by a little: half of what its thrust, or the difference in drag that closes `c` by
@@ -45,20 +31,12 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
     given_back = std::min(given_back, contact.restitution);
   const Real pressure = std::max(thrust_max, pressing);
   if (problem_.touches.size() < 2 && (pressure <= 0.0 || approach >= rest_speed_)) return false;
-  if (pressure <= 0.0 && given_back == 1.0 && !is_rattling(approach) && !is_hemmed_in(c))
+  if (pressure <= 0.0 && given_back == 1.0 && !is_rattling(approach) && !history_.is_hemmed_in(c))
     return false;
   record_.note(EventKind::hop, time, c.body, c.partner);
   bool may_freeze = thrust_max > 0.0;
-  for (const std::uint32_t body : joint_) {
-    Rhythm& rhythm = rhythms_[body];
-    if (time - rhythm.last_hop > 8.0 * contact_time_) rhythm.hops = 0;
-    rhythm.last_hop = time;
-  }
-  const std::uint32_t hops = rhythms_[c.body].hops;
-  for (const std::uint32_t body : joint_) {
-    ++rhythms_[body].hops;
-    if (journal_ != nullptr) journal_->stir(body, 0x80000000u | rhythms_[body].hops);
-  }
+  history_.note_hop(joint_, time);
+  const std::uint32_t hops = history_.hops(c.body) - 1;  // before this one
   if (may_freeze && ((hops % 4 == 0 && freeze(thrust_max)) ||
                      (hops >= long_series && hops % 16 == 0 &&
                       freeze_loosely(c, std::max<Real>(rest_speed_, 2.0 * approach), time)))) {
@@ -66,7 +44,7 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
     return true;
   }
   for (std::size_t place = 0; place < joint_.size(); ++place)
-    problem_.velocities[place] = velocity_of(joint_[place]);
+    problem_.velocities[place] = bodies_.velocity(joint_[place]);
   const Real speed = problem_.speed();
   if (thrust_max == 0.0 && speed < still_speed()) {
     std::fill(problem_.velocities.begin(), problem_.velocities.end(), RealVector(0.0, 0.0));
@@ -76,7 +54,7 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
                    least, std::clamp<Real>(0.5 * pressure * contact_time_, 0.0, 0.5 * rest_speed_)),
                sum = driven * static_cast<Real>(problem_.touches.size());
     Real mass = 0.0;
-    for (const std::uint32_t body : joint_) mass += builds_[body].mass;
+    for (const std::uint32_t body : joint_) mass += bodies_.build(body).mass;
     const Real glancing = glancing_speed(thrust_max, pressing, speed);
     const Real gained =
         glancing > driven
@@ -88,8 +66,7 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
     counters_.hop_energy += std::max(0.0, static_cast<double>(gained));
   }
   for (std::size_t place = 0; place < joint_.size(); ++place) {
-    bodies_[joint_[place]].vx = problem_.velocities[place].x();
-    bodies_[joint_[place]].vy = problem_.velocities[place].y();
+    bodies_.set_velocity(joint_[place], problem_.velocities[place]);
   }
   return true;
 }
@@ -98,15 +75,15 @@ bool Engine::hop(const Contact& c, Real approach, Real pressing, Real time) {
 /// [m/s] is a rounding of a body's speed. Lossless impacts would then go on for ever, a few
 /// roundings of the clock apart, and no place would change.
 bool Engine::is_rattling(Real approach) const {
-  return is_slowed() && std::any_of(joint_.begin(), joint_.end(), [&](std::uint32_t body) {
-           return approach <= Real(parting_min) * velocity_of(body).norm();
+  return bodies_.is_slowed() && std::any_of(joint_.begin(), joint_.end(), [&](std::uint32_t body) {
+           return approach <= Real(parting_min) * bodies_.velocity(body).norm();
          });
 }
 
 /// The strongest thrust in the cluster [m/s^2].
 Real Engine::joint_thrust() const {
   Real most = 0.0;
-  for (const std::uint32_t body : joint_) most = std::max(most, builds_[body].thrust.norm());
+  for (const std::uint32_t body : joint_) most = std::max(most, bodies_.build(body).thrust.norm());
   return most;
 }
 
@@ -129,14 +106,14 @@ Real Engine::turning() const {
 /// takes more energy than the hop gives, for they are faster than twice the hop.
 Real Engine::glancing_speed(Real thrust_max, Real pressing, Real speed) const {
   const Real apart = 0.5 * pressing * Real(glancing_part) * contact_time_;
-  return is_slowed() && thrust_max == 0.0 && speed > 2.0 * apart ? apart : Real(0.0);
+  return bodies_.is_slowed() && thrust_max == 0.0 && speed > 2.0 * apart ? apart : Real(0.0);
 }
 
 /// What moves no faster than this, and is not driven, stops [m/s]: pucks that friction would stop
 /// within `contact_time`, and anything that merely creeps.
 Real Engine::still_speed() const {
-  const bool is_slowed_down = std::all_of(joint_.begin(), joint_.end(),
-                                          [&](std::uint32_t body) { return is_slowed(body); });
+  const bool is_slowed_down = std::all_of(
+      joint_.begin(), joint_.end(), [&](std::uint32_t body) { return bodies_.is_slowed(body); });
   return is_slowed_down ? std::max<Real>(creep_speed, spec_.puck_friction * contact_time_)
                         : Real(creep_speed);
 }
@@ -144,12 +121,12 @@ Real Engine::still_speed() const {
 std::uint32_t Engine::place_in_cluster(std::uint32_t body, Real time) {
   const auto found = std::find(joint_.begin(), joint_.end(), body);
   if (found != joint_.end()) return static_cast<std::uint32_t>(found - joint_.begin());
-  wake(body, time);
+  jams_.wake(body, time);
   for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
-  rebase(body, time);
+  bodies_.rebase(body, time);
   joint_.push_back(body);
-  problem_.add_body(builds_[body].mass, builds_[body].inverse_mass, velocity_of(body),
-                    is_slowed(body));
+  problem_.add_body(bodies_.build(body).mass, bodies_.build(body).inverse_mass,
+                    bodies_.velocity(body), bodies_.is_slowed(body));
   return static_cast<std::uint32_t>(joint_.size() - 1);
 }
 
@@ -157,9 +134,10 @@ void Engine::add_contact(std::uint32_t place, Partner p, Real speed_max, Real ti
   const std::uint32_t body = joint_[place];
   const Contact c = contact(body, p, time);
   if (c.gap.distance > gap_max_) return;
-  const RealVector there = is_fixed(p) ? RealVector(0.0, 0.0) : at(p, time).velocity;
-  if (std::abs(c.gap.normal.dot(velocity_of(body) - there)) > speed_max) return;
-  if (is_fixed(p)) {
+  const RealVector there =
+      bodies_.is_fixed(p) ? RealVector(0.0, 0.0) : motion_at(bodies_, p, time).velocity;
+  if (std::abs(c.gap.normal.dot(bodies_.velocity(body) - there)) > speed_max) return;
+  if (bodies_.is_fixed(p)) {
     problem_.touches.push_back({place, fixed_place, c.gap.normal, restitution(body, p)});
     return;
   }
@@ -175,7 +153,7 @@ void Engine::gather(const Contact& c, Real speed_max, Real time) {
   joint_.clear();
   problem_.clear();
   place_in_cluster(c.body, time);
-  if (!is_fixed(c.partner)) place_in_cluster(c.partner, time);
+  if (!bodies_.is_fixed(c.partner)) place_in_cluster(c.partner, time);
   for (std::uint32_t place = 0; place < joint_.size(); ++place)
     visit_partners(joint_[place], [&](Partner p) { add_contact(place, p, speed_max, time); });
 }
@@ -184,11 +162,11 @@ void Engine::gather(const Contact& c, Real speed_max, Real time) {
 /// as nothing else acts on it. Answers whether it could.
 bool Engine::freeze(Real thrust_max) {
   for (std::size_t place = 0; place < joint_.size(); ++place) {
-    if (velocity_of(joint_[place]).norm() > rest_speed_) return false;
-    problem_.velocities[place] = builds_[joint_[place]].thrust;
+    if (bodies_.velocity(joint_[place]).norm() > rest_speed_) return false;
+    problem_.velocities[place] = bodies_.build(joint_[place]).thrust;
   }
   if (!separation_solver_.bears(problem_, spec_.puck_friction, 1e-6 * thrust_max)) return false;
-  stop_cluster();
+  jams_.stop(joint_);
   return true;
 }
 

@@ -30,42 +30,42 @@ RealVector Engine::friction_along(const RealVector& velocity) const {
 /// first, for they may let it go.
 void Engine::slide_touched() {
   std::vector<std::uint32_t> done;
-  for (std::size_t i = 0; i < touched_.size(); ++i) {
-    const std::uint32_t body = touched_[i];
-    if ((bodies_[body].flags & held) == 0 || !is_slowed(body) ||
+  for (std::size_t i = 0; i < bodies_.touched().size(); ++i) {
+    const std::uint32_t body = bodies_.touched()[i];
+    if (!bodies_[body].is(Body::held) || !bodies_.is_slowed(body) ||
         std::find(done.begin(), done.end(), body) != done.end())
       continue;
     const std::optional<int> axis = pushed_axis(body);
     if (!axis) continue;
-    const std::vector<std::uint32_t> members = companions(body, held_along(*axis));
+    const std::vector<std::uint32_t> members = companions(body, Body::held_along(*axis));
     done.insert(done.end(), members.begin(), members.end());
     share(*axis, members, bodies_[body].time);
   }
-  for (const std::uint32_t body : touched_) slide(body);
+  for (const std::uint32_t body : bodies_.touched()) slide(body);
 }
 
 /// The law of friction for the velocity that the body has now; it does nothing to what friction
 /// does not slow. A pushed puck shares the law of its group along one axis.
 void Engine::slide(std::uint32_t body) {
-  if (!is_slowed(body)) return;
+  if (!bodies_.is_slowed(body)) return;
   if (const std::optional<int> axis = pushed_axis(body)) {
-    rest_times_[body] = infinity;
-    if ((bodies_[body].flags & held_along(1 - *axis)) == 0)
-      laws_[body].acceleration[1 - *axis] = slowing_[body][1 - *axis];
+    RealVector acceleration = bodies_.law(body).acceleration;
+    if (!bodies_[body].is(Body::held_along(1 - *axis)))
+      acceleration[1 - *axis] = bodies_.slowing(body)[1 - *axis];
+    bodies_.slide(body, acceleration, infinity);
   } else {
-    Motion sliding = motion(body);
+    Motion sliding = bodies_.motion(body);
     sliding.slide(spec_.puck_friction);
-    laws_[body].acceleration = slowing_[body] = sliding.acceleration;
-    rest_times_[body] = sliding.rest_time;
+    bodies_.set_slowing(body, sliding.acceleration);
+    bodies_.slide(body, sliding.acceleration, sliding.rest_time);
   }
-  write_law(body);
 }
 
 /// The axis along which the body is in rest contact with what can move, and with nothing fixed.
 std::optional<int> Engine::pushed_axis(std::uint32_t body) const {
   for (int axis = 0; axis < 2; ++axis)
-    if ((bodies_[body].flags & held_along(axis)) != 0 &&
-        !is_group_fixed(axis, companions(body, held_along(axis))))
+    if ((bodies_[body].flags & Body::held_along(axis)) != 0 &&
+        !is_group_fixed(axis, companions(body, Body::held_along(axis))))
       return axis;
   return std::nullopt;
 }
@@ -73,24 +73,22 @@ std::optional<int> Engine::pushed_axis(std::uint32_t body) const {
 /// Whether the group is free to move and has a puck that is also pushed along the other axis: its
 /// friction would bind two groups to each other.
 bool Engine::is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const {
-  if (!is_slowed() || is_group_fixed(axis, members)) return false;
+  if (!bodies_.is_slowed() || is_group_fixed(axis, members)) return false;
   return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) {
-    return is_slowed(member) && (bodies_[member].flags & held_along(1 - axis)) != 0 &&
-           !is_group_fixed(1 - axis, companions(member, held_along(1 - axis)));
+    return bodies_.is_slowed(member) && (bodies_[member].flags & Body::held_along(1 - axis)) != 0 &&
+           !is_group_fixed(1 - axis, companions(member, Body::held_along(1 - axis)));
   });
 }
 
 /// Stops what friction has slowed down to nothing.
 void Engine::calm(int axis, const std::vector<std::uint32_t>& members) {
-  const bool is_group_calm = std::abs(velocity_of(members.front())[axis]) <= calm_speed;
+  const bool is_group_calm = std::abs(bodies_.velocity(members.front())[axis]) <= calm_speed;
   for (const std::uint32_t member : members) {
-    Body& b = bodies_[member];
-    keep(member);
-    if (is_group_calm) (axis == 0 ? b.vx : b.vy) = 0.0;
-    Real& across = axis == 0 ? b.vy : b.vx;
-    if (is_slowed(member) && std::abs(across) <= calm_speed &&
-        (b.flags & held_along(1 - axis)) == 0)
-      across = 0.0;
+    bodies_.keep(member);
+    if (is_group_calm) bodies_.set_velocity(member, axis, 0.0);
+    if (bodies_.is_slowed(member) && std::abs(bodies_.velocity(member)[1 - axis]) <= calm_speed &&
+        !bodies_[member].is(Body::held_along(1 - axis)))
+      bodies_.set_velocity(member, 1 - axis, 0.0);
   }
 }
 
@@ -104,13 +102,14 @@ Real Engine::speed_lost(Real speed, Real push, Real drag) const {
 /// axis of a group that may stand, it remains to be found (solve_forces).
 void Engine::face_friction(const std::vector<std::uint32_t>& members) {
   for (const std::uint32_t member : members)
-    if (is_slowed(member)) slowing_[member] = friction_along(velocity_of(member));
+    if (bodies_.is_slowed(member))
+      bodies_.set_slowing(member, friction_along(bodies_.velocity(member)));
 }
 
 /// Whether a puck of the group slides across its axis, so that its friction turns.
 bool Engine::has_sliders(int axis, const std::vector<std::uint32_t>& members) const {
   return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) {
-    return is_slowed(member) && velocity_of(member)[1 - axis] != 0.0;
+    return bodies_.is_slowed(member) && bodies_.velocity(member)[1 - axis] != 0.0;
   });
 }
 
@@ -121,35 +120,38 @@ Real Engine::aim_friction(int axis, const std::vector<std::uint32_t>& members, R
   const int across = 1 - axis;
   if (is_group_fixed(axis, members) ||
       std::none_of(members.begin(), members.end(),
-                   [&](std::uint32_t member) { return is_slowed(member); }))
+                   [&](std::uint32_t member) { return bodies_.is_slowed(member); }))
     return infinity;
-  const Real speed = velocity_of(members.front())[axis];
+  const Real speed = bodies_.velocity(members.front())[axis];
   Real mass = 0.0, drag = 0.0;
   for (const std::uint32_t member : members)
-    mass += builds_[member].mass, drag += builds_[member].mass * own_drag(member);
+    mass += bodies_.build(member).mass,
+        drag += bodies_.build(member).mass * bodies_.own_drag(member);
   drag /= mass;
   const auto push = [&] {
     Real sum = 0.0;
-    for (const std::uint32_t member : members) sum += builds_[member].mass * own_push(member, axis);
+    for (const std::uint32_t member : members)
+      sum += bodies_.build(member).mass * own_push(member, axis);
     return sum / mass;
   };
   const auto slides_across = [&](std::uint32_t member) {
-    return is_slowed(member) && velocity_of(member)[across] != 0.0;
+    return bodies_.is_slowed(member) && bodies_.velocity(member)[across] != 0.0;
   };
   const auto until_stop = [&] {
     Real wait = speed_lost(speed, push(), drag);
     for (const std::uint32_t member : members)
       if (slides_across(member))
-        wait = std::min(wait, speed_lost(velocity_of(member)[across], slowing_[member][across],
-                                         own_drag(member)));
+        wait =
+            std::min(wait, speed_lost(bodies_.velocity(member)[across],
+                                      bodies_.slowing(member)[across], bodies_.own_drag(member)));
     return wait;
   };
   Real arc = infinity;
   for (const std::uint32_t member : members) {
     if (!slides_across(member)) continue;
-    const RealVector velocity = velocity_of(member);
-    const Real along = push() - drag * speed,
-               aside = slowing_[member][across] - own_drag(member) * velocity[across];
+    const RealVector velocity = bodies_.velocity(member);
+    const Real along = push() - drag * speed, aside = bodies_.slowing(member)[across] -
+                                                      bodies_.own_drag(member) * velocity[across];
     const Real square = velocity.squaredNorm(),
                rate = std::abs(velocity[axis] * aside - velocity[across] * along) / square;
     const Real growth = std::abs(velocity[axis] * along + velocity[across] * aside) / square;
@@ -162,11 +164,12 @@ Real Engine::aim_friction(int axis, const std::vector<std::uint32_t>& members, R
     const WarpedTime together = warp_unaccelerated(half, drag);
     for (const std::uint32_t member : members) {
       if (!slides_across(member)) continue;
-      const WarpedTime alone = warp_unaccelerated(half, own_drag(member));
+      const WarpedTime alone = warp_unaccelerated(half, bodies_.own_drag(member));
       RealVector velocity;
       velocity[axis] = speed * together.e + pushing * together.s;
-      velocity[across] = velocity_of(member)[across] * alone.e + slowing_[member][across] * alone.s;
-      slowing_[member] = friction_along(velocity);
+      velocity[across] =
+          bodies_.velocity(member)[across] * alone.e + bodies_.slowing(member)[across] * alone.s;
+      bodies_.set_slowing(member, friction_along(velocity));
     }
   }
   return time + std::min(arc, until_stop());
@@ -177,12 +180,14 @@ Real Engine::aim_friction(int axis, const std::vector<std::uint32_t>& members, R
 Real Engine::resist(const std::vector<std::uint32_t>& members, int axis) {
   Real change = 0.0;
   for (const std::uint32_t member : members) {
-    if (!is_slowed(member) || is_sliding(member)) continue;
-    const Real friction = std::clamp<Real>(slowing_[member][axis] - accelerations_[member],
+    if (!bodies_.is_slowed(member) || is_sliding(member)) continue;
+    RealVector slowing = bodies_.slowing(member);
+    const Real friction = std::clamp<Real>(slowing[axis] - accelerations_[member],
                                            -spec_.puck_friction, spec_.puck_friction);
-    change = std::max(change, std::abs(friction - slowing_[member][axis]));
-    accelerations_[member] += friction - slowing_[member][axis];
-    slowing_[member][axis] = friction;
+    change = std::max(change, std::abs(friction - slowing[axis]));
+    accelerations_[member] += friction - slowing[axis];
+    slowing[axis] = friction;
+    bodies_.set_slowing(member, slowing);
   }
   return change;
 }

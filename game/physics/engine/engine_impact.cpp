@@ -17,24 +17,15 @@ constexpr double press_min = 1e-7;
 RealVector Engine::position_at(std::uint32_t body, Real time) const {
   const Body& b = bodies_[body];
   return b.time >= time || b.kind == BodyKind::post ? RealVector(b.x, b.y)
-                                                    : at(body, time).position;
+                                                    : motion_at(bodies_, body, time).position;
 }
 
 auto Engine::contact(std::uint32_t body, Partner p, Real time) const -> Contact {
   const RealVector position = position_at(body, time);
-  if (is_body(p)) return {body, p, shape_of(body, p).gap(position - position_at(p, time))};
+  if (is_body(p)) return {body, p, shape_of(bodies_, body, p).gap(position - position_at(p, time))};
   if (p >= partner::edge_left_low && p <= partner::edge_right_high)
     return {body, p, RoundedBox{{0.0, 0.0}, bodies_[body].radius}.gap(position - goal_edge(p))};
   return {body, p, plane_of(body, p).gap(position)};
-}
-
-RealVector Engine::velocity_of(Partner p) const {
-  return is_body(p) ? RealVector(bodies_[p].vx, bodies_[p].vy) : RealVector(0.0, 0.0);
-}
-
-RealVector Engine::acceleration_of(Partner p) const {
-  if (is_fixed(p)) return {0.0, 0.0};
-  return laws_[p].acceleration - laws_[p].drag.cwiseProduct(velocity_of(p));
 }
 
 Real Engine::restitution(std::uint32_t body, Partner p) const {
@@ -50,13 +41,14 @@ Real Engine::restitution(std::uint32_t body, Partner p) const {
 bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
   if (!is_body(p)) return false;
   const std::uint32_t low = std::min(body, p), high = std::max(body, p);
-  Body &a = bodies_[low], &b = bodies_[high];
+  const Body &a = bodies_[low], &b = bodies_[high];
   if ((a.flags | b.flags) != 0 || a.kind != BodyKind::puck || b.kind != BodyKind::puck ||
       !has_free_impacts_ || spec_.restitution(a.material, b.material) != 1.0)
     return false;
   if (is_crowded(body, p)) return false;
-  const bool is_counting = journal_ != nullptr && curved_count_ == 0 && counts_touching();
-  if (journal_ != nullptr && !is_counting && has_company(body, p, time)) return false;
+  const bool is_counting =
+      observers_.journal != nullptr && bodies_.curved_count() == 0 && counts_touching();
+  if (observers_.journal != nullptr && !is_counting && has_company(body, p, time)) return false;
   const Real elapsed_a = a.time < time ? time - a.time : 0.0,
              elapsed_b = b.time < time ? time - b.time : 0.0;
   const Real ax = a.x + a.vx * elapsed_a, ay = a.y + a.vy * elapsed_a, bx = b.x + b.vx * elapsed_b,
@@ -72,9 +64,8 @@ bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
   const Flight before_a = a, before_b = b;
   const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * square);
   const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
-  a.restart(ax, ay, a.vx + kick_a * x, a.vy + kick_a * y, std::max(a.time, time));
-  b.restart(bx, by, b.vx - kick_b * x, b.vy - kick_b * y, std::max(b.time, time));
-  ++a.version, ++b.version;
+  bodies_.restart(low, {ax, ay}, {a.vx + kick_a * x, a.vy + kick_a * y}, std::max(a.time, time));
+  bodies_.restart(high, {bx, by}, {b.vx - kick_b * x, b.vy - kick_b * y}, std::max(b.time, time));
   if (is_counting) {
     const Slot slot_a = slots_[low], slot_b = slots_[high];
     const std::uint64_t predictions = counters_.predictions;
@@ -82,20 +73,19 @@ bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
     const bool is_alone = square <= touching * touching && predict_counting(low) == 2 &&
                           predict_counting(high) == 2;  // each itself and the other
     if (!is_alone) {
-      static_cast<Flight&>(a) = before_a, static_cast<Flight&>(b) = before_b;
-      --a.version, --b.version;
+      bodies_.take_back(low, before_a), bodies_.take_back(high, before_b);
       slots_[low] = slot_a, slots_[high] = slot_b;
       counters_.predictions = predictions;
       return false;
     }
   }
   record_.note(EventKind::puck_puck, time, low, high);
-  changes_.note(low), changes_.note(high);
+  bodies_.changes().note(low), bodies_.changes().note(high);
   counters_.evaluations += (before_a.time < time) + (before_b.time < time);
   counters_.bodies_touched += 2;
-  if (journal_ != nullptr) {
-    journal_->keep_flight(low, before_a), journal_->keep_flight(high, before_b);
-    journal_->enter_impact(low, a, a.mouth, high, b, b.mouth);
+  if (observers_.journal != nullptr) {
+    observers_.before->keep_flight(low, before_a), observers_.before->keep_flight(high, before_b);
+    observers_.journal->enter_impact(low, a, a.mouth, high, b, b.mouth);
   }
   if (is_counting) {
     enqueue(low);
@@ -110,39 +100,39 @@ bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
 void Engine::collide(std::uint32_t body, Partner p, Real time) {
   const std::uint32_t first = is_body(p) ? std::min(body, p) : body;
   if (is_body(p)) p = std::max(body, p);
-  if (is_body(p) && builds_[first].inverse_mass == 0.0) return collide_ordered(p, first, time);
+  if (is_body(p) && bodies_.build(first).inverse_mass == 0.0)
+    return collide_ordered(p, first, time);
   collide_ordered(first, p, time);
 }
 
 void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
   count_impact(body, p, time);
-  wake(body, time);
+  jams_.wake(body, time);
   rebase_companions(body, time);
-  if (is_body(p)) wake(p, time), rebase_companions(p, time);
+  if (is_body(p)) jams_.wake(p, time), rebase_companions(p, time);
   const Contact c = contact(body, p, time);
-  if (spec_.allow_overlap && is_stuck(c, time)) return stop_around(c, time);
-  count_meeting(c);
-  if (is_beyond_hope(c)) return stop_around(c, time);
+  if (spec_.allow_overlap && history_.is_stuck(c, time)) return stop_around(c, time);
+  history_.count_meeting(c, clock_.instant_begin);
+  if (history_.is_beyond_hope(c)) return stop_around(c, time);
   const RealVector& normal = c.gap.normal;
-  const Real approach = normal.dot(velocity_of(p) - velocity_of(body)),
+  const Real approach = normal.dot(bodies_.velocity(p) - bodies_.velocity(body)),
              given_back = restitution(body, p);
-  if (approach < rest_speed_ || given_back < 1.0 || is_hemmed_in(c)) {
-    const Real pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
+  if (approach < rest_speed_ || given_back < 1.0 || history_.is_hemmed_in(c)) {
+    const Real pressing = normal.dot(acceleration_of(bodies_, p) - acceleration_of(bodies_, body));
     // A body in an arc of friction (engine_friction.cpp) may be pressed by the arc's law and pulled
     // by the instant's: it comes to rest so often at one instant, then it hops.
-    const auto has_rested_enough = [&] { return rhythms_[body].repeats.add(time) > 8; };
     if (approach < rest_speed_ && pressing > press_min && can_rest(c) &&
-        !(is_slowed() && has_rested_enough()))
+        !(bodies_.is_slowed() && history_.has_rested_enough(body, time)))
       return rest(c, time);
-    note_impact(body, time);
-    if (!is_fixed(p)) note_impact(p, time);
-    if ((is_hemmed_in(c) || is_pressed_hard(body, p, approach, time)) &&
+    history_.note_impact(body, time);
+    if (!bodies_.is_fixed(p)) history_.note_impact(p, time);
+    if ((history_.is_hemmed_in(c) || history_.is_pressed_hard(c, approach, time)) &&
         hop(c, approach, pressing, time))
       return;
   }
   if (is_crowded(body, p)) {
     if (collide_together(c, time)) return;
-  } else if (journal_ != nullptr) {
+  } else if (observers_.journal != nullptr) {
     look_at_touching(c, time);
   }
   bounce(c, given_back, time);
@@ -155,54 +145,57 @@ void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
 /// by -1e-19 per impact.
 void Engine::bounce(const Contact& c, Real given_back, Real time) {
   for (int axis = 0; axis < 2; ++axis) {
-    if (c.gap.normal[axis] == 0.0 && !is_rough()) continue;
+    if (c.gap.normal[axis] == 0.0 && !spec_.surface_friction) continue;
     dissolve(c.body, axis, time);
     if (is_body(c.partner)) dissolve(c.partner, axis, time);
   }
-  const RealVector here = velocity_of(c.body), there = velocity_of(c.partner);
+  const RealVector here = bodies_.velocity(c.body), there = bodies_.velocity(c.partner);
   const RealVector& line = c.gap.line;
   const Real square = line.squaredNorm(), length = std::sqrt(square),
              approach = line.dot(there - here);
   const Real separation =
       std::max(given_back * approach, separation_min * (here.norm() + there.norm()) * length);
-  const Real own = inverse_mass(c.body), other = inverse_mass(c.partner);
+  const Real own = bodies_.inverse_mass(c.body), other = bodies_.inverse_mass(c.partner);
   const Real impulse = std::max<Real>(0.0, approach + separation) / ((own + other) * square);
-  if (is_rough()) return rub(c, impulse * length);
-  Body& b = bodies_[c.body];
-  b.vx = here.x() + impulse * own * line.x();
-  b.vy = here.y() + impulse * own * line.y();
+  if (spec_.surface_friction) return rub(c, impulse * length);
+  bodies_.set_velocity(c.body,
+                       {here.x() + impulse * own * line.x(), here.y() + impulse * own * line.y()});
   if (other == 0.0) return;
-  Body& p = bodies_[c.partner];
-  p.vx = there.x() - impulse * other * line.x();
-  p.vy = there.y() - impulse * other * line.y();
+  bodies_.set_velocity(
+      c.partner, {there.x() - impulse * other * line.x(), there.y() - impulse * other * line.y()});
 }
 
 /// The impulse along the normal and that of the surfaces along the tangent, which turns discs (O.
 /// R. Walton, Mechanics of Materials 16, 1993; docs/physics.md, "Spin").
 void Engine::rub(const Contact& c, Real normal_impulse) {
   const RealVector &normal = c.gap.normal, tangent(-normal.y(), normal.x());
-  const bool is_partner_moved = inverse_mass(c.partner) > 0.0;
+  const bool is_partner_moved = bodies_.inverse_mass(c.partner) > 0.0;
   const auto turns = [&](Partner p) { return is_body(p) && bodies_[p].kind == BodyKind::puck; };
   const auto rim_speed = [&](Partner p) {
-    return turns(p) ? spins_[p] * bodies_[p].radius : Real(0.0);
+    return turns(p) ? bodies_.spin(p) * bodies_[p].radius : Real(0.0);
   };
   // Of a uniform disc, 1/m + r^2/I = 3/m.
-  const auto yielding = [&](Partner p) { return (turns(p) ? 3.0 : 1.0) * inverse_mass(p); };
+  const auto yielding_of = [&](Partner p) {
+    return (turns(p) ? 3.0 : 1.0) * bodies_.inverse_mass(p);
+  };
   const MaterialId own = bodies_[c.body].material,
                    other = is_body(c.partner) ? bodies_[c.partner].material : spec_.field.wall;
-  const Real slip = tangent.dot(velocity_of(c.body) - velocity_of(c.partner)) -
+  const Real slip = tangent.dot(bodies_.velocity(c.body) - bodies_.velocity(c.partner)) -
                     (rim_speed(c.body) + rim_speed(c.partner));
   const Real stick = (1.0 + Real(spec_.surface_friction->tangential_restitution(own, other))) *
-                     std::abs(slip) / (yielding(c.body) + yielding(c.partner));
+                     std::abs(slip) / (yielding_of(c.body) + yielding_of(c.partner));
   const Real rubbing = -std::copysign(
       std::min<Real>(stick, spec_.surface_friction->coefficient(own, other) * normal_impulse),
       slip);
   const RealVector impulse = normal_impulse * normal + rubbing * tangent;
   const auto kick = [&](std::uint32_t body, Real sign) {
-    Body& b = bodies_[body];
-    b.vx += sign * inverse_mass(body) * impulse.x(),
-        b.vy += sign * inverse_mass(body) * impulse.y();
-    if (turns(body)) spins_[body] -= 2.0 * inverse_mass(body) * rubbing / b.radius;
+    const RealVector velocity = bodies_.velocity(body);
+    const Real yielding = sign * bodies_.inverse_mass(body);
+    bodies_.set_velocity(
+        body, {velocity.x() + yielding * impulse.x(), velocity.y() + yielding * impulse.y()});
+    if (turns(body))
+      bodies_.set_spin(body, bodies_.spin(body) -
+                                 2.0 * bodies_.inverse_mass(body) * rubbing / bodies_[body].radius);
   };
   kick(c.body, 1.0);
   if (is_partner_moved) kick(c.partner, -1.0);
@@ -219,17 +212,6 @@ void Engine::count_impact(std::uint32_t body, Partner p, Real time) {
     return is(BodyKind::puck) ? EventKind::puck_bat : EventKind::bat_bat;
   };
   record_.note(kind(), time, body, p);
-}
-
-void Engine::note_impact(std::uint32_t body, Real time) {
-  keep(body);
-  Rhythm& rhythm = rhythms_[body];
-  if (time - rhythm.window_start > contact_time_) {
-    rhythm.window_start = time;
-    rhythm.impacts = 0;
-  }
-  ++rhythm.impacts;
-  if (journal_ != nullptr) journal_->stir(body, rhythm.impacts);
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -41,7 +41,7 @@ std::uint32_t Engine::begin_prediction(std::uint32_t body) {
   slots_[body].partner = partner::none;
   slots_[body].is_tied = false;
   predict_field(body);
-  if ((bodies_[body].flags & curved) != 0) predict_curved_crossing(body);
+  if ((bodies_[body].flags & Body::curved) != 0) predict_curved_crossing(body);
   candidates_.resize(grid_.collected_max());
   --counters_.predictions;  // of the body with itself
   return grid_.collect(body, candidates_.data());
@@ -57,11 +57,12 @@ std::uint32_t Engine::predict_counting(std::uint32_t body) {
 
 void Engine::predict_field(std::uint32_t body) {
   const Body& b = bodies_[body];
-  if (is_slowed() && rest_times_[body] < infinity) offer(body, rest_times_[body], partner::stop);
-  if ((b.flags & held) != 0) predict_release(body);
-  if ((b.flags & curved) != 0) predict_curved_walls(body);
+  if (bodies_.is_slowed() && bodies_.rest_time(body) < infinity)
+    offer(body, bodies_.rest_time(body), partner::stop);
+  if ((b.flags & Body::held) != 0) predict_release(body);
+  if ((b.flags & Body::curved) != 0) predict_curved_walls(body);
   else predict_flight(body);
-  if (b.mouth != no_mouth) predict_mouth(body);
+  if (b.mouth != Body::no_mouth) predict_mouth(body);
 }
 
 /// The instant at which the pucks' warped clock has advanced by `warped` since `start`; infinite if
@@ -103,7 +104,7 @@ void Engine::predict_side_wall(std::uint32_t body) {
 void Engine::predict_end_wall(std::uint32_t body) {
   const Body& b = bodies_[body];
   const Field& field = spec_.field;
-  if (b.vx == 0.0 || b.mouth != no_mouth) return;
+  if (b.vx == 0.0 || b.mouth != Body::no_mouth) return;
   const Real gap = b.vx < 0.0 ? b.x - b.radius : field.length - b.radius - b.x;
   const Real warped = std::max<Real>(0.0, gap) / std::abs(b.vx);
   const Real y = b.y + b.vy * warped;
@@ -118,7 +119,8 @@ void Engine::predict_end_wall(std::uint32_t body) {
 /// stay on the side of the normal.
 HalfPlane Engine::plane_of(std::uint32_t body, Partner wall) const {
   const Field& field = spec_.field;
-  const RealVector extent = builds_[body].half_extent + RealVector::Constant(bodies_[body].radius);
+  const RealVector extent =
+      bodies_.build(body).half_extent + RealVector::Constant(bodies_[body].radius);
   switch (wall) {
     case partner::wall_left:
       return {{1.0, 0.0}, extent.x()};
@@ -131,13 +133,13 @@ HalfPlane Engine::plane_of(std::uint32_t body, Partner wall) const {
     default:
       break;
   }
-  if (builds_[body].half == Half::left) return {{-1.0, 0.0}, extent.x() - 0.5 * field.length};
+  if (bodies_.build(body).half == Half::left) return {{-1.0, 0.0}, extent.x() - 0.5 * field.length};
   return {{1.0, 0.0}, extent.x() + 0.5 * field.length};
 }
 
 void Engine::predict_curved_walls(std::uint32_t body) {
   const Body& b = bodies_[body];
-  const Motion still, moving = motion(body);
+  const Motion still, moving = bodies_.motion(body);
   const RelativeMotion relative{still, moving};
   const auto predict_plane = [&](Partner wall) {
     const auto time = first_contact(relative, plane_of(body, wall), b.time,
@@ -149,13 +151,14 @@ void Engine::predict_curved_walls(std::uint32_t body) {
                              0.5 * spec_.field.goal_width;
     offer(body, *time, is_open ? partner::mouth_in : wall);
   };
-  const bool is_resting_x = b.vx == 0.0 && laws_[body].acceleration.x() == 0.0,
-             is_resting_y = b.vy == 0.0 && laws_[body].acceleration.y() == 0.0;
+  const bool is_resting_x = b.vx == 0.0 && bodies_.law(body).acceleration.x() == 0.0,
+             is_resting_y = b.vy == 0.0 && bodies_.law(body).acceleration.y() == 0.0;
   if (!is_resting_y) predict_plane(partner::wall_bottom), predict_plane(partner::wall_top);
-  if (is_resting_x || b.mouth != no_mouth) return;
+  if (is_resting_x || b.mouth != Body::no_mouth) return;
   predict_plane(partner::wall_left);
   predict_plane(partner::wall_right);
-  if (spec_.field.bats_keep_to_half && b.kind == BodyKind::bat && builds_[body].half != Half::both)
+  if (spec_.field.bats_keep_to_half && b.kind == BodyKind::bat &&
+      bodies_.build(body).half != Half::both)
     predict_plane(partner::halfway);
 }
 
@@ -170,8 +173,8 @@ RealVector Engine::goal_edge(Partner edge) const {
 /// Between the edges of a goal: the two edges, the goal line, and the way out.
 void Engine::predict_mouth(std::uint32_t body) {
   const Body& b = bodies_[body];
-  const bool is_left = b.mouth == left_mouth;
-  const Motion moving = motion(body);
+  const bool is_left = b.mouth == Body::left_mouth;
+  const Motion moving = bodies_.motion(body);
   Motion still;
   const auto meet = [&](const auto& shape, Partner p) {
     const auto time = first_contact(RelativeMotion{still, moving}, shape, b.time,
@@ -192,14 +195,15 @@ void Engine::predict_mouth(std::uint32_t body) {
 void Engine::predict_pairs(std::uint32_t body, std::uint32_t count) {
   counters_.predictions += count;
   std::uint32_t* near = candidates_.data();
-  if ((bodies_[body].flags & curved) == 0 && puck_drag_ == 0.0) {
+  if ((bodies_[body].flags & Body::curved) == 0 && puck_drag_ == 0.0) {
     const auto is_curved = [&](std::uint32_t other) {
-      return (bodies_[other].flags & curved) != 0;
+      return (bodies_[other].flags & Body::curved) != 0;
     };
     std::uint32_t* const straight_end =
-        curved_count_ == 0 ? near + count
-                           : std::partition(near, near + count,
-                                            [&](std::uint32_t other) { return !is_curved(other); });
+        bodies_.curved_count() == 0 ? near + count
+                                    : std::partition(near, near + count, [&](std::uint32_t other) {
+                                        return !is_curved(other);
+                                      });
     for (std::uint32_t* other = straight_end; other != near + count; ++other)
       predict_curved_pair(body, *other);
     predict_straight_pairs<false>(body, near, static_cast<std::uint32_t>(straight_end - near));
@@ -221,8 +225,8 @@ std::uint32_t Engine::predict_straight_pairs(std::uint32_t body, std::uint32_t* 
     // The slack keeps those that come within the same instant.
     const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness) + Real(instant);
     const Meeting first =
-        counts ? first_meeting_counting(bodies_.data(), body, near + begin, asked, latest)
-               : first_meeting(bodies_.data(), body, near + begin, asked, latest);
+        counts ? first_meeting_counting(bodies_.all(), body, near + begin, asked, latest)
+               : first_meeting(bodies_.all(), body, near + begin, asked, latest);
     touching += first.touching;
     const bool is_tied = first.second_time <= first.time + Real(instant) ||
                          std::abs(first.time - slot.impact_time) <= Real(instant);
@@ -247,7 +251,7 @@ std::uint32_t Engine::predict_straight_pairs(std::uint32_t body, std::uint32_t* 
 /// nothing but the two states.
 void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
   const Body &a = bodies_[body], &b = bodies_[other];
-  if (((a.flags | b.flags) & curved) != 0) return predict_curved_pair(body, other);
+  if (((a.flags | b.flags) & Body::curved) != 0) return predict_curved_pair(body, other);
   RealVector offset(b.x - a.x, b.y - a.y), velocity;
   const Real time = std::max(a.time, b.time);
   if (puck_drag_ == 0.0) {
@@ -271,18 +275,18 @@ void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
 }
 
 void Engine::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
-  if ((bodies_[body].flags & bodies_[other].flags & frozen) != 0) return;
-  if ((bodies_[body].flags & held) != 0 && are_held(body, other)) return;
+  if ((bodies_[body].flags & bodies_[other].flags & Body::frozen) != 0) return;
+  if ((bodies_[body].flags & Body::held) != 0 && are_held(body, other)) return;
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
-  const Motion a = motion(low), b = motion(high);
+  const Motion a = bodies_.motion(low), b = bodies_.motion(high);
   const Real start = std::max(a.time, b.time);
   // What comes after the next crossing of a body on a curve is looked for then, when everybody in
   // sight is looked at anew.
   const Slot& slot = slots_[body];
-  const Real limit = (bodies_[body].flags & curved) != 0
+  const Real limit = (bodies_[body].flags & Body::curved) != 0
                          ? std::min(slot.impact_time, slot.crossing_time)
                          : slot.impact_time;
-  const auto time = first_contact(RelativeMotion{a, b}, shape_of(low, high), start,
+  const auto time = first_contact(RelativeMotion{a, b}, shape_of(bodies_, low, high), start,
                                   limit + Real(instant), tolerance_);
   if (time) offer(body, *time, other);
 }
@@ -299,7 +303,7 @@ void Engine::predict_curved_crossing(std::uint32_t body) {
   Slot& slot = slots_[body];
   slot.crossing_time = infinity;
   const CellGrid::Place place = grid_.place(body);
-  const Motion still, moving = motion(body);
+  const Motion still, moving = bodies_.motion(body);
   const Real start = std::max(bodies_[body].time, clock_.now);
   const auto leave = [&](Real edge, const RealVector& normal, CellGrid::Direction direction) {
     if (std::abs(edge) == infinity) return;

@@ -19,57 +19,60 @@ bool Engine::is_free(const RealVector& centre, const RoundedBox& shape) const {
             rows = static_cast<int>(grid_.row(y + range) - row);
   bool is_clear = true;
   grid_.around(column, row, 0, columns, 0, rows, [&](std::uint32_t body) {
-    const RoundedBox both{builds_[body].half_extent + shape.half_extent,
+    const RoundedBox both{bodies_.build(body).half_extent + shape.half_extent,
                           bodies_[body].radius + shape.radius};
-    is_clear = is_clear && both.gap(centre - at(body, clock_.now).position).distance >= 0.0;
+    is_clear = is_clear &&
+               both.gap(centre - motion_at(bodies_, body, clock_.now).position).distance >= 0.0;
   });
   return is_clear;
 }
 
 Real Engine::kinetic_energy() const {
   Real sum = 0.0;
-  for (std::uint32_t body = 0; body < bodies_.size(); ++body)
-    if (!is_gone(body) && builds_[body].inverse_mass > 0.0)
-      sum += 0.5 * builds_[body].mass * at(body, clock_.now).velocity.squaredNorm();
-  for (std::uint32_t body = 0; body < spins_.size(); ++body)
-    if (!is_gone(body) && bodies_[body].kind == BodyKind::puck)
-      sum += 0.25 * builds_[body].mass * std::pow(bodies_[body].radius * spins_[body], 2);
+  for (std::uint32_t body = 0; body < bodies_.count(); ++body)
+    if (!bodies_.is_gone(body) && bodies_.build(body).inverse_mass > 0.0)
+      sum += 0.5 * bodies_.build(body).mass *
+             motion_at(bodies_, body, clock_.now).velocity.squaredNorm();
+  for (std::uint32_t body = 0; body < bodies_.table().spins.size(); ++body)
+    if (!bodies_.is_gone(body) && bodies_[body].kind == BodyKind::puck)
+      sum +=
+          0.25 * bodies_.build(body).mass * std::pow(bodies_[body].radius * bodies_.spin(body), 2);
   return sum;
 }
 
 RealVector Engine::momentum() const {
   RealVector sum(0.0, 0.0);
-  for (std::uint32_t body = 0; body < bodies_.size(); ++body)
-    if (!is_gone(body) && builds_[body].inverse_mass > 0.0)
-      sum += builds_[body].mass * at(body, clock_.now).velocity;
+  for (std::uint32_t body = 0; body < bodies_.count(); ++body)
+    if (!bodies_.is_gone(body) && bodies_.build(body).inverse_mass > 0.0)
+      sum += bodies_.build(body).mass * motion_at(bodies_, body, clock_.now).velocity;
   return sum;
 }
 
 Real Engine::work_of_thrust() const {
   if (!ledger_.is_kept()) return 0.0;
   Sum sum = ledger_.work();
-  for (std::uint32_t body = 0; body < bodies_.size(); ++body)
-    if (!is_gone(body)) sum.add(expense_until(body, clock_.now).work);
+  for (std::uint32_t body = 0; body < bodies_.count(); ++body)
+    if (!bodies_.is_gone(body)) sum.add(expense_until(bodies_, body, clock_.now).work);
   return sum.value();
 }
 
 Real Engine::dissipated() const {
   if (!ledger_.is_kept()) return 0.0;
   Sum sum = ledger_.loss();
-  for (std::uint32_t body = 0; body < bodies_.size(); ++body)
-    if (!is_gone(body)) sum.add(expense_until(body, clock_.now).loss);
+  for (std::uint32_t body = 0; body < bodies_.count(); ++body)
+    if (!bodies_.is_gone(body)) sum.add(expense_until(bodies_, body, clock_.now).loss);
   return sum.value();
 }
 
 Real Engine::max_overlap() const {
   Real deepest = 0.0;
-  for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
-    if (is_gone(body) || bodies_[body].kind == BodyKind::post) continue;
-    const RealVector position = at(body, clock_.now).position;
+  for (std::uint32_t body = 0; body < bodies_.count(); ++body) {
+    if (bodies_.is_gone(body) || bodies_[body].kind == BodyKind::post) continue;
+    const RealVector position = motion_at(bodies_, body, clock_.now).position;
     const RealVector extent =
-        builds_[body].half_extent + RealVector::Constant(bodies_[body].radius);
+        bodies_.build(body).half_extent + RealVector::Constant(bodies_[body].radius);
     const Real end =
-        bodies_[body].mouth == no_mouth
+        bodies_[body].mouth == Body::no_mouth
             ? std::min(position.x() - extent.x(), spec_.field.length - extent.x() - position.x())
             : Real(0.0);
     const Real side =
@@ -77,9 +80,10 @@ Real Engine::max_overlap() const {
     deepest = std::max({deepest, -end, -side});
     grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
       if (other != body)
-        deepest = std::max(
-            deepest,
-            -shape_of(body, other).gap(position - at(other, clock_.now).position).distance);
+        deepest =
+            std::max(deepest, -shape_of(bodies_, body, other)
+                                   .gap(position - motion_at(bodies_, other, clock_.now).position)
+                                   .distance);
     });
   }
   return deepest;
@@ -87,13 +91,13 @@ Real Engine::max_overlap() const {
 
 std::uint64_t Engine::hash() const {
   BodyHash hash;
-  for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
+  for (std::uint32_t body = 0; body < bodies_.count(); ++body) {
     const Body& b = bodies_[body];
-    const bool is_curved = (b.flags & curved) != 0;
-    const Law& law = laws_[body];
+    const bool is_curved = (b.flags & Body::curved) != 0;
+    const Law& law = bodies_.law(body);
     hash.add(b, is_curved ? &law.acceleration : nullptr, is_curved ? &law.drag : nullptr,
-             static_cast<std::uint8_t>(b.flags & (gone | held | frozen)),
-             is_rough() ? std::optional<Real>(spins_[body]) : std::nullopt);
+             static_cast<std::uint8_t>(b.flags & (Body::gone | Body::held | Body::frozen)),
+             spec_.surface_friction ? std::optional<Real>(bodies_.spin(body)) : std::nullopt);
   }
   return hash.value();
 }

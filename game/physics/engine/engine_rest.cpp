@@ -27,21 +27,31 @@ bool Engine::are_held(std::uint32_t a, std::uint32_t b) const {
 std::vector<std::uint32_t> Engine::companions(std::uint32_t body, std::uint8_t axes) const {
   std::vector<std::uint32_t> found{body};
   const auto include = [&](Partner p) {
-    if (!is_fixed(p) && std::find(found.begin(), found.end(), p) == found.end()) found.push_back(p);
+    if (!bodies_.is_fixed(p) && std::find(found.begin(), found.end(), p) == found.end())
+      found.push_back(p);
   };
   for (std::size_t i = 0; i < found.size(); ++i)
     for (const Hold& hold : holds_) {
-      if ((axes & held_along(hold.axis)) == 0) continue;
+      if ((axes & Body::held_along(hold.axis)) == 0) continue;
       if (hold.low == found[i]) include(hold.high);
       else if (hold.high == found[i]) include(hold.low);
     }
   return found;
 }
 
+/// Bodies in rest contact keep bitwise equal velocities only if they are evaluated from the same
+/// instant, so they are rebased together.
+void Engine::rebase_companions(std::uint32_t body, Real time) {
+  bodies_.rebase(body, time);
+  if (!bodies_[body].is(Body::held)) return;
+  for (const std::uint32_t companion : companions(body, Body::held))
+    bodies_.rebase(companion, time);
+}
+
 bool Engine::would_push_twice(const Contact& c) const {
-  if (!is_slowed() || is_fixed(c.partner)) return false;
-  std::vector<std::uint32_t> members = companions(c.body, held_along(c.gap.face));
-  const std::vector<std::uint32_t> others = companions(c.partner, held_along(c.gap.face));
+  if (!bodies_.is_slowed() || bodies_.is_fixed(c.partner)) return false;
+  std::vector<std::uint32_t> members = companions(c.body, Body::held_along(c.gap.face));
+  const std::vector<std::uint32_t> others = companions(c.partner, Body::held_along(c.gap.face));
   members.insert(members.end(), others.begin(), others.end());
   return is_pushed_twice(c.gap.face, members);
 }
@@ -50,13 +60,14 @@ bool Engine::can_rest(const Contact& c) const {
   if (c.gap.face < 0 || would_push_twice(c)) return false;
   if (!is_body(c.partner)) return true;
   const int along = 1 - c.gap.face;
-  const Real extent = shape_of(c.body, c.partner).half_extent[along];
-  const Motion here = motion(c.body), there = motion(c.partner);
+  const Real extent = shape_of(bodies_, c.body, c.partner).half_extent[along];
+  const Motion here = bodies_.motion(c.body), there = bodies_.motion(c.partner);
   const Real offset = here.position[along] - there.position[along],
              speed = here.velocity[along] - there.velocity[along];
   // Two discs have no face: in line they rest on each other only while nothing moves them sideways.
   if (extent == 0.0)
-    return speed == 0.0 && acceleration_of(c.body)[along] == acceleration_of(c.partner)[along];
+    return speed == 0.0 &&
+           acceleration_of(bodies_, c.body)[along] == acceleration_of(bodies_, c.partner)[along];
   return std::abs(offset) < extent - face_margin ||
          (std::abs(offset) <= extent && offset * speed < 0.0);
 }
@@ -67,32 +78,33 @@ void Engine::rest(const Contact& c, Real time) {
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
   holds_.push_back({is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis,
-                    infinity, 0.0, infinity, journal_ ? journal_->next_age() : HoldAge{}});
+                    infinity, 0.0, infinity,
+                    observers_.journal ? observers_.journal->next_age() : HoldAge{}});
   for (const Partner p : {c.body, c.partner})
-    if (!is_fixed(p)) bodies_[p].flags |= held_along(axis);
-  const std::vector<std::uint32_t> members = companions(c.body, held_along(axis));
+    if (!bodies_.is_fixed(p)) bodies_.set_flags(p, Body::held_along(axis));
+  const std::vector<std::uint32_t> members = companions(c.body, Body::held_along(axis));
   Real mass = 0.0, momentum = 0.0;
   for (const std::uint32_t member : members) {
     rebase_companions(member, time);
-    mass += builds_[member].mass;
-    momentum += builds_[member].mass * velocity_of(member)[axis];
+    mass += bodies_.build(member).mass;
+    momentum += bodies_.build(member).mass * bodies_.velocity(member)[axis];
   }
   const Real speed = is_group_fixed(axis, members) ? 0.0 : momentum / mass;
-  for (const std::uint32_t member : members)
-    (axis == 0 ? bodies_[member].vx : bodies_[member].vy) = speed;
+  for (const std::uint32_t member : members) bodies_.set_velocity(member, axis, speed);
   share(axis, members, time);
 }
 
 bool Engine::is_in_group(const Hold& hold, int axis,
                          const std::vector<std::uint32_t>& members) const {
   if (hold.axis != axis) return false;
-  const Partner inside = is_fixed(hold.low) ? hold.high : hold.low;
+  const Partner inside = bodies_.is_fixed(hold.low) ? hold.high : hold.low;
   return std::find(members.begin(), members.end(), inside) != members.end();
 }
 
 bool Engine::is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const {
   return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
-    return is_in_group(hold, axis, members) && (is_fixed(hold.low) || is_fixed(hold.high));
+    return is_in_group(hold, axis, members) &&
+           (bodies_.is_fixed(hold.low) || bodies_.is_fixed(hold.high));
   });
 }
 
@@ -102,28 +114,31 @@ bool Engine::is_group_fixed(int axis, const std::vector<std::uint32_t>& members)
 /// reproducible.
 void Engine::solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed,
                           bool only_push) {
-  accelerations_.resize(bodies_.size());
+  accelerations_.resize(bodies_.count());
   Real scale = 1.0;
   for (const std::uint32_t member : members) {
-    accelerations_[member] = own_push(member, axis) - own_drag(member) * speed;
+    accelerations_[member] = own_push(member, axis) - bodies_.own_drag(member) * speed;
     scale = std::max(scale, std::abs(accelerations_[member]));
   }
   for (Hold& hold : holds_)
     if (is_in_group(hold, axis, members)) hold.force = 0.0;
-  const bool may_stick = is_slowed() && only_push && speed == 0.0 && !is_group_fixed(axis, members);
+  const bool may_stick =
+      bodies_.is_slowed() && only_push && speed == 0.0 && !is_group_fixed(axis, members);
   for (int sweep = 0; sweep < 2000; ++sweep) {
     Real change = may_stick ? resist(members, axis) : Real(0.0);
     for (Hold& hold : holds_) {
       if (!is_in_group(hold, axis, members)) continue;
-      const Real low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low],
-                 high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
-      const Real yielding = inverse_mass(hold.low) + inverse_mass(hold.high);
+      const Real low = bodies_.is_fixed(hold.low) ? 0.0 : accelerations_[hold.low],
+                 high = bodies_.is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
+      const Real yielding = bodies_.inverse_mass(hold.low) + bodies_.inverse_mass(hold.high);
       Real force = hold.force + (low - high) / yielding;
       if (only_push) force = std::max<Real>(0.0, force);
       const Real step = force - hold.force;
       hold.force = force;
-      if (!is_fixed(hold.low)) accelerations_[hold.low] -= step * inverse_mass(hold.low);
-      if (!is_fixed(hold.high)) accelerations_[hold.high] += step * inverse_mass(hold.high);
+      if (!bodies_.is_fixed(hold.low))
+        accelerations_[hold.low] -= step * bodies_.inverse_mass(hold.low);
+      if (!bodies_.is_fixed(hold.high))
+        accelerations_[hold.high] += step * bodies_.inverse_mass(hold.high);
       change = std::max(change, std::abs(step) * yielding);
     }
     if (change <= 1e-13 * fineness * scale) break;
@@ -135,13 +150,13 @@ void Engine::solve_forces(int axis, const std::vector<std::uint32_t>& members, R
 void Engine::share(int axis, const std::vector<std::uint32_t>& members, Real time) {
   // Who is pulled is judged by the friction of this instant, as the next impact is, and not by that
   // of an arc.
-  if (is_slowed()) calm(axis, members), face_friction(members);
-  const Real speed = velocity_of(members.front())[axis];
+  if (bodies_.is_slowed()) calm(axis, members), face_friction(members);
+  const Real speed = bodies_.velocity(members.front())[axis];
   solve_forces(axis, members, speed, true);
   const auto is_pulled = [&](const Hold& hold) {
     if (!is_in_group(hold, axis, members) || hold.force > 0.0) return false;
-    const Real low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low],
-               high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
+    const Real low = bodies_.is_fixed(hold.low) ? 0.0 : accelerations_[hold.low],
+               high = bodies_.is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
     return high - low > pull_min;
   };
   for (const Hold& hold : holds_)
@@ -150,7 +165,7 @@ void Engine::share(int axis, const std::vector<std::uint32_t>& members, Real tim
   std::vector<std::uint32_t> done;
   for (const std::uint32_t member : members) {
     if (std::find(done.begin(), done.end(), member) != done.end()) continue;
-    const std::vector<std::uint32_t> part = companions(member, held_along(axis));
+    const std::vector<std::uint32_t> part = companions(member, Body::held_along(axis));
     if (part.size() > 1 && is_pushed_twice(axis, part)) {
       const auto is_in_part = [&](const Hold& hold) { return is_in_group(hold, axis, part); };
       for (const Hold& hold : holds_)
@@ -158,7 +173,7 @@ void Engine::share(int axis, const std::vector<std::uint32_t>& members, Real tim
       std::erase_if(holds_, is_in_part);
       for (const std::uint32_t alone : part) share_part(axis, {alone}, time);
     } else {
-      const Real turn_time = is_slowed() ? aim_friction(axis, part, time) : Real(infinity);
+      const Real turn_time = bodies_.is_slowed() ? aim_friction(axis, part, time) : Real(infinity);
       share_part(axis, part, time);
       for (Hold& hold : holds_)
         if (is_in_group(hold, axis, part)) hold.turn_time = turn_time;
@@ -172,24 +187,24 @@ void Engine::share_part(int axis, const std::vector<std::uint32_t>& part, Real t
   const bool is_alone = part.size() == 1 && !is_fixed_part;
   Real mass = 0.0, thrust = 0.0, drag = 0.0;
   for (const std::uint32_t member : part) {
-    mass += builds_[member].mass;
-    thrust += builds_[member].mass * own_push(member, axis);
-    drag += builds_[member].mass * own_drag(member);
+    mass += bodies_.build(member).mass;
+    thrust += bodies_.build(member).mass * own_push(member, axis);
+    drag += bodies_.build(member).mass * bodies_.own_drag(member);
   }
   // Groups that friction holds: a puck at rest bears less than it could.
   const auto bears_more = [&](std::uint32_t member) {
-    return is_slowed(member) && !is_sliding(member) &&
-           std::abs(slowing_[member][axis]) < (1.0 - 1e-9) * spec_.puck_friction;
+    return bodies_.is_slowed(member) && !is_sliding(member) &&
+           std::abs(bodies_.slowing(member)[axis]) < (1.0 - 1e-9) * spec_.puck_friction;
   };
-  const bool stands = !is_alone && !is_fixed_part && velocity_of(part.front())[axis] == 0.0 &&
+  const bool stands = !is_alone && !is_fixed_part && bodies_.velocity(part.front())[axis] == 0.0 &&
                       std::any_of(part.begin(), part.end(), bears_more);
   for (const std::uint32_t member : part) {
-    Body& b = bodies_[member];
-    b.flags = static_cast<std::uint8_t>(is_alone ? b.flags & ~held_along(axis)
-                                                 : b.flags | held_along(axis));
-    if (is_fixed_part || stands) set_law(member, axis, 0.0, own_drag(member));
-    else if (is_alone) set_law(member, axis, builds_[member].thrust[axis], own_drag(member));
-    else set_law(member, axis, thrust / mass, drag / mass);
+    is_alone ? bodies_.clear_flags(member, Body::held_along(axis))
+             : bodies_.set_flags(member, Body::held_along(axis));
+    if (is_fixed_part || stands) bodies_.set_law(member, axis, 0.0, bodies_.own_drag(member));
+    else if (is_alone)
+      bodies_.set_law(member, axis, bodies_.build(member).thrust[axis], bodies_.own_drag(member));
+    else bodies_.set_law(member, axis, thrust / mass, drag / mass);
   }
   const bool is_still = is_fixed_part || stands;
   if (!is_alone)
@@ -204,7 +219,7 @@ void Engine::set_pull_times(int axis, const std::vector<std::uint32_t>& part, Re
   for (Hold& hold : holds_)
     if (is_in_group(hold, axis, part)) hold.pull_time = infinity;
   if (drag == 0.0) return;
-  const Real speed = velocity_of(part.front())[axis];
+  const Real speed = bodies_.velocity(part.front())[axis];
   solve_forces(axis, part, speed, false);
   std::vector<Real> forces;
   for (const Hold& hold : holds_)
@@ -216,13 +231,13 @@ void Engine::set_pull_times(int axis, const std::vector<std::uint32_t>& part, Re
     const Real now = forces[i++], finally = hold.force;
     Real scale = 0.0;
     for (const std::uint32_t member : part)
-      scale += builds_[member].mass *
-               (std::abs(builds_[member].thrust[axis]) + own_drag(member) * std::abs(speed));
+      scale += bodies_.build(member).mass * (std::abs(bodies_.build(member).thrust[axis]) +
+                                             bodies_.own_drag(member) * std::abs(speed));
     if (finally >= -1e-12 * scale) continue;
     hold.pull_time = time - log1p_of(-now / (now - finally)) / drag;
     // An arc's friction is not quite that of its beginning: a contact that is pressed now and
     // pulled along the arc would come and go at one instant.
-    if (is_slowed() && has_sliders(axis, part))
+    if (bodies_.is_slowed() && has_sliders(axis, part))
       hold.pull_time = std::max(hold.pull_time, time + contact_time_);
   }
 }
@@ -230,8 +245,8 @@ void Engine::set_pull_times(int axis, const std::vector<std::uint32_t>& part, Re
 /// Ends every rest contact of the group of `body` along `axis`; each member goes on with the common
 /// velocity and its own thrust and drag.
 void Engine::dissolve(std::uint32_t body, int axis, Real time) {
-  if ((bodies_[body].flags & held_along(axis)) == 0) return;
-  const std::vector<std::uint32_t> members = companions(body, held_along(axis));
+  if (!bodies_[body].is(Body::held_along(axis))) return;
+  const std::vector<std::uint32_t> members = companions(body, Body::held_along(axis));
   for (const std::uint32_t member : members) rebase_companions(member, time);
   std::erase_if(holds_, [&](const Hold& hold) { return is_in_group(hold, axis, members); });
   for (const std::uint32_t member : members) share_part(axis, {member}, time);
@@ -242,12 +257,13 @@ void Engine::dissolve(std::uint32_t body, int axis, Real time) {
 Real Engine::slide_time(const Hold& hold) const {
   if (!is_body(hold.low) || !is_body(hold.high)) return infinity;
   const int along = 1 - hold.axis;
-  const Real extent = shape_of(hold.low, hold.high).half_extent[along];
-  const Motion low = motion(hold.low), high = motion(hold.high);
+  const Real extent = shape_of(bodies_, hold.low, hold.high).half_extent[along];
+  const Motion low = bodies_.motion(hold.low), high = bodies_.motion(hold.high);
   const Real start = std::max(low.time, high.time);
   if (extent == 0.0) {
-    const bool is_still = velocity_of(hold.low)[along] == velocity_of(hold.high)[along] &&
-                          acceleration_of(hold.low)[along] == acceleration_of(hold.high)[along];
+    const bool is_still =
+        bodies_.velocity(hold.low)[along] == bodies_.velocity(hold.high)[along] &&
+        acceleration_of(bodies_, hold.low)[along] == acceleration_of(bodies_, hold.high)[along];
     return is_still ? infinity : start;
   }
   Real earliest = infinity;
@@ -271,8 +287,8 @@ void Engine::release(std::uint32_t body, Real time) {
     if (!ends && hold.turn_time > time) continue;
     if (ends) note_release(hold, time);
     else record_.note(EventKind::turn, time, body);
-    const Partner inside = is_fixed(hold.low) ? hold.high : hold.low;
-    const std::vector<std::uint32_t> members = companions(inside, held_along(hold.axis));
+    const Partner inside = bodies_.is_fixed(hold.low) ? hold.high : hold.low;
+    const std::vector<std::uint32_t> members = companions(inside, Body::held_along(hold.axis));
     for (const std::uint32_t member : members) rebase_companions(member, time);
     if (ends) holds_.erase(holds_.begin() + static_cast<std::ptrdiff_t>(i));
     return share(hold.axis, members, time);

@@ -17,13 +17,13 @@ bool Engine::is_crowded(std::uint32_t body, Partner p) const {
 /// directly or through others. False if there are none, or if no solution was found that keeps the
 /// energy; then nothing has changed, and no other is looked for until the instant is over.
 bool Engine::collide_together(const Contact& c, Real time) {
-  if (is_rough() || clock_.is_hopeless) return false;
+  if (spec_.surface_friction || clock_.is_hopeless) return false;
   const bool is_joint = gather_touching(c, time) || clock_.is_endless();
   note_looked_at();
   if (!is_joint) return false;
   velocities_before_ = problem_.velocities;
   clock_.is_hopeless = !impact_solver_.solve(problem_, clock_.is_endless());
-  if (clock_.is_hopeless && journal_ != nullptr) journal_->was_hopeless = true;
+  if (clock_.is_hopeless && observers_.journal != nullptr) observers_.journal->was_hopeless = true;
   if (clock_.is_hopeless) return false;
   ++counters_.joint_impacts;
   apply_joint(c, time);
@@ -39,14 +39,14 @@ void Engine::apply_joint(const Contact& at_hand, Real time) {
     const std::uint32_t body = joint_[touch.body];
     const Partner partner = partners_[i];
     if (body != at_hand.body || partner != at_hand.partner) {
-      if (is_fixed(partner)) count_impact(body, partner, time);
+      if (bodies_.is_fixed(partner)) count_impact(body, partner, time);
       else count_impact(std::min(body, partner), std::max(body, partner), time);
-      note_impact(body, time);
-      if (!is_fixed(partner)) note_impact(partner, time);
+      history_.note_impact(body, time);
+      if (!bodies_.is_fixed(partner)) history_.note_impact(partner, time);
     }
     for (const Partner p : {body, partner}) {
-      if (is_fixed(p)) continue;
-      wake(p, time);
+      if (bodies_.is_fixed(p)) continue;
+      jams_.wake(p, time);
       rebase_companions(p, time);
       for (int axis = 0; axis < 2; ++axis)
         if (touch.normal[axis] != 0.0) dissolve(p, axis, time);
@@ -55,11 +55,10 @@ void Engine::apply_joint(const Contact& at_hand, Real time) {
   for (std::size_t place = 0; place < joint_.size(); ++place) {
     if (problem_.velocities[place] == velocities_before_[place]) continue;
     const std::uint32_t body = joint_[place];
-    keep(body);
-    bodies_[body].vx = problem_.velocities[place].x();
-    bodies_[body].vy = problem_.velocities[place].y();
-    touch(body);  // also of one that moves by a rounding without a push: what is predicted of it
-                  // must follow from its state
+    bodies_.keep(body);
+    bodies_.set_velocity(body, problem_.velocities[place]);
+    bodies_.touch(body);  // also of one that moves by a rounding without a push: what is predicted
+                          // of it must follow from its state
   }
 }
 

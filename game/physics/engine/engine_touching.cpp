@@ -21,14 +21,15 @@ constexpr double touch_roundings = 16.0;
 /// instant, however far away, by somebody whom this world does not have. So it concerns all of
 /// them, and the journal says so; nothing else changes.
 void Engine::look_at_touching(const Contact& c, Real time) {
-  if (is_rough() || clock_.is_hopeless || !has_company(c.body, c.partner, time)) return;
+  if (spec_.surface_friction || clock_.is_hopeless || !has_company(c.body, c.partner, time)) return;
   gather_touching(c, time);
   note_looked_at();
 }
 
 void Engine::note_looked_at() {
-  if (journal_ != nullptr)
-    journal_->looked_at.insert(journal_->looked_at.end(), joint_.begin(), joint_.end());
+  if (observers_.journal != nullptr)
+    observers_.journal->looked_at.insert(observers_.journal->looked_at.end(), joint_.begin(),
+                                         joint_.end());
 }
 
 /// Whether a third body may touch one of the two: never missed, and hardly ever wrong.
@@ -45,44 +46,45 @@ bool Engine::has_company(std::uint32_t body, Partner p, Real time) {
     const double x = b.x + b.vx * ahead_b - ax, y = b.y + b.vy * ahead_b - ay,
                  touching = a.radius + b.radius + 0.5 * clear_of_touching;
     return x * x + y * y <= touching * touching &&
-           count_near_in_fours(bodies_.data(), candidates_.data(), count, one, ax, ay, time,
+           count_near_in_fours(bodies_.all(), candidates_.data(), count, one, ax, ay, time,
                                a.radius + clear_of_touching) == 2 + fillers;
   };
   // Bats are on curves, always.
-  if (has_fours && curved_count_ == 0 && puck_drag_ == 0.0 && !is_fixed(p) && is_alone(body, p) &&
-      is_alone(p, body))
+  if (has_fours && bodies_.curved_count() == 0 && puck_drag_ == 0.0 && !bodies_.is_fixed(p) &&
+      is_alone(body, p) && is_alone(p, body))
     return false;
 #endif
   const auto has_third = [&](std::uint32_t one, Partner two) {
     const std::uint32_t count = grid_.collect(one, candidates_.data());
     const Body& a = bodies_[one];
     const bool is_straight =
-        (a.flags & curved) == 0 && a.kind == BodyKind::puck && puck_drag_ == 0.0;
+        (a.flags & Body::curved) == 0 && a.kind == BodyKind::puck && puck_drag_ == 0.0;
     const Real ahead = std::max<Real>(0.0, time - a.time), ax = a.x + a.vx * ahead,
                ay = a.y + a.vy * ahead, least = a.radius + Real(clear_of_touching);
     for (const std::uint32_t *other = candidates_.data(), *end = other + count; other != end;
          ++other) {
       const Body& b = bodies_[*other];
       const bool is_pair_straight =
-          is_straight && (b.flags & curved) == 0 && b.kind == BodyKind::puck;
+          is_straight && (b.flags & Body::curved) == 0 && b.kind == BodyKind::puck;
       const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed - ax,
                  y = b.y + b.vy * elapsed - ay, reach = b.radius + least;
       if ((is_pair_straight && x * x + y * y > reach * reach) || *other == one || *other == two ||
-          is_fixed(*other))
+          bodies_.is_fixed(*other))
         continue;
       if (is_pair_straight || contact(one, *other, time).gap.distance <= Real(clear_of_touching))
         return true;
     }
     return false;
   };
-  return has_third(body, p) || (!is_fixed(p) && has_third(p, body));
+  return has_third(body, p) || (!bodies_.is_fixed(p) && has_third(p, body));
 }
 
 std::uint32_t Engine::place_in_joint(std::uint32_t body, Real time) {
   const auto found = std::find(joint_.begin(), joint_.end(), body);
   if (found != joint_.end()) return static_cast<std::uint32_t>(found - joint_.begin());
   joint_.push_back(body);
-  problem_.add_body(builds_[body].mass, builds_[body].inverse_mass, at(body, time).velocity, false);
+  problem_.add_body(bodies_.build(body).mass, bodies_.build(body).inverse_mass,
+                    motion_at(bodies_, body, time).velocity, false);
   return static_cast<std::uint32_t>(joint_.size() - 1);
 }
 
@@ -95,7 +97,7 @@ void Engine::add_touch(std::uint32_t place, Partner p, const Contact& at_hand, R
       tolerance_ + std::numeric_limits<Real>::epsilon() * time * problem_.velocities[place].norm();
   if (!is_at_hand && c.gap.distance > touch_roundings * rounding) return;
   std::uint32_t other = fixed_place;
-  if (!is_fixed(p)) {
+  if (!bodies_.is_fixed(p)) {
     if (joint_.size() >= joint_max && std::find(joint_.begin(), joint_.end(), p) == joint_.end())
       return;
     other = place_in_joint(p, time);
@@ -112,7 +114,7 @@ bool Engine::gather_touching(const Contact& c, Real time) {
   problem_.clear();
   partners_.clear();
   place_in_joint(c.body, time);
-  if (!is_fixed(c.partner)) place_in_joint(c.partner, time);
+  if (!bodies_.is_fixed(c.partner)) place_in_joint(c.partner, time);
   for (std::uint32_t place = 0; place < joint_.size(); ++place)
     visit_partners(joint_[place], [&](Partner p) { add_touch(place, p, c, time); });
   // Slower than this, the time of an impact is too uncertain to tell whether it belongs to the

@@ -18,11 +18,11 @@ void Engine::visit_partners(std::uint32_t body, Visit&& visit) {
   });
   std::sort(near_.begin(), near_.end());
   for (const std::uint32_t other : near_) visit(other);
-  const bool is_in_mouth = bodies_[body].mouth != no_mouth;
+  const bool is_in_mouth = bodies_[body].mouth != Body::no_mouth;
   for (Partner wall = partner::wall_left; wall <= partner::wall_top; ++wall)
     if (!(is_in_mouth && wall <= partner::wall_right)) visit(wall);
   if (spec_.field.bats_keep_to_half && bodies_[body].kind == BodyKind::bat &&
-      builds_[body].half != Half::both)
+      bodies_.build(body).half != Half::both)
     visit(partner::halfway);
   if (spec_.field.goal_width > 0.0 && bodies_[body].kind == BodyKind::puck)
     for (Partner edge = partner::edge_left_low; edge <= partner::edge_right_high; ++edge)

@@ -1,9 +1,10 @@
-// A world's state as bytes, and back.
+// The order of the bytes, and what a state must be to be possible.
+#include "game/physics/bodies/world_state.h"
+
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
-#include "game/physics/engine/engine.h"
 #include "game/physics/snapshot_stream.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -96,111 +97,94 @@ bool exchange_hold(Stream& stream, Hold& hold) {
   return stream.numbers(low, high, axis, pull_time, force, turn_time);
 }
 
-}  // namespace
-
-/// All that the future depends on. What follows from it (predictions, grid, queue) is made anew,
-/// what observers asked for (recorded events) is not part of it.
+/// The specification apart, which comes first.
 template <class Stream>
-bool Engine::exchange_state(Stream& stream) {
-  if (!stream.numbers(clock_.now, jam_count_, clock_.instant_begin, clock_.events_at_once) ||
-      !stream.truth(clock_.is_played) || !stream.truth(clock_.is_hopeless) ||
-      !exchange(stream, counters_))
+bool exchange_state(Stream& stream, WorldState& state) {
+  auto& [spec, clock, counters, table, rhythms, jams, ledger, holds] = state;
+  if (!stream.numbers(clock.now, jams.count, clock.instant_begin, clock.events_at_once) ||
+      !stream.truth(clock.is_played) || !stream.truth(clock.is_hopeless) ||
+      !exchange(stream, counters))
     return false;
-  if (!stream.size(bodies_) || !stream.size(holds_) || !stream.size(frozen_)) return false;
-  const std::size_t count = bodies_.size();
-  builds_.resize(count), laws_.resize(count), rhythms_.resize(count), jams_.resize(count);
-  for (std::size_t body = 0; body < count; ++body) {
-    if (!exchange_body(stream, bodies_[body], builds_[body], laws_[body], rhythms_[body]) ||
-        !stream.number(jams_[body]))
+  auto& [bodies, builds, laws, rest_times, slowings, spins] = table;
+  if (!stream.size(bodies) || !stream.size(holds) || !stream.size(jams.frozen)) return false;
+  const std::size_t count = bodies.size();
+  builds.resize(count), laws.resize(count), rhythms.resize(count), jams.numbers.resize(count);
+  for (std::size_t body = 0; body < count; ++body)
+    if (!exchange_body(stream, bodies[body], builds[body], laws[body], rhythms[body]) ||
+        !stream.number(jams.numbers[body]))
       return false;
-  }
-  if (is_slowed()) rest_times_.resize(count), slowing_.resize(count);
-  if (is_rough()) spins_.resize(count);
-  for (Real& time : rest_times_)
+  if (spec.puck_friction > 0.0) rest_times.resize(count), slowings.resize(count);
+  if (spec.surface_friction) spins.resize(count);
+  for (Real& time : rest_times)
     if (!stream.number(time)) return false;
-  for (RealVector& slowing : slowing_)
+  for (RealVector& slowing : slowings)
     if (!stream.numbers(slowing.x(), slowing.y())) return false;
-  for (Real& spin : spins_)
+  for (Real& spin : spins)
     if (!stream.number(spin)) return false;
-  if (!ledger_.exchange(stream)) return false;
-  for (Hold& hold : holds_)
+  if (!ledger.exchange(stream)) return false;
+  for (Hold& hold : holds)
     if (!exchange_hold(stream, hold)) return false;
-  for (std::uint32_t& body : frozen_)
+  for (std::uint32_t& body : jams.frozen)
     if (!stream.number(body)) return false;
   return true;
 }
 
-bool Engine::is_sound() const {
-  const auto count = static_cast<std::uint32_t>(bodies_.size());
+bool is_sound(const Body& b, const Build& build, const Law& law, const WorldState& state) {
   const auto is_finite = [](const RealVector& v) { return v.allFinite(); };
-  for (std::uint32_t body = 0; body < count; ++body) {
-    const Body& b = bodies_[body];
-    const Build& build = builds_[body];
-    if (!is_finite({b.x, b.y}) || !is_finite({b.vx, b.vy}) ||
-        !is_finite(laws_[body].acceleration) || !is_finite(build.half_extent) ||
-        !is_finite(build.thrust))
-      return false;
-    if (!(b.time <= clock_.now) || !(b.radius >= 0.0) || !std::isfinite(b.radius) ||
-        !(build.mass > 0.0) || !(build.inverse_mass >= 0.0))
-      return false;
-    if (b.inverse_mass != build.inverse_mass) return false;
-    if (b.material >= spec_.restitution.material_count() || b.mouth > right_mouth ||
-        !(laws_[body].drag.minCoeff() >= 0.0))
-      return false;
-  }
+  return is_finite({b.x, b.y}) && is_finite({b.vx, b.vy}) && is_finite(law.acceleration) &&
+         is_finite(build.half_extent) && is_finite(build.thrust) && b.time <= state.clock.now &&
+         b.radius >= 0.0 && std::isfinite(b.radius) && build.mass > 0.0 &&
+         build.inverse_mass >= 0.0 && b.inverse_mass == build.inverse_mass &&
+         b.material < state.spec.restitution.material_count() && b.mouth <= Body::right_mouth &&
+         law.drag.minCoeff() >= 0.0;
+}
+
+bool is_sound(const WorldState& state) {
+  const BodyTable& table = state.bodies;
+  const auto count = static_cast<std::uint32_t>(table.bodies.size());
+  for (std::uint32_t body = 0; body < count; ++body)
+    if (!is_sound(table.bodies[body], table.builds[body], table.laws[body], state)) return false;
   const auto is_partner = [&](Partner p) {
     return p < count || (p >= partner::field_parts && p <= partner::halfway);
   };
-  return std::isfinite(clock_.now) &&
-         std::all_of(frozen_.begin(), frozen_.end(),
+  const auto is_fixed = [&](Partner p) {
+    return !is_body(p) || table.builds[p].inverse_mass == 0.0;
+  };
+  return std::isfinite(state.clock.now) &&
+         std::all_of(state.jams.frozen.begin(), state.jams.frozen.end(),
                      [&](std::uint32_t body) { return body < count; }) &&
-         std::all_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
+         std::all_of(state.holds.begin(), state.holds.end(), [&](const Hold& hold) {
            return is_partner(hold.low) && is_partner(hold.high) &&
                   !(is_fixed(hold.low) && is_fixed(hold.high)) &&
                   (hold.axis == 0 || hold.axis == 1);
          });
 }
 
-std::vector<std::uint8_t> Engine::save() const {
-  Engine state(*this);
-  for (Body& b : state.bodies_) b.flags = static_cast<std::uint8_t>(b.flags & ~pending);
+}  // namespace
+
+std::vector<std::uint8_t> to_snapshot(WorldState state) {
   SnapshotWriter writer;
   std::uint64_t kind = magic;
   std::uint32_t format = version, digits = std::numeric_limits<Real>::digits;
   writer.numbers(kind, format, digits);
-  exchange(writer, state.spec_);
-  state.exchange_state(writer);
+  exchange(writer, state.spec);
+  exchange_state(writer, state);
   return writer.finish();
 }
 
-std::unique_ptr<Engine> Engine::restore(std::span<const std::uint8_t> bytes) {
+std::optional<WorldState> from_snapshot(std::span<const std::uint8_t> bytes) {
   SnapshotReader reader(bytes);
   std::uint64_t kind = 0;
   std::uint32_t format = 0, digits = 0;
   if (!reader.is_intact() || !reader.numbers(kind, format, digits) || kind != magic ||
       format != version || digits != std::numeric_limits<Real>::digits)
-    return nullptr;
-  WorldSpec spec;
-  if (!exchange(reader, spec)) return nullptr;
-  auto engine = std::make_unique<Engine>(spec);
-  if (!engine->exchange_state(reader) || !reader.is_at_end() || !engine->is_sound()) return nullptr;
-  engine->rebuild_from_state();
-  return engine;
-}
-
-/// Predictions, grid and queue follow from the last-event states, whenever they are made.
-void Engine::rebuild_from_state() {
-  const auto count = static_cast<std::uint32_t>(bodies_.size());
-  slots_.assign(count, no_event);
-  grid_.resize(count);
-  queue_.resize(count);
-  for (std::uint32_t body = 0; body < count; ++body) {
-    changes_.add(body);
-    reach_ = std::max(reach_, reach_of(body));
-    curved_count_ += (bodies_[body].flags & curved) != 0;
-  }
-  grid_capacity_ = std::max(64u, 2 * count);
-  rebuild_grid();
+    return std::nullopt;
+  std::optional<WorldState> state(std::in_place);
+  if (!exchange(reader, state->spec)) return std::nullopt;
+  state->ledger = EnergyLedger(state->spec.accounts_energy);
+  if (!exchange_state(reader, *state) || !reader.is_at_end() || !is_sound(*state))
+    return std::nullopt;
+  return state;
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

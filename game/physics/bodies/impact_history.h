@@ -1,0 +1,67 @@
+// How densely impacts have followed each other for each body, and whether it has had its fill.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "game/physics/bodies/bodies.h"
+#include "game/physics/bodies/body_records.h"
+#include "game/physics/bodies/contact.h"
+#include "game/physics/bodies/observers.h"
+#include "game/physics/bodies/partner.h"
+#include "game/physics/body_state.h"
+#include "game/physics/real.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+/// Part of the physical history: what is pressed, or has no room, is told by it.
+class ImpactHistory {
+ public:
+  ImpactHistory(const WorldSpec& spec, Bodies& bodies, const Observers& observers);
+  ImpactHistory(const ImpactHistory&) = delete;
+  ImpactHistory& operator=(const ImpactHistory&) = delete;
+
+  /// Of the next body, by number.
+  void add() { rhythms_.emplace_back(); }
+  /// All of them at once.
+  const std::vector<Rhythm>& rhythms() const { return rhythms_; }
+  void restore(std::vector<Rhythm> rhythms) { rhythms_ = std::move(rhythms); }
+  void read(std::uint32_t body, BodyState& state) const;
+  void write(std::uint32_t body, const BodyState& state);
+
+  void note_impact(std::uint32_t body, Real time);
+  /// Whether impacts of one of the two follow each other so closely that they are one contact.
+  bool is_pressed_hard(const Contact& contact, Real approach, Real time) const;
+
+  /// All `members` take part in a hop.
+  void note_hop(std::span<const std::uint32_t> members, Real time);
+  /// In the present series, the last one included.
+  std::uint32_t hops(std::uint32_t body) const { return rhythms_[body].hops; }
+  void forget_hops(std::uint32_t body) { rhythms_[body].hops = 0; }
+
+  /// Counts the impacts of both at an instant that began at `instant_begin`.
+  void count_meeting(const Contact& contact, Real instant_begin);
+  /// Whether one of the two has so little room that even lossless impacts at one instant do not
+  /// end: elastic series between unequal masses take fewer.
+  bool is_hemmed_in(const Contact& contact) const;
+  /// Whether nothing that parts them has helped.
+  bool is_beyond_hope(const Contact& contact) const;
+
+  /// Where bodies may start in overlap: counts the impact at `time`; whether one of the two has had
+  /// its fill.
+  bool is_stuck(const Contact& contact, Real time);
+  /// Counts the attempt at rest; whether there were so many at `time` that it should hop.
+  bool has_rested_enough(std::uint32_t body, Real time);
+
+ private:
+  bool is_worn(std::uint32_t body, Real approach, Real time) const;
+  std::uint32_t meetings(const Contact& contact) const;
+
+  Bodies& bodies_;
+  const Observers& observers_;
+  Real contact_time_, rest_speed_;
+  std::vector<Rhythm> rhythms_;
+};
+
+}  // namespace rink::physics::inline RINK_PRECISION

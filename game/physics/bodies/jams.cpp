@@ -1,0 +1,54 @@
+// Stopping and waking.
+#include "game/physics/bodies/jams.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace rink::physics::inline RINK_PRECISION {
+
+void Jams::read(std::uint32_t body, BodyState& state) const {
+  state.jam = bodies_[body].is(Body::frozen) ? table_.numbers[body] : 0;
+}
+
+void Jams::write(std::uint32_t body, const BodyState& state) {
+  std::erase(table_.frozen, body);
+  table_.numbers[body] = state.jam;
+  if ((state.flags & Body::frozen) != 0) table_.frozen.push_back(body);
+}
+
+void Jams::stop(std::span<const std::uint32_t> members) {
+  assert(!members.empty());
+  ++table_.count;
+  const std::uint32_t jam = *std::min_element(
+      members.begin(), members.end());  // nobody is in two, so that it names the jam in every world
+  for (const std::uint32_t body : members) {
+    bodies_.set_velocity(body, RealVector(0.0, 0.0));
+    bodies_.set_flags(body, Body::frozen);
+    table_.numbers[body] = jam;
+    table_.frozen.push_back(body);
+    for (int axis = 0; axis < 2; ++axis) bodies_.set_law(body, axis, 0.0, bodies_.own_drag(body));
+  }
+}
+
+void Jams::wake(std::uint32_t body, Real time) {
+  if (!bodies_[body].is(Body::frozen)) return;
+  const std::uint32_t jam = table_.numbers[body];
+  std::vector<std::uint32_t>& frozen = table_.frozen;
+  for (std::size_t i = 0; i < frozen.size();) {
+    const std::uint32_t member = frozen[i];
+    if (table_.numbers[member] != jam) {
+      ++i;
+      continue;
+    }
+    bodies_.keep(member);
+    frozen[i] = frozen.back();
+    frozen.pop_back();
+    bodies_.clear_flags(member, Body::frozen);
+    history_.forget_hops(member);
+    bodies_.rebase(member, time);
+    for (int axis = 0; axis < 2; ++axis)
+      bodies_.set_law(member, axis, bodies_.build(member).thrust[axis], bodies_.own_drag(member));
+  }
+}
+
+}  // namespace rink::physics::inline RINK_PRECISION
