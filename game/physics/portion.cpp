@@ -122,7 +122,7 @@ void Portion::drop(std::uint32_t body) {
   is_there_[body] = 0;
 }
 
-const std::vector<Hold>& Portion::holds() const { return engine().holds_; }
+const std::vector<Hold>& Portion::holds() const { return engine().rests_.holds(); }
 
 void Portion::set_holds(std::vector<Hold> holds) {
   std::stable_sort(holds.begin(), holds.end(),
@@ -146,18 +146,19 @@ void Portion::set_holds(std::vector<Hold> holds) {
     concerned.insert(concerned.end(), {hold.low, hold.high});
   };
   for (const Hold& hold : holds)
-    if (is_pending(hold.low) || is_pending(hold.high) || !is_in(e.holds_, hold)) concern(hold);
-  for (const Hold& hold : e.holds_)
+    if (is_pending(hold.low) || is_pending(hold.high) || !is_in(e.rests_.holds(), hold))
+      concern(hold);
+  for (const Hold& hold : e.rests_.holds())
     if (!is_in(holds, hold)) concern(hold);
   for (const Partner p : concerned)
     if (p < body_count() && is_there(p)) e.require_prediction(p);
-  e.holds_ = std::move(holds);
+  e.rests_.restore(std::move(holds));
 }
 
 std::vector<std::uint32_t> Portion::group_of(std::uint32_t body) const {
   const Engine& e = engine();
   if ((e.bodies_[body].flags & (Body::held | Body::frozen)) == 0) return {body};
-  std::vector<std::uint32_t> group = e.companions(body, Body::held);
+  std::vector<std::uint32_t> group = e.rests_.group(body, Body::held);
   e.jams_.for_each_other(body, [&](std::uint32_t other) { group.push_back(other); });
   return group;
 }
@@ -168,7 +169,7 @@ void Portion::begin_window() {
   journal_.changes.clear(), journal_.motions.clear(), journal_.looked_at.clear();
   journal_.event = 0, journal_.quiet_events = 0, journal_.stirred = 0, journal_.at_once_max = 0,
   journal_.times.clear(), journal_.was_hopeless = false;
-  holds_before_ = e.holds_, frozen_before_ = e.jams_.table().frozen;
+  holds_before_ = e.rests_.holds(), frozen_before_ = e.jams_.table().frozen;
   clock_before_ = e.clock_, jam_count_before_ = e.jams_.table().count;
   counters_before_ = e.counters_;
 }
@@ -184,7 +185,7 @@ void Portion::undo() {
     const Flight& f = kept.flight;
     e.bodies_.put(kept.body, {f.x, f.y}, {f.vx, f.vy}, f.time);
   }
-  e.holds_ = holds_before_;
+  e.rests_.restore(holds_before_);
   e.jams_.restore(frozen_before_, jam_count_before_);
   e.clock_ = clock_before_;
   e.counters_ = counters_before_;

@@ -24,6 +24,8 @@ Engine::Engine(const WorldSpec& spec)
       bodies_(spec, counters_, ledger_, observers_),
       history_(spec, bodies_, observers_),
       jams_(bodies_, history_),
+      friction_(spec, bodies_),
+      rests_(spec, bodies_, friction_, record_, observers_),
       queue_(spec.queue) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 &&
          spec.field.goal_width <= spec.field.width);
@@ -56,7 +58,7 @@ BodyId Engine::add(BodyState state) {
   history_.add();
   jams_.add();
   slots_.push_back(no_event);
-  if (bodies_.is_slowed()) slide(body);
+  friction_.slide(body, std::nullopt);
   ledger_.introduce(energy_of(bodies_, body));
   enter_mouth_if_inside(body);
   const std::uint32_t count = body + 1;
@@ -74,8 +76,8 @@ BodyId Engine::add(BodyState state) {
 }
 
 WorldState Engine::state() const {
-  WorldState state{spec_,         clock_,  counters_, bodies_.table(), history_.rhythms(),
-                   jams_.table(), ledger_, holds_};
+  WorldState state{spec_,         clock_,  counters_,     bodies_.table(), history_.rhythms(),
+                   jams_.table(), ledger_, rests_.holds()};
   for (Body& b : state.bodies.bodies) b.flags = static_cast<std::uint8_t>(b.flags & ~Body::pending);
   return state;
 }
@@ -86,7 +88,7 @@ void Engine::restore(WorldState state) {
   bodies_.restore(std::move(state.bodies));
   history_.restore(std::move(state.rhythms));
   jams_.restore(std::move(state.jams));
-  holds_ = std::move(state.holds);
+  rests_.restore(std::move(state.holds));
   rebuild_from_state();
 }
 
@@ -157,7 +159,7 @@ void Engine::remove(std::uint32_t body) {
   bodies_.keep(body);
   if (!bodies_[body].is(Body::out_of_play)) {
     jams_.wake(body, clock_.now);
-    for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, clock_.now);
+    for (int axis = 0; axis < 2; ++axis) rests_.dissolve(body, axis, clock_.now);
     bodies_.rebase(body, clock_.now);
     ledger_.introduce(-energy_of(bodies_, body));
     grid_.remove(body);
@@ -195,11 +197,10 @@ void Engine::set_thrust(std::uint32_t bat, const RealVector& acceleration) {
   }
   record_.note(EventKind::thrust, clock_.now, bat);
   jams_.wake(bat, clock_.now);
-  rebase_companions(bat, clock_.now);
+  rests_.rebase_group(bat, clock_.now);
   bodies_.set_thrust(bat, acceleration);
   for (int axis = 0; axis < 2; ++axis) {
-    if ((bodies_[bat].flags & Body::held_along(axis)) != 0)
-      share(axis, companions(bat, Body::held_along(axis)), clock_.now);
+    if ((bodies_[bat].flags & Body::held_along(axis)) != 0) rests_.share(bat, axis, clock_.now);
     else bodies_.set_law(bat, axis, acceleration[axis], bodies_.own_drag(bat));
   }
   settle();
@@ -285,10 +286,10 @@ void Engine::process(std::uint32_t body, Real time) {
     observers_.journal->begin_event(time, std::min(body, p), std::max(body, p));
   count_event(time);
   if (p == partner::goal_line) score(body, time);
-  else if (p == partner::release) release(body, time);
+  else if (p == partner::release) rests_.release(body, time);
   else if (p == partner::stop) stop(body, time);
   else if (p == partner::mouth_in || p == partner::mouth_out) {
-    rebase_companions(body, time);
+    rests_.rebase_group(body, time);
     bodies_.set_mouth(body, p == partner::mouth_out                      ? Body::no_mouth
                             : bodies_[body].x < 0.5 * spec_.field.length ? Body::left_mouth
                                                                          : Body::right_mouth);
@@ -307,7 +308,7 @@ void Engine::count_event(Real time) {
 
 void Engine::settle() {
   bodies_.close_books();
-  if (bodies_.is_slowed()) slide_touched();
+  if (bodies_.is_slowed()) rests_.push_again();
   if (observers_.journal != nullptr) enter_changes();
   for (const std::uint32_t body : bodies_.touched())
     if (!bodies_[body].is(Body::gone | Body::pending)) predict(body);
@@ -330,7 +331,7 @@ void Engine::cross_cell(std::uint32_t body) {
 void Engine::stop(std::uint32_t body, Real time) {
   record_.note(EventKind::stop, time, body);
   jams_.wake(body, time);
-  rebase_companions(body, time);
+  rests_.rebase_group(body, time);
   bodies_.set_velocity(body, RealVector(0.0, 0.0));  // one too slow to move before the next instant
                                                      // that a clock can show was not evaluated
 }
@@ -338,7 +339,7 @@ void Engine::stop(std::uint32_t body, Real time) {
 void Engine::score(std::uint32_t body, Real time) {
   record_.note(EventKind::goal, time, body);
   jams_.wake(body, time);
-  for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
+  for (int axis = 0; axis < 2; ++axis) rests_.dissolve(body, axis, time);
   bodies_.rebase(body, time);
   ledger_.introduce(-energy_of(bodies_, body));
   bodies_.set_flags(body, Body::out_of_play);

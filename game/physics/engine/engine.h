@@ -25,6 +25,8 @@
 #include "game/physics/contact/contact_problem.h"
 #include "game/physics/contact/impact_solver.h"
 #include "game/physics/contact/separation_solver.h"
+#include "game/physics/engine/friction.h"
+#include "game/physics/engine/rest_contacts.h"
 #include "game/physics/event.h"
 #include "game/physics/events/event_schedule.h"
 #include "game/physics/flight/impact_time.h"
@@ -87,25 +89,6 @@ class Engine {
   void enter_changes();
   std::uint64_t conditions_of(std::uint32_t body) const;
 
-  // engine_friction.cpp
-  bool is_sliding(std::uint32_t body) const {
-    return bodies_[body].vx != 0.0 || bodies_[body].vy != 0.0;
-  }
-  Real own_push(std::uint32_t body, int axis) const {
-    return bodies_.is_slowed() ? bodies_.build(body).thrust[axis] + bodies_.slowing(body)[axis]
-                               : bodies_.build(body).thrust[axis];
-  }
-  void slide_touched();
-  void slide(std::uint32_t body);
-  std::optional<int> pushed_axis(std::uint32_t body) const;
-  bool is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const;
-  void face_friction(const std::vector<std::uint32_t>& members);
-  bool has_sliders(int axis, const std::vector<std::uint32_t>& members) const;
-  Real aim_friction(int axis, const std::vector<std::uint32_t>& members, Real time);
-  void calm(int axis, const std::vector<std::uint32_t>& members);
-  RealVector friction_along(const RealVector& velocity) const;
-  Real speed_lost(Real speed, Real push, Real drag) const;
-
   // engine_prediction.cpp
   void predict(std::uint32_t body);
   std::uint32_t begin_prediction(std::uint32_t body);
@@ -152,30 +135,6 @@ class Engine {
   bool collide_together(const Contact& contact, Real time);
   void apply_joint(const Contact& contact, Real time);
 
-  // engine_rest.cpp
-  void rebase_companions(std::uint32_t body, Real time);
-  bool can_rest(const Contact& contact) const;
-  void rest(const Contact& contact, Real time);
-  void share(int axis, const std::vector<std::uint32_t>& members, Real time);
-  void solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed,
-                    bool only_push);
-  Real resist(const std::vector<std::uint32_t>& members, int axis);
-  void share_part(int axis, const std::vector<std::uint32_t>& part, Real time);
-  void set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed,
-                      Real drag, Real time);
-  bool is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const;
-  bool is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const;
-  std::vector<std::uint32_t> companions(std::uint32_t body, std::uint8_t axes) const;
-  void dissolve(std::uint32_t body, int axis, Real time);
-  void release(std::uint32_t body, Real time);
-  Real slide_time(const Hold& hold) const;
-  bool would_push_twice(const Contact& contact) const;
-  bool are_held(std::uint32_t a, std::uint32_t b) const;
-  void note_release(const Hold& hold, Real time) {
-    bodies_.is_fixed(hold.low) ? record_.note(EventKind::release, time, hold.high, hold.low)
-                               : record_.note(EventKind::release, time, hold.low, hold.high);
-  }
-
   // engine_cluster.cpp
   template <class Visit>
   void visit_partners(std::uint32_t body, Visit&& visit);
@@ -208,8 +167,9 @@ class Engine {
   Bodies bodies_;
   ImpactHistory history_;
   Jams jams_;
+  Friction friction_;
+  RestContacts rests_;
   LargeArray<Slot> slots_;
-  std::vector<Hold> holds_;
   CellGrid grid_;
   EventSchedule queue_;
   Real reach_ = 0.0;                       // largest half extent of any body [m]
@@ -221,7 +181,6 @@ class Engine {
       looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
   std::vector<std::uint32_t> pending_;
   std::vector<std::uint32_t> near_;
-  std::vector<Real> accelerations_;
   std::vector<std::uint32_t> joint_;  // bodies of the cluster or joint impact at hand
   ContactProblem problem_;            // theirs, by their places in joint_
   std::vector<Partner> partners_;     // of its touches

@@ -122,7 +122,7 @@ std::uint32_t Engine::place_in_cluster(std::uint32_t body, Real time) {
   const auto found = std::find(joint_.begin(), joint_.end(), body);
   if (found != joint_.end()) return static_cast<std::uint32_t>(found - joint_.begin());
   jams_.wake(body, time);
-  for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
+  for (int axis = 0; axis < 2; ++axis) rests_.dissolve(body, axis, time);
   bodies_.rebase(body, time);
   joint_.push_back(body);
   problem_.add_body(bodies_.build(body).mass, bodies_.build(body).inverse_mass,

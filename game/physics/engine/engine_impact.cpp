@@ -108,8 +108,8 @@ void Engine::collide(std::uint32_t body, Partner p, Real time) {
 void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
   count_impact(body, p, time);
   jams_.wake(body, time);
-  rebase_companions(body, time);
-  if (is_body(p)) jams_.wake(p, time), rebase_companions(p, time);
+  rests_.rebase_group(body, time);
+  if (is_body(p)) jams_.wake(p, time), rests_.rebase_group(p, time);
   const Contact c = contact(body, p, time);
   if (spec_.allow_overlap && history_.is_stuck(c, time)) return stop_around(c, time);
   history_.count_meeting(c, clock_.instant_begin);
@@ -121,9 +121,9 @@ void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
     const Real pressing = normal.dot(acceleration_of(bodies_, p) - acceleration_of(bodies_, body));
     // A body in an arc of friction (engine_friction.cpp) may be pressed by the arc's law and pulled
     // by the instant's: it comes to rest so often at one instant, then it hops.
-    if (approach < rest_speed_ && pressing > press_min && can_rest(c) &&
+    if (approach < rest_speed_ && pressing > press_min && rests_.can_join(c) &&
         !(bodies_.is_slowed() && history_.has_rested_enough(body, time)))
-      return rest(c, time);
+      return rests_.join(c, time);
     history_.note_impact(body, time);
     if (!bodies_.is_fixed(p)) history_.note_impact(p, time);
     if ((history_.is_hemmed_in(c) || history_.is_pressed_hard(c, approach, time)) &&
@@ -146,8 +146,8 @@ void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
 void Engine::bounce(const Contact& c, Real given_back, Real time) {
   for (int axis = 0; axis < 2; ++axis) {
     if (c.gap.normal[axis] == 0.0 && !spec_.surface_friction) continue;
-    dissolve(c.body, axis, time);
-    if (is_body(c.partner)) dissolve(c.partner, axis, time);
+    rests_.dissolve(c.body, axis, time);
+    if (is_body(c.partner)) rests_.dissolve(c.partner, axis, time);
   }
   const RealVector here = bodies_.velocity(c.body), there = bodies_.velocity(c.partner);
   const RealVector& line = c.gap.line;

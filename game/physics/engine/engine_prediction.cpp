@@ -276,7 +276,7 @@ void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
 
 void Engine::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
   if ((bodies_[body].flags & bodies_[other].flags & Body::frozen) != 0) return;
-  if ((bodies_[body].flags & Body::held) != 0 && are_held(body, other)) return;
+  if ((bodies_[body].flags & Body::held) != 0 && rests_.are_joined(body, other)) return;
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
   const Motion a = bodies_.motion(low), b = bodies_.motion(high);
   const Real start = std::max(a.time, b.time);
@@ -292,9 +292,7 @@ void Engine::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
 }
 
 void Engine::predict_release(std::uint32_t body) {
-  for (const Hold& hold : holds_)
-    if (hold.low == body || hold.high == body)
-      offer(body, std::min({hold.pull_time, hold.turn_time, slide_time(hold)}), partner::release);
+  rests_.for_each_end(body, [&](Real time) { offer(body, time, partner::release); });
 }
 
 /// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as

@@ -47,9 +47,9 @@ void Engine::apply_joint(const Contact& at_hand, Real time) {
     for (const Partner p : {body, partner}) {
       if (bodies_.is_fixed(p)) continue;
       jams_.wake(p, time);
-      rebase_companions(p, time);
+      rests_.rebase_group(p, time);
       for (int axis = 0; axis < 2; ++axis)
-        if (touch.normal[axis] != 0.0) dissolve(p, axis, time);
+        if (touch.normal[axis] != 0.0) rests_.dissolve(p, axis, time);
     }
   }
   for (std::size_t place = 0; place < joint_.size(); ++place) {

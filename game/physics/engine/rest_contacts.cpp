@@ -1,8 +1,10 @@
-// Rest contacts: bodies pressed together along an axis share velocity and acceleration along it,
-// and have no events until something changes.
+// Who holds whom, and the forces between them.
+#include "game/physics/engine/rest_contacts.h"
+
 #include <algorithm>
 
-#include "game/physics/engine/engine.h"
+#include "game/physics/bodies/journal.h"
+#include "game/physics/bodies/tolerances.h"
 #include "game/physics/flight/exponential.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -16,15 +18,22 @@ constexpr double pull_min = 1e-9;
 
 }  // namespace
 
-bool Engine::are_held(std::uint32_t a, std::uint32_t b) const {
+RestContacts::RestContacts(const WorldSpec& spec, Bodies& bodies, Friction& friction,
+                           EventRecord& record, const Observers& observers)
+    : bodies_(bodies),
+      friction_(friction),
+      record_(record),
+      observers_(observers),
+      tolerance_(offset_tolerance(spec)),
+      contact_time_(spec.contact_time) {}
+
+bool RestContacts::are_joined(std::uint32_t a, std::uint32_t b) const {
   return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
     return (hold.low == a && hold.high == b) || (hold.low == b && hold.high == a);
   });
 }
 
-/// The bodies in rest contact with `body`, directly or through others, along any of `axes`; itself
-/// first. Fixed partners are not among them.
-std::vector<std::uint32_t> Engine::companions(std::uint32_t body, std::uint8_t axes) const {
+std::vector<std::uint32_t> RestContacts::group(std::uint32_t body, std::uint8_t axes) const {
   std::vector<std::uint32_t> found{body};
   const auto include = [&](Partner p) {
     if (!bodies_.is_fixed(p) && std::find(found.begin(), found.end(), p) == found.end())
@@ -39,24 +48,40 @@ std::vector<std::uint32_t> Engine::companions(std::uint32_t body, std::uint8_t a
   return found;
 }
 
-/// Bodies in rest contact keep bitwise equal velocities only if they are evaluated from the same
-/// instant, so they are rebased together.
-void Engine::rebase_companions(std::uint32_t body, Real time) {
+void RestContacts::rebase_group(std::uint32_t body, Real time) {
   bodies_.rebase(body, time);
   if (!bodies_[body].is(Body::held)) return;
-  for (const std::uint32_t companion : companions(body, Body::held))
-    bodies_.rebase(companion, time);
+  for (const std::uint32_t companion : group(body, Body::held)) bodies_.rebase(companion, time);
 }
 
-bool Engine::would_push_twice(const Contact& c) const {
+bool RestContacts::would_push_twice(const Contact& c) const {
   if (!bodies_.is_slowed() || bodies_.is_fixed(c.partner)) return false;
-  std::vector<std::uint32_t> members = companions(c.body, Body::held_along(c.gap.face));
-  const std::vector<std::uint32_t> others = companions(c.partner, Body::held_along(c.gap.face));
+  std::vector<std::uint32_t> members = group(c.body, Body::held_along(c.gap.face));
+  const std::vector<std::uint32_t> others = group(c.partner, Body::held_along(c.gap.face));
   members.insert(members.end(), others.begin(), others.end());
   return is_pushed_twice(c.gap.face, members);
 }
 
-bool Engine::can_rest(const Contact& c) const {
+/// The axis along which the body is in rest contact with what can move, and with nothing fixed.
+std::optional<int> RestContacts::pushed_axis(std::uint32_t body) const {
+  for (int axis = 0; axis < 2; ++axis)
+    if ((bodies_[body].flags & Body::held_along(axis)) != 0 &&
+        !is_group_fixed(axis, group(body, Body::held_along(axis))))
+      return axis;
+  return std::nullopt;
+}
+
+/// Whether the group is free to move and has a puck that is also pushed along the other axis: its
+/// friction would bind two groups to each other.
+bool RestContacts::is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const {
+  if (!bodies_.is_slowed() || is_group_fixed(axis, members)) return false;
+  return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) {
+    return bodies_.is_slowed(member) && (bodies_[member].flags & Body::held_along(1 - axis)) != 0 &&
+           !is_group_fixed(1 - axis, group(member, Body::held_along(1 - axis)));
+  });
+}
+
+bool RestContacts::can_join(const Contact& c) const {
   if (c.gap.face < 0 || would_push_twice(c)) return false;
   if (!is_body(c.partner)) return true;
   const int along = 1 - c.gap.face;
@@ -72,8 +97,7 @@ bool Engine::can_rest(const Contact& c) const {
          (std::abs(offset) <= extent && offset * speed < 0.0);
 }
 
-/// Perfectly inelastic along the axis of the face: the groups on both sides become one.
-void Engine::rest(const Contact& c, Real time) {
+void RestContacts::join(const Contact& c, Real time) {
   record_.note(EventKind::rest, time, c.body, c.partner);
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
@@ -82,10 +106,10 @@ void Engine::rest(const Contact& c, Real time) {
                     observers_.journal ? observers_.journal->next_age() : HoldAge{}});
   for (const Partner p : {c.body, c.partner})
     if (!bodies_.is_fixed(p)) bodies_.set_flags(p, Body::held_along(axis));
-  const std::vector<std::uint32_t> members = companions(c.body, Body::held_along(axis));
+  const std::vector<std::uint32_t> members = group(c.body, Body::held_along(axis));
   Real mass = 0.0, momentum = 0.0;
   for (const std::uint32_t member : members) {
-    rebase_companions(member, time);
+    rebase_group(member, time);
     mass += bodies_.build(member).mass;
     momentum += bodies_.build(member).mass * bodies_.velocity(member)[axis];
   }
@@ -94,14 +118,14 @@ void Engine::rest(const Contact& c, Real time) {
   share(axis, members, time);
 }
 
-bool Engine::is_in_group(const Hold& hold, int axis,
-                         const std::vector<std::uint32_t>& members) const {
+bool RestContacts::is_in_group(const Hold& hold, int axis,
+                               const std::vector<std::uint32_t>& members) const {
   if (hold.axis != axis) return false;
   const Partner inside = bodies_.is_fixed(hold.low) ? hold.high : hold.low;
   return std::find(members.begin(), members.end(), inside) != members.end();
 }
 
-bool Engine::is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const {
+bool RestContacts::is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const {
   return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
     return is_in_group(hold, axis, members) &&
            (bodies_.is_fixed(hold.low) || bodies_.is_fixed(hold.high));
@@ -112,12 +136,12 @@ bool Engine::is_group_fixed(int axis, const std::vector<std::uint32_t>& members)
 /// hold: Gauss-Seidel on the forces, which push only if `only_push`. Groups are small (a bat and
 /// the pucks before it), and the sweep order is the order of the holds, so the bits are
 /// reproducible.
-void Engine::solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed,
-                          bool only_push) {
+void RestContacts::solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed,
+                                bool only_push) {
   accelerations_.resize(bodies_.count());
   Real scale = 1.0;
   for (const std::uint32_t member : members) {
-    accelerations_[member] = own_push(member, axis) - bodies_.own_drag(member) * speed;
+    accelerations_[member] = friction_.own_push(member, axis) - bodies_.own_drag(member) * speed;
     scale = std::max(scale, std::abs(accelerations_[member]));
   }
   for (Hold& hold : holds_)
@@ -125,79 +149,107 @@ void Engine::solve_forces(int axis, const std::vector<std::uint32_t>& members, R
   const bool may_stick =
       bodies_.is_slowed() && only_push && speed == 0.0 && !is_group_fixed(axis, members);
   for (int sweep = 0; sweep < 2000; ++sweep) {
-    Real change = may_stick ? resist(members, axis) : Real(0.0);
-    for (Hold& hold : holds_) {
-      if (!is_in_group(hold, axis, members)) continue;
-      const Real low = bodies_.is_fixed(hold.low) ? 0.0 : accelerations_[hold.low],
-                 high = bodies_.is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
-      const Real yielding = bodies_.inverse_mass(hold.low) + bodies_.inverse_mass(hold.high);
-      Real force = hold.force + (low - high) / yielding;
-      if (only_push) force = std::max<Real>(0.0, force);
-      const Real step = force - hold.force;
-      hold.force = force;
-      if (!bodies_.is_fixed(hold.low))
-        accelerations_[hold.low] -= step * bodies_.inverse_mass(hold.low);
-      if (!bodies_.is_fixed(hold.high))
-        accelerations_[hold.high] += step * bodies_.inverse_mass(hold.high);
-      change = std::max(change, std::abs(step) * yielding);
-    }
+    const Real resisted = may_stick ? friction_.resist(axis, members, accelerations_) : Real(0.0);
+    const Real change = std::max(resisted, sweep_forces(axis, members, only_push));
     if (change <= 1e-13 * fineness * scale) break;
   }
 }
 
+/// One sweep over the holds; answers its largest change of an acceleration.
+Real RestContacts::sweep_forces(int axis, const std::vector<std::uint32_t>& members,
+                                bool only_push) {
+  Real change = 0.0;
+  for (Hold& hold : holds_) {
+    if (!is_in_group(hold, axis, members)) continue;
+    const Real low = bodies_.is_fixed(hold.low) ? Real(0.0) : accelerations_[hold.low],
+               high = bodies_.is_fixed(hold.high) ? Real(0.0) : accelerations_[hold.high];
+    const Real yielding = bodies_.inverse_mass(hold.low) + bodies_.inverse_mass(hold.high);
+    Real force = hold.force + (low - high) / yielding;
+    if (only_push) force = std::max<Real>(0.0, force);
+    const Real step = force - hold.force;
+    hold.force = force;
+    if (!bodies_.is_fixed(hold.low))
+      accelerations_[hold.low] -= step * bodies_.inverse_mass(hold.low);
+    if (!bodies_.is_fixed(hold.high))
+      accelerations_[hold.high] += step * bodies_.inverse_mass(hold.high);
+    change = std::max(change, std::abs(step) * yielding);
+  }
+  return change;
+}
+
 /// Lets go what is pulled apart, then gives each remaining part of the group one acceleration and
 /// one drag, bitwise equal for all its members.
-void Engine::share(int axis, const std::vector<std::uint32_t>& members, Real time) {
-  // Who is pulled is judged by the friction of this instant, as the next impact is, and not by that
-  // of an arc.
-  if (bodies_.is_slowed()) calm(axis, members), face_friction(members);
-  const Real speed = bodies_.velocity(members.front())[axis];
-  solve_forces(axis, members, speed, true);
-  const auto is_pulled = [&](const Hold& hold) {
-    if (!is_in_group(hold, axis, members) || hold.force > 0.0) return false;
-    const Real low = bodies_.is_fixed(hold.low) ? 0.0 : accelerations_[hold.low],
-               high = bodies_.is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
-    return high - low > pull_min;
-  };
-  for (const Hold& hold : holds_)
-    if (is_pulled(hold)) note_release(hold, time);
-  std::erase_if(holds_, is_pulled);
+void RestContacts::share(int axis, const std::vector<std::uint32_t>& members, Real time) {
+  let_go_what_is_pulled(axis, members, time);
   std::vector<std::uint32_t> done;
   for (const std::uint32_t member : members) {
     if (std::find(done.begin(), done.end(), member) != done.end()) continue;
-    const std::vector<std::uint32_t> part = companions(member, Body::held_along(axis));
+    const std::vector<std::uint32_t> part = group(member, Body::held_along(axis));
+    const auto is_in_part = [&](const Hold& hold) { return is_in_group(hold, axis, part); };
     if (part.size() > 1 && is_pushed_twice(axis, part)) {
-      const auto is_in_part = [&](const Hold& hold) { return is_in_group(hold, axis, part); };
       for (const Hold& hold : holds_)
         if (is_in_part(hold)) note_release(hold, time);
       std::erase_if(holds_, is_in_part);
       for (const std::uint32_t alone : part) share_part(axis, {alone}, time);
     } else {
-      const Real turn_time = bodies_.is_slowed() ? aim_friction(axis, part, time) : Real(infinity);
+      const Real turn_time = bodies_.is_slowed() && !is_group_fixed(axis, part)
+                                 ? friction_.aim(axis, part, time)
+                                 : Real(infinity);
       share_part(axis, part, time);
       for (Hold& hold : holds_)
-        if (is_in_group(hold, axis, part)) hold.turn_time = turn_time;
+        if (is_in_part(hold)) hold.turn_time = turn_time;
     }
     done.insert(done.end(), part.begin(), part.end());
   }
 }
 
-void Engine::share_part(int axis, const std::vector<std::uint32_t>& part, Real time) {
+void RestContacts::let_go_what_is_pulled(int axis, const std::vector<std::uint32_t>& members,
+                                         Real time) {
+  // Who is pulled is judged by the friction of this instant, as the next impact is, and not by that
+  // of an arc.
+  if (bodies_.is_slowed()) friction_.calm(axis, members), friction_.face(members);
+  solve_forces(axis, members, bodies_.velocity(members.front())[axis], true);
+  const auto is_pulled = [&](const Hold& hold) {
+    if (!is_in_group(hold, axis, members) || hold.force > 0.0) return false;
+    const Real low = bodies_.is_fixed(hold.low) ? Real(0.0) : accelerations_[hold.low],
+               high = bodies_.is_fixed(hold.high) ? Real(0.0) : accelerations_[hold.high];
+    return high - low > pull_min;
+  };
+  for (const Hold& hold : holds_)
+    if (is_pulled(hold)) note_release(hold, time);
+  std::erase_if(holds_, is_pulled);
+}
+
+void RestContacts::push_again() {
+  std::vector<std::uint32_t> done;
+  for (std::size_t i = 0; i < bodies_.touched().size(); ++i) {
+    const std::uint32_t body = bodies_.touched()[i];
+    if (!bodies_[body].is(Body::held) || !bodies_.is_slowed(body) ||
+        std::find(done.begin(), done.end(), body) != done.end())
+      continue;
+    const std::optional<int> axis = pushed_axis(body);
+    if (!axis) continue;
+    const std::vector<std::uint32_t> members = group(body, Body::held_along(*axis));
+    done.insert(done.end(), members.begin(), members.end());
+    share(*axis, members, bodies_[body].time);
+  }
+  for (const std::uint32_t body : bodies_.touched())
+    if (bodies_.is_slowed(body)) friction_.slide(body, pushed_axis(body));
+}
+
+void RestContacts::share_part(int axis, const std::vector<std::uint32_t>& part, Real time) {
   const bool is_fixed_part = is_group_fixed(axis, part);
   const bool is_alone = part.size() == 1 && !is_fixed_part;
   Real mass = 0.0, thrust = 0.0, drag = 0.0;
   for (const std::uint32_t member : part) {
     mass += bodies_.build(member).mass;
-    thrust += bodies_.build(member).mass * own_push(member, axis);
+    thrust += bodies_.build(member).mass * friction_.own_push(member, axis);
     drag += bodies_.build(member).mass * bodies_.own_drag(member);
   }
-  // Groups that friction holds: a puck at rest bears less than it could.
-  const auto bears_more = [&](std::uint32_t member) {
-    return bodies_.is_slowed(member) && !is_sliding(member) &&
-           std::abs(bodies_.slowing(member)[axis]) < (1.0 - 1e-9) * spec_.puck_friction;
-  };
   const bool stands = !is_alone && !is_fixed_part && bodies_.velocity(part.front())[axis] == 0.0 &&
-                      std::any_of(part.begin(), part.end(), bears_more);
+                      std::any_of(part.begin(), part.end(), [&](std::uint32_t member) {
+                        return friction_.bears_more(member, axis);
+                      });
   for (const std::uint32_t member : part) {
     is_alone ? bodies_.clear_flags(member, Body::held_along(axis))
              : bodies_.set_flags(member, Body::held_along(axis));
@@ -214,8 +266,8 @@ void Engine::share_part(int axis, const std::vector<std::uint32_t>& part, Real t
 
 /// Contact forces are linear in the common speed, which tends to `terminal_speed` at rate `drag`:
 /// one that would be negative there vanishes on the way.
-void Engine::set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed,
-                            Real drag, Real time) {
+void RestContacts::set_pull_times(int axis, const std::vector<std::uint32_t>& part,
+                                  Real terminal_speed, Real drag, Real time) {
   for (Hold& hold : holds_)
     if (is_in_group(hold, axis, part)) hold.pull_time = infinity;
   if (drag == 0.0) return;
@@ -237,24 +289,22 @@ void Engine::set_pull_times(int axis, const std::vector<std::uint32_t>& part, Re
     hold.pull_time = time - log1p_of(-now / (now - finally)) / drag;
     // An arc's friction is not quite that of its beginning: a contact that is pressed now and
     // pulled along the arc would come and go at one instant.
-    if (bodies_.is_slowed() && has_sliders(axis, part))
+    if (bodies_.is_slowed() && friction_.has_sliders(axis, part))
       hold.pull_time = std::max(hold.pull_time, time + contact_time_);
   }
 }
 
-/// Ends every rest contact of the group of `body` along `axis`; each member goes on with the common
-/// velocity and its own thrust and drag.
-void Engine::dissolve(std::uint32_t body, int axis, Real time) {
+void RestContacts::dissolve(std::uint32_t body, int axis, Real time) {
   if (!bodies_[body].is(Body::held_along(axis))) return;
-  const std::vector<std::uint32_t> members = companions(body, Body::held_along(axis));
-  for (const std::uint32_t member : members) rebase_companions(member, time);
+  const std::vector<std::uint32_t> members = group(body, Body::held_along(axis));
+  for (const std::uint32_t member : members) rebase_group(member, time);
   std::erase_if(holds_, [&](const Hold& hold) { return is_in_group(hold, axis, members); });
   for (const std::uint32_t member : members) share_part(axis, {member}, time);
 }
 
 /// When the contact reaches the end of its face [s]; infinite if it never does. Judged from the two
 /// last-event states, like any event.
-Real Engine::slide_time(const Hold& hold) const {
+Real RestContacts::slide_time(const Hold& hold) const {
   if (!is_body(hold.low) || !is_body(hold.high)) return infinity;
   const int along = 1 - hold.axis;
   const Real extent = shape_of(bodies_, hold.low, hold.high).half_extent[along];
@@ -277,9 +327,7 @@ Real Engine::slide_time(const Hold& hold) const {
   return earliest;
 }
 
-/// The rest contacts of `body` that end at `time` do so; or the friction in its group is aimed
-/// anew.
-void Engine::release(std::uint32_t body, Real time) {
+void RestContacts::release(std::uint32_t body, Real time) {
   for (std::size_t i = 0; i < holds_.size(); ++i) {
     const Hold hold = holds_[i];
     if (hold.low != body && hold.high != body) continue;
@@ -288,11 +336,16 @@ void Engine::release(std::uint32_t body, Real time) {
     if (ends) note_release(hold, time);
     else record_.note(EventKind::turn, time, body);
     const Partner inside = bodies_.is_fixed(hold.low) ? hold.high : hold.low;
-    const std::vector<std::uint32_t> members = companions(inside, Body::held_along(hold.axis));
-    for (const std::uint32_t member : members) rebase_companions(member, time);
+    const std::vector<std::uint32_t> members = group(inside, Body::held_along(hold.axis));
+    for (const std::uint32_t member : members) rebase_group(member, time);
     if (ends) holds_.erase(holds_.begin() + static_cast<std::ptrdiff_t>(i));
     return share(hold.axis, members, time);
   }
+}
+
+void RestContacts::note_release(const Hold& hold, Real time) {
+  bodies_.is_fixed(hold.low) ? record_.note(EventKind::release, time, hold.high, hold.low)
+                             : record_.note(EventKind::release, time, hold.low, hold.high);
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION
