@@ -26,6 +26,7 @@ Engine::Engine(const WorldSpec& spec)
       jams_(bodies_, history_),
       friction_(spec, bodies_),
       rests_(spec, bodies_, friction_, record_, observers_),
+      detection_(spec_, bodies_, grid_),
       queue_(spec.queue) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 &&
          spec.field.goal_width <= spec.field.width);

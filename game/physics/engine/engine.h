@@ -25,6 +25,7 @@
 #include "game/physics/contact/contact_problem.h"
 #include "game/physics/contact/impact_solver.h"
 #include "game/physics/contact/separation_solver.h"
+#include "game/physics/engine/contact_detection.h"
 #include "game/physics/engine/friction.h"
 #include "game/physics/engine/rest_contacts.h"
 #include "game/physics/event.h"
@@ -69,8 +70,6 @@ class Engine {
                                  false};
 
   // engine.cpp: bodies and the loop
-  HalfPlane plane_of(std::uint32_t body, Partner wall) const;
-  RealVector goal_edge(Partner edge) const;
   Real reach_of(std::uint32_t body) const;
   void rebuild_grid();
   void enter_mouth_if_inside(std::uint32_t body);
@@ -112,9 +111,6 @@ class Engine {
   Real real_time(Real start, Real warped) const;
 
   // engine_impact.cpp
-  RealVector position_at(std::uint32_t body, Real time) const;
-  Contact contact(std::uint32_t body, Partner partner, Real time) const;
-  Real restitution(std::uint32_t body, Partner partner) const;
   bool collide_freely(std::uint32_t body, Partner partner, Real time);
   void collide(std::uint32_t body, Partner partner, Real time);
   void collide_ordered(std::uint32_t body, Partner partner, Real time);
@@ -126,7 +122,6 @@ class Engine {
   bool gather_touching(const Contact& contact, Real time);
   void look_at_touching(const Contact& contact, Real time);
   void note_looked_at();
-  bool has_company(std::uint32_t body, Partner partner, Real time);
   void add_touch(std::uint32_t place, Partner partner, const Contact& at_hand, Real time);
   std::uint32_t place_in_joint(std::uint32_t body, Real time);
 
@@ -136,8 +131,6 @@ class Engine {
   void apply_joint(const Contact& contact, Real time);
 
   // engine_cluster.cpp
-  template <class Visit>
-  void visit_partners(std::uint32_t body, Visit&& visit);
   bool hop(const Contact& contact, Real approach, Real pressing, Real time);
   bool is_rattling(Real approach) const;
   void gather(const Contact& contact, Real speed_max, Real time);
@@ -171,6 +164,7 @@ class Engine {
   RestContacts rests_;
   LargeArray<Slot> slots_;
   CellGrid grid_;
+  ContactDetection detection_;
   EventSchedule queue_;
   Real reach_ = 0.0;                       // largest half extent of any body [m]
   std::uint32_t grid_capacity_ = 0;        // bodies that the grid was made for
@@ -180,7 +174,6 @@ class Engine {
   std::array<std::int64_t, 4>
       looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
   std::vector<std::uint32_t> pending_;
-  std::vector<std::uint32_t> near_;
   std::vector<std::uint32_t> joint_;  // bodies of the cluster or joint impact at hand
   ContactProblem problem_;            // theirs, by their places in joint_
   std::vector<Partner> partners_;     // of its touches

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "game/physics/engine/engine.h"
-#include "game/physics/engine/visit_partners.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -132,19 +131,20 @@ std::uint32_t Engine::place_in_cluster(std::uint32_t body, Real time) {
 
 void Engine::add_contact(std::uint32_t place, Partner p, Real speed_max, Real time) {
   const std::uint32_t body = joint_[place];
-  const Contact c = contact(body, p, time);
+  const Contact c = detection_.contact(body, p, time);
   if (c.gap.distance > gap_max_) return;
   const RealVector there =
       bodies_.is_fixed(p) ? RealVector(0.0, 0.0) : motion_at(bodies_, p, time).velocity;
   if (std::abs(c.gap.normal.dot(bodies_.velocity(body) - there)) > speed_max) return;
   if (bodies_.is_fixed(p)) {
-    problem_.touches.push_back({place, fixed_place, c.gap.normal, restitution(body, p)});
+    problem_.touches.push_back({place, fixed_place, c.gap.normal, detection_.restitution(body, p)});
     return;
   }
   const bool is_known = std::find(joint_.begin(), joint_.end(), p) != joint_.end();
   if (!is_known && joint_.size() >= cluster_max) return;
   const std::uint32_t other = place_in_cluster(p, time);
-  if (other > place) problem_.touches.push_back({place, other, c.gap.normal, restitution(body, p)});
+  if (other > place)
+    problem_.touches.push_back({place, other, c.gap.normal, detection_.restitution(body, p)});
 }
 
 /// Every body connected with the contact by gaps below `cluster_gap` that close or open no faster
@@ -155,7 +155,8 @@ void Engine::gather(const Contact& c, Real speed_max, Real time) {
   place_in_cluster(c.body, time);
   if (!bodies_.is_fixed(c.partner)) place_in_cluster(c.partner, time);
   for (std::uint32_t place = 0; place < joint_.size(); ++place)
-    visit_partners(joint_[place], [&](Partner p) { add_contact(place, p, speed_max, time); });
+    detection_.visit_partners(joint_[place],
+                              [&](Partner p) { add_contact(place, p, speed_max, time); });
 }
 
 /// Brings a slow cluster whose contacts and friction can bear all its thrust to a stop, for as long

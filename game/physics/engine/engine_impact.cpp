@@ -14,25 +14,6 @@ constexpr double press_min = 1e-7;
 
 }  // namespace
 
-RealVector Engine::position_at(std::uint32_t body, Real time) const {
-  const Body& b = bodies_[body];
-  return b.time >= time || b.kind == BodyKind::post ? RealVector(b.x, b.y)
-                                                    : motion_at(bodies_, body, time).position;
-}
-
-auto Engine::contact(std::uint32_t body, Partner p, Real time) const -> Contact {
-  const RealVector position = position_at(body, time);
-  if (is_body(p)) return {body, p, shape_of(bodies_, body, p).gap(position - position_at(p, time))};
-  if (p >= partner::edge_left_low && p <= partner::edge_right_high)
-    return {body, p, RoundedBox{{0.0, 0.0}, bodies_[body].radius}.gap(position - goal_edge(p))};
-  return {body, p, plane_of(body, p).gap(position)};
-}
-
-Real Engine::restitution(std::uint32_t body, Partner p) const {
-  return spec_.restitution(bodies_[body].material,
-                           is_body(p) ? bodies_[p].material : spec_.field.wall);
-}
-
 /// Two pucks that nothing holds, hitting each other fast and giving back all: nearly every event of
 /// a gas. The arithmetic of collide() without its questions, so the same bits. False, with nothing
 /// done, for anything else. A third one that touches matters to a journal alone; who is near is
@@ -48,7 +29,8 @@ bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
   if (is_crowded(body, p)) return false;
   const bool is_counting =
       observers_.journal != nullptr && bodies_.curved_count() == 0 && counts_touching();
-  if (observers_.journal != nullptr && !is_counting && has_company(body, p, time)) return false;
+  if (observers_.journal != nullptr && !is_counting && detection_.has_company(body, p, time))
+    return false;
   const Real elapsed_a = a.time < time ? time - a.time : 0.0,
              elapsed_b = b.time < time ? time - b.time : 0.0;
   const Real ax = a.x + a.vx * elapsed_a, ay = a.y + a.vy * elapsed_a, bx = b.x + b.vx * elapsed_b,
@@ -110,13 +92,13 @@ void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
   jams_.wake(body, time);
   rests_.rebase_group(body, time);
   if (is_body(p)) jams_.wake(p, time), rests_.rebase_group(p, time);
-  const Contact c = contact(body, p, time);
+  const Contact c = detection_.contact(body, p, time);
   if (spec_.allow_overlap && history_.is_stuck(c, time)) return stop_around(c, time);
   history_.count_meeting(c, clock_.instant_begin);
   if (history_.is_beyond_hope(c)) return stop_around(c, time);
   const RealVector& normal = c.gap.normal;
   const Real approach = normal.dot(bodies_.velocity(p) - bodies_.velocity(body)),
-             given_back = restitution(body, p);
+             given_back = detection_.restitution(body, p);
   if (approach < rest_speed_ || given_back < 1.0 || history_.is_hemmed_in(c)) {
     const Real pressing = normal.dot(acceleration_of(bodies_, p) - acceleration_of(bodies_, body));
     // A body in an arc of friction (engine_friction.cpp) may be pressed by the arc's law and pulled

@@ -1,5 +1,6 @@
 // The earliest event of a body, from last-event states alone.
 #include "game/physics/engine/engine.h"
+#include "game/physics/engine/field_parts.h"
 #include "game/physics/flight/exponential.h"
 
 #include <algorithm>
@@ -115,35 +116,15 @@ void Engine::predict_end_wall(std::uint32_t body) {
                      : partner::wall_right);
 }
 
-/// The half-plane of a wall, the halfway line or a goal line, grown by the body: its centre must
-/// stay on the side of the normal.
-HalfPlane Engine::plane_of(std::uint32_t body, Partner wall) const {
-  const Field& field = spec_.field;
-  const RealVector extent =
-      bodies_.build(body).half_extent + RealVector::Constant(bodies_[body].radius);
-  switch (wall) {
-    case partner::wall_left:
-      return {{1.0, 0.0}, extent.x()};
-    case partner::wall_right:
-      return {{-1.0, 0.0}, extent.x() - field.length};
-    case partner::wall_bottom:
-      return {{0.0, 1.0}, extent.y()};
-    case partner::wall_top:
-      return {{0.0, -1.0}, extent.y() - field.width};
-    default:
-      break;
-  }
-  if (bodies_.build(body).half == Half::left) return {{-1.0, 0.0}, extent.x() - 0.5 * field.length};
-  return {{1.0, 0.0}, extent.x() + 0.5 * field.length};
-}
-
 void Engine::predict_curved_walls(std::uint32_t body) {
   const Body& b = bodies_[body];
   const Motion still, moving = bodies_.motion(body);
   const RelativeMotion relative{still, moving};
+  const RealVector extent = bodies_.build(body).half_extent + RealVector::Constant(b.radius);
   const auto predict_plane = [&](Partner wall) {
-    const auto time = first_contact(relative, plane_of(body, wall), b.time,
-                                    slots_[body].impact_time + Real(instant), tolerance_);
+    const auto time =
+        first_contact(relative, plane_of(spec_.field, wall, extent, bodies_.build(body).half),
+                      b.time, slots_[body].impact_time + Real(instant), tolerance_);
     if (!time) return;
     const bool is_end = wall == partner::wall_left || wall == partner::wall_right;
     const bool is_open = is_end && b.kind == BodyKind::puck &&
@@ -162,14 +143,6 @@ void Engine::predict_curved_walls(std::uint32_t body) {
     predict_plane(partner::halfway);
 }
 
-RealVector Engine::goal_edge(Partner edge) const {
-  const Field& field = spec_.field;
-  const bool is_left = edge == partner::edge_left_low || edge == partner::edge_left_high;
-  const bool is_low = edge == partner::edge_left_low || edge == partner::edge_right_low;
-  return {is_left ? 0.0 : field.length,
-          0.5 * (Real(field.width) + (is_low ? -field.goal_width : field.goal_width))};
-}
-
 /// Between the edges of a goal: the two edges, the goal line, and the way out.
 void Engine::predict_mouth(std::uint32_t body) {
   const Body& b = bodies_[body];
@@ -186,7 +159,7 @@ void Engine::predict_mouth(std::uint32_t body) {
   meet(HalfPlane{{-inwards, 0.0}, -inwards * (end + inwards * b.radius)}, partner::mouth_out);
   for (const Partner edge : {is_left ? partner::edge_left_low : partner::edge_right_low,
                              is_left ? partner::edge_left_high : partner::edge_right_high}) {
-    still.position = goal_edge(edge);
+    still.position = goal_edge(spec_.field, edge);
     meet(RoundedBox{{0.0, 0.0}, b.radius}, edge);
   }
 }

@@ -1,11 +1,8 @@
 // Who touches whom at the instant of an impact, directly or through others.
 #include <algorithm>
 #include <limits>
-#include <type_traits>
 
 #include "game/physics/engine/engine.h"
-#include "game/physics/engine/visit_partners.h"
-#include "game/physics/flight/discs_near.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -21,7 +18,9 @@ constexpr double touch_roundings = 16.0;
 /// instant, however far away, by somebody whom this world does not have. So it concerns all of
 /// them, and the journal says so; nothing else changes.
 void Engine::look_at_touching(const Contact& c, Real time) {
-  if (spec_.surface_friction || clock_.is_hopeless || !has_company(c.body, c.partner, time)) return;
+  if (spec_.surface_friction || clock_.is_hopeless ||
+      !detection_.has_company(c.body, c.partner, time))
+    return;
   gather_touching(c, time);
   note_looked_at();
 }
@@ -30,53 +29,6 @@ void Engine::note_looked_at() {
   if (observers_.journal != nullptr)
     observers_.journal->looked_at.insert(observers_.journal->looked_at.end(), joint_.begin(),
                                          joint_.end());
-}
-
-/// Whether a third body may touch one of the two: never missed, and hardly ever wrong.
-bool Engine::has_company(std::uint32_t body, Partner p, Real time) {
-  candidates_.resize(grid_.collected_max());
-#if defined(RINK_PAIRS_SCALARS)
-  // In a gas nobody does, and to count who is near at all, posts among them, takes a third of what
-  // it takes to ask who they are.
-  const auto is_alone = [&](std::uint32_t one, std::uint32_t two) {
-    const std::uint32_t count = grid_.collect(one, candidates_.data()), fillers = (0u - count) & 3u;
-    const Body &a = bodies_[one], &b = bodies_[two];
-    const double ahead_a = std::max(0.0, time - a.time), ahead_b = std::max(0.0, time - b.time),
-                 ax = a.x + a.vx * ahead_a, ay = a.y + a.vy * ahead_a;
-    const double x = b.x + b.vx * ahead_b - ax, y = b.y + b.vy * ahead_b - ay,
-                 touching = a.radius + b.radius + 0.5 * clear_of_touching;
-    return x * x + y * y <= touching * touching &&
-           count_near_in_fours(bodies_.all(), candidates_.data(), count, one, ax, ay, time,
-                               a.radius + clear_of_touching) == 2 + fillers;
-  };
-  // Bats are on curves, always.
-  if (has_fours && bodies_.curved_count() == 0 && puck_drag_ == 0.0 && !bodies_.is_fixed(p) &&
-      is_alone(body, p) && is_alone(p, body))
-    return false;
-#endif
-  const auto has_third = [&](std::uint32_t one, Partner two) {
-    const std::uint32_t count = grid_.collect(one, candidates_.data());
-    const Body& a = bodies_[one];
-    const bool is_straight =
-        (a.flags & Body::curved) == 0 && a.kind == BodyKind::puck && puck_drag_ == 0.0;
-    const Real ahead = std::max<Real>(0.0, time - a.time), ax = a.x + a.vx * ahead,
-               ay = a.y + a.vy * ahead, least = a.radius + Real(clear_of_touching);
-    for (const std::uint32_t *other = candidates_.data(), *end = other + count; other != end;
-         ++other) {
-      const Body& b = bodies_[*other];
-      const bool is_pair_straight =
-          is_straight && (b.flags & Body::curved) == 0 && b.kind == BodyKind::puck;
-      const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed - ax,
-                 y = b.y + b.vy * elapsed - ay, reach = b.radius + least;
-      if ((is_pair_straight && x * x + y * y > reach * reach) || *other == one || *other == two ||
-          bodies_.is_fixed(*other))
-        continue;
-      if (is_pair_straight || contact(one, *other, time).gap.distance <= Real(clear_of_touching))
-        return true;
-    }
-    return false;
-  };
-  return has_third(body, p) || (!bodies_.is_fixed(p) && has_third(p, body));
 }
 
 std::uint32_t Engine::place_in_joint(std::uint32_t body, Real time) {
@@ -90,7 +42,7 @@ std::uint32_t Engine::place_in_joint(std::uint32_t body, Real time) {
 
 void Engine::add_touch(std::uint32_t place, Partner p, const Contact& at_hand, Real time) {
   const std::uint32_t body = joint_[place];
-  const Contact c = contact(body, p, time);
+  const Contact c = detection_.contact(body, p, time);
   const bool is_at_hand = (body == at_hand.body && p == at_hand.partner) ||
                           (p == at_hand.body && body == at_hand.partner);
   const Real rounding =
@@ -103,7 +55,7 @@ void Engine::add_touch(std::uint32_t place, Partner p, const Contact& at_hand, R
     other = place_in_joint(p, time);
     if (other < place) return;  // known from the other side
   }
-  problem_.touches.push_back({place, other, c.gap.normal, restitution(body, p)});
+  problem_.touches.push_back({place, other, c.gap.normal, detection_.restitution(body, p)});
   partners_.push_back(p);
 }
 
@@ -116,7 +68,7 @@ bool Engine::gather_touching(const Contact& c, Real time) {
   place_in_joint(c.body, time);
   if (!bodies_.is_fixed(c.partner)) place_in_joint(c.partner, time);
   for (std::uint32_t place = 0; place < joint_.size(); ++place)
-    visit_partners(joint_[place], [&](Partner p) { add_touch(place, p, c, time); });
+    detection_.visit_partners(joint_[place], [&](Partner p) { add_touch(place, p, c, time); });
   // Slower than this, the time of an impact is too uncertain to tell whether it belongs to the
   // instant.
   const Real slowest = 2.0 * touch_roundings * tolerance_ / Real(instant);
