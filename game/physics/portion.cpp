@@ -171,7 +171,7 @@ void Portion::begin_window() {
   journal_.times.clear(), journal_.was_hopeless = false;
   holds_before_ = e.rests_.holds(), frozen_before_ = e.jams_.table().frozen;
   clock_before_ = e.clock_, jam_count_before_ = e.jams_.table().count;
-  counters_before_ = e.counters_;
+  counters_before_ = e.record_.counters();
 }
 
 void Portion::undo() {
@@ -188,7 +188,7 @@ void Portion::undo() {
   e.rests_.restore(holds_before_);
   e.jams_.restore(frozen_before_, jam_count_before_);
   e.clock_ = clock_before_;
-  e.counters_ = counters_before_;
+  e.record_.counters() = counters_before_;
   for (const std::uint32_t body : e.pending_) e.bodies_.clear_flags(body, Body::pending);
   e.pending_.clear();
   e.bodies_.forget_touched();

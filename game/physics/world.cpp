@@ -135,7 +135,7 @@ std::unique_ptr<Simulator> World::copy() const {
 }
 
 const WorldSpec& World::spec() const { return engine_->spec_; }
-const Counters& World::counters() const { return engine_->counters_; }
+const Counters& World::counters() const { return engine_->record_.counters(); }
 Real World::kinetic_energy() const { return engine_->kinetic_energy(); }
 Real World::spin(BodyId body) const {
   return engine_->spec_.surface_friction ? engine_->bodies_.spin(body.index) : Real(0.0);

@@ -16,7 +16,9 @@ namespace rink::physics::inline RINK_PRECISION {
 /// Counts every event; writes them down only while that is wanted. Never changes the motion.
 class EventRecord {
  public:
-  explicit EventRecord(Counters& counters) : counters_(counters) {}
+  /// Also of what is no event of its own.
+  Counters& counters() { return counters_; }
+  const Counters& counters() const { return counters_; }
 
   void keep(bool is_wanted) { is_kept_ = is_wanted; }
   void note(EventKind kind, Real time, std::uint32_t body, Partner other = partner::none) {
@@ -30,7 +32,7 @@ class EventRecord {
   void forget() { events_.clear(); }
 
  private:
-  Counters& counters_;
+  Counters counters_;
   bool is_kept_ = false;
   std::vector<Event> events_;
 };

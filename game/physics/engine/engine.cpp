@@ -21,12 +21,13 @@ Engine::Engine(const WorldSpec& spec)
       contact_time_(spec.contact_time),
       rest_speed_(rest_speed(spec)),
       ledger_(spec.accounts_energy),
-      bodies_(spec, counters_, ledger_, observers_),
+      bodies_(spec, record_.counters(), ledger_, observers_),
       history_(spec, bodies_, observers_),
       jams_(bodies_, history_),
       friction_(spec, bodies_),
-      rests_(spec, bodies_, friction_, record_, observers_),
+      rests_(spec, bodies_, friction_, jams_, record_, observers_),
       detection_(spec_, bodies_, grid_),
+      clusters_(spec, bodies_, detection_, history_, jams_, rests_, record_),
       queue_(spec.queue) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 &&
          spec.field.goal_width <= spec.field.width);
@@ -77,7 +78,7 @@ BodyId Engine::add(BodyState state) {
 }
 
 WorldState Engine::state() const {
-  WorldState state{spec_,         clock_,  counters_,     bodies_.table(), history_.rhythms(),
+  WorldState state{spec_,         clock_,  record_.counters(), bodies_.table(), history_.rhythms(),
                    jams_.table(), ledger_, rests_.holds()};
   for (Body& b : state.bodies.bodies) b.flags = static_cast<std::uint8_t>(b.flags & ~Body::pending);
   return state;
@@ -85,7 +86,7 @@ WorldState Engine::state() const {
 
 void Engine::restore(WorldState state) {
   assert(bodies_.count() == 0);
-  clock_ = state.clock, counters_ = state.counters, ledger_ = state.ledger;
+  clock_ = state.clock, record_.counters() = state.counters, ledger_ = state.ledger;
   bodies_.restore(std::move(state.bodies));
   history_.restore(std::move(state.rhythms));
   jams_.restore(std::move(state.jams));
@@ -159,9 +160,7 @@ void Engine::remove(std::uint32_t body) {
   if (bodies_[body].is(Body::removed)) return;
   bodies_.keep(body);
   if (!bodies_[body].is(Body::out_of_play)) {
-    jams_.wake(body, clock_.now);
-    for (int axis = 0; axis < 2; ++axis) rests_.dissolve(body, axis, clock_.now);
-    bodies_.rebase(body, clock_.now);
+    rests_.free(body, clock_.now);
     ledger_.introduce(-energy_of(bodies_, body));
     grid_.remove(body);
     queue_.set(body, infinity, body, body);
@@ -197,8 +196,7 @@ void Engine::set_thrust(std::uint32_t bat, const RealVector& acceleration) {
     return;
   }
   record_.note(EventKind::thrust, clock_.now, bat);
-  jams_.wake(bat, clock_.now);
-  rests_.rebase_group(bat, clock_.now);
+  rests_.rouse(bat, clock_.now);
   bodies_.set_thrust(bat, acceleration);
   for (int axis = 0; axis < 2; ++axis) {
     if ((bodies_[bat].flags & Body::held_along(axis)) != 0) rests_.share(bat, axis, clock_.now);
@@ -280,7 +278,7 @@ void Engine::process(std::uint32_t body, Real time) {
   if (slot.crossing_time < slot.impact_time) return cross_cell(body);
   const Partner p = slot.partner;
   if (is_body(p) && bodies_[p].version != slot.partner_version) {
-    ++counters_.stale_events;
+    ++record_.counters().stale_events;
     return predict(body);
   }
   if (observers_.journal != nullptr)
@@ -300,7 +298,8 @@ void Engine::process(std::uint32_t body, Real time) {
 
 void Engine::count_event(Real time) {
   clock_.count_event(time);
-  counters_.events_at_once_max = std::max(counters_.events_at_once_max, clock_.events_at_once);
+  record_.counters().events_at_once_max =
+      std::max(record_.counters().events_at_once_max, clock_.events_at_once);
   if (observers_.journal != nullptr)
     observers_.journal->at_once_max =
         std::max(observers_.journal->at_once_max, clock_.events_at_once),
@@ -317,7 +316,7 @@ void Engine::settle() {
 }
 
 void Engine::cross_cell(std::uint32_t body) {
-  ++counters_.crossings;
+  ++record_.counters().crossings;
   const CellGrid::Direction direction = slots_[body].direction;
   grid_.move(body, direction);
   if ((bodies_[body].flags & Body::curved) != 0) return predict(body);
@@ -331,17 +330,14 @@ void Engine::cross_cell(std::uint32_t body) {
 
 void Engine::stop(std::uint32_t body, Real time) {
   record_.note(EventKind::stop, time, body);
-  jams_.wake(body, time);
-  rests_.rebase_group(body, time);
+  rests_.rouse(body, time);
   bodies_.set_velocity(body, RealVector(0.0, 0.0));  // one too slow to move before the next instant
                                                      // that a clock can show was not evaluated
 }
 
 void Engine::score(std::uint32_t body, Real time) {
   record_.note(EventKind::goal, time, body);
-  jams_.wake(body, time);
-  for (int axis = 0; axis < 2; ++axis) rests_.dissolve(body, axis, time);
-  bodies_.rebase(body, time);
+  rests_.free(body, time);
   ledger_.introduce(-energy_of(bodies_, body));
   bodies_.set_flags(body, Body::out_of_play);
   bodies_.set_mouth(body, Body::no_mouth);

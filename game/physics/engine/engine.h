@@ -24,7 +24,7 @@
 #include "game/physics/cell_grid.h"
 #include "game/physics/contact/contact_problem.h"
 #include "game/physics/contact/impact_solver.h"
-#include "game/physics/contact/separation_solver.h"
+#include "game/physics/engine/clusters.h"
 #include "game/physics/engine/contact_detection.h"
 #include "game/physics/engine/friction.h"
 #include "game/physics/engine/rest_contacts.h"
@@ -130,21 +130,6 @@ class Engine {
   bool collide_together(const Contact& contact, Real time);
   void apply_joint(const Contact& contact, Real time);
 
-  // engine_cluster.cpp
-  bool hop(const Contact& contact, Real approach, Real pressing, Real time);
-  bool is_rattling(Real approach) const;
-  void gather(const Contact& contact, Real speed_max, Real time);
-  void add_contact(std::uint32_t place, Partner partner, Real speed_max, Real time);
-  std::uint32_t place_in_cluster(std::uint32_t body, Real time);
-  bool freeze(Real thrust_max);
-  Real turning() const;
-  Real joint_thrust() const;
-  bool freeze_loosely(const Contact& contact, Real speed_max, Real time);
-  Real still_speed() const;
-  Real glancing_speed(Real thrust_max, Real pressing, Real speed) const;
-
-  void stop_around(const Contact& contact, Real time);
-
   void rebuild_from_state();
 
   WorldSpec spec_;
@@ -153,9 +138,8 @@ class Engine {
   Real puck_drag_;
   Real contact_time_;  // s
   Real rest_speed_;    // pressed contacts that close more slowly come to rest [m/s]
-  Counters counters_;
   Observers observers_;
-  EventRecord record_{counters_};
+  EventRecord record_;
   EnergyLedger ledger_;
   Bodies bodies_;
   ImpactHistory history_;
@@ -165,6 +149,7 @@ class Engine {
   LargeArray<Slot> slots_;
   CellGrid grid_;
   ContactDetection detection_;
+  Clusters clusters_;
   EventSchedule queue_;
   Real reach_ = 0.0;                       // largest half extent of any body [m]
   std::uint32_t grid_capacity_ = 0;        // bodies that the grid was made for
@@ -179,8 +164,6 @@ class Engine {
   std::vector<Partner> partners_;     // of its touches
   std::vector<RealVector> velocities_before_;
   ImpactSolver impact_solver_;
-  SeparationSolver separation_solver_;
-  Real gap_max_ = cluster_gap;  // up to which a contact belongs to a cluster
   std::optional<Goal> goal_;
 };
 

@@ -50,21 +50,21 @@ bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
   bodies_.restart(high, {bx, by}, {b.vx - kick_b * x, b.vy - kick_b * y}, std::max(b.time, time));
   if (is_counting) {
     const Slot slot_a = slots_[low], slot_b = slots_[high];
-    const std::uint64_t predictions = counters_.predictions;
+    const std::uint64_t predictions = record_.counters().predictions;
     const Real touching = a.radius + b.radius + Real(0.5 * clear_of_touching);
     const bool is_alone = square <= touching * touching && predict_counting(low) == 2 &&
                           predict_counting(high) == 2;  // each itself and the other
     if (!is_alone) {
       bodies_.take_back(low, before_a), bodies_.take_back(high, before_b);
       slots_[low] = slot_a, slots_[high] = slot_b;
-      counters_.predictions = predictions;
+      record_.counters().predictions = predictions;
       return false;
     }
   }
   record_.note(EventKind::puck_puck, time, low, high);
   bodies_.changes().note(low), bodies_.changes().note(high);
-  counters_.evaluations += (before_a.time < time) + (before_b.time < time);
-  counters_.bodies_touched += 2;
+  record_.counters().evaluations += (before_a.time < time) + (before_b.time < time);
+  record_.counters().bodies_touched += 2;
   if (observers_.journal != nullptr) {
     observers_.before->keep_flight(low, before_a), observers_.before->keep_flight(high, before_b);
     observers_.journal->enter_impact(low, a, a.mouth, high, b, b.mouth);
@@ -89,13 +89,12 @@ void Engine::collide(std::uint32_t body, Partner p, Real time) {
 
 void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
   count_impact(body, p, time);
-  jams_.wake(body, time);
-  rests_.rebase_group(body, time);
-  if (is_body(p)) jams_.wake(p, time), rests_.rebase_group(p, time);
+  rests_.rouse(body, time);
+  if (is_body(p)) rests_.rouse(p, time);
   const Contact c = detection_.contact(body, p, time);
-  if (spec_.allow_overlap && history_.is_stuck(c, time)) return stop_around(c, time);
+  if (spec_.allow_overlap && history_.is_stuck(c, time)) return clusters_.stop_around(c, time);
   history_.count_meeting(c, clock_.instant_begin);
-  if (history_.is_beyond_hope(c)) return stop_around(c, time);
+  if (history_.is_beyond_hope(c)) return clusters_.stop_around(c, time);
   const RealVector& normal = c.gap.normal;
   const Real approach = normal.dot(bodies_.velocity(p) - bodies_.velocity(body)),
              given_back = detection_.restitution(body, p);
@@ -109,7 +108,7 @@ void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
     history_.note_impact(body, time);
     if (!bodies_.is_fixed(p)) history_.note_impact(p, time);
     if ((history_.is_hemmed_in(c) || history_.is_pressed_hard(c, approach, time)) &&
-        hop(c, approach, pressing, time))
+        clusters_.hop(c, approach, pressing, time))
       return;
   }
   if (is_crowded(body, p)) {

@@ -44,7 +44,7 @@ std::uint32_t Engine::begin_prediction(std::uint32_t body) {
   predict_field(body);
   if ((bodies_[body].flags & Body::curved) != 0) predict_curved_crossing(body);
   candidates_.resize(grid_.collected_max());
-  --counters_.predictions;  // of the body with itself
+  --record_.counters().predictions;  // of the body with itself
   return grid_.collect(body, candidates_.data());
 }
 
@@ -52,7 +52,7 @@ std::uint32_t Engine::begin_prediction(std::uint32_t body) {
 /// touch it now, itself included: never too few, hardly ever too many.
 std::uint32_t Engine::predict_counting(std::uint32_t body) {
   const std::uint32_t count = begin_prediction(body);
-  counters_.predictions += count;
+  record_.counters().predictions += count;
   return predict_straight_pairs<true>(body, candidates_.data(), count);
 }
 
@@ -166,7 +166,7 @@ void Engine::predict_mouth(std::uint32_t body) {
 
 /// The first `count` of the candidates.
 void Engine::predict_pairs(std::uint32_t body, std::uint32_t count) {
-  counters_.predictions += count;
+  record_.counters().predictions += count;
   std::uint32_t* near = candidates_.data();
   if ((bodies_[body].flags & Body::curved) == 0 && puck_drag_ == 0.0) {
     const auto is_curved = [&](std::uint32_t other) {

@@ -25,7 +25,7 @@ bool Engine::collide_together(const Contact& c, Real time) {
   clock_.is_hopeless = !impact_solver_.solve(problem_, clock_.is_endless());
   if (clock_.is_hopeless && observers_.journal != nullptr) observers_.journal->was_hopeless = true;
   if (clock_.is_hopeless) return false;
-  ++counters_.joint_impacts;
+  ++record_.counters().joint_impacts;
   apply_joint(c, time);
   return true;
 }
@@ -46,8 +46,7 @@ void Engine::apply_joint(const Contact& at_hand, Real time) {
     }
     for (const Partner p : {body, partner}) {
       if (bodies_.is_fixed(p)) continue;
-      jams_.wake(p, time);
-      rests_.rebase_group(p, time);
+      rests_.rouse(p, time);
       for (int axis = 0; axis < 2; ++axis)
         if (touch.normal[axis] != 0.0) rests_.dissolve(p, axis, time);
     }

@@ -18,10 +18,11 @@ constexpr double pull_min = 1e-9;
 
 }  // namespace
 
-RestContacts::RestContacts(const WorldSpec& spec, Bodies& bodies, Friction& friction,
+RestContacts::RestContacts(const WorldSpec& spec, Bodies& bodies, Friction& friction, Jams& jams,
                            EventRecord& record, const Observers& observers)
     : bodies_(bodies),
       friction_(friction),
+      jams_(jams),
       record_(record),
       observers_(observers),
       tolerance_(offset_tolerance(spec)),
@@ -52,6 +53,12 @@ void RestContacts::rebase_group(std::uint32_t body, Real time) {
   bodies_.rebase(body, time);
   if (!bodies_[body].is(Body::held)) return;
   for (const std::uint32_t companion : group(body, Body::held)) bodies_.rebase(companion, time);
+}
+
+void RestContacts::free(std::uint32_t body, Real time) {
+  jams_.wake(body, time);
+  for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
+  bodies_.rebase(body, time);
 }
 
 bool RestContacts::would_push_twice(const Contact& c) const {

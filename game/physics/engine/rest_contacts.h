@@ -11,6 +11,7 @@
 #include "game/physics/bodies/bodies.h"
 #include "game/physics/bodies/contact.h"
 #include "game/physics/bodies/event_record.h"
+#include "game/physics/bodies/jams.h"
 #include "game/physics/bodies/observers.h"
 #include "game/physics/bodies/partner.h"
 #include "game/physics/body_state.h"
@@ -22,8 +23,8 @@ namespace rink::physics::inline RINK_PRECISION {
 /// Bodies in rest contact along an axis, directly or through others, are a group of it.
 class RestContacts {
  public:
-  RestContacts(const WorldSpec& spec, Bodies& bodies, Friction& friction, EventRecord& record,
-               const Observers& observers);
+  RestContacts(const WorldSpec& spec, Bodies& bodies, Friction& friction, Jams& jams,
+               EventRecord& record, const Observers& observers);
   RestContacts(const RestContacts&) = delete;
   RestContacts& operator=(const RestContacts&) = delete;
 
@@ -37,6 +38,14 @@ class RestContacts {
   /// Bodies in rest contact keep bitwise equal velocities only if they are evaluated from the same
   /// instant, so they are rebased together.
   void rebase_group(std::uint32_t body, Real time);
+
+  /// Before something befalls the body: it is in no jam any more, and its groups are rebased.
+  void rouse(std::uint32_t body, Real time) {
+    jams_.wake(body, time);
+    rebase_group(body, time);
+  }
+  /// Before it goes its own way: it is rebased, and in no jam or rest contact any more.
+  void free(std::uint32_t body, Real time);
 
   bool can_join(const Contact& contact) const;
   /// Perfectly inelastic along the axis of the face: the groups on both sides become one.
@@ -83,6 +92,7 @@ class RestContacts {
 
   Bodies& bodies_;
   Friction& friction_;
+  Jams& jams_;
   EventRecord& record_;
   const Observers& observers_;
   Real tolerance_, contact_time_;

@@ -1,0 +1,70 @@
+// Pressed clusters whose normals turn: taken out of contact in one step, and frozen where they are
+// in equilibrium.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "game/physics/bodies/bodies.h"
+#include "game/physics/bodies/contact.h"
+#include "game/physics/bodies/event_record.h"
+#include "game/physics/bodies/impact_history.h"
+#include "game/physics/bodies/jams.h"
+#include "game/physics/bodies/partner.h"
+#include "game/physics/contact/contact_problem.h"
+#include "game/physics/contact/separation_solver.h"
+#include "game/physics/engine/contact_detection.h"
+#include "game/physics/engine/rest_contacts.h"
+#include "game/physics/real.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+/// A cluster is everybody connected by gaps too small to be seen.
+class Clusters {
+ public:
+  Clusters(const WorldSpec& spec, Bodies& bodies, ContactDetection& detection,
+           ImpactHistory& history, Jams& jams, RestContacts& rests, EventRecord& record);
+  Clusters(const Clusters&) = delete;
+  Clusters& operator=(const Clusters&) = delete;
+
+  /// Gives the cluster around `contact` the nearest velocities (in the metric of the masses) that
+  /// part all its contacts by a little: half of what its thrust, or the difference in drag that
+  /// closes `contact` by `pressing` [m/s^2], builds up within the contact time. False, with nothing
+  /// done to velocities, if an ordinary impact serves: nothing presses, and nothing is lost or the
+  /// contact is alone.
+  bool hop(const Contact& contact, Real approach, Real pressing, Real time);
+  /// Stops all that hangs together with the contact, for as long as nothing else acts on it.
+  void stop_around(const Contact& contact, Real time);
+
+ private:
+  /// Up to which gap, and which speed of closing or opening, a contact belongs to the cluster.
+  struct Limits {
+    Real gap, speed;
+  };
+
+  void gather(const Contact& contact, const Limits& limits, Real time);
+  std::uint32_t place_of(std::uint32_t body, Real time);
+  void add_contact(std::uint32_t place, Partner partner, const Limits& limits, Real time);
+  bool freeze();
+  bool freeze_loosely(const Contact& contact, Real time);
+  void part(Real pressure, Real pressing, Real thrust);
+  bool is_rattling(Real approach) const;
+  Real thrust_max() const;
+  Real turning() const;
+  Real glancing_speed(Real thrust, Real pressing, Real speed) const;
+  Real still_speed() const;
+
+  Bodies& bodies_;
+  ContactDetection& detection_;
+  ImpactHistory& history_;
+  Jams& jams_;
+  RestContacts& rests_;
+  EventRecord& record_;
+  double puck_friction_;            // m/s^2
+  Real contact_time_, rest_speed_;  // s, m/s
+  std::vector<std::uint32_t> members_;
+  ContactProblem problem_;  // theirs, in the same order
+  SeparationSolver solver_;
+};
+
+}  // namespace rink::physics::inline RINK_PRECISION
