@@ -28,6 +28,7 @@ Engine::Engine(const WorldSpec& spec)
       rests_(spec, bodies_, friction_, jams_, record_, observers_),
       detection_(spec_, bodies_, grid_),
       clusters_(spec, bodies_, detection_, history_, jams_, rests_, record_),
+      joint_impacts_(spec, clock_, bodies_, detection_, history_, rests_, record_, observers_),
       queue_(spec.queue) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 &&
          spec.field.goal_width <= spec.field.width);

@@ -22,11 +22,10 @@
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/bodies/world_state.h"
 #include "game/physics/cell_grid.h"
-#include "game/physics/contact/contact_problem.h"
-#include "game/physics/contact/impact_solver.h"
 #include "game/physics/engine/clusters.h"
 #include "game/physics/engine/contact_detection.h"
 #include "game/physics/engine/friction.h"
+#include "game/physics/engine/joint_impacts.h"
 #include "game/physics/engine/rest_contacts.h"
 #include "game/physics/event.h"
 #include "game/physics/events/event_schedule.h"
@@ -116,19 +115,7 @@ class Engine {
   void collide_ordered(std::uint32_t body, Partner partner, Real time);
   void bounce(const Contact& contact, Real restitution, Real time);
   void rub(const Contact& contact, Real normal_impulse);
-  void count_impact(std::uint32_t body, Partner partner, Real time);
-
-  // engine_touching.cpp
-  bool gather_touching(const Contact& contact, Real time);
-  void look_at_touching(const Contact& contact, Real time);
-  void note_looked_at();
-  void add_touch(std::uint32_t place, Partner partner, const Contact& at_hand, Real time);
-  std::uint32_t place_in_joint(std::uint32_t body, Real time);
-
-  // engine_simultaneous.cpp
   bool is_crowded(std::uint32_t body, Partner partner) const;
-  bool collide_together(const Contact& contact, Real time);
-  void apply_joint(const Contact& contact, Real time);
 
   void rebuild_from_state();
 
@@ -150,6 +137,7 @@ class Engine {
   CellGrid grid_;
   ContactDetection detection_;
   Clusters clusters_;
+  JointImpacts joint_impacts_;
   EventSchedule queue_;
   Real reach_ = 0.0;                       // largest half extent of any body [m]
   std::uint32_t grid_capacity_ = 0;        // bodies that the grid was made for
@@ -159,11 +147,6 @@ class Engine {
   std::array<std::int64_t, 4>
       looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
   std::vector<std::uint32_t> pending_;
-  std::vector<std::uint32_t> joint_;  // bodies of the cluster or joint impact at hand
-  ContactProblem problem_;            // theirs, by their places in joint_
-  std::vector<Partner> partners_;     // of its touches
-  std::vector<RealVector> velocities_before_;
-  ImpactSolver impact_solver_;
   std::optional<Goal> goal_;
 };
 

@@ -14,6 +14,13 @@ constexpr double press_min = 1e-7;
 
 }  // namespace
 
+/// Whether another impact may come at the instant at hand. Never misses one: an impact is either
+/// the first of its body, and thus in the queue, or hidden behind that one.
+bool Engine::is_crowded(std::uint32_t body, Partner p) const {
+  return slots_[body].is_tied || (is_body(p) && slots_[p].is_tied) || clock_.is_endless() ||
+         queue_.is_followed_within(instant);
+}
+
 /// Two pucks that nothing holds, hitting each other fast and giving back all: nearly every event of
 /// a gas. The arithmetic of collide() without its questions, so the same bits. False, with nothing
 /// done, for anything else. A third one that touches matters to a journal alone; who is near is
@@ -88,7 +95,7 @@ void Engine::collide(std::uint32_t body, Partner p, Real time) {
 }
 
 void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
-  count_impact(body, p, time);
+  record_.note(impact_kind(bodies_, body, p), time, body, p);
   rests_.rouse(body, time);
   if (is_body(p)) rests_.rouse(p, time);
   const Contact c = detection_.contact(body, p, time);
@@ -112,9 +119,9 @@ void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
       return;
   }
   if (is_crowded(body, p)) {
-    if (collide_together(c, time)) return;
+    if (joint_impacts_.collide(c, time)) return;
   } else if (observers_.journal != nullptr) {
-    look_at_touching(c, time);
+    joint_impacts_.look_at_touching(c, time);
   }
   bounce(c, given_back, time);
 }
@@ -180,19 +187,6 @@ void Engine::rub(const Contact& c, Real normal_impulse) {
   };
   kick(c.body, 1.0);
   if (is_partner_moved) kick(c.partner, -1.0);
-}
-
-void Engine::count_impact(std::uint32_t body, Partner p, Real time) {
-  const auto is = [&](BodyKind kind) {
-    return bodies_[body].kind == kind || (is_body(p) && bodies_[p].kind == kind);
-  };
-  const auto kind = [&] {
-    if (!is_body(p)) return p >= partner::edge_left_low ? EventKind::post : EventKind::wall;
-    if (is(BodyKind::post)) return EventKind::post;
-    if (!is(BodyKind::bat)) return EventKind::puck_puck;
-    return is(BodyKind::puck) ? EventKind::puck_bat : EventKind::bat_bat;
-  };
-  record_.note(kind(), time, body, p);
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION
