@@ -94,8 +94,7 @@ void Portion::put(std::uint32_t body, const BodyState& s) {
   write(body, s);
   is_there_[body] = 1;
   e.grid_.remove(body);
-  e.queue_.set(body, infinity, body, body);
-  e.slots_[body] = Engine::no_event;
+  e.events_.drop(body);
   if (e.bodies_.is_gone(body)) return;
   if (e.reach_of(body) > e.reach_) {
     e.reach_ = e.reach_of(body);
@@ -118,7 +117,7 @@ void Portion::drop(std::uint32_t body) {
   blank.drag = Vector2::Constant(e.spec_.puck_drag);
   write(body, blank);
   e.grid_.remove(body);
-  e.queue_.set(body, infinity, body, body);
+  e.events_.drop(body);
   is_there_[body] = 0;
 }
 
@@ -194,8 +193,6 @@ void Portion::undo() {
   e.bodies_.forget_touched();
   for (std::uint32_t body = 0; body < body_count(); ++body) e.bodies_.changes().note(body);
   e.goal_.reset();
-  e.queue_ = EventSchedule(e.spec_.queue);
-  e.looked_ahead_ = {};
   e.rebuild_from_state();
   begin_window();
 }

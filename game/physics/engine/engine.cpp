@@ -9,15 +9,8 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-namespace {
-/// With fewer bodies all is near at hand, and to look ahead costs a fifth.
-constexpr std::size_t look_ahead_min = 30'000;
-}  // namespace
-
 Engine::Engine(const WorldSpec& spec)
     : spec_(spec),
-      tolerance_(offset_tolerance(spec)),
-      puck_drag_(spec.puck_drag),
       contact_time_(spec.contact_time),
       rest_speed_(rest_speed(spec)),
       ledger_(spec.accounts_energy),
@@ -29,7 +22,9 @@ Engine::Engine(const WorldSpec& spec)
       detection_(spec_, bodies_, grid_),
       clusters_(spec, bodies_, detection_, history_, jams_, rests_, record_),
       joint_impacts_(spec, clock_, bodies_, detection_, history_, rests_, record_, observers_),
-      queue_(spec.queue) {
+      events_(spec.queue),
+      prediction_(spec_, clock_, bodies_, grid_, rests_, events_, record_.counters()),
+      look_ahead_(bodies_, grid_, events_) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 &&
          spec.field.goal_width <= spec.field.width);
   assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.contact_time > 0.0 &&
@@ -60,13 +55,12 @@ BodyId Engine::add(BodyState state) {
   bodies_.add(state);
   history_.add();
   jams_.add();
-  slots_.push_back(no_event);
+  events_.add();
   friction_.slide(body, std::nullopt);
   ledger_.introduce(energy_of(bodies_, body));
   enter_mouth_if_inside(body);
   const std::uint32_t count = body + 1;
   grid_.resize(count);
-  queue_.resize(count);
   require_prediction(body);
   if (count > grid_capacity_ || reach_of(body) > reach_) {
     reach_ = std::max(reach_, reach_of(body));
@@ -97,9 +91,9 @@ void Engine::restore(WorldState state) {
 
 /// Predictions, grid and queue follow from the last-event states, whenever they are made.
 void Engine::rebuild_from_state() {
-  slots_.assign(bodies_.count(), no_event);
   grid_.resize(bodies_.count());
-  queue_.resize(bodies_.count());
+  events_.restart(bodies_.count());
+  look_ahead_.restart();
   for (std::uint32_t body = 0; body < bodies_.count(); ++body)
     reach_ = std::max(reach_, reach_of(body));
   grid_capacity_ = std::max(64u, 2 * bodies_.count());
@@ -140,10 +134,9 @@ void Engine::predict_pending() {
     bodies_.clear_flags(body, Body::pending);
     if (bodies_.is_gone(body)) continue;
     if (!is_everything_pending_ || !is_left_alone(body)) {
-      predict(body);
+      prediction_.predict(body);
     } else {
-      slots_[body] = no_event;
-      queue_.set(body, infinity, body, body);
+      events_.drop(body);
     }
   }
   pending_.clear();
@@ -164,7 +157,7 @@ void Engine::remove(std::uint32_t body) {
     rests_.free(body, clock_.now);
     ledger_.introduce(-energy_of(bodies_, body));
     grid_.remove(body);
-    queue_.set(body, infinity, body, body);
+    events_.drop(body);
   }
   bodies_.set_flags(body, Body::removed);
   bodies_.changes().note(body);
@@ -214,73 +207,25 @@ std::optional<Goal> Engine::advance(Real until) {
   if (observers_.journal != nullptr && clock_.is_played) observers_.journal->played = clock_.now;
   predict_pending();
   clock_.is_played = false;
-  const bool looks_ahead = bodies_.count() >= look_ahead_min && queue_.calendar() != nullptr;
-  for (std::uint32_t body = queue_.first(until); body != EventQueue::none;
-       body = queue_.first(until)) {
-    if (looks_ahead && queue_.calendar()->current() != looked_ahead_.back() - 1) look_ahead();
-    process(body, queue_.time(body));
+  const bool looks_ahead = look_ahead_.is_worthwhile();
+  for (std::uint32_t body = events_.first(until); body != NextEvents::none;
+       body = events_.first(until)) {
+    if (looks_ahead && look_ahead_.is_due()) look_ahead_.fetch();
+    process(body, events_.time(body));
     if (goal_) return std::exchange(goal_, std::nullopt);
   }
   clock_.arrive(until);
   return std::nullopt;
 }
 
-/// Fetches what the next events will look into, in steps, as one thing leads to the next: who
-/// comes, whom he meets and in which cells, who is there. Changes nothing but speed.
-void Engine::look_ahead() {
-  const auto& calendar = *queue_.calendar();
-  const auto fetch = [&](std::uint32_t body) {
-    __builtin_prefetch(&bodies_[body], 1);
-    __builtin_prefetch(&slots_[body], 1);
-    grid_.prefetch_place(body);
-    calendar.prefetch(body);
-  };
-  const auto meets = [&](std::uint32_t body) {
-    return slots_[body].impact_time <= slots_[body].crossing_time;
-  };
-  const auto meets_listed = [&](std::uint32_t body) {
-    return meets(body) && is_body(slots_[body].partner) && grid_.is_listed(slots_[body].partner);
-  };
-  const auto fetch_collected = [&](std::uint32_t count) {
-    for (std::uint32_t k = 0; k < count; ++k) __builtin_prefetch(&bodies_[candidates_[k]]);
-  };
-  const auto step = [&](std::size_t number, auto&& visit) {
-    const std::int64_t distance = static_cast<std::int64_t>(looked_ahead_.size() - number),
-                       current = calendar.current();
-    std::int64_t& last = looked_ahead_[number];
-    if (last > current + distance) last = current;  // the buckets were numbered anew
-    for (last = std::max(last, current); last < current + distance;)
-      calendar.upcoming(++last - current, visit);
-  };
-  candidates_.resize(grid_.collected_max());
-  step(0, fetch);
-  step(1, [&](std::uint32_t body) {
-    if (!grid_.is_listed(body)) return;  // it has left, its note has not
-    if (!meets(body)) return grid_.prefetch_cells_ahead(body, slots_[body].direction);
-    grid_.prefetch_cells(body);
-    if (is_body(slots_[body].partner)) fetch(slots_[body].partner);
-  });
-  step(2, [&](std::uint32_t body) {
-    if (!grid_.is_listed(body)) return;
-    fetch_collected(meets(body) ? grid_.collect(body, candidates_.data())
-                                : grid_.collect_ahead_of_move(body, slots_[body].direction,
-                                                              candidates_.data()));
-    if (meets_listed(body)) grid_.prefetch_cells(slots_[body].partner);
-  });
-  step(3, [&](std::uint32_t body) {
-    if (meets_listed(body))
-      fetch_collected(grid_.collect(slots_[body].partner, candidates_.data()));
-  });
-}
-
 void Engine::process(std::uint32_t body, Real time) {
   clock_.reach(time);
-  const Slot& slot = slots_[body];
+  const Slot& slot = events_[body];
   if (slot.crossing_time < slot.impact_time) return cross_cell(body);
   const Partner p = slot.partner;
   if (is_body(p) && bodies_[p].version != slot.partner_version) {
     ++record_.counters().stale_events;
-    return predict(body);
+    return prediction_.predict(body);
   }
   if (observers_.journal != nullptr)
     observers_.journal->begin_event(time, std::min(body, p), std::max(body, p));
@@ -312,21 +257,15 @@ void Engine::settle() {
   if (bodies_.is_slowed()) rests_.push_again();
   if (observers_.journal != nullptr) enter_changes();
   for (const std::uint32_t body : bodies_.touched())
-    if (!bodies_[body].is(Body::gone | Body::pending)) predict(body);
+    if (!bodies_[body].is(Body::gone | Body::pending)) prediction_.predict(body);
   bodies_.forget_touched();
 }
 
 void Engine::cross_cell(std::uint32_t body) {
   ++record_.counters().crossings;
-  const CellGrid::Direction direction = slots_[body].direction;
+  const CellGrid::Direction direction = events_[body].direction;
   grid_.move(body, direction);
-  if ((bodies_[body].flags & Body::curved) != 0) return predict(body);
-  // Only the three cells that came into sight: the earliest impact in the others is known and stays
-  // the earliest.
-  predict_flight(body);
-  candidates_.resize(grid_.collected_max());
-  predict_pairs(body, grid_.collect_ahead(body, direction, candidates_.data()));
-  enqueue(body);
+  prediction_.predict_beyond(body, direction);
 }
 
 void Engine::stop(std::uint32_t body, Real time) {
@@ -343,7 +282,7 @@ void Engine::score(std::uint32_t body, Real time) {
   bodies_.set_flags(body, Body::out_of_play);
   bodies_.set_mouth(body, Body::no_mouth);
   grid_.remove(body);
-  queue_.set(body, infinity, body, body);
+  events_.drop(body);
   goal_ = Goal{time, {body}, bodies_[body].x < 0.5 * spec_.field.length ? End::left : End::right};
 }
 

@@ -26,11 +26,12 @@
 #include "game/physics/engine/contact_detection.h"
 #include "game/physics/engine/friction.h"
 #include "game/physics/engine/joint_impacts.h"
+#include "game/physics/engine/look_ahead.h"
+#include "game/physics/engine/next_events.h"
+#include "game/physics/engine/prediction.h"
 #include "game/physics/engine/rest_contacts.h"
 #include "game/physics/event.h"
-#include "game/physics/events/event_schedule.h"
 #include "game/physics/flight/impact_time.h"
-#include "game/physics/large_pages.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -61,13 +62,6 @@ class Engine {
   friend class World;
   friend class Portion;
 
-  static constexpr Slot no_event{std::numeric_limits<Real>::infinity(),
-                                 std::numeric_limits<Real>::infinity(),
-                                 partner::none,
-                                 0,
-                                 CellGrid::left,
-                                 false};
-
   // engine.cpp: bodies and the loop
   Real reach_of(std::uint32_t body) const;
   void rebuild_grid();
@@ -77,7 +71,6 @@ class Engine {
   bool is_left_alone(std::uint32_t body) const;
   void cross_cell(std::uint32_t body);
   void process(std::uint32_t body, Real time);
-  void look_ahead();
   void settle();
   void count_event(Real time);
   void score(std::uint32_t body, Real time);
@@ -87,42 +80,17 @@ class Engine {
   void enter_changes();
   std::uint64_t conditions_of(std::uint32_t body) const;
 
-  // engine_prediction.cpp
-  void predict(std::uint32_t body);
-  std::uint32_t begin_prediction(std::uint32_t body);
-  std::uint32_t predict_counting(std::uint32_t body);
-  void predict_field(std::uint32_t body);
-  void predict_flight(std::uint32_t body);
-  void predict_side_wall(std::uint32_t body);
-  void predict_end_wall(std::uint32_t body);
-  void predict_curved_walls(std::uint32_t body);
-  void predict_mouth(std::uint32_t body);
-  void predict_pairs(std::uint32_t body, std::uint32_t count);
-  template <bool counts>
-  std::uint32_t predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
-                                       std::uint32_t count);
-  void predict_pair(std::uint32_t body, std::uint32_t other);
-  void predict_curved_pair(std::uint32_t body, std::uint32_t other);
-  void predict_release(std::uint32_t body);
-  void predict_curved_crossing(std::uint32_t body);
-  void offer(std::uint32_t body, Real time, Partner partner);
-  void enqueue(std::uint32_t body);
-  Real real_time(Real start, Real warped) const;
-
   // engine_impact.cpp
   bool collide_freely(std::uint32_t body, Partner partner, Real time);
   void collide(std::uint32_t body, Partner partner, Real time);
   void collide_ordered(std::uint32_t body, Partner partner, Real time);
   void bounce(const Contact& contact, Real restitution, Real time);
   void rub(const Contact& contact, Real normal_impulse);
-  bool is_crowded(std::uint32_t body, Partner partner) const;
 
   void rebuild_from_state();
 
   WorldSpec spec_;
   Clock clock_;
-  Real tolerance_;  // rounding error of an offset [m]
-  Real puck_drag_;
   Real contact_time_;  // s
   Real rest_speed_;    // pressed contacts that close more slowly come to rest [m/s]
   Observers observers_;
@@ -133,19 +101,17 @@ class Engine {
   Jams jams_;
   Friction friction_;
   RestContacts rests_;
-  LargeArray<Slot> slots_;
   CellGrid grid_;
   ContactDetection detection_;
   Clusters clusters_;
   JointImpacts joint_impacts_;
-  EventSchedule queue_;
-  Real reach_ = 0.0;                       // largest half extent of any body [m]
-  std::uint32_t grid_capacity_ = 0;        // bodies that the grid was made for
-  bool has_free_impacts_;                  // decided by the spec: collide_freely() may serve
-  std::vector<std::uint32_t> candidates_;  // near the body that is being predicted
+  NextEvents events_;
+  Prediction prediction_;
+  LookAhead look_ahead_;
+  Real reach_ = 0.0;                 // largest half extent of any body [m]
+  std::uint32_t grid_capacity_ = 0;  // bodies that the grid was made for
+  bool has_free_impacts_;            // decided by the spec: collide_freely() may serve
   bool is_everything_pending_ = false;
-  std::array<std::int64_t, 4>
-      looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
   std::vector<std::uint32_t> pending_;
   std::optional<Goal> goal_;
 };

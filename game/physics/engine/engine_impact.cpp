@@ -14,13 +14,6 @@ constexpr double press_min = 1e-7;
 
 }  // namespace
 
-/// Whether another impact may come at the instant at hand. Never misses one: an impact is either
-/// the first of its body, and thus in the queue, or hidden behind that one.
-bool Engine::is_crowded(std::uint32_t body, Partner p) const {
-  return slots_[body].is_tied || (is_body(p) && slots_[p].is_tied) || clock_.is_endless() ||
-         queue_.is_followed_within(instant);
-}
-
 /// Two pucks that nothing holds, hitting each other fast and giving back all: nearly every event of
 /// a gas. The arithmetic of collide() without its questions, so the same bits. False, with nothing
 /// done, for anything else. A third one that touches matters to a journal alone; who is near is
@@ -33,7 +26,7 @@ bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
   if ((a.flags | b.flags) != 0 || a.kind != BodyKind::puck || b.kind != BodyKind::puck ||
       !has_free_impacts_ || spec_.restitution(a.material, b.material) != 1.0)
     return false;
-  if (is_crowded(body, p)) return false;
+  if (clock_.is_endless() || events_.is_followed_at_once(body, p)) return false;
   const bool is_counting =
       observers_.journal != nullptr && bodies_.curved_count() == 0 && counts_touching();
   if (observers_.journal != nullptr && !is_counting && detection_.has_company(body, p, time))
@@ -56,14 +49,14 @@ bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
   bodies_.restart(low, {ax, ay}, {a.vx + kick_a * x, a.vy + kick_a * y}, std::max(a.time, time));
   bodies_.restart(high, {bx, by}, {b.vx - kick_b * x, b.vy - kick_b * y}, std::max(b.time, time));
   if (is_counting) {
-    const Slot slot_a = slots_[low], slot_b = slots_[high];
+    const Slot slot_a = events_[low], slot_b = events_[high];
     const std::uint64_t predictions = record_.counters().predictions;
     const Real touching = a.radius + b.radius + Real(0.5 * clear_of_touching);
-    const bool is_alone = square <= touching * touching && predict_counting(low) == 2 &&
-                          predict_counting(high) == 2;  // each itself and the other
+    const bool is_alone = square <= touching * touching && prediction_.predict_counting(low) == 2 &&
+                          prediction_.predict_counting(high) == 2;  // each itself and the other
     if (!is_alone) {
       bodies_.take_back(low, before_a), bodies_.take_back(high, before_b);
-      slots_[low] = slot_a, slots_[high] = slot_b;
+      events_.slot(low) = slot_a, events_.slot(high) = slot_b;
       record_.counters().predictions = predictions;
       return false;
     }
@@ -77,11 +70,11 @@ bool Engine::collide_freely(std::uint32_t body, Partner p, Real time) {
     observers_.journal->enter_impact(low, a, a.mouth, high, b, b.mouth);
   }
   if (is_counting) {
-    enqueue(low);
-    enqueue(high);
+    events_.schedule(low);
+    events_.schedule(high);
   } else {
-    predict(low);
-    predict(high);
+    prediction_.predict(low);
+    prediction_.predict(high);
   }
   return true;
 }
@@ -118,7 +111,7 @@ void Engine::collide_ordered(std::uint32_t body, Partner p, Real time) {
         clusters_.hop(c, approach, pressing, time))
       return;
   }
-  if (is_crowded(body, p)) {
+  if (clock_.is_endless() || events_.is_followed_at_once(body, p)) {
     if (joint_impacts_.collide(c, time)) return;
   } else if (observers_.journal != nullptr) {
     joint_impacts_.look_at_touching(c, time);

@@ -1,18 +1,33 @@
-// The earliest event of a body, from last-event states alone.
-#include "game/physics/engine/engine.h"
-#include "game/physics/engine/field_parts.h"
-#include "game/physics/flight/exponential.h"
+// What the field, the cells and everybody near have in store for a body.
+#include "game/physics/engine/prediction.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "game/physics/bodies/tolerances.h"
+#include "game/physics/engine/field_parts.h"
+#include "game/physics/flight/exponential.h"
 #include "game/physics/flight/straight_flight.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
+Prediction::Prediction(const WorldSpec& spec, const Clock& clock, const Bodies& bodies,
+                       const CellGrid& grid, const RestContacts& rests, NextEvents& events,
+                       Counters& counters)
+    : field_(spec.field),
+      clock_(clock),
+      bodies_(bodies),
+      grid_(grid),
+      rests_(rests),
+      events_(events),
+      counters_(counters),
+      puck_drag_(spec.puck_drag),
+      tolerance_(offset_tolerance(spec)) {}
+
 /// Ties break by (time, lower id, higher id); parts of the field count as higher than every body.
 /// Whether another impact follows within the instant does not depend on the order of the offers.
-void Engine::offer(std::uint32_t body, Real time, Partner p) {
-  Slot& slot = slots_[body];
+void Prediction::offer(std::uint32_t body, Real time, Partner p) {
+  Slot& slot = events_.slot(body);
   if (time > slot.impact_time + Real(instant)) return;
   slot.is_tied = time >= slot.impact_time - Real(instant);
   if (time > slot.impact_time) return;
@@ -22,45 +37,46 @@ void Engine::offer(std::uint32_t body, Real time, Partner p) {
   slot.partner_version = is_body(p) ? bodies_[p].version : 0;
 }
 
-void Engine::enqueue(std::uint32_t body) {
-  const Slot& slot = slots_[body];
-  if (slot.crossing_time < slot.impact_time) queue_.set(body, slot.crossing_time, body, body);
-  else
-    queue_.set(body, slot.impact_time, std::min(body, slot.partner), std::max(body, slot.partner));
+void Prediction::predict(std::uint32_t body) {
+  if (bodies_[body].kind == BodyKind::post) return;
+  predict_pairs(body, begin(body));
+  events_.schedule(body);
 }
 
-void Engine::predict(std::uint32_t body) {
-  if (bodies_[body].kind == BodyKind::post) return;
-  predict_pairs(body, begin_prediction(body));
-  enqueue(body);
+void Prediction::predict_beyond(std::uint32_t body, CellGrid::Direction direction) {
+  if (bodies_[body].is(Body::curved)) return predict(body);
+  predict_flight(body);
+  candidates_.resize(grid_.collected_max());
+  predict_pairs(body, grid_.collect_ahead(body, direction, candidates_.data()));
+  events_.schedule(body);
 }
 
 /// Forgets what was known, asks the field, and makes all who are near candidates; returns how many,
 /// the body itself among them.
-std::uint32_t Engine::begin_prediction(std::uint32_t body) {
-  slots_[body].impact_time = infinity;
-  slots_[body].partner = partner::none;
-  slots_[body].is_tied = false;
+std::uint32_t Prediction::begin(std::uint32_t body) {
+  Slot& slot = events_.slot(body);
+  slot.impact_time = infinity;
+  slot.partner = partner::none;
+  slot.is_tied = false;
   predict_field(body);
   if ((bodies_[body].flags & Body::curved) != 0) predict_curved_crossing(body);
   candidates_.resize(grid_.collected_max());
-  --record_.counters().predictions;  // of the body with itself
+  --counters_.predictions;  // of the body with itself
   return grid_.collect(body, candidates_.data());
 }
 
-/// Likewise of a puck in straight flight where all are, but for telling the queue. Returns how many
-/// touch it now, itself included: never too few, hardly ever too many.
-std::uint32_t Engine::predict_counting(std::uint32_t body) {
-  const std::uint32_t count = begin_prediction(body);
-  record_.counters().predictions += count;
+std::uint32_t Prediction::predict_counting(std::uint32_t body) {
+  const std::uint32_t count = begin(body);
+  counters_.predictions += count;
   return predict_straight_pairs<true>(body, candidates_.data(), count);
 }
 
-void Engine::predict_field(std::uint32_t body) {
+void Prediction::predict_field(std::uint32_t body) {
   const Body& b = bodies_[body];
   if (bodies_.is_slowed() && bodies_.rest_time(body) < infinity)
     offer(body, bodies_.rest_time(body), partner::stop);
-  if ((b.flags & Body::held) != 0) predict_release(body);
+  if (b.is(Body::held))
+    rests_.for_each_end(body, [&](Real time) { offer(body, time, partner::release); });
   if ((b.flags & Body::curved) != 0) predict_curved_walls(body);
   else predict_flight(body);
   if (b.mouth != Body::no_mouth) predict_mouth(body);
@@ -68,7 +84,7 @@ void Engine::predict_field(std::uint32_t body) {
 
 /// The instant at which the pucks' warped clock has advanced by `warped` since `start`; infinite if
 /// it never does.
-Real Engine::real_time(Real start, Real warped) const {
+Real Prediction::real_time(Real start, Real warped) const {
   if (puck_drag_ == 0.0) return start + warped;
   const Real lost = puck_drag_ * warped;
   return lost < 1.0 ? start - log1p_of(-lost) / puck_drag_ : infinity;
@@ -76,9 +92,9 @@ Real Engine::real_time(Real start, Real warped) const {
 
 /// The crossing of a body in straight flight and, where its cell lies at the rim, the wall: from
 /// any other cell a crossing comes first.
-void Engine::predict_flight(std::uint32_t body) {
+void Prediction::predict_flight(std::uint32_t body) {
   const Body& b = bodies_[body];
-  Slot& slot = slots_[body];
+  Slot& slot = events_.slot(body);
   slot.crossing_time = infinity;
   if (b.vx == 0.0 && b.vy == 0.0) return;
   const CellGrid::Place place = grid_.place(body);
@@ -94,43 +110,45 @@ void Engine::predict_flight(std::uint32_t body) {
   if (warped < infinity) slot.crossing_time = real_time(b.time, warped);
 }
 
-void Engine::predict_side_wall(std::uint32_t body) {
+/// Whether the end wall is open there.
+bool Prediction::is_open(Real y) const {
+  return std::abs(y - 0.5 * field_.width) < 0.5 * field_.goal_width;
+}
+
+void Prediction::predict_side_wall(std::uint32_t body) {
   const Body& b = bodies_[body];
   if (b.vy == 0.0) return;
-  const Real gap = b.vy < 0.0 ? b.y - b.radius : spec_.field.width - b.radius - b.y;
+  const Real gap = b.vy < 0.0 ? b.y - b.radius : field_.width - b.radius - b.y;
   offer(body, real_time(b.time, std::max<Real>(0.0, gap) / std::abs(b.vy)),
         b.vy < 0.0 ? partner::wall_bottom : partner::wall_top);
 }
 
-void Engine::predict_end_wall(std::uint32_t body) {
+void Prediction::predict_end_wall(std::uint32_t body) {
   const Body& b = bodies_[body];
-  const Field& field = spec_.field;
   if (b.vx == 0.0 || b.mouth != Body::no_mouth) return;
-  const Real gap = b.vx < 0.0 ? b.x - b.radius : field.length - b.radius - b.x;
+  const Real gap = b.vx < 0.0 ? b.x - b.radius : field_.length - b.radius - b.x;
   const Real warped = std::max<Real>(0.0, gap) / std::abs(b.vx);
   const Real y = b.y + b.vy * warped;
-  const bool is_open = std::abs(y - 0.5 * field.width) < 0.5 * field.goal_width;
   offer(body, real_time(b.time, warped),
-        is_open      ? partner::mouth_in
+        is_open(y)   ? partner::mouth_in
         : b.vx < 0.0 ? partner::wall_left
                      : partner::wall_right);
 }
 
-void Engine::predict_curved_walls(std::uint32_t body) {
+void Prediction::predict_curved_walls(std::uint32_t body) {
   const Body& b = bodies_[body];
   const Motion still, moving = bodies_.motion(body);
   const RelativeMotion relative{still, moving};
   const RealVector extent = bodies_.build(body).half_extent + RealVector::Constant(b.radius);
   const auto predict_plane = [&](Partner wall) {
     const auto time =
-        first_contact(relative, plane_of(spec_.field, wall, extent, bodies_.build(body).half),
-                      b.time, slots_[body].impact_time + Real(instant), tolerance_);
+        first_contact(relative, plane_of(field_, wall, extent, bodies_.build(body).half), b.time,
+                      events_[body].impact_time + Real(instant), tolerance_);
     if (!time) return;
     const bool is_end = wall == partner::wall_left || wall == partner::wall_right;
-    const bool is_open = is_end && b.kind == BodyKind::puck &&
-                         std::abs(moving.at(*time).position.y() - 0.5 * spec_.field.width) <
-                             0.5 * spec_.field.goal_width;
-    offer(body, *time, is_open ? partner::mouth_in : wall);
+    const bool is_way_in =
+        is_end && b.kind == BodyKind::puck && is_open(moving.at(*time).position.y());
+    offer(body, *time, is_way_in ? partner::mouth_in : wall);
   };
   const bool is_resting_x = b.vx == 0.0 && bodies_.law(body).acceleration.x() == 0.0,
              is_resting_y = b.vy == 0.0 && bodies_.law(body).acceleration.y() == 0.0;
@@ -138,35 +156,34 @@ void Engine::predict_curved_walls(std::uint32_t body) {
   if (is_resting_x || b.mouth != Body::no_mouth) return;
   predict_plane(partner::wall_left);
   predict_plane(partner::wall_right);
-  if (spec_.field.bats_keep_to_half && b.kind == BodyKind::bat &&
-      bodies_.build(body).half != Half::both)
+  if (field_.bats_keep_to_half && b.kind == BodyKind::bat && bodies_.build(body).half != Half::both)
     predict_plane(partner::halfway);
 }
 
 /// Between the edges of a goal: the two edges, the goal line, and the way out.
-void Engine::predict_mouth(std::uint32_t body) {
+void Prediction::predict_mouth(std::uint32_t body) {
   const Body& b = bodies_[body];
   const bool is_left = b.mouth == Body::left_mouth;
   const Motion moving = bodies_.motion(body);
   Motion still;
   const auto meet = [&](const auto& shape, Partner p) {
     const auto time = first_contact(RelativeMotion{still, moving}, shape, b.time,
-                                    slots_[body].impact_time + Real(instant), tolerance_);
+                                    events_[body].impact_time + Real(instant), tolerance_);
     if (time) offer(body, *time, p);
   };
-  const Real end = is_left ? 0.0 : spec_.field.length, inwards = is_left ? 1.0 : -1.0;
+  const Real end = is_left ? 0.0 : field_.length, inwards = is_left ? 1.0 : -1.0;
   meet(HalfPlane{{inwards, 0.0}, inwards * end}, partner::goal_line);
   meet(HalfPlane{{-inwards, 0.0}, -inwards * (end + inwards * b.radius)}, partner::mouth_out);
   for (const Partner edge : {is_left ? partner::edge_left_low : partner::edge_right_low,
                              is_left ? partner::edge_left_high : partner::edge_right_high}) {
-    still.position = goal_edge(spec_.field, edge);
+    still.position = goal_edge(field_, edge);
     meet(RoundedBox{{0.0, 0.0}, b.radius}, edge);
   }
 }
 
 /// The first `count` of the candidates.
-void Engine::predict_pairs(std::uint32_t body, std::uint32_t count) {
-  record_.counters().predictions += count;
+void Prediction::predict_pairs(std::uint32_t body, std::uint32_t count) {
+  counters_.predictions += count;
   std::uint32_t* near = candidates_.data();
   if ((bodies_[body].flags & Body::curved) == 0 && puck_drag_ == 0.0) {
     const auto is_curved = [&](std::uint32_t other) {
@@ -189,9 +206,9 @@ void Engine::predict_pairs(std::uint32_t body, std::uint32_t count) {
 /// Where nothing comes at the same instant, which is nearly always, no branch depends on who meets
 /// whom.
 template <bool counts>
-std::uint32_t Engine::predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
-                                             std::uint32_t count) {
-  Slot& slot = slots_[body];
+std::uint32_t Prediction::predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
+                                                 std::uint32_t count) {
+  Slot& slot = events_.slot(body);
   std::uint32_t touching = 0;
   for (std::uint32_t begin = 0; begin < count; begin += flight_max) {
     const std::uint32_t asked = std::min(flight_max, count - begin);
@@ -222,7 +239,7 @@ std::uint32_t Engine::predict_straight_pairs(std::uint32_t body, std::uint32_t* 
 
 /// Both positions are taken at the later of the two last events, so that the result depends on
 /// nothing but the two states.
-void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
+void Prediction::predict_pair(std::uint32_t body, std::uint32_t other) {
   const Body &a = bodies_[body], &b = bodies_[other];
   if (((a.flags | b.flags) & Body::curved) != 0) return predict_curved_pair(body, other);
   RealVector offset(b.x - a.x, b.y - a.y), velocity;
@@ -242,12 +259,12 @@ void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
   }
   // Warped time never runs ahead of real time, so the best event so far limits it as well; the
   // slack keeps those that come within the same instant.
-  const Real limit = slots_[body].impact_time * (1.0 + 4e-15 * fineness) + Real(instant) - time;
+  const Real limit = events_[body].impact_time * (1.0 + 4e-15 * fineness) + Real(instant) - time;
   if (const auto wait = time_to_touch(offset, velocity, a.radius + b.radius, limit))
     offer(body, real_time(time, *wait), other);
 }
 
-void Engine::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
+void Prediction::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
   if ((bodies_[body].flags & bodies_[other].flags & Body::frozen) != 0) return;
   if ((bodies_[body].flags & Body::held) != 0 && rests_.are_joined(body, other)) return;
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
@@ -255,7 +272,7 @@ void Engine::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
   const Real start = std::max(a.time, b.time);
   // What comes after the next crossing of a body on a curve is looked for then, when everybody in
   // sight is looked at anew.
-  const Slot& slot = slots_[body];
+  const Slot& slot = events_[body];
   const Real limit = (bodies_[body].flags & Body::curved) != 0
                          ? std::min(slot.impact_time, slot.crossing_time)
                          : slot.impact_time;
@@ -264,14 +281,10 @@ void Engine::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
   if (time) offer(body, *time, other);
 }
 
-void Engine::predict_release(std::uint32_t body) {
-  rests_.for_each_end(body, [&](Real time) { offer(body, time, partner::release); });
-}
-
 /// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as
-/// well, so clock_.now may be used.
-void Engine::predict_curved_crossing(std::uint32_t body) {
-  Slot& slot = slots_[body];
+/// well, so the present may be used.
+void Prediction::predict_curved_crossing(std::uint32_t body) {
+  Slot& slot = events_.slot(body);
   slot.crossing_time = infinity;
   const CellGrid::Place place = grid_.place(body);
   const Motion still, moving = bodies_.motion(body);

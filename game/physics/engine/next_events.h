@@ -1,0 +1,81 @@
+// The next event of each body, and which of them comes first.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "game/physics/bodies/body_records.h"
+#include "game/physics/bodies/partner.h"
+#include "game/physics/bodies/tolerances.h"
+#include "game/physics/body.h"
+#include "game/physics/cell_grid.h"
+#include "game/physics/events/event_schedule.h"
+#include "game/physics/large_pages.h"
+#include "game/physics/real.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+/// Prediction writes a body's slot and then tells the schedule.
+class NextEvents {
+ public:
+  static constexpr std::uint32_t none = EventSchedule::none;
+  static constexpr Slot no_event{std::numeric_limits<Real>::infinity(),
+                                 std::numeric_limits<Real>::infinity(),
+                                 partner::none,
+                                 0,
+                                 CellGrid::left,
+                                 false};
+
+  explicit NextEvents(QueuePolicy policy) : policy_(policy), schedule_(policy) {}
+  NextEvents(const NextEvents&) = delete;
+  NextEvents& operator=(const NextEvents&) = delete;
+
+  /// Of the next body, by number.
+  void add() {
+    slots_.push_back(no_event);
+    schedule_.resize(static_cast<std::uint32_t>(slots_.size()));
+  }
+  /// Forgets everything; bodies 0 to `count` - 1 have no event.
+  void restart(std::uint32_t count) {
+    slots_.assign(count, no_event);
+    schedule_ = EventSchedule(policy_);
+    schedule_.resize(count);
+  }
+
+  const Slot& operator[](std::uint32_t body) const { return slots_[body]; }
+  Slot& slot(std::uint32_t body) { return slots_[body]; }
+  /// The body's event is what its slot says.
+  void schedule(std::uint32_t body) {
+    const Slot& slot = slots_[body];
+    if (slot.crossing_time < slot.impact_time) schedule_.set(body, slot.crossing_time, body, body);
+    else
+      schedule_.set(body, slot.impact_time, std::min(body, slot.partner),
+                    std::max(body, slot.partner));
+  }
+  /// The body has no event before somebody else's.
+  void drop(std::uint32_t body) {
+    slots_[body] = no_event;
+    schedule_.set(body, std::numeric_limits<Real>::infinity(), body, body);
+  }
+
+  /// The body whose event comes first, if it comes no later than `until` [s], else `none`.
+  std::uint32_t first(Real until) { return schedule_.first(until); }
+  Real time(std::uint32_t body) const { return schedule_.time(body); }
+  /// Whether another impact may come within the instant of that of `body` and `partner`, which
+  /// came first. Never misses one: an impact is either the first of its body, and thus scheduled,
+  /// or hidden behind that one.
+  bool is_followed_at_once(std::uint32_t body, Partner partner) const {
+    return slots_[body].is_tied || (is_body(partner) && slots_[partner].is_tied) ||
+           schedule_.is_followed_within(instant);
+  }
+  /// The calendar, if events are kept by one.
+  const EventQueue* calendar() const { return schedule_.calendar(); }
+
+ private:
+  QueuePolicy policy_;
+  LargeArray<Slot> slots_;
+  EventSchedule schedule_;
+};
+
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -1,0 +1,65 @@
+// The earliest event of a body, from last-event states alone.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "game/physics/bodies/bodies.h"
+#include "game/physics/bodies/clock.h"
+#include "game/physics/bodies/partner.h"
+#include "game/physics/body.h"
+#include "game/physics/cell_grid.h"
+#include "game/physics/counters.h"
+#include "game/physics/engine/next_events.h"
+#include "game/physics/engine/rest_contacts.h"
+#include "game/physics/real.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+/// Writes the next events, and nothing else.
+class Prediction {
+ public:
+  Prediction(const WorldSpec& spec, const Clock& clock, const Bodies& bodies, const CellGrid& grid,
+             const RestContacts& rests, NextEvents& events, Counters& counters);
+  Prediction(const Prediction&) = delete;
+  Prediction& operator=(const Prediction&) = delete;
+
+  void predict(std::uint32_t body);
+  /// Likewise of a puck in straight flight where all are, but for telling the schedule. Returns how
+  /// many touch it now, itself included: never too few, hardly ever too many.
+  std::uint32_t predict_counting(std::uint32_t body);
+  /// Of a body that has just been moved to the next cell: in straight flight, the earliest impact
+  /// in the others is known and stays the earliest.
+  void predict_beyond(std::uint32_t body, CellGrid::Direction direction);
+
+ private:
+  std::uint32_t begin(std::uint32_t body);
+  void predict_field(std::uint32_t body);
+  void predict_flight(std::uint32_t body);
+  void predict_side_wall(std::uint32_t body);
+  void predict_end_wall(std::uint32_t body);
+  void predict_curved_walls(std::uint32_t body);
+  void predict_mouth(std::uint32_t body);
+  void predict_pairs(std::uint32_t body, std::uint32_t count);
+  template <bool counts>
+  std::uint32_t predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
+                                       std::uint32_t count);
+  void predict_pair(std::uint32_t body, std::uint32_t other);
+  void predict_curved_pair(std::uint32_t body, std::uint32_t other);
+  void predict_curved_crossing(std::uint32_t body);
+  void offer(std::uint32_t body, Real time, Partner partner);
+  Real real_time(Real start, Real warped) const;
+  bool is_open(Real y) const;
+
+  const Field& field_;
+  const Clock& clock_;
+  const Bodies& bodies_;
+  const CellGrid& grid_;
+  const RestContacts& rests_;
+  NextEvents& events_;
+  Counters& counters_;
+  Real puck_drag_, tolerance_;
+  std::vector<std::uint32_t> candidates_;  // near the body that is being predicted
+};
+
+}  // namespace rink::physics::inline RINK_PRECISION
