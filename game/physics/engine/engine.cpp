@@ -11,8 +11,6 @@ namespace rink::physics::inline RINK_PRECISION {
 
 Engine::Engine(const WorldSpec& spec)
     : spec_(spec),
-      contact_time_(spec.contact_time),
-      rest_speed_(rest_speed(spec)),
       ledger_(spec.accounts_energy),
       bodies_(spec, record_.counters(), ledger_, observers_),
       history_(spec, bodies_, observers_),
@@ -24,6 +22,9 @@ Engine::Engine(const WorldSpec& spec)
       joint_impacts_(spec, clock_, bodies_, detection_, history_, rests_, record_, observers_),
       events_(spec.queue),
       prediction_(spec_, clock_, bodies_, grid_, rests_, events_, record_.counters()),
+      impact_(spec_, clock_, bodies_, detection_, history_, rests_, record_, clusters_,
+              joint_impacts_),
+      free_impact_(spec_, bodies_, detection_, events_, prediction_, record_, observers_),
       look_ahead_(bodies_, grid_, events_) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 &&
          spec.field.goal_width <= spec.field.width);
@@ -35,8 +36,6 @@ Engine::Engine(const WorldSpec& spec)
        (spec.surface_friction->coefficient.material_count() == spec.restitution.material_count() &&
         spec.surface_friction->tangential_restitution.material_count() ==
             spec.restitution.material_count())));
-  has_free_impacts_ = spec.puck_drag == 0.0 && !bodies_.is_slowed() && !spec.surface_friction &&
-                      !spec.accounts_energy && !spec.allow_overlap;
   grid_.rebuild(spec.field.length, spec.field.width, 0.0, 1, spec.cell_size);
 }
 
@@ -238,7 +237,11 @@ void Engine::process(std::uint32_t body, Real time) {
     bodies_.set_mouth(body, p == partner::mouth_out                      ? Body::no_mouth
                             : bodies_[body].x < 0.5 * spec_.field.length ? Body::left_mouth
                                                                          : Body::right_mouth);
-  } else if (!collide_freely(body, p, time)) collide(body, p, time);
+  } else {
+    const bool is_crowded = clock_.is_endless() || events_.is_followed_at_once(body, p);
+    if (!free_impact_.collide(body, p, time, is_crowded))
+      impact_.collide(body, p, time, is_crowded);
+  }
   settle();
 }
 

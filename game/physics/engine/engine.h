@@ -2,9 +2,7 @@
 // contacts and pressed clusters.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -24,7 +22,9 @@
 #include "game/physics/cell_grid.h"
 #include "game/physics/engine/clusters.h"
 #include "game/physics/engine/contact_detection.h"
+#include "game/physics/engine/free_impact.h"
 #include "game/physics/engine/friction.h"
+#include "game/physics/engine/impact.h"
 #include "game/physics/engine/joint_impacts.h"
 #include "game/physics/engine/look_ahead.h"
 #include "game/physics/engine/next_events.h"
@@ -80,19 +80,10 @@ class Engine {
   void enter_changes();
   std::uint64_t conditions_of(std::uint32_t body) const;
 
-  // engine_impact.cpp
-  bool collide_freely(std::uint32_t body, Partner partner, Real time);
-  void collide(std::uint32_t body, Partner partner, Real time);
-  void collide_ordered(std::uint32_t body, Partner partner, Real time);
-  void bounce(const Contact& contact, Real restitution, Real time);
-  void rub(const Contact& contact, Real normal_impulse);
-
   void rebuild_from_state();
 
   WorldSpec spec_;
   Clock clock_;
-  Real contact_time_;  // s
-  Real rest_speed_;    // pressed contacts that close more slowly come to rest [m/s]
   Observers observers_;
   EventRecord record_;
   EnergyLedger ledger_;
@@ -107,10 +98,11 @@ class Engine {
   JointImpacts joint_impacts_;
   NextEvents events_;
   Prediction prediction_;
+  Impact impact_;
+  FreeImpact free_impact_;
   LookAhead look_ahead_;
   Real reach_ = 0.0;                 // largest half extent of any body [m]
   std::uint32_t grid_capacity_ = 0;  // bodies that the grid was made for
-  bool has_free_impacts_;            // decided by the spec: collide_freely() may serve
   bool is_everything_pending_ = false;
   std::vector<std::uint32_t> pending_;
   std::optional<Goal> goal_;

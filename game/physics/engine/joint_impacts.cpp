@@ -46,6 +46,7 @@ bool JointImpacts::collide(const Contact& c, Real time) {
   const bool is_joint = gather(c, time) || clock_.is_endless();
   note_looked_at();
   if (!is_joint) return false;
+  assert(problem_.body_count() == members_.size() && problem_.touches.size() == partners_.size());
   velocities_before_ = problem_.velocities;
   clock_.is_hopeless = !solver_.solve(problem_, clock_.is_endless());
   if (clock_.is_hopeless && observers_.journal != nullptr) observers_.journal->was_hopeless = true;
@@ -56,8 +57,9 @@ bool JointImpacts::collide(const Contact& c, Real time) {
 }
 
 void JointImpacts::look_at_touching(const Contact& c, Real time) {
-  assert(observers_.journal != nullptr);
-  if (!is_wanted() || !detection_.has_company(c.body, c.partner, time)) return;
+  if (observers_.journal == nullptr || !is_wanted() ||
+      !detection_.has_company(c.body, c.partner, time))
+    return;
   gather(c, time);
   note_looked_at();
 }

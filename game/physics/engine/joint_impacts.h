@@ -35,7 +35,7 @@ class JointImpacts {
   bool collide(const Contact& contact, Real time);
   /// An impact that comes alone here would be joint if any of those who touch were hit at this
   /// instant, however far away, by somebody whom this world does not have. So it concerns all of
-  /// them, and the journal says so; nothing else changes.
+  /// them, and the journal says so, if there is one; nothing else changes.
   void look_at_touching(const Contact& contact, Real time);
 
  private:
