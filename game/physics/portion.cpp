@@ -93,15 +93,14 @@ void Portion::put(std::uint32_t body, const BodyState& s) {
   Engine& e = engine();
   write(body, s);
   is_there_[body] = 1;
-  e.grid_.remove(body);
+  e.places_.remove(body);
   e.events_.drop(body);
   if (e.bodies_.is_gone(body)) return;
-  if (e.reach_of(body) > e.reach_) {
-    e.reach_ = e.reach_of(body);
+  if (e.reach_of(body) > e.places_.reach()) {
+    e.places_.fit(body_count(), e.reach_of(body));
     return e.rebuild_grid();
   }
-  const Vector2 position = motion_at(e.bodies_, body, e.clock_.now).position;
-  e.grid_.insert(body, position.x(), position.y());
+  e.places_.insert(body, motion_at(e.bodies_, body, e.clock_.now).position);
   if (!e.bodies_.is_fixed(body)) return e.require_prediction(body);
   // Posts look at nobody: those who are there must look at it.
   for (std::uint32_t other = 0; other < body_count(); ++other)
@@ -116,7 +115,7 @@ void Portion::drop(std::uint32_t body) {
   blank.inverse_mass = 0.0, blank.flags = Body::removed,
   blank.drag = Vector2::Constant(e.spec_.puck_drag);
   write(body, blank);
-  e.grid_.remove(body);
+  e.places_.remove(body);
   e.events_.drop(body);
   is_there_[body] = 0;
 }

@@ -15,17 +15,14 @@ Engine::Engine(const WorldSpec& spec)
       bodies_(spec, record_.counters(), ledger_, observers_),
       history_(spec, bodies_, observers_),
       jams_(bodies_, history_),
-      friction_(spec, bodies_),
-      rests_(spec, bodies_, friction_, jams_, record_, observers_),
-      detection_(spec_, bodies_, grid_),
-      clusters_(spec, bodies_, detection_, history_, jams_, rests_, record_),
-      joint_impacts_(spec, clock_, bodies_, detection_, history_, rests_, record_, observers_),
+      places_(spec),
+      rests_(spec, bodies_, jams_, record_, observers_),
+      detection_(spec_, bodies_, places_.grid()),
       events_(spec.queue),
-      prediction_(spec_, clock_, bodies_, grid_, rests_, events_, record_.counters()),
-      impact_(spec_, clock_, bodies_, detection_, history_, rests_, record_, clusters_,
-              joint_impacts_),
+      prediction_(spec_, clock_, bodies_, places_.grid(), rests_, events_, record_.counters()),
+      impact_(spec_, clock_, bodies_, detection_, history_, jams_, rests_, record_, observers_),
       free_impact_(spec_, bodies_, detection_, events_, prediction_, record_, observers_),
-      look_ahead_(bodies_, grid_, events_) {
+      look_ahead_(bodies_, places_.grid(), events_) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 &&
          spec.field.goal_width <= spec.field.width);
   assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.contact_time > 0.0 &&
@@ -36,7 +33,6 @@ Engine::Engine(const WorldSpec& spec)
        (spec.surface_friction->coefficient.material_count() == spec.restitution.material_count() &&
         spec.surface_friction->tangential_restitution.material_count() ==
             spec.restitution.material_count())));
-  grid_.rebuild(spec.field.length, spec.field.width, 0.0, 1, spec.cell_size);
 }
 
 Real Engine::reach_of(std::uint32_t body) const {
@@ -55,18 +51,16 @@ BodyId Engine::add(BodyState state) {
   history_.add();
   jams_.add();
   events_.add();
-  friction_.slide(body, std::nullopt);
+  rests_.add(body);
   ledger_.introduce(energy_of(bodies_, body));
   enter_mouth_if_inside(body);
-  const std::uint32_t count = body + 1;
-  grid_.resize(count);
+  places_.resize(body + 1);
   require_prediction(body);
-  if (count > grid_capacity_ || reach_of(body) > reach_) {
-    reach_ = std::max(reach_, reach_of(body));
-    grid_capacity_ = std::max(64u, 2 * count);
-    rebuild_grid();
+  if (places_.fits(body + 1, reach_of(body))) {
+    places_.insert(body, position);
   } else {
-    grid_.insert(body, static_cast<double>(position.x()), static_cast<double>(position.y()));
+    places_.fit(body + 1, reach_of(body));
+    rebuild_grid();
   }
   return {body};
 }
@@ -90,22 +84,20 @@ void Engine::restore(WorldState state) {
 
 /// Predictions, grid and queue follow from the last-event states, whenever they are made.
 void Engine::rebuild_from_state() {
-  grid_.resize(bodies_.count());
+  places_.resize(bodies_.count());
   events_.restart(bodies_.count());
   look_ahead_.restart();
+  places_.fit(bodies_.count(), 0.0);
   for (std::uint32_t body = 0; body < bodies_.count(); ++body)
-    reach_ = std::max(reach_, reach_of(body));
-  grid_capacity_ = std::max(64u, 2 * bodies_.count());
+    places_.fit(bodies_.count(), reach_of(body));
   rebuild_grid();
 }
 
 void Engine::rebuild_grid() {
-  grid_.rebuild(spec_.field.length, spec_.field.width, static_cast<double>(2.0 * reach_),
-                bodies_.count(), spec_.cell_size);
+  places_.rebuild(bodies_.count());
   for (std::uint32_t body = 0; body < bodies_.count(); ++body) {
     if (bodies_.is_gone(body)) continue;
-    const RealVector position = motion_at(bodies_, body, clock_.now).position;
-    grid_.insert(body, static_cast<double>(position.x()), static_cast<double>(position.y()));
+    places_.insert(body, motion_at(bodies_, body, clock_.now).position);
     require_prediction(body);
   }
   is_everything_pending_ = true;
@@ -155,7 +147,7 @@ void Engine::remove(std::uint32_t body) {
   if (!bodies_[body].is(Body::out_of_play)) {
     rests_.free(body, clock_.now);
     ledger_.introduce(-energy_of(bodies_, body));
-    grid_.remove(body);
+    places_.remove(body);
     events_.drop(body);
   }
   bodies_.set_flags(body, Body::removed);
@@ -174,7 +166,7 @@ void Engine::place(std::uint32_t puck, const RealVector& position, const RealVec
   enter_mouth_if_inside(puck);
   if (spec_.surface_friction) bodies_.set_spin(puck, 0.0);
   ledger_.introduce(energy_of(bodies_, puck));
-  grid_.insert(puck, static_cast<double>(b.x), static_cast<double>(b.y));
+  places_.insert(puck, position);
   bodies_.touch(puck);
   settle();
 }
@@ -267,7 +259,7 @@ void Engine::settle() {
 void Engine::cross_cell(std::uint32_t body) {
   ++record_.counters().crossings;
   const CellGrid::Direction direction = events_[body].direction;
-  grid_.move(body, direction);
+  places_.move(body, direction);
   prediction_.predict_beyond(body, direction);
 }
 
@@ -284,7 +276,7 @@ void Engine::score(std::uint32_t body, Real time) {
   ledger_.introduce(-energy_of(bodies_, body));
   bodies_.set_flags(body, Body::out_of_play);
   bodies_.set_mouth(body, Body::no_mouth);
-  grid_.remove(body);
+  places_.remove(body);
   events_.drop(body);
   goal_ = Goal{time, {body}, bodies_[body].x < 0.5 * spec_.field.length ? End::left : End::right};
 }

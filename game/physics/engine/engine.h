@@ -19,15 +19,12 @@
 #include "game/physics/bodies/partner.h"
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/bodies/world_state.h"
-#include "game/physics/cell_grid.h"
-#include "game/physics/engine/clusters.h"
 #include "game/physics/engine/contact_detection.h"
 #include "game/physics/engine/free_impact.h"
-#include "game/physics/engine/friction.h"
 #include "game/physics/engine/impact.h"
-#include "game/physics/engine/joint_impacts.h"
 #include "game/physics/engine/look_ahead.h"
 #include "game/physics/engine/next_events.h"
+#include "game/physics/engine/places.h"
 #include "game/physics/engine/prediction.h"
 #include "game/physics/engine/rest_contacts.h"
 #include "game/physics/event.h"
@@ -90,19 +87,14 @@ class Engine {
   Bodies bodies_;
   ImpactHistory history_;
   Jams jams_;
-  Friction friction_;
+  Places places_;
   RestContacts rests_;
-  CellGrid grid_;
   ContactDetection detection_;
-  Clusters clusters_;
-  JointImpacts joint_impacts_;
   NextEvents events_;
   Prediction prediction_;
   Impact impact_;
   FreeImpact free_impact_;
   LookAhead look_ahead_;
-  Real reach_ = 0.0;                 // largest half extent of any body [m]
-  std::uint32_t grid_capacity_ = 0;  // bodies that the grid was made for
   bool is_everything_pending_ = false;
   std::vector<std::uint32_t> pending_;
   std::optional<Goal> goal_;

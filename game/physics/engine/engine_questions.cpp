@@ -12,13 +12,15 @@ bool Engine::is_free(const RealVector& centre, const RoundedBox& shape) const {
   if ((centre - extent).minCoeff() < 0.0 || centre.x() + extent.x() > spec_.field.length ||
       centre.y() + extent.y() > spec_.field.width)
     return false;
-  const double range = static_cast<double>(extent.maxCoeff() + reach_) + grid_.side() / 32.0;
+  const CellGrid& grid = places_.grid();
+  const double range =
+      static_cast<double>(extent.maxCoeff() + places_.reach()) + grid.side() / 32.0;
   const double x = static_cast<double>(centre.x()), y = static_cast<double>(centre.y());
-  const std::uint32_t column = grid_.column(x - range), row = grid_.row(y - range);
-  const int columns = static_cast<int>(grid_.column(x + range) - column),
-            rows = static_cast<int>(grid_.row(y + range) - row);
+  const std::uint32_t column = grid.column(x - range), row = grid.row(y - range);
+  const int columns = static_cast<int>(grid.column(x + range) - column),
+            rows = static_cast<int>(grid.row(y + range) - row);
   bool is_clear = true;
-  grid_.around(column, row, 0, columns, 0, rows, [&](std::uint32_t body) {
+  grid.around(column, row, 0, columns, 0, rows, [&](std::uint32_t body) {
     const RoundedBox both{bodies_.build(body).half_extent + shape.half_extent,
                           bodies_[body].radius + shape.radius};
     is_clear = is_clear &&
@@ -65,6 +67,7 @@ Real Engine::dissipated() const {
 }
 
 Real Engine::max_overlap() const {
+  const CellGrid& grid = places_.grid();
   Real deepest = 0.0;
   for (std::uint32_t body = 0; body < bodies_.count(); ++body) {
     if (bodies_.is_gone(body) || bodies_[body].kind == BodyKind::post) continue;
@@ -78,7 +81,7 @@ Real Engine::max_overlap() const {
     const Real side =
         std::min(position.y() - extent.y(), spec_.field.width - extent.y() - position.y());
     deepest = std::max({deepest, -end, -side});
-    grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
+    grid.around(grid.column_of(body), grid.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
       if (other != body)
         deepest =
             std::max(deepest, -shape_of(bodies_, body, other)

@@ -16,17 +16,17 @@ constexpr double press_min = 1e-7;
 
 }  // namespace
 
-Impact::Impact(const WorldSpec& spec, const Clock& clock, Bodies& bodies,
-               ContactDetection& detection, ImpactHistory& history, RestContacts& rests,
-               EventRecord& record, Clusters& clusters, JointImpacts& joint_impacts)
+Impact::Impact(const WorldSpec& spec, Clock& clock, Bodies& bodies, ContactDetection& detection,
+               ImpactHistory& history, Jams& jams, RestContacts& rests, EventRecord& record,
+               const Observers& observers)
     : clock_(clock),
       bodies_(bodies),
       detection_(detection),
       history_(history),
       rests_(rests),
       record_(record),
-      clusters_(clusters),
-      joint_impacts_(joint_impacts),
+      clusters_(spec, bodies, detection, history, jams, rests, record),
+      joint_impacts_(spec, clock, bodies, detection, history, rests, record, observers),
       bounce_(spec, bodies, rests),
       rest_speed_(rest_speed(spec)),
       allows_overlap_(spec.allow_overlap) {}

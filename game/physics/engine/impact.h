@@ -8,6 +8,8 @@
 #include "game/physics/bodies/contact.h"
 #include "game/physics/bodies/event_record.h"
 #include "game/physics/bodies/impact_history.h"
+#include "game/physics/bodies/jams.h"
+#include "game/physics/bodies/observers.h"
 #include "game/physics/bodies/partner.h"
 #include "game/physics/body.h"
 #include "game/physics/engine/bounce.h"
@@ -23,9 +25,9 @@ namespace rink::physics::inline RINK_PRECISION {
 /// bounce.
 class Impact {
  public:
-  Impact(const WorldSpec& spec, const Clock& clock, Bodies& bodies, ContactDetection& detection,
-         ImpactHistory& history, RestContacts& rests, EventRecord& record, Clusters& clusters,
-         JointImpacts& joint_impacts);
+  Impact(const WorldSpec& spec, Clock& clock, Bodies& bodies, ContactDetection& detection,
+         ImpactHistory& history, Jams& jams, RestContacts& rests, EventRecord& record,
+         const Observers& observers);
   Impact(const Impact&) = delete;
   Impact& operator=(const Impact&) = delete;
 
@@ -42,8 +44,8 @@ class Impact {
   ImpactHistory& history_;
   RestContacts& rests_;
   EventRecord& record_;
-  Clusters& clusters_;
-  JointImpacts& joint_impacts_;
+  Clusters clusters_;
+  JointImpacts joint_impacts_;
   Bounce bounce_;
   Real rest_speed_;
   bool allows_overlap_;

@@ -18,10 +18,10 @@ constexpr double pull_min = 1e-9;
 
 }  // namespace
 
-RestContacts::RestContacts(const WorldSpec& spec, Bodies& bodies, Friction& friction, Jams& jams,
-                           EventRecord& record, const Observers& observers)
+RestContacts::RestContacts(const WorldSpec& spec, Bodies& bodies, Jams& jams, EventRecord& record,
+                           const Observers& observers)
     : bodies_(bodies),
-      friction_(friction),
+      friction_(spec, bodies),
       jams_(jams),
       record_(record),
       observers_(observers),

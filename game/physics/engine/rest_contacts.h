@@ -23,11 +23,13 @@ namespace rink::physics::inline RINK_PRECISION {
 /// Bodies in rest contact along an axis, directly or through others, are a group of it.
 class RestContacts {
  public:
-  RestContacts(const WorldSpec& spec, Bodies& bodies, Friction& friction, Jams& jams,
-               EventRecord& record, const Observers& observers);
+  RestContacts(const WorldSpec& spec, Bodies& bodies, Jams& jams, EventRecord& record,
+               const Observers& observers);
   RestContacts(const RestContacts&) = delete;
   RestContacts& operator=(const RestContacts&) = delete;
 
+  /// A body has come into the world, without contacts.
+  void add(std::uint32_t body) { friction_.slide(body, std::nullopt); }
   const std::vector<Hold>& holds() const { return holds_; }
   void restore(std::vector<Hold> holds) { holds_ = std::move(holds); }
 
@@ -91,7 +93,7 @@ class RestContacts {
   void note_release(const Hold& hold, Real time);
 
   Bodies& bodies_;
-  Friction& friction_;
+  Friction friction_;
   Jams& jams_;
   EventRecord& record_;
   const Observers& observers_;
