@@ -95,7 +95,7 @@ void Portion::put(std::uint32_t body, const BodyState& s) {
   is_there_[body] = 1;
   e.places_.remove(body);
   e.events_.drop(body);
-  if (e.bodies_.is_gone(body)) return;
+  if (e.bodies_[body].is(Body::gone)) return;
   if (e.reach_of(body) > e.places_.reach()) {
     e.places_.fit(body_count(), e.reach_of(body));
     return e.rebuild_grid();
@@ -104,7 +104,7 @@ void Portion::put(std::uint32_t body, const BodyState& s) {
   if (!e.bodies_.is_fixed(body)) return e.require_prediction(body);
   // Posts look at nobody: those who are there must look at it.
   for (std::uint32_t other = 0; other < body_count(); ++other)
-    if (is_there(other) && !e.bodies_.is_fixed(other) && !e.bodies_.is_gone(other))
+    if (is_there(other) && !e.bodies_.is_fixed(other) && !e.bodies_[other].is(Body::gone))
       e.require_prediction(other);
 }
 

@@ -64,43 +64,43 @@ void World::place(BodyId puck, const Vector2& position, const Vector2& velocity)
 }
 std::optional<Goal> World::advance(Real until) { return engine_->advance(until); }
 
-void World::record_events(bool is_wanted) { engine_->record_.keep(is_wanted); }
-std::span<const Event> World::events() const { return engine_->record_.events(); }
-void World::forget_events() { engine_->record_.forget(); }
+void World::record_events(bool is_wanted) { engine_->record().keep(is_wanted); }
+std::span<const Event> World::events() const { return engine_->record().events(); }
+void World::forget_events() { engine_->record().forget(); }
 
-Real World::now() const { return engine_->clock_.now; }
+Real World::now() const { return engine_->clock().now; }
 
-Motion World::motion(BodyId body) const { return engine_->bodies_.motion(body.index); }
+Motion World::motion(BodyId body) const { return engine_->bodies().motion(body.index); }
 std::uint32_t World::motion_version(BodyId body) const {
-  return engine_->bodies_[body.index].version;
+  return engine_->bodies()[body.index].version;
 }
 
 std::span<const BodyId> World::changed(ChangeCursor& cursor) const {
-  return engine_->bodies_.changes().read(cursor, body_count());
+  return engine_->changes().read(cursor, body_count());
 }
 
 RealVector World::position(BodyId body) const {
   const Motion m = motion(body);
-  return is_in_play(body) ? m.at(engine_->clock_.now).position : m.position;
+  return is_in_play(body) ? m.at(engine_->clock().now).position : m.position;
 }
 
 RealVector World::velocity(BodyId body) const {
   const Motion m = motion(body);
-  return is_in_play(body) ? m.at(engine_->clock_.now).velocity : m.velocity;
+  return is_in_play(body) ? m.at(engine_->clock().now).velocity : m.velocity;
 }
 
-std::uint32_t World::body_count() const { return engine_->bodies_.count(); }
-BodyKind World::kind(BodyId body) const { return engine_->bodies_[body.index].kind; }
-Real World::radius(BodyId body) const { return engine_->bodies_[body.index].radius; }
+std::uint32_t World::body_count() const { return engine_->bodies().count(); }
+BodyKind World::kind(BodyId body) const { return engine_->bodies()[body.index].kind; }
+Real World::radius(BodyId body) const { return engine_->bodies()[body.index].radius; }
 RealVector World::half_extent(BodyId body) const {
-  return engine_->bodies_.build(body.index).half_extent + RealVector::Constant(radius(body));
+  return engine_->bodies().build(body.index).half_extent + RealVector::Constant(radius(body));
 }
-Real World::mass(BodyId body) const { return engine_->bodies_.build(body.index).mass; }
-MaterialId World::material(BodyId body) const { return engine_->bodies_[body.index].material; }
-RealVector World::thrust(BodyId body) const { return engine_->bodies_.build(body.index).thrust; }
-bool World::is_in_play(BodyId body) const { return !engine_->bodies_.is_gone(body.index); }
+Real World::mass(BodyId body) const { return engine_->bodies().build(body.index).mass; }
+MaterialId World::material(BodyId body) const { return engine_->bodies()[body.index].material; }
+RealVector World::thrust(BodyId body) const { return engine_->bodies().build(body.index).thrust; }
+bool World::is_in_play(BodyId body) const { return !engine_->bodies()[body.index].is(Body::gone); }
 bool World::is_removed(BodyId body) const {
-  return (engine_->bodies_[body.index].flags & Body::removed) != 0;
+  return (engine_->bodies()[body.index].flags & Body::removed) != 0;
 }
 
 bool World::is_resting(BodyId body) const {
@@ -109,14 +109,14 @@ bool World::is_resting(BodyId body) const {
 }
 
 bool World::is_held(BodyId body) const {
-  return (engine_->bodies_[body.index].flags & (Body::held | Body::frozen)) != 0;
+  return (engine_->bodies()[body.index].flags & (Body::held | Body::frozen)) != 0;
 }
 
 bool World::is_free(const Vector2& centre, double radius) const {
-  return engine_->is_free(centre.cast<Real>(), {RealVector(0.0, 0.0), radius});
+  return physics::is_free(engine_->present(), centre.cast<Real>(), {RealVector(0.0, 0.0), radius});
 }
 bool World::is_free(const Vector2& centre, const Vector2& half_extent) const {
-  return engine_->is_free(centre.cast<Real>(), {half_extent.cast<Real>(), 0.0});
+  return physics::is_free(engine_->present(), centre.cast<Real>(), {half_extent.cast<Real>(), 0.0});
 }
 
 World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
@@ -134,17 +134,21 @@ std::unique_ptr<Simulator> World::copy() const {
   return std::make_unique<World>(std::move(*world));
 }
 
-const WorldSpec& World::spec() const { return engine_->spec_; }
-const Counters& World::counters() const { return engine_->record_.counters(); }
-Real World::kinetic_energy() const { return engine_->kinetic_energy(); }
+const WorldSpec& World::spec() const { return engine_->spec(); }
+const Counters& World::counters() const { return engine_->record().counters(); }
+Real World::kinetic_energy() const { return physics::kinetic_energy(engine_->bodies(), now()); }
 Real World::spin(BodyId body) const {
-  return engine_->spec_.surface_friction ? engine_->bodies_.spin(body.index) : Real(0.0);
+  return engine_->spec().surface_friction ? engine_->bodies().spin(body.index) : Real(0.0);
 }
-Real World::energy_introduced() const { return engine_->ledger_.introduced(); }
-Real World::work_of_thrust() const { return engine_->work_of_thrust(); }
-Real World::dissipated() const { return engine_->dissipated(); }
-RealVector World::momentum() const { return engine_->momentum(); }
-Real World::max_overlap() const { return engine_->max_overlap(); }
-std::uint64_t World::hash() const { return engine_->hash(); }
+Real World::energy_introduced() const { return engine_->ledger().introduced(); }
+Real World::work_of_thrust() const {
+  return physics::work_of_thrust(engine_->ledger(), engine_->bodies(), now());
+}
+Real World::dissipated() const {
+  return physics::dissipated(engine_->ledger(), engine_->bodies(), now());
+}
+RealVector World::momentum() const { return physics::momentum(engine_->bodies(), now()); }
+Real World::max_overlap() const { return physics::max_overlap(engine_->present()); }
+std::uint64_t World::hash() const { return hash_of(engine_->bodies()); }
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -136,7 +136,8 @@ void Bodies::write_law(std::uint32_t body) {
 void Bodies::close_books() {
   if (!ledger_.is_kept()) return;
   for (std::size_t i = 0; i < touched_.size(); ++i)
-    if (!is_gone(touched_[i])) ledger_.note_after(i, energy_of(*this, touched_[i]));
+    if (!table_.bodies[touched_[i]].is(Body::gone))
+      ledger_.note_after(i, energy_of(*this, touched_[i]));
   ledger_.close_event();
 }
 

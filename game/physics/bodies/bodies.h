@@ -44,7 +44,6 @@ class Bodies {
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(table_.bodies.size()); }
   const Body& operator[](std::uint32_t body) const { return table_.bodies[body]; }
-  const Body* all() const { return table_.bodies.data(); }
   const Build& build(std::uint32_t body) const { return table_.builds[body]; }
   const Law& law(std::uint32_t body) const { return table_.laws[body]; }
   /// Of worlds with surface friction.
@@ -57,7 +56,6 @@ class Bodies {
   bool is_slowed(std::uint32_t body) const {
     return is_slowed() && table_.bodies[body].kind == BodyKind::puck;
   }
-  bool is_gone(std::uint32_t body) const { return table_.bodies[body].is(Body::gone); }
   bool is_fixed(Partner p) const { return !is_body(p) || table_.builds[p].inverse_mass == 0.0; }
   Real inverse_mass(Partner p) const { return is_body(p) ? table_.builds[p].inverse_mass : 0.0; }
   Real own_drag(std::uint32_t body) const {

@@ -43,7 +43,8 @@ BodyId Engine::add(BodyState state) {
   const RealVector position(state.flight.x, state.flight.y);
   assert(position.allFinite() && std::isfinite(state.flight.vx) && std::isfinite(state.flight.vy) &&
          state.mass > 0.0 && state.material < spec_.restitution.material_count());
-  assert(spec_.allow_overlap || is_free(position, {state.half_extent, state.flight.radius}));
+  assert(spec_.allow_overlap ||
+         is_free(present(), position, {state.half_extent, state.flight.radius}));
   const std::uint32_t body = bodies_.count();
   state.flight.time = clock_.now;
   state.inverse_mass = state.kind == BodyKind::post ? 0.0 : 1.0 / state.mass;
@@ -96,7 +97,7 @@ void Engine::rebuild_from_state() {
 void Engine::rebuild_grid() {
   places_.rebuild(bodies_.count());
   for (std::uint32_t body = 0; body < bodies_.count(); ++body) {
-    if (bodies_.is_gone(body)) continue;
+    if (bodies_[body].is(Body::gone)) continue;
     places_.insert(body, motion_at(bodies_, body, clock_.now).position);
     require_prediction(body);
   }
@@ -123,7 +124,7 @@ void Engine::predict_pending() {
   if (2 * pending_.size() > bodies_.count()) rebuild_grid();
   for (const std::uint32_t body : pending_) {
     bodies_.clear_flags(body, Body::pending);
-    if (bodies_.is_gone(body)) continue;
+    if (bodies_[body].is(Body::gone)) continue;
     if (!is_everything_pending_ || !is_left_alone(body)) {
       prediction_.predict(body);
     } else {
@@ -159,7 +160,7 @@ void Engine::place(std::uint32_t puck, const RealVector& position, const RealVec
   const Body& b = bodies_[puck];
   assert(b.kind == BodyKind::puck && (b.flags & Body::gone) == Body::out_of_play &&
          position.allFinite() && velocity.allFinite());
-  assert(is_free(position, {RealVector(0.0, 0.0), b.radius}));
+  assert(is_free(present(), position, {RealVector(0.0, 0.0), b.radius}));
   bodies_.keep(puck);
   bodies_.put(puck, position, velocity, clock_.now);
   bodies_.clear_flags(puck, Body::out_of_play);
@@ -176,7 +177,7 @@ void Engine::set_thrust(std::uint32_t bat, const RealVector& acceleration) {
   if (bodies_.build(bat).thrust == acceleration) return;
   bodies_.keep(bat);
   if (observers_.journal != nullptr) observers_.journal->time = clock_.now;
-  if (bodies_.is_gone(bat)) {
+  if (bodies_[bat].is(Body::gone)) {
     bodies_.set_thrust(bat, acceleration);
     return;
   }

@@ -26,6 +26,7 @@
 #include "game/physics/engine/next_events.h"
 #include "game/physics/engine/places.h"
 #include "game/physics/engine/prediction.h"
+#include "game/physics/engine/questions.h"
 #include "game/physics/engine/rest_contacts.h"
 #include "game/physics/event.h"
 #include "game/physics/flight/impact_time.h"
@@ -44,19 +45,20 @@ class Engine {
   void place(std::uint32_t puck, const RealVector& position, const RealVector& velocity);
   std::optional<Goal> advance(Real until);
 
-  bool is_free(const RealVector& centre, const RoundedBox& shape) const;
-  Real kinetic_energy() const;
-  RealVector momentum() const;
-  Real max_overlap() const;
-  Real work_of_thrust() const;
-  Real dissipated() const;
-  std::uint64_t hash() const;
   WorldState state() const;
   /// Goes on from there, with the same bits.
   void restore(WorldState state);
 
+  const WorldSpec& spec() const { return spec_; }
+  const Clock& clock() const { return clock_; }
+  const Bodies& bodies() const { return bodies_; }
+  const EnergyLedger& ledger() const { return ledger_; }
+  Present present() const { return {spec_.field, bodies_, places_, clock_.now}; }
+  /// For observers, who may forget.
+  EventRecord& record() { return record_; }
+  ChangeLog& changes() { return bodies_.changes(); }
+
  private:
-  friend class World;
   friend class Portion;
 
   // engine.cpp: bodies and the loop

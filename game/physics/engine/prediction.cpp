@@ -215,8 +215,9 @@ std::uint32_t Prediction::predict_straight_pairs(std::uint32_t body, std::uint32
     // The slack keeps those that come within the same instant.
     const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness) + Real(instant);
     const Meeting first =
-        counts ? first_meeting_counting(bodies_.all(), body, near + begin, asked, latest)
-               : first_meeting(bodies_.all(), body, near + begin, asked, latest);
+        counts ? first_meeting_counting(bodies_.table().bodies.data(), body, near + begin, asked,
+                                        latest)
+               : first_meeting(bodies_.table().bodies.data(), body, near + begin, asked, latest);
     touching += first.touching;
     const bool is_tied = first.second_time <= first.time + Real(instant) ||
                          std::abs(first.time - slot.impact_time) <= Real(instant);

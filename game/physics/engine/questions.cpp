@@ -1,0 +1,107 @@
+// Sums, extremes and the hash over all bodies.
+#include "game/physics/engine/questions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "game/physics/body_hash.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+bool is_free(const Present& present, const RealVector& centre, const RoundedBox& shape) {
+  const auto& [field, bodies, places, now] = present;
+  const RealVector extent = shape.half_extent + RealVector::Constant(shape.radius);
+  if ((centre - extent).minCoeff() < 0.0 || centre.x() + extent.x() > field.length ||
+      centre.y() + extent.y() > field.width)
+    return false;
+  const CellGrid& grid = places.grid();
+  const double range = static_cast<double>(extent.maxCoeff() + places.reach()) + grid.side() / 32.0;
+  const double x = static_cast<double>(centre.x()), y = static_cast<double>(centre.y());
+  const std::uint32_t column = grid.column(x - range), row = grid.row(y - range);
+  const int columns = static_cast<int>(grid.column(x + range) - column),
+            rows = static_cast<int>(grid.row(y + range) - row);
+  bool is_clear = true;
+  grid.around(column, row, 0, columns, 0, rows, [&](std::uint32_t body) {
+    const RoundedBox both{bodies.build(body).half_extent + shape.half_extent,
+                          bodies[body].radius + shape.radius};
+    is_clear = is_clear && both.gap(centre - motion_at(bodies, body, now).position).distance >= 0.0;
+  });
+  return is_clear;
+}
+
+Real kinetic_energy(const Bodies& bodies, Real now) {
+  Real sum = 0.0;
+  for (std::uint32_t body = 0; body < bodies.count(); ++body)
+    if (!bodies[body].is(Body::gone) && bodies.build(body).inverse_mass > 0.0)
+      sum += 0.5 * bodies.build(body).mass * motion_at(bodies, body, now).velocity.squaredNorm();
+  for (std::uint32_t body = 0; body < bodies.table().spins.size(); ++body)
+    if (!bodies[body].is(Body::gone) && bodies[body].kind == BodyKind::puck)
+      sum += 0.25 * bodies.build(body).mass * std::pow(bodies[body].radius * bodies.spin(body), 2);
+  return sum;
+}
+
+RealVector momentum(const Bodies& bodies, Real now) {
+  RealVector sum(0.0, 0.0);
+  for (std::uint32_t body = 0; body < bodies.count(); ++body)
+    if (!bodies[body].is(Body::gone) && bodies.build(body).inverse_mass > 0.0)
+      sum += bodies.build(body).mass * motion_at(bodies, body, now).velocity;
+  return sum;
+}
+
+Real work_of_thrust(const EnergyLedger& ledger, const Bodies& bodies, Real now) {
+  if (!ledger.is_kept()) return 0.0;
+  Sum sum = ledger.work();
+  for (std::uint32_t body = 0; body < bodies.count(); ++body)
+    if (!bodies[body].is(Body::gone)) sum.add(expense_until(bodies, body, now).work);
+  return sum.value();
+}
+
+Real dissipated(const EnergyLedger& ledger, const Bodies& bodies, Real now) {
+  if (!ledger.is_kept()) return 0.0;
+  Sum sum = ledger.loss();
+  for (std::uint32_t body = 0; body < bodies.count(); ++body)
+    if (!bodies[body].is(Body::gone)) sum.add(expense_until(bodies, body, now).loss);
+  return sum.value();
+}
+
+Real max_overlap(const Present& present) {
+  const auto& [field, bodies, places, now] = present;
+  const CellGrid& grid = places.grid();
+  Real deepest = 0.0;
+  for (std::uint32_t body = 0; body < bodies.count(); ++body) {
+    if (bodies[body].is(Body::gone) || bodies[body].kind == BodyKind::post) continue;
+    const RealVector position = motion_at(bodies, body, now).position;
+    const RealVector extent =
+        bodies.build(body).half_extent + RealVector::Constant(bodies[body].radius);
+    const Real end =
+        bodies[body].mouth == Body::no_mouth
+            ? std::min(position.x() - extent.x(), field.length - extent.x() - position.x())
+            : Real(0.0);
+    const Real side = std::min(position.y() - extent.y(), field.width - extent.y() - position.y());
+    deepest = std::max({deepest, -end, -side});
+    grid.around(grid.column_of(body), grid.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
+      if (other != body)
+        deepest = std::max(deepest, -shape_of(bodies, body, other)
+                                         .gap(position - motion_at(bodies, other, now).position)
+                                         .distance);
+    });
+  }
+  return deepest;
+}
+
+std::uint64_t hash_of(const Bodies& bodies) {
+  const std::vector<Real>& spins = bodies.table().spins;
+  BodyHash hash;
+  for (std::uint32_t body = 0; body < bodies.count(); ++body) {
+    const Body& b = bodies[body];
+    const bool is_curved = b.is(Body::curved);
+    const Law& law = bodies.law(body);
+    hash.add(b, is_curved ? &law.acceleration : nullptr, is_curved ? &law.drag : nullptr,
+             b.flags & Body::lasting,
+             spins.empty() ? std::nullopt : std::optional<Real>(spins[body]));
+  }
+  return hash.value();
+}
+
+}  // namespace rink::physics::inline RINK_PRECISION
