@@ -134,7 +134,7 @@ void Bodies::write_law(std::uint32_t body) {
 }
 
 void Bodies::close_books() {
-  if (!ledger_.is_kept()) return;
+  assert(ledger_.is_kept());
   for (std::size_t i = 0; i < touched_.size(); ++i)
     if (!table_.bodies[touched_[i]].is(Body::gone))
       ledger_.note_after(i, energy_of(*this, touched_[i]));

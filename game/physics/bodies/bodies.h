@@ -129,7 +129,7 @@ class Bodies {
 
   /// By the event at hand.
   std::span<const std::uint32_t> touched() const { return touched_; }
-  /// Enters what the event at hand took from those that it touched.
+  /// Enters what the event at hand took from those that it touched; only where books are kept.
   void close_books();
   /// The next event is at hand.
   void forget_touched();

@@ -249,7 +249,7 @@ void Engine::count_event(Real time) {
 }
 
 void Engine::settle() {
-  bodies_.close_books();
+  if (ledger_.is_kept()) bodies_.close_books();
   if (bodies_.is_slowed()) rests_.push_again();
   if (observers_.journal != nullptr) enter_changes();
   for (const std::uint32_t body : bodies_.touched())

@@ -25,9 +25,17 @@ FreeImpact::FreeImpact(const WorldSpec& spec, Bodies& bodies, ContactDetection& 
       is_wanted_(spec.puck_drag == 0.0 && !(spec.puck_friction > 0.0) && !spec.surface_friction &&
                  !spec.accounts_energy && !spec.allow_overlap) {}
 
-bool FreeImpact::may_be_free(const Body& a, const Body& b) const {
-  return (a.flags | b.flags) == 0 && a.kind == BodyKind::puck && b.kind == BodyKind::puck &&
-         is_wanted_ && restitution_(a.material, b.material) == 1.0;
+void FreeImpact::tell(std::uint32_t low, const Flight& before_low, std::uint32_t high,
+                      const Flight& before_high, Real time) {
+  record_.note(EventKind::puck_puck, time, low, high);
+  bodies_.changes().note(low), bodies_.changes().note(high);
+  record_.counters().evaluations += (before_low.time < time) + (before_high.time < time);
+  record_.counters().bodies_touched += 2;
+  if (observers_.journal == nullptr) return;
+  observers_.before->keep_flight(low, before_low);
+  observers_.before->keep_flight(high, before_high);
+  const Body &a = bodies_[low], &b = bodies_[high];
+  observers_.journal->enter_impact(low, a, a.mouth, high, b, b.mouth);
 }
 
 bool FreeImpact::collide(std::uint32_t body, Partner p, Real time, bool is_crowded) {
@@ -81,19 +89,6 @@ bool FreeImpact::predict_alone(std::uint32_t low, std::uint32_t high) {
   events_.slot(low) = slot_low, events_.slot(high) = slot_high;
   record_.counters().predictions = predictions;
   return false;
-}
-
-void FreeImpact::tell(std::uint32_t low, const Flight& before_low, std::uint32_t high,
-                      const Flight& before_high, Real time) {
-  record_.note(EventKind::puck_puck, time, low, high);
-  bodies_.changes().note(low), bodies_.changes().note(high);
-  record_.counters().evaluations += (before_low.time < time) + (before_high.time < time);
-  record_.counters().bodies_touched += 2;
-  if (observers_.journal == nullptr) return;
-  observers_.before->keep_flight(low, before_low);
-  observers_.before->keep_flight(high, before_high);
-  const Body &a = bodies_[low], &b = bodies_[high];
-  observers_.journal->enter_impact(low, a, a.mouth, high, b, b.mouth);
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

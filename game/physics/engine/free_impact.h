@@ -31,10 +31,13 @@ class FreeImpact {
   bool collide(std::uint32_t body, Partner partner, Real time, bool is_crowded);
 
  private:
-  bool may_be_free(const Body& a, const Body& b) const;
+  bool may_be_free(const Body& a, const Body& b) const {
+    return (a.flags | b.flags) == 0 && a.kind == BodyKind::puck && b.kind == BodyKind::puck &&
+           is_wanted_ && restitution_(a.material, b.material) == 1.0;
+  }
   bool predict_alone(std::uint32_t low, std::uint32_t high);
-  void tell(std::uint32_t low, const Flight& before_low, std::uint32_t high,
-            const Flight& before_high, Real time);
+  inline void tell(std::uint32_t low, const Flight& before_low, std::uint32_t high,
+                   const Flight& before_high, Real time);
 
   const RestitutionTable& restitution_;
   Bodies& bodies_;
