@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -131,8 +132,10 @@ using Values = std::map<const Node*, std::optional<double>>;
 std::optional<double> number_of(const Node& node, const Values& values) {
   if (node.kind == Kind::number) return node.number;
   if (node.kind == Kind::figure) return values.at(&node);
+  assert(node.left && !node.is_true_or_false());
   const auto left = number_of(*node.left, values);
   if (node.kind == Kind::negative) return left ? std::optional(-*left) : std::nullopt;
+  assert(node.right && node.kind >= Kind::sum && node.kind <= Kind::quotient);
   const auto right = number_of(*node.right, values);
   if (!left || !right) return std::nullopt;
   double result = 0.0;
@@ -180,6 +183,7 @@ Truth truth_of(Kind comparison, double left, double right) {
 /// What is undefined counts only if the rest does not decide (Kleene's strong logic: `and` is the
 /// lesser of two, `or` the greater).
 Truth truth_of(const Node& node, const Values& values) {
+  assert(node.is_true_or_false());
   if (node.kind == Kind::negation) return opposite(truth_of(*node.left, values));
   if (node.kind == Kind::both)
     return std::min(truth_of(*node.left, values), truth_of(*node.right, values));
@@ -197,6 +201,7 @@ std::string value_text(const std::optional<double>& value) {
 /// "name = value" of each figure, or the numbers on both sides of a comparison without one.
 std::string values_text(const std::vector<const Node*>& figures, const std::vector<Cell>& choice,
                         const Values& values) {
+  assert(figures.size() == choice.size());
   std::string text;
   std::set<std::string> said;
   for (std::size_t i = 0; i < figures.size(); ++i) {
@@ -235,6 +240,7 @@ Assertion::Finding Assertion::judge(std::span<const SummaryRow> rows) const {
   for (const auto& choice : choices) {
     Values values;
     for (std::size_t i = 0; i < named.size(); ++i) {
+      assert(reading_called(named[i]->name) && choice.size() == named.size());
       const Reading reading = *reading_called(named[i]->name);
       values[named[i]] =
           reading.part(std::find(rows.begin(), rows.end(), choice[i])->of(reading.figure));

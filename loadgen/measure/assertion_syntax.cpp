@@ -2,6 +2,7 @@
 #include "loadgen/measure/assertion_syntax.h"
 
 #include <array>
+#include <cassert>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -29,6 +30,7 @@ class Parser {
     Tree tree = either();
     skip_spaces();
     if (at_ < text_.size()) complain("an operator or the end");
+    assert(depth_ == 0 && "every level that was entered was left");
     if (!tree->is_true_or_false()) complain("a comparison, for a number alone demands nothing");
     return tree;
   }
@@ -59,6 +61,7 @@ class Parser {
 
   Tree joined(Node::Kind kind, Tree left, Tree right) const {
     const bool wants_truth = kind >= Node::Kind::both;
+    assert(left && "a parser that finds nothing complains");
     for (const Tree* part : {&left, &right}) {
       if (*part && (*part)->is_true_or_false() != wants_truth)
         complain(wants_truth ? "comparisons on both sides of and, or, and behind not"
@@ -136,6 +139,7 @@ class Parser {
         std::from_chars(text_.data() + at_, text_.data() + text_.size(), node->number);
     if (error != std::errc() || !std::isfinite(node->number)) complain("a number");
     at_ = static_cast<std::size_t>(end - text_.data());
+    assert(at_ <= text_.size());
     return node;
   }
   std::string word(const char* expected) {

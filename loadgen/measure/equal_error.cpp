@@ -2,6 +2,7 @@
 #include "loadgen/measure/equal_error.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -22,10 +23,12 @@ struct LogPoint {
 };
 
 LogPoint log_of(const RivalPoint& point) {
+  assert(point.error_mm > 0.0 && point.payload > 0.0 && point.wire > 0.0);
   return {std::log(point.error_mm), std::log(point.payload), std::log(point.wire)};
 }
 
 LogPoint between(const LogPoint& a, const LogPoint& b, double part) {
+  assert(part >= 0.0 && part <= 1.0);
   return {std::lerp(a.error, b.error, part), std::lerp(a.payload, b.payload, part),
           std::lerp(a.wire, b.wire, part)};
 }
@@ -33,6 +36,7 @@ LogPoint between(const LogPoint& a, const LogPoint& b, double part) {
 /// One setting's error and bytes with a recall of at least `recall`: its smallest margin if that is
 /// enough already.
 std::optional<LogPoint> at_recall(std::vector<RivalPoint> margins, double recall) {
+  assert(!margins.empty());
   std::ranges::sort(margins, {}, &RivalPoint::margin);
   if (margins.front().recall >= recall) return log_of(margins.front());
   for (std::size_t i = 1; i < margins.size(); ++i) {
@@ -62,6 +66,7 @@ std::vector<LogPoint> frontier(std::vector<LogPoint> points, double LogPoint::*b
   std::vector<LogPoint> best;
   for (const LogPoint& point : points)
     if (best.empty() || point.*bytes < best.back().*bytes) best.push_back(point);
+  assert(best.empty() == points.empty() && std::ranges::is_sorted(best, {}, &LogPoint::error));
   return best;
 }
 
@@ -197,6 +202,7 @@ class Comparison {
       result.points_below = std::ranges::min(below);
       result.points_above = std::ranges::min(above);
     }
+    assert(payloads.size() == wires.size() && payloads.size() <= subjects.size());
     if (payloads.empty()) result.payload_end = result.wire_end = End::not_reached;
     if (result.payload_end != End::not_reached) {
       result.payload = ratio_of(payloads);
@@ -266,6 +272,7 @@ std::string explanation(std::span<const EqualError> comparisons) {
 }  // namespace
 
 AtEqualError at_equal_error(std::span<const RivalPoint> points, double recall, double error_mm) {
+  assert(error_mm > 0.0);
   const std::vector<LogPoint> settings = settings_at_recall(points, recall);
   const auto [payload, payload_end] = bytes_at(settings, error_mm, &LogPoint::payload);
   const auto [wire, wire_end] = bytes_at(settings, error_mm, &LogPoint::wire);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -81,6 +82,7 @@ std::optional<std::vector<FitPoint>> points_of(const std::vector<const RunRecord
 
 void add_growths(const std::vector<const RunRecord*>& runs, const GrowthFactor& factor,
                  std::vector<Growth>& growths) {
+  assert(places_of(runs, factor) >= places_min);
   const RunRecord& first = *runs.front();
   for (const Quantity& quantity : quantities) {
     const auto points = points_of(runs, factor, quantity);
@@ -105,6 +107,7 @@ std::string locals_text(const PowerFit& fit) {
 }
 
 std::string exponent_text(const PowerFit& fit) {
+  assert(fit.exponent_low.has_value() == fit.exponent_high.has_value());
   std::array<char, 48> text;
   const double half = fit.exponent_high ? *fit.exponent_high - fit.exponent : 0.0;
   std::snprintf(text.data(), text.size(), "%5.2f +-%-4.2f%c", fit.exponent, half,

@@ -2,6 +2,7 @@
 #include "loadgen/measure/judge_run.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -298,6 +299,7 @@ void judge(RunRecord& record, const nlohmann::json& server_report,
   for (const std::string& complaint : complaints) {
     if (std::find(once.begin(), once.end(), complaint) == once.end()) once.push_back(complaint);
   }
+  assert(once.size() <= complaints.size() && once.empty() == complaints.empty());
   record.valid = once.empty();
   record.why_invalid.clear();
   for (const std::string& complaint : once)

@@ -2,6 +2,7 @@
 #include "loadgen/measure/modes_table.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -39,6 +40,7 @@ constexpr Column columns[] = {{"halo", "halo_bytes_per_client_per_s", 1e-3},
 /// and is not symmetric.
 std::optional<double> margin(const Statistic& statistic, std::size_t runs) {
   if (!statistic.deviation) return std::nullopt;
+  assert(runs > 1);
   const auto count = static_cast<double>(runs);
   return student_t_quantile(0.5 + 0.5 * interval_confidence, count - 1.0) * *statistic.deviation /
          std::sqrt(count);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -81,6 +82,7 @@ LineFile::~LineFile() {
 }
 
 void LineFile::append(std::string line) {
+  assert(descriptor_ >= 0 && line.find('\n') == std::string::npos && "one whole line");
   line += '\n';
   for (std::size_t written = 0; written < line.size();) {
     const ssize_t count = ::write(descriptor_, line.data() + written, line.size() - written);

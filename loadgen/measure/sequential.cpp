@@ -1,6 +1,7 @@
 // Half widths from the rows' means and deviations.
 #include "loadgen/measure/sequential.h"
 
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -11,12 +12,14 @@
 namespace rink::loadgen {
 
 double confidence_of_look(std::uint32_t look) {
+  assert(look > 0 && "looks are counted from 1");
   const double pi_look = std::numbers::pi * static_cast<double>(look);
   return 1.0 - (1.0 - interval_confidence) * 6.0 / (pi_look * pi_look);
 }
 
 std::vector<WideRow> wider_rows(std::span<const SummaryRow> rows, double width,
                                 std::uint32_t look) {
+  assert(width > 0.0 && look > 0);
   std::vector<WideRow> wide;
   for (const SummaryRow& row : rows) {
     const Statistic& payload = row.of("down_bytes_per_client_per_s");
@@ -25,6 +28,7 @@ std::vector<WideRow> wider_rows(std::span<const SummaryRow> rows, double width,
       wide.push_back({row.valid_runs, "the payload of " + name + " has no interval"});
       continue;
     }
+    assert(row.valid_runs > 1 && "a deviation needs two");
     const auto runs = static_cast<double>(row.valid_runs);
     const double half = student_t_quantile(0.5 + 0.5 * confidence_of_look(look), runs - 1.0) *
                         *payload.deviation / std::sqrt(runs) / *payload.mean;

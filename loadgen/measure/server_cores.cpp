@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdio>
 
 #include "loadgen/experiment/csv_number.h"
@@ -49,6 +50,7 @@ std::vector<std::vector<Pair>> pairs_of(std::span<const RunRecord> runs) {
 
 /// Nothing if some run lacks the figure or has 0, of which there is no ratio.
 std::optional<CoresRatio> cores_ratio(const std::vector<Pair>& pairs, const Figure& figure) {
+  assert(!pairs.empty());
   std::vector<std::pair<double, double>> values;
   for (const Pair& pair : pairs) {
     const auto apart = figure.of(*pair.apart), anywhere = figure.of(*pair.anywhere);

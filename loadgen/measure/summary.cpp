@@ -254,9 +254,13 @@ std::pair<std::optional<double>, std::optional<double>> ends_of(
 
 std::span<const Figure> figures() { return all_figures; }
 
-const Statistic& SummaryRow::of(const char* name) const { return statistics[index_of(name)]; }
+const Statistic& SummaryRow::of(const char* name) const {
+  assert(statistics.size() == all_figures.size());
+  return statistics[index_of(name)];
+}
 
 const std::optional<Ratio>& SummaryRow::ratio(const char* name) const {
+  assert(ratios.size() == all_figures.size());
   return ratios[index_of(name)];
 }
 
@@ -275,6 +279,8 @@ std::vector<SummaryRow> summarise(std::span<const RunRecord> runs, const Baselin
       row.statistics.push_back(statistic_of(figure, valid_runs));
   }
   add_ratios(rows, runs, baseline);
+  assert(std::ranges::all_of(
+      rows, [](const SummaryRow& row) { return row.valid_runs + row.invalid_runs > 0; }));
   return rows;
 }
 
@@ -315,6 +321,7 @@ std::string to_csv(std::span<const SummaryRow> rows) {
   for (const SummaryRow& row : rows) {
     csv += cell_values(row) + "," + std::to_string(row.valid_runs) + "," +
            std::to_string(row.invalid_runs) + "," + csv_text(row.relevance);
+    assert(row.statistics.size() == all_figures.size());
     for (const Statistic& statistic : row.statistics) {
       const auto [low, high] = ends_of(statistic.interval);
       for (const auto& value :
@@ -331,6 +338,7 @@ std::string comparisons_csv(std::span<const SummaryRow> rows, const Baseline& ba
                                          ",baseline_scheme,baseline_policy,figure,ratio,ratio_low,"
                                          "ratio_high,pairs,difference,baseline\n");
   for (const SummaryRow& row : rows) {
+    assert(row.ratios.size() == all_figures.size());
     for (std::size_t i = 0; i < all_figures.size(); ++i) {
       const std::optional<Ratio>& ratio = row.ratios[i];
       if (!ratio) continue;

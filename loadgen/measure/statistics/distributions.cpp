@@ -33,6 +33,7 @@ double beta_fraction(double x, double a, double b) {
 
 /// The probability that Student's t exceeds `t` >= 0.
 double student_t_tail(double t, double freedom) {
+  assert(t >= 0.0 && freedom > 0.0);
   return 0.5 * regularized_beta(freedom / (freedom + t * t), 0.5 * freedom, 0.5);
 }
 
@@ -59,6 +60,7 @@ double student_t_quantile(double probability, double freedom) {
     if (middle == low || middle == high) break;
     (student_t_tail(middle, freedom) > tail ? low : high) = middle;
   }
+  assert(low >= 0.0 && low <= high);
   return probability < 0.5 ? -high : high;
 }
 

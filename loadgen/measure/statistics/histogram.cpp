@@ -7,6 +7,9 @@
 #include <cassert>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "im/basics/checked.h"
 
 namespace rink::loadgen {
 namespace {
@@ -22,12 +25,14 @@ std::uint64_t clamped_ns(double duration_s) {
 }
 
 std::size_t bucket_of(std::uint64_t duration_ns) {
+  assert(duration_ns >= shortest_ns && duration_ns <= longest_ns);
   const int shift = static_cast<int>(std::bit_width(duration_ns)) - 10;
   return (static_cast<std::size_t>(shift) - 1) * parts_per_octave +
          static_cast<std::size_t>((duration_ns >> shift) - parts_per_octave);
 }
 
 double middle_s(std::size_t bucket) {
+  assert(bucket < Histogram::bucket_count);
   const std::size_t shift = bucket / parts_per_octave + 1;
   const double low_ns =
       static_cast<double>((bucket % parts_per_octave + parts_per_octave) << shift);
@@ -61,6 +66,14 @@ void Histogram::merge(const Histogram& other) {
   max_s_ = std::max(max_s_, other.max_s_);
   sum_s_ += other.sum_s_;
   count_ += other.count_;
+  if constexpr (checks_whole_structures) check();
+}
+
+void Histogram::check() const {
+  assert(buckets_.size() == bucket_count);
+  assert(std::accumulate(buckets_.begin(), buckets_.end(), std::uint64_t{0}) == count_);
+  assert(count_ == 0 || min_s_ <= max_s_);
+  assert(count_ > 0 || (sum_s_ == 0.0 && max_s_ == 0.0));
 }
 
 std::optional<double> Histogram::mean_s() const {
@@ -78,6 +91,7 @@ std::optional<double> Histogram::percentile_s(double fraction) const {
   if (!supports(count_, fraction)) return std::nullopt;
   const double exact_rank = std::ceil(fraction * static_cast<double>(count_) - 1e-6);
   const std::uint64_t rank = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(exact_rank));
+  assert(rank <= count_);
   std::uint64_t seen = 0;
   for (std::size_t bucket = 0; bucket < bucket_count; ++bucket) {
     seen += buckets_[bucket];

@@ -61,6 +61,9 @@ class Histogram {
   /// are not positive or do not add up.
   static std::optional<Histogram> from_json(const nlohmann::json& written);
 
+  /// Asserts that the buckets add up to the count, and that the extremes are in order.
+  void check() const;
+
  private:
   std::vector<std::uint64_t> buckets_;
   std::uint64_t count_ = 0;

@@ -2,6 +2,7 @@
 #include "loadgen/measure/statistics/linear_fit.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace rink::loadgen {
@@ -49,6 +50,7 @@ std::optional<LinearFit> fit_line(std::span<const FitPoint> points) {
   if (!has_two) return std::nullopt;
   LinearFit fit{.constant = mean};
   for (int round = 0; round < rounds; ++round) fit = weighted(points, fit);
+  assert(!(fit.constant < 0.0) && !(fit.slope < 0.0));
   for (const FitPoint& point : points) fit.log_residual += squared_log(point.y, fit.at(point.x));
   return fit;
 }

@@ -2,6 +2,7 @@
 #include "loadgen/measure/statistics/power_fit.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 
@@ -18,6 +19,7 @@ struct Moments {
 };
 
 Moments moments_of(std::span<const FitPoint> logs) {
+  assert(!logs.empty());
   Moments moments;
   const auto count = static_cast<double>(logs.size());
   for (const FitPoint& point : logs)
@@ -73,6 +75,7 @@ std::optional<PowerFit> fit_power(std::span<const FitPoint> points) {
   }
   if (places.size() < 2) return std::nullopt;
 
+  assert(moments.xx > 0.0 && "places lie apart");
   PowerFit fit;
   fit.points = points.size();
   fit.places = places.size();
@@ -97,6 +100,7 @@ std::optional<PowerFit> fit_power(std::span<const FitPoint> points) {
         {std::exp(place->first), std::exp(next->first),
          (next->second.mean() - place->second.mean()) / (next->first - place->first)});
   }
+  assert(fit.locals.size() + 1 == fit.places && fit.points >= fit.places);
   return fit;
 }
 

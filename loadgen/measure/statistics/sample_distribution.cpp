@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "im/basics/checked.h"
+
 namespace rink::loadgen {
 
 void SampleDistribution::add(double value) {
@@ -18,6 +20,16 @@ void SampleDistribution::merge(const SampleDistribution& other) {
   for (const auto& [value, count] : other.counts_) counts_[value] += count;
   ended_ += other.ended_;
   never_ += other.never_;
+  if constexpr (checks_whole_structures) check();
+}
+
+void SampleDistribution::check() const {
+  [[maybe_unused]] std::uint64_t sum = 0;
+  for (const auto& [value, count] : counts_) {
+    assert(count > 0);
+    sum += count;
+  }
+  assert(sum == ended_);
 }
 
 std::vector<SampleDistribution::Point> SampleDistribution::distribution(
@@ -36,6 +48,7 @@ std::vector<SampleDistribution::Point> SampleDistribution::distribution(
     points.push_back({static_cast<double>(value) / 1e3, static_cast<double>(below) / all});
     next = static_cast<double>(below) + step;
   }
+  assert(below == ended_ && points.size() <= points_max && points.front().thousandths == 0.0);
   return points;
 }
 
@@ -58,7 +71,7 @@ std::optional<SampleDistribution> SampleDistribution::from_json(const nlohmann::
       return std::nullopt;
     const std::uint64_t value = entry[0].get<std::uint64_t>(),
                         count = entry[1].get<std::uint64_t>();
-    if (count == 0 ||
+    if (count == 0 || count > UINT64_MAX - distribution.ended_ - distribution.never_ ||
         (!distribution.counts_.empty() && distribution.counts_.rbegin()->first >= value))
       return std::nullopt;
     distribution.counts_[value] = count;

@@ -40,6 +40,9 @@ class SampleDistribution {
   /// What `to_json` wrote, or nothing if it is not that.
   static std::optional<SampleDistribution> from_json(const nlohmann::json& written);
 
+  /// Asserts that the counts of all values add up to what is said to have ended.
+  void check() const;
+
  private:
   std::map<std::uint64_t, std::uint64_t> counts_;  ///< by value in millionths
   std::uint64_t ended_ = 0, never_ = 0;

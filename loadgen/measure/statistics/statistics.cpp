@@ -2,6 +2,7 @@
 #include "loadgen/measure/statistics/statistics.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace rink::loadgen {
 namespace {
 
 double mean_of(std::span<const double> values) {
+  assert(!values.empty());
   double sum = 0.0;
   for (const double value : values) sum += value;
   return sum / static_cast<double>(values.size());
@@ -28,6 +30,7 @@ std::optional<Interval> interval_of_mean(std::span<const double> values, Scale s
   for (const double value : values) squares += (value - mean) * (value - mean);
   const double half = student_t_quantile(0.5 + 0.5 * interval_confidence, count - 1.0) *
                       std::sqrt(squares / (count - 1.0) / count);
+  assert(!(half < 0.0));
   if (half == 0.0) return Interval{mean, mean};
   if (scale == Scale::unbounded || least < 0.0) return Interval{mean - half, mean + half};
   if (scale == Scale::positive || most > 1.0)
@@ -38,6 +41,7 @@ std::optional<Interval> interval_of_mean(std::span<const double> values, Scale s
 
 Difference Ratio::difference() const {
   if (!interval) return Difference::unknown;
+  assert(!(interval->low > interval->high));
   if (interval->contains(1.0)) return Difference::insignificant;
   return interval->high < 1.0 ? Difference::lower : Difference::higher;
 }

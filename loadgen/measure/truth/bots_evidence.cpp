@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -60,6 +61,7 @@ Json line_of(const BotsEvidence::Bot& bot) {
 /// Written and read number by number: there are millions of them in a run, and a tree of values
 /// takes more than twice as long.
 std::string line_of(const BotsEvidence& evidence, const BotsEvidence::Sample& sample) {
+  assert(sample.first <= sample.last && sample.last <= evidence.beliefs.size());
   std::string text = Json{
       {"bot", sample.bot},
       {"displayed_s", sample.displayed_s},
@@ -136,6 +138,7 @@ class SampleReader : public nlohmann::json_sax<nlohmann::json> {
   }
 
   physics::Vector2 position(std::size_t at) const {
+    assert(at + 1 < numbers_.size());
     return {static_cast<double>(numbers_[at]) / nanometres,
             static_cast<double>(numbers_[at + 1]) / nanometres};
   }
@@ -216,6 +219,7 @@ void write_evidence(const std::string& file, const BotsEvidence& evidence) {
                {"is_complete", evidence.is_complete},
                {"bots", evidence.bots.size()},
                {"samples", evidence.samples.size()}});
+  assert(std::ranges::is_sorted(evidence.samples, {}, &BotsEvidence::Sample::displayed_s));
   for (const BotsEvidence::Bot& bot : evidence.bots) writer.line(line_of(bot));
   for (const BotsEvidence::Sample& sample : evidence.samples)
     writer.line_of_text(line_of(evidence, sample));

@@ -2,6 +2,7 @@
 #include "loadgen/measure/truth/classification.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "loadgen/measure/statistics/histogram.h"
@@ -37,6 +38,8 @@ std::optional<double> part(std::uint64_t some, std::uint64_t all) {
 
 void Classification::add(std::span<const std::uint32_t> chosen_entities,
                          std::span<const Relevant> relevant_entities) {
+  assert(std::ranges::is_sorted(chosen_entities));
+  assert(std::ranges::is_sorted(relevant_entities, {}, &Relevant::entity));
   chosen += chosen_entities.size();
   relevant += relevant_entities.size();
   auto next = relevant_entities.begin();

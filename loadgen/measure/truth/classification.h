@@ -2,6 +2,7 @@
 // counts.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -28,7 +29,10 @@ struct Classification {
 /// Distances between where entities were believed to be and where they were.
 class PositionErrors {
  public:
-  void add(double distance_m) { squares_.push_back(distance_m * distance_m); }
+  void add(double distance_m) {
+    assert(!(distance_m < 0.0));
+    squares_.push_back(distance_m * distance_m);
+  }
   /// Of an entity that was put back elsewhere, of which there was no news yet: a few such would
   /// outweigh all else in a root mean square.
   void add_replaced(double distance_m) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "im/basics/checked.h"
+
 namespace rink::loadgen {
 
 std::uint32_t Encounters::column(double x) const { return clamped_cell(x / cell_, columns_); }
@@ -14,6 +16,7 @@ std::uint32_t Encounters::row(double y) const { return clamped_cell(y / cell_, r
 
 void Encounters::choose_cells(std::span<const Reaching> bodies) {
   const auto count = static_cast<double>(std::max<std::size_t>(1, bodies.size()));
+  assert(length_ > 0.0 && width_ > 0.0);
   cell_ = std::sqrt(length_ * width_ / count);
   columns_ = std::max(1u, static_cast<std::uint32_t>(std::ceil(length_ / cell_)));
   rows_ = std::max(1u, static_cast<std::uint32_t>(std::ceil(width_ / cell_)));
@@ -53,6 +56,22 @@ void Encounters::build(std::span<const Reaching> bodies) {
   begins_[0] = 0;
   near_row_.assign(bodies.size(), 0);
   near_rows_ = 0;
+  if constexpr (checks_whole_structures) check();
+}
+
+void Encounters::check() const {
+  assert(begins_.size() == std::size_t{columns_} * rows_ + 2 && begins_.front() == 0);
+  assert(std::ranges::is_sorted(begins_) && begins_.back() == sorted_.size());
+  assert(sorted_.size() == bodies_.size() && cell_of_.size() == bodies_.size());
+  std::vector<bool> is_binned(bodies_.size());
+  for (std::size_t cell = 0; cell + 1 < begins_.size(); ++cell)
+    for (std::size_t i = begins_[cell]; i < begins_[cell + 1]; ++i) {
+      assert(cell_of_[sorted_[i].index] == cell && !is_binned[sorted_[i].index]);
+      is_binned[sorted_[i].index] = true;
+    }
+  assert(std::ranges::all_of(bodies_, [this](const Reaching& each) {
+    return is_there(each.entity) && each.around >= 0.0;
+  }));
 }
 
 /// Without a branch that chance decides.
@@ -66,6 +85,7 @@ void Encounters::add_near(const Reaching& body, std::uint32_t first, std::uint32
     count += dx * dx + dy * dy <= reach * reach ? 1u : 0u;
   }
   listed_count_ = count;
+  assert(first <= last && count <= bodies_.size());
 }
 
 /// As bits, for they are united 30 at a time for each player: lists merged one by one took twice as
@@ -98,7 +118,7 @@ const Encounters::Word* Encounters::near(std::uint32_t index) {
 }
 
 void Encounters::find(std::uint32_t own, std::vector<Relevant>& found) {
-  assert(own < index_of_.size() && index_of_[own] < bodies_.size() && body(own).entity == own);
+  assert(is_there(own));
   const std::uint32_t bat = index_of_[own];
   const Word* const direct = near(bat);
   found_.assign(direct, direct + words_);
@@ -122,6 +142,7 @@ Encounters::Way Encounters::way(std::uint32_t own, std::uint32_t entity) const {
   const auto depth = [](const Reaching& a, const Reaching& b) {
     return a.around + b.around - (a.centre - b.centre).norm();
   };
+  assert(is_there(own) && is_there(entity));
   Way deepest{depth(body(own), body(entity)), std::nullopt};
   for (const Reaching& each : bodies_) {
     if (!each.is_puck || each.entity == own || each.entity == entity) continue;

@@ -46,6 +46,9 @@ class Encounters {
   /// The deepest way.
   Way way(std::uint32_t own, std::uint32_t entity) const;
 
+  /// Asserts that every body is in its cell once and is found under its number.
+  void check() const;
+
  private:
   using Word = std::uint64_t;
   static constexpr std::uint32_t word_bits = 64;
@@ -55,6 +58,10 @@ class Encounters {
   void choose_cells(std::span<const Reaching> bodies);
   void add_near(const Reaching& body, std::uint32_t first, std::uint32_t last);
   const Word* near(std::uint32_t index);
+  bool is_there(std::uint32_t entity) const {
+    return entity < index_of_.size() && index_of_[entity] < bodies_.size() &&
+           bodies_[index_of_[entity]].entity == entity;
+  }
   const Reaching& body(std::uint32_t entity) const { return bodies_[index_of_[entity]]; }
 
   double length_, width_, cell_ = 1.0;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 
 #include "game/control/bat_controller.h"
 #include "game/net/server/serving.h"
+#include "im/basics/checked.h"
 
 namespace rink::loadgen {
 namespace {
@@ -36,6 +38,7 @@ void FilterRelevance::look_around(const game::Game& game, Centres centres) {
   for (std::uint32_t entity = 0; entity < are_there_.size(); ++entity)
     if (are_there_[entity] && (entity >= centres.size() || !centres[entity])) forget(entity);
   for (const game::Entity& entity : game.entities()) {
+    assert(entity.id.index < centres.size() && centres[entity.id.index]);
     take_in(entity, *centres[entity.id.index]);
     if (entity.player && (looks_back() || relevant_[entity.id.index]))
       subscribe(entity, game, *centres[entity.id.index]);
@@ -76,6 +79,7 @@ void FilterRelevance::forget(std::uint32_t entity) {
 
 void FilterRelevance::match() {
   for (const im::Change& change : filter_->match()) {
+    assert(change.subscriber < relevant_.size() && relevant_[change.subscriber]);
     std::vector<std::uint32_t>& list = *relevant_[change.subscriber];
     const auto place = std::lower_bound(list.begin(), list.end(), change.entity);
     const bool is_listed = place != list.end() && *place == change.entity;
@@ -83,10 +87,21 @@ void FilterRelevance::match() {
     if (is_listed) list.erase(place);
     else list.insert(place, change.entity);
   }
+  if constexpr (checks_whole_structures) check();
+}
+
+void FilterRelevance::check() const {
+  assert(relevant_.size() == are_there_.size());
+  for (const auto& list : relevant_) {
+    if (!list) continue;
+    assert(std::ranges::adjacent_find(*list, std::greater_equal<>()) == list->end());
+    assert(std::ranges::all_of(*list, [this](std::uint32_t one) { return are_there_[one]; }));
+  }
 }
 
 void FilterRelevance::find(std::uint32_t own, const game::Game& game, Centres centres,
                            std::vector<Relevant>& found) {
+  assert(own < centres.size() && centres[own] && own < relevant_.size());
   if (!relevant_[own]) {
     subscribe(game.entity({own}), game, *centres[own]);
     match();

@@ -33,6 +33,9 @@ class FilterRelevance {
   void find(std::uint32_t own, const game::Game& game, Centres centres,
             std::vector<Relevant>& found);
 
+  /// Asserts that what is relevant to each is sorted, each once, and there.
+  void check() const;
+
  private:
   void take_in(const game::Entity& entity, const Vector2& centre);
   void subscribe(const game::Entity& bat, const game::Game& game, const Vector2& centre);

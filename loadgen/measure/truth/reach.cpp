@@ -13,10 +13,11 @@ Reach::Reach(double time_s, double drag, double friction)
   assert(time_s > 0.0 && drag >= 0.0 && friction >= 0.0);
   const physics::WarpedTime warped = physics::warp(time_s, drag);
   s_ = warped.s, q_ = warped.q;
+  assert(s_ > 0.0 && q_ > 0.0 && s_ <= time_s * (1.0 + 1e-12));
 }
 
 double Reach::of(double speed, double thrust) const {
-  assert(friction_ == 0.0 || thrust == 0.0);
+  assert((friction_ == 0.0 || thrust == 0.0) && speed >= 0.0 && thrust >= 0.0);
   if (friction_ == 0.0) return speed * s_ + thrust * q_;
   const double rest_s =
       drag_ > 0.0 ? std::log1p(drag_ * speed / friction_) / drag_ : speed / friction_;

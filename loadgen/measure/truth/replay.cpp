@@ -2,7 +2,9 @@
 #include "loadgen/measure/truth/replay.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -104,6 +106,7 @@ std::optional<double> Replay::depth_before(std::uint32_t own, std::uint32_t enti
 
 std::optional<double> Replay::depth_before(std::uint32_t a, std::uint32_t b) const {
   if (a >= before_.size() || b >= before_.size() || !before_[a] || !before_[b]) return std::nullopt;
+  assert(!is_of_contact() || around_before_.size() == before_.size());
   if (is_of_contact())
     return around_before_[a] + around_before_[b] - (*before_[a] - *before_[b]).norm();
   return depth(area_, *before_[a], *before_[b], half_extent(b));
@@ -113,6 +116,8 @@ void Replay::find(std::uint32_t own, std::vector<Relevant>& found) {
   if (filter_) filter_->find(own, game_, centres_, found);
   else if (is_of_contact()) encounters_.find(own, found);
   else surroundings_.find(centre(own), own, found);
+  assert(std::ranges::adjacent_find(found, std::greater_equal<>(), &Relevant::entity) ==
+         found.end());
   if (!area_.has_team && !area_.always) return;
   const game::Team team = game_.entity({own}).team;
   const std::size_t near = found.size();

@@ -1,6 +1,7 @@
 // A recorded game played again, look by look: the state that everything else is measured against.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -46,7 +47,10 @@ class Replay {
     return entity < centres_.size() && centres_[entity].has_value();
   }
   /// At the last look; `entity` must have been there.
-  const Vector2& centre(std::uint32_t entity) const { return *centres_[entity]; }
+  const Vector2& centre(std::uint32_t entity) const {
+    assert(is_there(entity));
+    return *centres_[entity];
+  }
   /// Keeps this look for `passed`.
   void remember() { before_ = centres_, around_before_ = around_; }
   /// Of what is relevant to the bat `own` now and was not at the look remembered: see

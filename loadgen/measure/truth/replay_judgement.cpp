@@ -2,6 +2,7 @@
 #include "loadgen/measure/truth/replay_judgement.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -157,6 +158,7 @@ void ReplayJudgement::add_error(PositionErrors& errors, const BotsEvidence::Samp
 }
 
 void ReplayJudgement::judge_displayed(const BotsEvidence::Sample& sample) {
+  assert(sample.bot < players_.size() && sample.last <= bots_.beliefs.size());
   Player& player = players_[sample.bot];
   if (!is_present(player)) return;
   replay_.find(*player.bat, relevant_);
@@ -175,6 +177,7 @@ void ReplayJudgement::judge_displayed(const BotsEvidence::Sample& sample) {
 }
 
 void ReplayJudgement::judge_matched(const BotsEvidence::Sample& sample) {
+  assert(sample.bot < players_.size() && sample.last <= bots_.beliefs.size());
   const Player& player = players_[sample.bot];
   if (!is_present(player)) return;
   replay_.find(*player.bat, relevant_);
@@ -207,6 +210,7 @@ void ReplayJudgement::judge_contact(Player& player, std::uint32_t entity, double
   ++contacts_;
   if (player.at_contacts.contains(entity)) return;
   ++missed_contacts_;
+  assert(missed_.samples() + 1 == missed_contacts_);
   const auto is_discovery = [&](const ScopeStep& step) {
     return step.is_in && step.entity == entity && step.instant_s > instant_s;
   };
@@ -254,6 +258,7 @@ TruthFigures ReplayJudgement::sums() {
   }
   figures.delivered_precision = delivered_.precision();
   figures.delivered_recall = delivered_.recall();
+  assert(missed_contacts_ <= contacts_ && wasted_bytes_ <= bytes_);
   figures.interactions = contacts_;
   figures.missed_interactions = missed_contacts_;
   figures.late_entry_ms = late_entries();

@@ -1,6 +1,8 @@
 // A repeated step is no change: a federate may be told twice what it knows.
 #include "loadgen/measure/truth/scope_history.h"
 
+#include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace rink::loadgen {
@@ -26,6 +28,7 @@ ScopeChanges count_changes(std::span<const ScopeStep> steps, std::uint32_t own, 
     bool is_in = false;
     double left_s = -std::numeric_limits<double>::infinity();
   };
+  assert(std::ranges::is_sorted(steps, {}, &ScopeStep::instant_s));
   std::vector<Known> known;
   ScopeChanges changes;
   for (const ScopeStep& step : steps) {
@@ -40,6 +43,7 @@ ScopeChanges count_changes(std::span<const ScopeStep> steps, std::uint32_t own, 
     ++(step.is_in ? changes.entries : changes.exits);
     if (step.is_in && step.instant_s - entity.left_s < flap_s) ++changes.flaps;
   }
+  assert(changes.flaps <= changes.entries);
   return changes;
 }
 

@@ -1,6 +1,8 @@
 // What one player had in its mirror, replayed forward in time.
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,7 +21,9 @@ struct ScopeStep {
 class ScopeHistory {
  public:
   /// Steps ordered by instant; repetitions of what is the case already are ignored.
-  explicit ScopeHistory(std::vector<ScopeStep> steps) : steps_(std::move(steps)) {}
+  explicit ScopeHistory(std::vector<ScopeStep> steps) : steps_(std::move(steps)) {
+    assert(std::ranges::is_sorted(steps_, {}, &ScopeStep::instant_s));
+  }
 
   /// Takes every step up to and including `instant_s`, which never decreases.
   void advance(double instant_s);

@@ -2,11 +2,16 @@
 #include "loadgen/measure/truth/stays.h"
 
 #include <algorithm>
+#include <cassert>
+#include <functional>
 
 namespace rink::loadgen {
 
 void Stays::look(double instant_s, std::span<const Relevant> relevant,
                  const ScopeHistory& delivered, const Passed& passed) {
+  assert(std::ranges::adjacent_find(relevant, std::greater_equal<>(), &Relevant::entity) ==
+         relevant.end());
+  assert((looks_ == 0 || instant_s >= last_s_) && "instants ascend");
   const bool is_first = ++looks_ == 1;
   for (const Relevant& each : relevant) {
     if (each.entity >= stays_.size()) stays_.resize(each.entity + 1);
@@ -34,6 +39,7 @@ void Stays::look(double instant_s, std::span<const Relevant> relevant,
 }
 
 void Stays::close(Stay& stay, double instant_s) {
+  assert(stay.is_open);
   stay.is_open = false;
   if (stay.is_settled) return;
   lateness_s_.push_back(instant_s - stay.begin_s);
@@ -43,6 +49,7 @@ void Stays::close(Stay& stay, double instant_s) {
 void Stays::end() {
   for (const std::uint32_t entity : open_) close(stays_[entity], last_s_);
   open_.clear();
+  assert(lateness_s_.size() == delivered_after_s_.size() + never_delivered_);
 }
 
 }  // namespace rink::loadgen

@@ -38,6 +38,9 @@ class Surroundings {
   /// in `found`, which is overwritten.
   void find(const Vector2& bat, std::uint32_t own, std::vector<Relevant>& found) const;
 
+  /// Asserts that every entity is in the cell in which its place is, once.
+  void check() const;
+
  private:
   std::uint32_t column(double x) const;
   std::uint32_t row(double y) const;
