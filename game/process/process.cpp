@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -81,6 +82,8 @@ Process::Process(const std::filesystem::path& executable, const std::vector<std:
   pointers.push_back(nullptr);
   cpu_set_t set;
   CPU_ZERO(&set);
+  assert(std::ranges::all_of(settings.processors,
+                             [](int one) { return one >= 0 && one < CPU_SETSIZE; }));
   for (const int processor : settings.processors)
     CPU_SET(static_cast<std::size_t>(processor), &set);
 
@@ -150,6 +153,7 @@ void Process::read_into(int& descriptor, std::string& text, std::size_t kept_max
 
 void Process::reap() {
   if (ending_) return;
+  assert(id_ > 0 && "a process that could not be started is none");
   int status = 0;
   rusage used{};
   if (wait4(id_, &status, WNOHANG, &used) != id_) return;
@@ -191,9 +195,13 @@ std::string Process::last_words() const {
   return words;
 }
 
-void Process::signal_group(int signal) const { kill(-id_, signal); }
+void Process::signal_group(int signal) const {
+  assert(id_ > 0 && "the group 0 is our own");
+  kill(-id_, signal);
+}
 
 void Process::stop(std::chrono::milliseconds grace) {
+  assert(grace.count() >= 0);
   constexpr std::chrono::milliseconds step{5};
   if (grace.count() > 0) signal_group(SIGTERM);
   for (std::chrono::milliseconds waited{0}; !ending_ && waited < grace; waited += step) {
