@@ -2,6 +2,7 @@
 #include "game/view/application.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdio>
 #include <utility>
 
@@ -42,7 +43,9 @@ Application::Application(Surroundings surroundings, const Settings& settings)
 }
 
 void Application::start(const MatchWish& wish) {
+  assert(surroundings_.make_match && "who cannot make a match has nothing to show");
   std::unique_ptr<MatchSource> match = surroundings_.make_match(wish);
+  assert(match != nullptr);
   held_.clear();
   match_ = std::move(match);
   wish_ = wish;
@@ -92,6 +95,7 @@ bool Application::is_split() const {
 
 /// Where the player `hand` of this keyboard sees the table from.
 Viewpoint Application::viewpoint_of(std::uint32_t hand) const {
+  assert(hand < 2);
   if (!is_split()) return view_.viewpoint;
   return hand == 0 ? Viewpoint::left_end : Viewpoint::right_end;
 }
@@ -141,6 +145,7 @@ ViewChoice Application::view(const MatchSight& sight, double now_s) {
   } else if (view_.zoom <= 1.0) {
     view_.centre = {0.5, 0.5};
   }
+  assert(frame_s_ > 0.0);
   if (last_s_ >= 0.0 && now_s > last_s_) frame_s_ += 0.05 * (now_s - last_s_ - frame_s_);
   view_.shows_link = shows_figures_;
   view_.frames_per_s = 1.0 / frame_s_;
@@ -193,6 +198,7 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
 
 void Application::draw(Interface& interface, Renderer* renderer, const WindowSize& size,
                        const Canvas& canvas, double now_s) {
+  assert((last_s_ < 0.0 || now_s >= last_s_) && "real time never falls");
   size_ = size;
   hear_events(interface);
   if (const Thing* asked = interest_.is_shown ? asked_thing(match_->sight(), interest_) : nullptr)

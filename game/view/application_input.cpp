@@ -1,5 +1,6 @@
 // Keys to the match, to the menu or to the camera, and what the mouse does to the view.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -149,6 +150,7 @@ void Application::hear_mouse(const WindowEvent& event) {
 
 /// The camera of the last frame.
 Sight Application::seen() const {
+  assert(view_.zoom >= 1.0 && "no more than the whole field");
   const double aspect = static_cast<double>(size_.width) / size_.height;
   return {camera_of(match_->sight().field, view_, aspect), static_cast<float>(aspect)};
 }
@@ -181,6 +183,7 @@ void Application::click() {
 /// player sees the table.
 void Application::press(KeyCode code, const Bound& meaning) {
   const std::uint32_t hand = match_->hand_count() == 1 ? 0 : meaning.hand;
+  assert(hand < match_->hand_count());
   const game::Key key = seen_from(viewpoint_of(hand), meaning.key);
   const bool was_down = std::ranges::any_of(
       held_, [&](const HeldKey& held) { return held.hand == hand && held.key == key; });
@@ -200,7 +203,11 @@ void Application::release(KeyCode code) {
 }
 
 void Application::release_all() {
-  while (!held_.empty()) release(held_.back().code);
+  while (!held_.empty()) {
+    [[maybe_unused]] const std::size_t before = held_.size();
+    release(held_.back().code);
+    assert(held_.size() + 1 == before && "every turn lets go of one key");
+  }
 }
 
 }  // namespace rink::view

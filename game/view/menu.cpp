@@ -5,6 +5,7 @@
 #include <imgui/imgui_stdlib.h>
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "game/view/picture_of.h"
@@ -25,6 +26,7 @@ void words_in_the_middle(const char* words) {
 }  // namespace
 
 void Menu::open(Screen screen) {
+  assert((screen != Screen::settings || screen_ != Screen::settings) && "or none led back");
   if (screen == Screen::settings) back_ = screen_;
   screen_ = screen;
   is_fresh_ = true;
@@ -41,6 +43,7 @@ bool Menu::take_key(KeyCode code, Settings& settings, MenuWish& wish) {
   if (binding_) {
     const Binding binding = *std::exchange(binding_, std::nullopt);
     if (code == GLFW_KEY_ESCAPE || !key_code_name(code)) return true;
+    assert(binding.hand < settings.keys.size() && binding.key < settings.keys[0].size());
     KeyCode& place = settings.keys[binding.hand][binding.key];
     if (const auto other = bound(settings, code))
       settings.keys[other->hand][static_cast<std::size_t>(other->key)] =
@@ -75,6 +78,7 @@ void Menu::begin_panel(const char* name, float width, float middle) const {
 
 void Menu::draw_title() const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  assert(interface_ != nullptr && unit_ > 0.0f);
   ImFont* font = interface_->title_font();
   const float height = 128.0f * unit_;
   const ImVec2 screen = ImGui::GetIO().DisplaySize,

@@ -2,6 +2,7 @@
 #include "game/view/script.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -80,6 +81,7 @@ std::vector<ScriptStep> read_script(const std::string& file) {
 
 std::span<const ScriptStep> due_steps(const std::vector<ScriptStep>& steps, std::size_t& next,
                                       double now) {
+  assert(next <= steps.size() && std::ranges::is_sorted(steps, {}, &ScriptStep::time));
   const std::size_t first = next;
   while (next < steps.size() && steps[next].time <= now) ++next;
   return std::span(steps).subspan(first, next - first);

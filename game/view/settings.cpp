@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -144,6 +145,7 @@ ReadSettings parse_settings(std::string_view text, const std::string& file) {
 }
 
 std::string settings_text(const Settings& settings) {
+  assert(settings.volume >= 0.0 && settings.volume <= 1.0);
   std::ostringstream text;
   text << "# Rink's settings for playing. Keys are called: a, 7, up, left shift, space, f1, keypad "
           "4, comma, ...\n";

@@ -3,6 +3,7 @@
 #include "game/view/overlays/interest_overlay.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdio>
 #include <vector>
 
@@ -108,6 +109,7 @@ const Thing* asked_thing(const MatchSight& sight, const InterestChoice& choice) 
 }
 
 std::optional<std::uint32_t> thing_at(const MatchSight& sight, const Vector2& place, double reach) {
+  assert(reach >= 0.0);
   std::optional<std::uint32_t> found;
   for (const Thing& thing : sight.things) {
     const double gap =

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdio>
 
 namespace rink::view {
@@ -61,6 +62,7 @@ Overlay zones_overlay(const MatchSight& sight, bool is_shown) {
   Overlay overlay;
   if (!sight.zones) return overlay;
   const ZonesSeen& seen = *sight.zones;
+  assert(std::ranges::is_sorted(seen.ghosts) && std::ranges::is_sorted(seen.told));
   if (is_shown) add_zones(sight, seen, overlay);
   for (const Thing& thing : sight.things) {
     const auto ring = [&](const Colour& colour, double room) {

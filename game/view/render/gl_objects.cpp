@@ -47,6 +47,8 @@ Program::Program(const char* what, const char* shared, const char* vertex, const
 
 FloatStream::FloatStream(std::span<const int> sizes, bool per_instance)
     : array_(generated(glGenVertexArrays)), buffer_(generated(glGenBuffers)), row_(0) {
+  assert(!sizes.empty() &&
+         std::ranges::all_of(sizes, [](int size) { return size >= 1 && size <= 4; }));
   for (const int size : sizes) row_ += static_cast<std::size_t>(size);
   glBindVertexArray(array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
@@ -74,6 +76,7 @@ void FloatStream::fill(std::span<const float> rows) {
 
 GlName<destroy_texture> make_texture(int width, int height, int channels,
                                      std::span<const std::uint8_t> pixels, bool repeats) {
+  assert(width > 0 && height > 0 && (channels == 1 || channels == 4));
   assert(pixels.size() == static_cast<std::size_t>(width * height * channels));
   GlName<destroy_texture> texture(generated(glGenTextures));
   glBindTexture(GL_TEXTURE_2D, texture.name());

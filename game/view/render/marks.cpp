@@ -2,6 +2,7 @@
 #include "game/view/render/marks.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace rink::view {
@@ -40,6 +41,7 @@ void add_streak(const Piece& piece, std::vector<float>& rows) {
 }
 
 void add_glow(const Table& table, bool is_left, float part, std::vector<float>& rows) {
+  assert(part <= 1.0f);
   if (part <= 0.0f) return;
   Colour colour = is_left ? table.right : table.left;  // of who scored
   colour.alpha = 0.85f * part;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace rink::view {
@@ -20,6 +21,7 @@ float eased(float t) { return t * t * (3.0f - 2.0f * t); }
 
 /// Smooth noise with `cells_x` by `cells_y` cells over the unit square, which repeats.
 float noise(float x, float y, unsigned cells_x, unsigned cells_y) {
+  assert(cells_x > 0 && cells_y > 0 && x >= 0.0f && y >= 0.0f);
   const float across = x * static_cast<float>(cells_x), along = y * static_cast<float>(cells_y);
   const float left = std::floor(across), low = std::floor(along), u = eased(across - left),
               v = eased(along - low);
@@ -56,6 +58,7 @@ float lit(unsigned digit, float x, float y) {
                                                   {left, low + gap, left, middle - gap},
                                                   {left, middle + gap, left, high - gap},
                                                   {left + gap, middle, right - gap, middle}}};
+  assert(digit < segments.size());
   float bright = 0.0f;
   for (std::size_t bar = 0; bar < bars.size(); ++bar) {
     const float away = distance(x, y, bars[bar][0], bars[bar][1], bars[bar][2], bars[bar][3]);
@@ -70,6 +73,7 @@ float lit(unsigned digit, float x, float y) {
 }  // namespace
 
 Image wood_image(int size) {
+  assert(size > 0);
   Image image{size, size, 4, {}};
   image.pixels.reserve(static_cast<std::size_t>(size * size * 4));
   for (int row = 0; row < size; ++row)
@@ -85,6 +89,7 @@ Image wood_image(int size) {
                           {byte(0.22f + 0.34f * tone), byte(0.12f + 0.22f * tone),
                            byte(0.075f + 0.13f * tone), 255});
     }
+  assert(image.pixels.size() == static_cast<std::size_t>(size * size * image.channels));
   return image;
 }
 

@@ -2,6 +2,7 @@
 #include "game/view/window/event_queue.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace rink::view {
 
@@ -25,6 +26,8 @@ std::optional<WindowEvent> EventQueue::take(Pace pace) {
   if (waiting_.empty() || !may_come(waiting_.front(), pace)) return std::nullopt;
   const WindowEvent event = waiting_.front();
   waiting_.pop_front();
+  assert(event.kind != WindowEvent::Kind::key ||
+         std::ranges::find(changed_, event.key) == changed_.end());
   if (event.kind == WindowEvent::Kind::key) changed_.push_back(event.key);
   else if (event.kind == WindowEvent::Kind::mouse_button) has_clicked_ = true;
   else return event;
