@@ -2,6 +2,7 @@
 #include "loadgen/report/page.h"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -11,6 +12,7 @@
 namespace rink::loadgen {
 
 void Page::add(const std::string& id, const std::string& title, Exhibit exhibit) {
+  assert(!id.empty() && id.find_first_of("\"<>& ") == std::string::npos && "it stands in a link");
   contents_ += (contents_.empty() ? "" : " \xC2\xB7 ") + std::string("<a href=\"#") + id + "\">" +
                escaped(title) + "</a>\n";
   body_ += "<section id=\"" + id + "\">\n<h2>" + escaped(title) + "</h2>\n" + exhibit.html +

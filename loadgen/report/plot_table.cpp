@@ -2,6 +2,7 @@
 #include "loadgen/report/plot_table.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "loadgen/report/plots/text.h"
 
@@ -9,6 +10,11 @@ namespace rink::loadgen {
 namespace {
 
 constexpr std::size_t rows_on_page_max = 120;
+
+[[maybe_unused]] bool is_rectangular(const PlotTable& table) {
+  return std::ranges::all_of(table.rows,
+                             [&](const auto& row) { return row.size() == table.columns.size(); });
+}
 
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n#") == std::string::npos) return text;
@@ -34,6 +40,7 @@ std::string comment(std::string text) {
 }  // namespace
 
 std::string to_csv(const PlotTable& table, const Provenance& provenance) {
+  assert(is_rectangular(table));
   std::string csv = comment(table.about);
   for (const auto& [name, text] : provenance.facts) csv += comment(name + ": " + text);
   csv += csv_line(table.columns);
@@ -42,6 +49,7 @@ std::string to_csv(const PlotTable& table, const Provenance& provenance) {
 }
 
 std::string to_details(const PlotTable& table) {
+  assert(is_rectangular(table) && !table.name.empty());
   const std::string file = "plots/" + escaped(table.name) + ".csv";
   if (table.rows.size() > rows_on_page_max)
     return "<p class=\"data\">Data: " + file + ", " + std::to_string(table.rows.size()) +

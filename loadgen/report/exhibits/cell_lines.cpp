@@ -74,6 +74,7 @@ void name_and_style(std::vector<CellLine>& lines) {
     return seen.size() - 1;
   };
   for (std::size_t i = 0; i < lines.size(); ++i) {
+    assert(!lines[i].groups.empty());
     const Cell& cell = lines[i].groups.front().cell;
     lines[i].name = name_among(lines, cell);
     lines[i].style = {place(schemes, cell.scheme), place(policies, policy_name(cell)), i};
@@ -128,6 +129,9 @@ std::vector<CellLine> lines_of(std::span<const RunRecord> runs) {
     std::stable_sort(
         line.groups.begin(), line.groups.end(),
         [](const CellGroup& a, const CellGroup& b) { return a.cell.clients < b.cell.clients; });
+    assert(std::ranges::adjacent_find(line.groups, [](const CellGroup& a, const CellGroup& b) {
+             return a.cell.clients == b.cell.clients;
+           }) == line.groups.end());
   }
   name_and_style(lines);
   return lines;
@@ -154,6 +158,7 @@ std::vector<std::uint32_t> thinned(const std::vector<std::uint32_t>& values, std
   std::vector<std::uint32_t> result;
   for (std::size_t i = 0; i < count; ++i)
     result.push_back(values[i * (values.size() - 1) / (count - 1)]);
+  assert(result.front() == values.front() && result.back() == values.back());
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include "loadgen/report/exhibits/exhibit.h"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 
 #include "loadgen/experiment/parameter.h"
@@ -18,6 +19,7 @@ std::string figcaption(const std::string& caption) {
 }  // namespace
 
 void Exhibit::add(const std::string& svg, const std::string& caption, PlotTable table) {
+  assert(!table.name.empty() && "its file is called so");
   pictures.push_back({table.name, svg});
   html += "<figure>\n" + svg + figcaption(caption);
   if (!table.is_empty()) html += to_details(table);
@@ -27,6 +29,7 @@ void Exhibit::add(const std::string& svg, const std::string& caption, PlotTable 
 
 void Exhibit::add_panel(const std::string& table_name, const std::string& svg,
                         const std::string& caption) {
+  assert(!table_name.empty());
   pictures.push_back({table_name, svg});
   html += "<figure>\n" + svg + figcaption(caption) + "</figure>\n";
 }

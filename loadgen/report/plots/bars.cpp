@@ -2,6 +2,7 @@
 #include "loadgen/report/plots/bars.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "loadgen/report/plots/chart_sheet.h"
 #include "loadgen/report/plots/text.h"
@@ -26,6 +27,7 @@ std::string part_class(std::size_t part) { return "p" + std::to_string(part % 4)
 
 std::string svg_bar(const Chart& chart, const Bar& bar, const Axis& y, double middle, double width,
                     const std::string& name) {
+  assert(bar.parts.size() <= chart.part_names.size() && "each part has a name");
   std::string svg;
   double base = 0.0;
   for (std::size_t part = 0; part < bar.parts.size(); ++part) {

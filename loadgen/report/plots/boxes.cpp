@@ -15,6 +15,7 @@ namespace {
 constexpr double row_height = 17.0, name_height = 14.0, group_height = 22.0;
 
 double median_of(std::span<const double> sorted) {
+  assert(!sorted.empty());
   const std::size_t half = sorted.size() / 2;
   return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
 }
@@ -74,6 +75,8 @@ BoxFigures box_of(std::vector<double> sample) {
   box.low_whisker = *std::find_if_not(sample.begin(), sample.end(), is_outside);
   box.high_whisker = *std::find_if_not(sample.rbegin(), sample.rend(), is_outside);
   std::copy_if(sample.begin(), sample.end(), std::back_inserter(box.outside), is_outside);
+  assert(box.low_hinge <= box.median && box.median <= box.high_hinge);
+  assert(box.low_whisker <= box.high_whisker && box.outside.size() < sample.size());
   return box;
 }
 

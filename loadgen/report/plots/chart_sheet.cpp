@@ -1,6 +1,8 @@
 // The frame stands below the legend, however many rows that has.
 #include "loadgen/report/plots/chart_sheet.h"
 
+#include <cassert>
+
 namespace rink::loadgen {
 namespace {
 
@@ -12,6 +14,7 @@ constexpr double x_spacing = 40.0, y_spacing = 26.0;  // of the labels of ticks
 ChartSheet::ChartSheet(const Chart& chart, const std::vector<LegendEntry>& legend,
                        const Frame& room, const Axis& x, const Axis& y)
     : chart_(chart), frame_(room), x_(x), y_(y) {
+  assert(room.left < room.right && room.top < room.bottom && chart.width > 0.0);
   double taken = 0.0;
   svg_ = svg_legend(legend, 0.0, chart.width, legend_top, taken);
   frame_.top += taken, frame_.bottom += taken;

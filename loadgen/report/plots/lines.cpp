@@ -3,6 +3,7 @@
 #include "loadgen/report/plots/lines.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -79,6 +80,7 @@ std::string data_of(const Chart& chart, const Axis& x, const Axis& y) {
   for (const PlotLine& line : chart.lines) {
     const std::string colour = "s" + std::to_string(line.style.colour % colour_count);
     std::string path;
+    assert(line.mark_stride > 0);
     for (std::size_t i = 0; i < line.points.size(); ++i) {
       const PlotPoint& point = line.points[i];
       if (!is_shown(chart, point.x, point.y)) continue;

@@ -62,6 +62,7 @@ std::string to_file(const Picture& picture) {
                                                         coordinate(width + 2.0 * margin) + " " +
                                                         coordinate(height + 2.0 * margin);
   const std::size_t rest = picture.svg.find(" role=");
+  assert(rest != std::string::npos && "svg_opening() says what the picture is");
   const std::size_t content = picture.svg.find('>', rest) + 1;
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg viewBox=\"" + box + "\"" + sizes +
          picture.svg.substr(rest, content - rest) + "\n<style>" + style_with_colours() +

@@ -2,6 +2,7 @@
 #include "loadgen/report/plots/svg.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdio>
 
 #include "loadgen/report/plots/text.h"
@@ -81,6 +82,7 @@ std::string fitted(const std::string& text, double width) {
   }
   const std::size_t kept = static_cast<std::size_t>(std::max(width / text_width("x"), 2.0)) - 1,
                     head = kept / 2;
+  assert(kept >= 1 && "the sign that something is left out has room");
   std::string result;
   for (std::size_t i = 0; i < letters.size(); ++i) {
     if (i < head || i + (kept - head) >= letters.size()) result += letters[i];
@@ -91,6 +93,7 @@ std::string fitted(const std::string& text, double width) {
 
 std::string svg_opening(double width, double height, const std::string& title,
                         const std::string& alternative) {
+  assert(width > 0.0 && height > 0.0);
   return "<svg viewBox=\"0 0 " + coordinate(width) + " " + coordinate(height) +
          "\" role=\"img\" aria-label=\"" + escaped(title + ". " + alternative) +
          "\" xmlns=\"http://www.w3.org/2000/svg\">\n" +
@@ -101,6 +104,7 @@ std::string svg_legend(const std::vector<LegendEntry>& entries, double left, dou
                        double top, double& height) {
   constexpr double row = 17.0, sample = 26.0, gap = 16.0;
   const double room = width - sample - 6.0;
+  assert(room > 0.0);
   std::string svg;
   double x = left, y = top;
   for (const LegendEntry& entry : entries) {

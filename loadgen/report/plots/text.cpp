@@ -2,6 +2,7 @@
 #include "loadgen/report/plots/text.h"
 
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -38,6 +39,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string short_number(double value, int digits) {
+  assert(digits > 0);
   const char* unit = "";
   for (const char* larger : {" k", " M", " G"}) {
     if (std::abs(value) < 999.5) break;
@@ -55,6 +57,7 @@ std::string short_bytes_per_s(double value) {
 }
 
 std::string plain_number(std::optional<double> value, int digits) {
+  assert(digits > 0);
   if (!value || !std::isfinite(*value)) return "\xE2\x80\x93";
   if (*value == 0.0) return "0";
   const int before_point = static_cast<int>(std::floor(std::log10(std::abs(*value)))) + 1;
