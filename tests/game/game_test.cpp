@@ -39,6 +39,7 @@ std::uint64_t hash_after(const Scene& scene, const std::vector<InputEvent>& keys
   Game game(scene);
   submit_all(game, keys);
   game.advance(until);
+  game.check();
   return game.hash();
 }
 

@@ -188,6 +188,7 @@ TEST(Hands, TryRandomKeysForAWhileWhereTheyAreStuckAndThenThePlayersAgain) {
   std::uint32_t own = 0, others = 0;
   for (int decision = 0; decision < 1500; ++decision) {
     const KeysHeld held = hands.hold(wanted, {0.0, 0.0}, random);
+    hands.check();
     follows.push_back(held == wanted);
     ++(held == wanted ? own : others);
   }

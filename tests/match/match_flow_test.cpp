@@ -9,6 +9,7 @@ namespace {
 
 class AMatch : public testing::Test {
  protected:
+  void TearDown() override { flow.check(); }
   MatchPhase phase() const { return flow.state().phase; }
   void start() {
     flow.enter(0, 10.0);

@@ -79,6 +79,7 @@ TEST(AServerClock, CountsQuestionsWithoutAnswerAndIgnoresAnswersToNone) {
       clock.answered(*number, 1e6, now_s + 0.02);
     }
     clock.advance(now_s + 0.03);
+    clock.check();
   }
   EXPECT_NEAR(clock.loss(), 0.5, 0.1);
   EXPECT_NEAR(clock.arrival(10.0), 10.0, 0.01);

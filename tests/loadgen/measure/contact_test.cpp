@@ -103,6 +103,7 @@ TEST(Encounters, FindWhatLookingAtEveryPairAndEveryPuckBetweenFinds) {
     Encounters encounters(20.0, 10.0);
     encounters.build(std::vector<Reaching>(bodies.begin(), bodies.begin() + 60));
     encounters.build(bodies);
+    encounters.check();
     std::vector<Relevant> found;
     std::size_t through_pucks = 0;
     for (const Reaching& own : bodies) {

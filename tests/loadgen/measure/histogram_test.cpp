@@ -31,6 +31,7 @@ std::vector<double> log_uniform_latencies(std::uint64_t seed, std::size_t count)
 Histogram histogram_of(const std::vector<double>& sample) {
   Histogram histogram;
   for (const double latency : sample) histogram.record(latency);
+  histogram.check();
   return histogram;
 }
 

@@ -70,6 +70,7 @@ TEST(Surroundings, FindWhatLookingAtEachEntityFinds) {
   for (const RelevanceArea& area : {square, disc}) {
     Surroundings surroundings(area, 10.0, 5.0);
     surroundings.build(placed);
+    surroundings.check();
     std::vector<Relevant> found;
     for (std::uint32_t own = 0; own < 500; own += 7) {
       std::vector<Relevant> expected;
