@@ -142,7 +142,6 @@ class Server : public rti::FederateAmbassador {
   void offer_seat(rti::FederateHandle federate, const SeatOffer& offer);
   bool offer_bat(rti::FederateHandle federate, std::uint32_t player);
   void receive_key(std::uint32_t player, bool is_down, rti::Bytes parameters, double wanted_s);
-  void begin_match();
   double simulated_at_clock(double now) const;
   void submit(const InputEvent& event) { keys_.record(game_.submit(event)); }
 

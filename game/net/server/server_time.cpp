@@ -38,16 +38,14 @@ double Server::simulated_at_clock(double now) const {
 
 double Server::follow_match(double real_s) {
   assert(hosted_);
-  if (hosted_->advance(real_s)) begin_match();
+  if (hosted_->advance(real_s)) {
+    finish_record();  // of one that was given up
+    keys_.begin();
+    publisher_->retire_all();
+    game_ = hosted_->begin(game_);
+  }
   if (hosted_->is_over()) finish_record();
   return hosted_->goal(real_s, game_.now());
-}
-
-void Server::begin_match() {
-  finish_record();  // of one that was given up
-  keys_.begin();
-  publisher_->retire_all();
-  game_ = hosted_->begin(game_);
 }
 
 void Server::finish_record() {
