@@ -104,7 +104,7 @@ template Flag Flags::option(const std::string&, std::uint64_t&, const std::strin
 template Flag Flags::option(const std::string&, std::optional<std::uint32_t>&, const std::string&);
 template Flag Flags::option(const std::string&, std::optional<std::uint64_t>&, const std::string&);
 
-Flag Flags::option(const std::string& flag, std::function<void(const std::string&)> take,
+Flag Flags::option(const std::string& flag, const std::function<void(const std::string&)>& take,
                    const std::string& meaning) {
   const std::function<void(const std::string&)> explained = [take](const std::string& text) {
     try {

@@ -113,7 +113,7 @@ class Flags {
   template <FlagValue Value>
   Flag option(const std::string& flag, Value& value, const std::string& meaning);
   /// A value that `take` reads; what it throws as FlagError is explained.
-  Flag option(const std::string& flag, std::function<void(const std::string&)> take,
+  Flag option(const std::string& flag, const std::function<void(const std::string&)>& take,
               const std::string& meaning);
   /// What is true if `flag` is given; "!--no-x" makes it false, "--x,!--no-x" either.
   Flag flag(const std::string& flag, bool& value, const std::string& meaning);

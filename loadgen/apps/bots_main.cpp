@@ -112,7 +112,7 @@ void add_options(game::Flags& flags, Options& options) {
                   game::listed(game::player_kinds()))
       .check(one_of([] {
         auto kinds = game::player_kinds();
-        kinds.push_back("random");
+        kinds.emplace_back("random");
         return kinds;
       }()))
       .shows_default();

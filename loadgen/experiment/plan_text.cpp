@@ -2,6 +2,7 @@
 #include "loadgen/experiment/plan_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <set>
 
@@ -10,7 +11,7 @@ namespace {
 
 std::string clock_text(double duration_s) {
   char text[32];
-  const auto whole = static_cast<long>(duration_s + 0.5);
+  const auto whole = std::lround(duration_s);
   std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
   return text;
 }

@@ -276,7 +276,7 @@ void check(const RunRecord& record, ReportReader& server, ReportReader& bots,
     complaints.push_back("only " + std::to_string(*record.keys_sent) + " of " +
                          std::to_string(*record.keys_due) + " due keys were sent");
   }
-  if (record.measured_s == 0.0) complaints.push_back("nothing was measured");
+  if (record.measured_s == 0.0) complaints.emplace_back("nothing was measured");
 }
 
 }  // namespace

@@ -201,9 +201,9 @@ std::vector<std::pair<double, double>> pairs_of(const Figure& figure, const Cell
   }
   std::vector<std::pair<double, double>> pairs;
   for (const RunRecord& run : runs) {
-    const auto value = run.valid && without_seed(run.cell) == own ? figure.of(run) : std::nullopt;
     const auto partner = baseline_of_seed.find(run.cell.seed);
-    if (value && partner != baseline_of_seed.end()) pairs.push_back({*value, partner->second});
+    if (!run.valid || without_seed(run.cell) != own || partner == baseline_of_seed.end()) continue;
+    if (const auto value = figure.of(run)) pairs.emplace_back(*value, partner->second);
   }
   return pairs;
 }

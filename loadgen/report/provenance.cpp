@@ -137,8 +137,8 @@ Provenance provenance_of(const std::vector<std::string>& command_line, const His
                          {"taken", now_utc()},
                          {"command", command_text(command_line)}}};
   add_program_and_machine(provenance);
-  provenance.facts.push_back({"load", load("/")});
-  provenance.facts.push_back({"timer wake-up", calibration_text(wake_ups)});
+  provenance.facts.emplace_back("load", load("/"));
+  provenance.facts.emplace_back("timer wake-up", calibration_text(wake_ups));
   return provenance;
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-std::string with_last_words(std::string what, const game::Process& process) {
+std::string with_last_words(const std::string& what, const game::Process& process) {
   const std::string words = process.last_words();
   return words.empty() ? what : what + ", saying: " + words;
 }
@@ -207,8 +207,8 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
   add("--view", decimal(cell.parameters.view_fraction));
   if (experiment.view_area > 0.0) add("--view-area", decimal(experiment.view_area));
   add("--view-margin", decimal(cell.parameters.view_margin));
-  if (!has_regions(cell)) arguments.push_back("--no-regions");
-  if (!cell.parameters.extrapolates) arguments.push_back("--no-extrapolate");
+  if (!has_regions(cell)) arguments.emplace_back("--no-regions");
+  if (!cell.parameters.extrapolates) arguments.emplace_back("--no-extrapolate");
   if (experiment.start_s > 0.0) add("--start", decimal(experiment.start_s));
   add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));

@@ -24,7 +24,7 @@ std::optional<JournalHead> head_of(const nlohmann::json& line) {
     if (!line.contains(name) || !line[name].is_string()) return std::nullopt;
   JournalHead head{line["experiment"].get<std::string>(), line["commit"].get<std::string>(), {}};
   for (const auto& [name, fact] : line["provenance"].items())
-    head.provenance.push_back({name, fact.is_string() ? fact.get<std::string>() : fact.dump()});
+    head.provenance.emplace_back(name, fact.is_string() ? fact.get<std::string>() : fact.dump());
   return head;
 }
 

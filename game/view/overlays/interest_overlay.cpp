@@ -74,7 +74,7 @@ void add_rings(const MatchSight& sight, const InterestSeen& seen, Overlay& overl
 void add_lines(const MatchSight& sight, const InterestSeen& seen, const Thing& asked,
                Overlay& overlay) {
   char words[160];
-  const auto line = [&] { overlay.lines.push_back(words); };
+  const auto line = [&] { overlay.lines.emplace_back(words); };
   if (seen.cell_size > 0.0f)
     std::snprintf(words, sizeof words, "grid: cells of %.3g m, regions of %u players",
                   static_cast<double>(seen.cell_size), seen.view_count);
@@ -90,8 +90,10 @@ void add_lines(const MatchSight& sight, const InterestSeen& seen, const Thing& a
   if (!is_bat) return;
   const bool are_all_shown = seen.views.size() == seen.view_count;
   if (are_all_shown &&
-      std::ranges::find(seen.views, asked.id, &InterestSeen::View::bat) == seen.views.end())
-    return overlay.lines.push_back("nobody plays it");
+      std::ranges::find(seen.views, asked.id, &InterestSeen::View::bat) == seen.views.end()) {
+    overlay.lines.emplace_back("nobody plays it");
+    return;
+  }
   std::snprintf(words, sizeof words, "its player hears of %u of %zu bodies (green)",
                 seen.heard_count, sight.things.size());
   line();
@@ -130,7 +132,7 @@ Overlay interest_overlay(const MatchSight& sight, const InterestChoice& choice) 
   add_rings(sight, seen, overlay);
   const auto asked = std::ranges::find(sight.things, seen.asked, &Thing::id);
   if (asked != sight.things.end()) add_lines(sight, seen, *asked, overlay);
-  overlay.lines.push_back("Tab or a click asks of another, I hides this");
+  overlay.lines.emplace_back("Tab or a click asks of another, I hides this");
   return overlay;
 }
 

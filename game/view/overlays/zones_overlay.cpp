@@ -47,13 +47,13 @@ void add_lines(const ZonesSeen& seen, Overlay& overlay) {
   std::snprintf(words, sizeof words, "peer %u has %llu bodies and %zu ghosts (orange), halo %.2f m",
                 seen.own_peer, static_cast<unsigned long long>(seen.own_count), seen.ghosts.size(),
                 seen.halo);
-  overlay.lines.push_back(words);
+  overlay.lines.emplace_back(words);
   if (!seen.told.empty()) {
     std::snprintf(words, sizeof words, "its player is told of %zu beyond (green)",
                   seen.told.size());
-    overlay.lines.push_back(words);
+    overlay.lines.emplace_back(words);
   }
-  overlay.lines.push_back("I hides this");
+  overlay.lines.emplace_back("I hides this");
 }
 
 }  // namespace

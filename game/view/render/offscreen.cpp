@@ -25,7 +25,7 @@ OffscreenContext::OffscreenContext() {
       "drawing without a display needs EGL with Mesa's surfaceless platform (Debian: libegl1 "
       "libegl-mesa0 libgl1-mesa-dri)";
   if (!epoxy_has_egl()) throw GraphicsError(missing);
-  const EGLDisplay display =
+  EGLDisplay display =
       eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
     throw GraphicsError(missing);

@@ -33,7 +33,7 @@ float noise(float x, float y, unsigned cells_x, unsigned cells_y) {
 }
 
 std::uint8_t byte(float part) {
-  return static_cast<std::uint8_t>(std::clamp(part, 0.0f, 1.0f) * 255.0f + 0.5f);
+  return static_cast<std::uint8_t>(std::lround(std::clamp(part, 0.0f, 1.0f) * 255.0f));
 }
 
 /// Segments as bits: top, upper right, lower right, bottom, lower left, upper left, middle.
@@ -75,7 +75,7 @@ float lit(unsigned digit, float x, float y) {
 Image wood_image(int size) {
   assert(size > 0);
   Image image{size, size, 4, {}};
-  image.pixels.reserve(static_cast<std::size_t>(size * size * 4));
+  image.pixels.reserve(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 4);
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column) {
       const float x = static_cast<float>(column) / static_cast<float>(size),
@@ -96,7 +96,8 @@ Image wood_image(int size) {
 Image digits_image() {
   constexpr int cell_width = 80, cell_height = 128;
   Image image{cell_width * 10, cell_height, 1, {}};
-  image.pixels.reserve(static_cast<std::size_t>(image.width * image.height));
+  image.pixels.reserve(static_cast<std::size_t>(image.width) *
+                       static_cast<std::size_t>(image.height));
   for (int row = 0; row < cell_height; ++row)
     for (unsigned digit = 0; digit < 10; ++digit)
       for (int column = 0; column < cell_width; ++column)

@@ -46,7 +46,7 @@ Exhibit cost_exhibit(const Findings& findings) {
     for (const char* suffix : {"_us_per_tick", "_low_95", "_high_95"})
       table.columns.push_back(std::string(part) + suffix);
   }
-  table.columns.push_back("ticks_on_time_fraction");
+  table.columns.emplace_back("ticks_on_time_fraction");
   std::vector<Chart> plots;
   double highest = 0.0;
   for (const CellLine& line : plotted_lines(findings)) {

@@ -98,7 +98,7 @@ std::string html_row(const Gain& gain, bool is_first) {
 
 std::vector<std::string> csv_row(const Gain& gain) {
   auto row = cell_values(*gain.line, *gain.group);
-  row.push_back(words(gain.kind));
+  row.emplace_back(words(gain.kind));
   row.push_back(gain.bytes ? exact_number(gain.bytes->value) : "");
   row.push_back(gain.bytes && gain.bytes->interval ? exact_number(gain.bytes->interval->low) : "");
   row.push_back(gain.bytes && gain.bytes->interval ? exact_number(gain.bytes->interval->high) : "");

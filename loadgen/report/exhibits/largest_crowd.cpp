@@ -89,7 +89,7 @@ Exhibit bytes_by_kind_exhibit(const Findings& findings) {
            .alternative = "Bytes on the wire by what they are about, stacked, for each filter.",
            .width = 380.0,
            .frame_height = 190.0});
-      for (const ByteKind& kind : byte_kinds) panels.back().part_names.push_back(kind.name);
+      for (const ByteKind& kind : byte_kinds) panels.back().part_names.emplace_back(kind.name);
     }
     panels[static_cast<std::size_t>(place - policies.begin())].bars.push_back(*bar);
     auto row = cell_values(line, group);

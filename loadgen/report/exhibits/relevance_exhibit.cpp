@@ -110,7 +110,7 @@ constexpr Quality qualities[] = {
 void add_quality_table(Exhibit& exhibit, const Findings& findings) {
   PlotTable table{"quality", "What truth says of each cell: means over replications",
                   cell_columns()};
-  for (const Quality& quality : qualities) table.columns.push_back(quality.name);
+  for (const Quality& quality : qualities) table.columns.emplace_back(quality.name);
   std::string body;
   std::vector<std::string> shown(std::size(qualities));
   for (const CellLine& line : findings.lines) {

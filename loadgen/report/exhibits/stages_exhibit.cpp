@@ -72,6 +72,7 @@ std::vector<Curve> curves_of(const Findings& findings) {
     }
   // Names and colours are those of the forms; the cells behind the points keep their expressions.
   std::vector<CellLine> forms;
+  forms.reserve(curves.size());
   for (const Curve& curve : curves) forms.push_back({"", {}, {CellGroup{curve.cell, {}, 0}}});
   name_and_style(forms);
   for (std::size_t i = 0; i < curves.size(); ++i)

@@ -103,7 +103,7 @@ PlotTable table_of(const std::vector<CellLine>& curves, const std::string& name,
                    const std::string& about, const ParameterKind* kind) {
   PlotTable table{name, about + ": means over replications with their 95 % intervals",
                   cell_columns()};
-  if (kind) table.columns.push_back(kind->key);
+  if (kind) table.columns.emplace_back(kind->key);
   for (const char* figure : {"precision", "recall", "bytes_per_client_per_s",
                              "changes_per_client_per_s", "filter_us_per_tick"})
     for (const char* part : {"", "_low_95", "_high_95"})
