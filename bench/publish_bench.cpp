@@ -62,9 +62,9 @@ struct Rink {
   Rink(std::uint32_t count, std::uint32_t moving, const std::string& policy)
       : scene(resting(count, moving)),
         fom(game::load_rink_fom(game::fom_file())),
-        serving(
-            fom, scene, server_settings(policy), game::federation_settings(scene, "region", 0.0),
-            [] { return 0.0; }, [] { return 0.0; }) {
+        serving(fom, scene, server_settings(policy),
+                game::federation_settings(scene, "region", 0.0),
+                {[] { return 0.0; }, [] { return 0.0; }}) {
     const std::size_t entities = count + scene.bodies.posts.size();
     for (int round = 0; round < 64 && serving.execution().object_count() < entities; ++round) {
       serving.exchange(0.0);

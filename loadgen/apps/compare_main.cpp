@@ -279,11 +279,13 @@ CompareStatus compare(const CompareOptions& options, const std::vector<std::stri
   const auto write_keys = [&experiment](const Cell& cell, const std::filesystem::path& file) {
     write_game_plan(part_of(experiment, cell.part), cell, file);
   };
+  SaturateOptions search = options.saturate;
+  if (search.is_wanted) search.allowed_clients = allowed_clients();
   std::vector<Saturation> found;
   std::vector<WideRow> wide;
   Outcome outcome =
-      options.saturate.is_wanted ? run_saturation(experiment, options.saturate, allowed_clients(),
-                                                  settings, results, write_keys, std::cerr, found)
+      search.is_wanted
+          ? run_saturation(experiment, search, settings, write_keys, {results, std::cerr, found})
       : options.until_width > 0.0
           ? run_until_narrow(experiment, options, settings, results, write_keys, continuation.kept,
                              wide)

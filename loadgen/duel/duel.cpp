@@ -27,14 +27,13 @@ Duel::Duel(const rti::Fom& fom, const game::Scene& scene, const std::string& sce
       settings_(settings),
       link_(settings.delay_s, settings.jitter_s, settings.seed),
       network_(link_, nanoseconds(1.0)),
-      serving_(
-          fom, scene,
-          {.policy = "on-event",
-           .tick_s = 1.0 / settings.rate_hz,
-           .replay = {},
-           .hosting = game::Hosting{settings.times, scene_text}},
-          game::federation_settings(scene, "none", 0.0), [this] { return network_.now_s(); },
-          [this] { return network_.now_s(); }) {
+      serving_(fom, scene,
+               {.policy = "on-event",
+                .tick_s = 1.0 / settings.rate_hz,
+                .replay = {},
+                .hosting = game::Hosting{settings.times, scene_text}},
+               game::federation_settings(scene, "none", 0.0),
+               {[this] { return network_.now_s(); }, [this] { return network_.now_s(); }}) {
   server_end_.listen(server_name);
   serving_.host().add(server_end_);
   ticks_ = {network_.now_ns(), nanoseconds(1.0 / settings.rate_hz)};

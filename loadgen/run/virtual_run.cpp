@@ -132,10 +132,9 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
                                  : std::optional(game::game_in_state(state_, scene, state_file_))),
       model_(network_conditions(experiment, cell)),
       network_(model_),
-      serving_(
-          fom, scene, server_settings(scene, keys),
-          game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
-          [this] { return now_s(); }, [this] { return simulated_now(); }),
+      serving_(fom, scene, server_settings(scene, keys),
+               game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
+               {[this] { return now_s(); }, [this] { return simulated_now(); }}),
       server_(serving_.server()),
       crowd_(fom, bots_end_, crowd_settings(experiment, cell), keys, [this] { return now_s(); }) {
   if (settings.wants_truth) {

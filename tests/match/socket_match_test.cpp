@@ -37,14 +37,13 @@ class SocketDuel {
   };
 
   explicit SocketDuel(const FlowTimes& times = {})
-      : serving_(
-            rink_fom(), match_scene(),
-            {.policy = "on-event",
-             .tick_s = tick_s,
-             .replay = {},
-             .hosting = Hosting{times, match_text()}},
-            federation_settings(match_scene(), "none", 0.0), [this] { return now_s_; },
-            [this] { return now_s_; }) {
+      : serving_(rink_fom(), match_scene(),
+                 {.policy = "on-event",
+                  .tick_s = tick_s,
+                  .replay = {},
+                  .hosting = Hosting{times, match_text()}},
+                 federation_settings(match_scene(), "none", 0.0),
+                 {[this] { return now_s_; }, [this] { return now_s_; }}) {
     serving_.host().add(tcp_);
     port_ = tcp_.listen("127.0.0.1", 0);
     run_until([this] { return serving_.server().is_joined(); }, 1.0);

@@ -98,8 +98,8 @@ class SynchronousGame {
                   .is_synchronous = true,
                   .is_time_managed = is_time_managed,
                   .replay = {}},
-                 federation_settings(scene_, "region", 0.0), now_s,
-                 [this] { return serving_.server().game().now(); }) {
+                 federation_settings(scene_, "region", 0.0),
+                 {now_s, [this] { return serving_.server().game().now(); }}) {
     serving_.host().add(carrier.server());
     for (int i = 0; i < player_count; ++i) {
       ClientSettings settings;

@@ -21,9 +21,8 @@ InputEvent event_of(std::uint8_t input, double time, std::uint32_t player) {
           static_cast<Key>(number / 2)};
 }
 
-Crowd::Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds,
-             std::uint64_t seed, std::uint32_t first, std::uint32_t count, double from,
-             double until) {
+Crowd::Crowd(const Scene& scene, const Game& start, const Settings& settings) {
+  const auto& [kinds, seed, first, count, from, until] = settings;
   assert(count == 0 || !kinds.empty());
   for (std::uint32_t number = first; number < first + count; ++number) {
     const Bat& bat = scene.bodies.bats[number];

@@ -22,10 +22,14 @@ InputEvent event_of(std::uint8_t input, double time, std::uint32_t player);
 /// their number, as by rink simulate.
 class Crowd {
  public:
-  /// `kinds`: "random" or one of player_kinds(), at least one unless `count` is 0 (asserted). From
-  /// when to `until` random players are to press keys [s].
-  Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds,
-        std::uint64_t seed, std::uint32_t first, std::uint32_t count, double from, double until);
+  struct Settings {
+    const std::vector<std::string>& kinds;  ///< "random" or one of player_kinds(), at least one
+                                            ///< unless `count` is 0 (asserted)
+    std::uint64_t seed = 1;
+    std::uint32_t first = 0, count = 0;
+    double from = 0.0, until = 0.0;  ///< when random players are to press keys [s]
+  };
+  Crowd(const Scene& scene, const Game& start, const Settings& settings);
 
   /// How many pucks the one of these kinds wants to see who wants to see most.
   static std::uint32_t pucks_wanted(const Scene& scene, const std::vector<std::string>& kinds);

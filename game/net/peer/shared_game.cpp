@@ -285,8 +285,13 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests,
         std::move(settings), mail, manner.when_taken);
   else made.emplace(start_.world(), std::move(settings), mail, manner.members);
   peer::Session& session = *made;
-  Crowd crowd(scene_, start_, manner.players, scene_.seed, self.first_bat + self.hand_count,
-              self.bat_count - self.hand_count, session.peer().now(), terms.until);
+  Crowd crowd(scene_, start_,
+              {.kinds = manner.players,
+               .seed = scene_.seed,
+               .first = self.first_bat + self.hand_count,
+               .count = self.bat_count - self.hand_count,
+               .from = session.peer().now(),
+               .until = terms.until});
   Membership membership(session, manner);
   if (!manner.members.empty() && manner.tell)
     manner.tell("peer " + std::to_string(number) + " is in from " +

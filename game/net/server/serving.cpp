@@ -35,11 +35,11 @@ class Stopwatch {
 }  // namespace
 
 Serving::Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& server,
-                 const rti::FederationSettings& federation, Clock now_s, Clock simulated_now)
-    : now_s_(std::move(now_s)),
+                 const rti::FederationSettings& federation, Clocks clocks)
+    : now_s_(std::move(clocks.now_s)),
       execution_(fom, federation),
       host_(execution_),
-      server_(fom, scene, server, std::move(simulated_now)),
+      server_(fom, scene, server, std::move(clocks.simulated_now)),
       link_(server_.ambassador(), endpoint_, (hub_.listen("rti"), endpoint_.connect("rti"))) {
   execution_.advance_clock(now_s_());  // before anybody connects: silence counts from then on
   links_.add(link_);

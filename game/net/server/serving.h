@@ -26,9 +26,13 @@ class Serving {
   using Clock = std::function<double()>;
 
   /// `now_s` measures costs and silence; `simulated_now` tells the simulated instant at which a key
-  /// arrives. `fom` must outlive it.
+  /// arrives.
+  struct Clocks {
+    Clock now_s, simulated_now;
+  };
+  /// `fom` must outlive it.
   Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& server,
-          const rti::FederationSettings& federation, Clock now_s, Clock simulated_now);
+          const rti::FederationSettings& federation, Clocks clocks);
 
   rti::FederationHost& host() { return host_; }
   const rti::FederationHost& host() const { return host_; }

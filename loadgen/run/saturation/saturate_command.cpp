@@ -129,10 +129,8 @@ std::vector<Saturation> saturate(const Experiment& experiment, const ServiceLeve
 }
 
 Outcome run_saturation(const Experiment& experiment, const SaturateOptions& options,
-                       std::uint32_t allowed_clients, const RunnerSettings& settings,
-                       ResultsDirectory& results, const KeyLogWriter& write_key_log,
-                       std::ostream& out, std::vector<Saturation>& found,
-                       std::span<const RunRecord> earlier) {
+                       const RunnerSettings& settings, const KeyLogWriter& write_key_log,
+                       const SaturationOutput& output) {
   if (!experiment.parts.empty())
     throw ExperimentError("experiment " + experiment.name +
                           ": it has several parts; a search for the largest number of clients "
@@ -143,16 +141,16 @@ Outcome run_saturation(const Experiment& experiment, const SaturateOptions& opti
                           "so nothing saturates; allowed are \"tcp\", \"udp\", \"shm\"");
   }
   SearchLimits limits = search_limits(experiment, options.most, options.resolution);
-  if (allowed_clients < limits.most) {
-    out << "the limit on open files allows " << allowed_clients << " clients instead of "
+  auto& [results, out, found] = output;
+  if (options.allowed_clients < limits.most) {
+    out << "the limit on open files allows " << options.allowed_clients << " clients instead of "
         << limits.most << "\n";
-    limits.most = allowed_clients;
+    limits.most = options.allowed_clients;
     limits.first = std::min(limits.first, limits.most);
   }
   Outcome outcome;
-  outcome.runs.assign(earlier.begin(), earlier.end());
   const std::filesystem::path keys = results.subdirectory("keys");
-  const CellRunning run = [&](const Cell& cell) -> std::optional<RunRecord> {
+  const CellRunning run = [&, &results = results](const Cell& cell) -> std::optional<RunRecord> {
     const std::filesystem::path key_log = keys / (name_of(cell) + ".keys");
     write_key_log(cell, key_log);
     const auto record = run_cell(settings, experiment, cell, key_log);
@@ -165,13 +163,14 @@ Outcome run_saturation(const Experiment& experiment, const SaturateOptions& opti
     results.append(*record);
     return record;
   };
-  const SaturationKeeping keep = [&](std::span<const Saturation> so_far) {
+  const SaturationKeeping keep = [&, &results = results,
+                                  &found = found](std::span<const Saturation> so_far) {
     found.assign(so_far.begin(), so_far.end());
     results.write("saturation.csv", to_csv(so_far));
     results.write("saturation.json", to_json_text(so_far, options.level, limits));
   };
   try {
-    saturate(experiment, options.level, limits, earlier, run, keep, out);
+    saturate(experiment, options.level, limits, {}, run, keep, out);
     outcome.was_interrupted = !found.empty() && found.back().search.end == SearchEnd::interrupted;
   } catch (const OutputError& error) {
     outcome.output_failure = error.what();

@@ -54,18 +54,22 @@ struct SaturateOptions {
   ServiceLevel level;
   std::uint32_t most = 0;  ///< never more clients than this; 0: the experiment's largest number
   double resolution = 0.1;
+  std::uint32_t allowed_clients = 0xffffffffu;  ///< what the limit on open files leaves
+};
+
+/// Where a search keeps what it does and says what it finds.
+struct SaturationOutput {
+  ResultsDirectory& results;
+  std::ostream& out;
+  std::vector<Saturation>& found;  ///< what the probes say so far
 };
 
 /// Searches with real runs, each appended to `results`, and writes saturation.csv and
-/// saturation.json after each search. The outcome holds all probes; `found` what they say.
-/// `allowed_clients` is what the limit on open files leaves, `earlier` the runs of an interrupted
-/// search that `results` already holds. Throws ExperimentError if the scene cannot serve the first
-/// probe, or under a virtual clock, where no tick is ever late.
+/// saturation.json after each search. The outcome holds all probes. Throws ExperimentError if the
+/// scene cannot serve the first probe, or under a virtual clock, where no tick is ever late.
 Outcome run_saturation(const Experiment& experiment, const SaturateOptions& options,
-                       std::uint32_t allowed_clients, const RunnerSettings& settings,
-                       ResultsDirectory& results, const KeyLogWriter& write_key_log,
-                       std::ostream& out, std::vector<Saturation>& found,
-                       std::span<const RunRecord> earlier = {});
+                       const RunnerSettings& settings, const KeyLogWriter& write_key_log,
+                       const SaturationOutput& output);
 
 /// What was found in words, e.g. "at least 400", "905", "none".
 std::string held_text(const Search& search);

@@ -155,8 +155,8 @@ class StalledCrowd : public testing::Test {
         return settings;
       }(),
       game::federation_settings(scene_, "none", 0.0),
-      [this] { return network_.now_s(); },
-      [this] { return 1e-9 * static_cast<double>(network_.now_ns() - start_ns_); }};
+      {[this] { return network_.now_s(); },
+       [this] { return 1e-9 * static_cast<double>(network_.now_ns() - start_ns_); }}};
   std::optional<BotCrowd> crowd_;
 
   void SetUp() override {

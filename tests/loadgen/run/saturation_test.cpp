@@ -299,10 +299,11 @@ TEST_F(SaturateTest, UnderAVirtualClockNothingSaturates) {
   const test::TemporaryFolder folder("saturation");
   ResultsDirectory results(folder, false);
   std::vector<Saturation> found;
-  EXPECT_THROW(
-      run_saturation(
-          experiment_, {}, 100, {}, results, [](const Cell&, const auto&) {}, said_, found),
-      ExperimentError);
+  SaturateOptions options;
+  options.allowed_clients = 100;
+  EXPECT_THROW(run_saturation(experiment_, options, {}, [](const Cell&, const auto&) {},
+                              {results, said_, found}),
+               ExperimentError);
 }
 
 }  // namespace
