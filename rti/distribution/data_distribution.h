@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "im/filter.h"
-#include "rti/distribution/turns.h"
-#include "rti/objects/bitmap.h"
+#include "rti/distribution/scopes.h"
 #include "rti/objects/object_table.h"
 #include "rti/types.h"
 
@@ -28,42 +27,6 @@ struct Subscription {
 };
 /// How somebody subscribes to an interaction class; the numbers are those on the wire.
 enum class Listening : std::uint8_t { none, active, passive };
-
-/// A change that a federate has not been told yet.
-struct ScopeEvent {
-  ObjectSlot slot;
-  im::Transition transition;
-};
-
-/// What one federate is told, as the last match decided it.
-struct FederateInterest {
-  std::uint32_t federate = 0;
-  Bitmap known;     ///< discovered and not removed
-  Bitmap in_scope;  ///< of the last match
-  Bitmap fresh;     ///< came into scope since the last flush: the whole state is due
-  bool has_fresh = false;
-  std::vector<ScopeEvent> events;  ///< since the last flush
-  Bitmap unannounced;  ///< in scope, and it will be told so by a later flush; their states stay
-                       ///< fresh until then
-  bool has_unannounced = false;
-  std::uint32_t announced_to = 0, told_to = 0;  ///< where the last flush without room for all of
-                                                ///< `unannounced` and `fresh` stopped
-  std::vector<ObjectSlot> pressing;  ///< announced, and their state told, before all else in this
-                                     ///< flush, since something in time-stamp order speaks of them
-  bool is_uniform = true;  ///< all of a class's objects in scope have the same attributes:
-                           ///< `by_class`; else `by_object`
-  std::vector<AttributeSet> by_class, by_object;
-  std::unique_ptr<Turns> turns;  ///< null unless the filter says that some of those in scope wait
-
-  /// Who is told of by the flush at hand.
-  const Bitmap& heard() const { return turns ? turns->heard : in_scope; }
-
-  /// What it is told of an object.
-  AttributeSet told(ObjectSlot slot, std::uint16_t object_class) const {
-    if (!in_scope.contains(slot)) return {};
-    return is_uniform ? by_class[object_class] : by_object[slot];
-  }
-};
 
 /// Where a federate subscribes, as it last committed it.
 struct RegionOfInterest {
@@ -93,8 +56,8 @@ class DataDistribution {
   /// Its regions and subscriptions end.
   virtual void remove_federate(std::uint32_t federate) = 0;
   /// What `match` decided for it; valid until it is removed.
-  FederateInterest& of(std::uint32_t federate) { return *told_[federate]; }
-  const FederateInterest& of(std::uint32_t federate) const { return *told_[federate]; }
+  FederateInterest& of(std::uint32_t federate) { return scopes_.of(federate); }
+  const FederateInterest& of(std::uint32_t federate) const { return scopes_.of(federate); }
 
   /// Replaces what it named for the class and region before; an empty handle is the default region.
   /// False if the region does not exist.
@@ -181,10 +144,9 @@ class DataDistribution {
   /// Those of an object's attributes that the last match put in its scope by subscriptions that are
   /// not passive.
   virtual AttributeSet told_actively(std::uint32_t federate, ObjectSlot slot) = 0;
-  /// While it is watched, `touched` lists the objects that came into or went out of anybody's
-  /// scope, in whole or in part, or were registered or changed hands, until it is cleared.
-  void watch_scope(bool is_watched) { watches_scope_ = is_watched; }
-  std::vector<ObjectSlot>& touched() { return touched_; }
+  /// See Scopes.
+  void watch_scope(bool is_watched) { scopes_.watch(is_watched); }
+  std::vector<ObjectSlot>& touched() { return scopes_.touched(); }
 
   /// Turns all that was said since the last match into changes of scope.
   virtual void match() = 0;
@@ -196,10 +158,12 @@ class DataDistribution {
   virtual const im::Filter& filter() const = 0;
 
  protected:
-  std::vector<FederateInterest*>
-      told_;  ///< by federate slot; null where nobody is. The derived class owns them
-  bool watches_scope_ = false;
-  std::vector<ObjectSlot> touched_;  ///< may name an object more than once
+  /// `scopes`, which the derived class owns and writes, are read at every flush of every federate:
+  /// asking for them is no virtual call.
+  explicit DataDistribution(Scopes& scopes) : scopes_(scopes) {}
+
+ private:
+  Scopes& scopes_;
 };
 
 }  // namespace rink::rti

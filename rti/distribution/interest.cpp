@@ -1,261 +1,208 @@
-// The scope that follows from subscriptions and regions: which attributes of which objects.
+// Two parts that one change concerns are told in the order in which each may rely on the other.
 #include "rti/distribution/interest.h"
 
 #include <algorithm>
-
-#include "im/stages/priority_order.h"
+#include <utility>
 
 namespace rink::rti {
 
 Interest::Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership,
                    std::unique_ptr<im::Filter> filter)
-    : fom_(fom),
-      objects_(objects),
-      ownership_(ownership),
+    : DataDistribution(scopes_),
+      class_count_(fom.object_classes().size()),
       filter_(std::move(filter)),
-      traits_(filter_->traits()),
-      budget_(filter_->priority() ? filter_->priority()->budget() : 0) {
-  const auto x = fom.dimension("X"), y = fom.dimension("Y");
-  if (!x || !y) return;
-  x_ = *x, y_ = *y;
-  plane_ = {x_, y_};
-}
+      facts_(*filter_),
+      regions_(fom, objects, *filter_, facts_, counters_),
+      subscriptions_(fom, regions_, *filter_, facts_),
+      planner_(*filter_, objects, regions_, subscriptions_, facts_),
+      matcher_({.objects = objects,
+                .ownership = ownership,
+                .regions = regions_,
+                .subscriptions = subscriptions_,
+                .facts = facts_,
+                .turns = planner_,
+                .scopes = scopes_,
+                .counters = counters_}) {}
 
 void Interest::add_federate(std::uint32_t federate) {
-  if (federate >= federates_.size()) {
-    federates_.resize(federate + 1);
-    told_.resize(federate + 1);
-  }
-  federates_[federate] = std::make_unique<DeclaredInterest>();
-  DeclaredInterest& interest = *federates_[federate];
-  told_[federate] = &interest;
-  interest.federate = federate;
-  if (traits_.says_tiers || budget_ > 0) interest.turns = std::make_unique<Turns>();
-  interest.everywhere.declared.resize(fom_.object_classes().size());
-  interest.everywhere.expanded = interest.by_class = interest.everywhere.declared;
+  facts_.add_federate(federate);
+  regions_.add_federate(federate);
+  subscriptions_.add_federate(federate);
+  FederateInterest& interest = scopes_.add(federate);
+  if (planner_.is_needed()) interest.turns = std::make_unique<Turns>();
+  interest.by_class.resize(class_count_);
 }
 
 void Interest::remove_federate(std::uint32_t federate) {
-  DeclaredInterest& interest = *federates_[federate];
-  for (std::uint32_t region = 0; region < interest.regions.size(); ++region)
-    if (interest.regions[region] != no_region) delete_region(federate, {region});
-  if (watches_scope_) interest.in_scope.for_each([this](ObjectSlot slot) { touch(slot); });
-  federates_[federate].reset();
-  told_[federate] = nullptr;
+  for (std::uint32_t region = 0; region < regions_.handle_count(federate); ++region)
+    if (regions_.has(federate, {region})) delete_region(federate, {region});
+  subscriptions_.remove_federate(federate);
+  scopes_.remove(federate);
 }
 
-AttributeSet Interest::active(const ClassInterest& interest, std::uint16_t object_class) const {
-  if (interest.passive.empty()) return interest.expanded[object_class];
-  AttributeSet set;
-  for (ObjectClassHandle each{object_class}; each; each = fom_.at(each).parent)
-    set = set | interest.declared[each.value].without(interest.passive[each.value]);
-  return set;
+bool Interest::subscribe(std::uint32_t federate, std::uint16_t object_class,
+                         const Subscription& attributes, RegionHandle region) {
+  if (region && !regions_.has(federate, region)) return false;
+  subscriptions_.subscribe(federate, object_class, attributes,
+                           region ? regions_.slot_of(federate, region) : no_region);
+  return true;
 }
 
-Interest::Regional* Interest::find(DeclaredInterest& interest, im::Subscriber subscriber) {
-  for (Regional& each : interest.regionals)
-    if (each.is_placed && each.subscriber == subscriber) return &each;
-  return nullptr;
+Subscription Interest::subscribed(std::uint32_t federate, std::uint16_t object_class,
+                                  RegionHandle region) const {
+  return subscriptions_.subscribed(federate, object_class,
+                                   region ? regions_.slot_of(federate, region) : no_region);
+}
+
+Subscription Interest::subscribed_anywhere(std::uint32_t federate,
+                                           std::uint16_t object_class) const {
+  return subscriptions_.subscribed_anywhere(federate, object_class);
+}
+
+bool Interest::subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class,
+                                     RegionHandle region, Listening listening) {
+  if (!regions_.has(federate, region)) return false;
+  subscriptions_.subscribe_interaction(federate, interaction_class,
+                                       regions_.slot_of(federate, region), listening);
+  return true;
+}
+
+Listening Interest::subscribes_interaction(std::uint32_t federate,
+                                           std::uint16_t interaction_class) const {
+  return subscriptions_.subscribes_interaction(federate, interaction_class);
+}
+
+bool Interest::hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender,
+                     std::span<const RegionHandle> sent) {
+  return subscriptions_.any_region_of_interaction(
+      federate, interaction_class, [&](RegionSlot heard) {
+        return std::ranges::any_of(sent, [&](RegionHandle each) {
+          return regions_.overlap(regions_[regions_.slot_of(sender, each)], regions_[heard]);
+        });
+      });
+}
+
+bool Interest::has_region(std::uint32_t federate, RegionHandle region) const {
+  return regions_.has(federate, region);
+}
+
+bool Interest::create_region(std::uint32_t federate, RegionHandle region, DimensionSet dimensions) {
+  return regions_.create(federate, region, dimensions);
+}
+
+DimensionSet Interest::dimensions(std::uint32_t federate, RegionHandle region) const {
+  return regions_[regions_.slot_of(federate, region)].dimensions;
+}
+
+bool Interest::modify_region(std::uint32_t federate, RegionHandle region,
+                             const im::Region& bounds) {
+  const Commit commit = regions_.modify(federate, region, bounds);
+  follow(federate, region, commit);
+  return commit != Commit::impossible;
+}
+
+void Interest::modify_region(std::uint32_t federate, RegionHandle region,
+                             std::span<const Range> ranges) {
+  follow(federate, region, regions_.modify(federate, region, ranges));
+}
+
+void Interest::follow(std::uint32_t federate, RegionHandle region, Commit commit) {
+  if (commit == Commit::first || commit == Commit::moved)
+    subscriptions_.follow(regions_.slot_of(federate, region), commit == Commit::first);
+}
+
+void Interest::delete_region(std::uint32_t federate, RegionHandle region) {
+  subscriptions_.drop(federate, regions_.slot_of(federate, region));
+  take(regions_.remove(federate, region));
+}
+
+void Interest::associate(std::uint32_t federate, ObjectSlot slot, RegionHandle region) {
+  take(regions_.associate(slot, region ? regions_.slot_of(federate, region) : no_region));
+}
+
+void Interest::associate(std::uint32_t federate, ObjectSlot slot, RegionHandle region,
+                         AttributeSet attributes) {
+  take(regions_.associate(slot, regions_.slot_of(federate, region), attributes));
+}
+
+void Interest::disassociate(std::uint32_t federate, ObjectSlot slot, RegionHandle region,
+                            AttributeSet attributes) {
+  take(regions_.disassociate(slot, regions_.slot_of(federate, region), attributes));
+}
+
+/// Whether all objects of a class have the same attributes in scope is not what it was if some use
+/// several regions now, or none does any more.
+void Interest::take(const Reassociation& change) {
+  for (const im::Entity entity : change.gone) subscriptions_.forget(entity);
+  changed_objects_.insert(changed_objects_.end(), change.objects.begin(), change.objects.end());
+  if (change.is_mixing_changed) subscriptions_.mark_regional_changed();
+}
+
+AttributeSet Interest::overlapping(std::uint32_t federate, RegionHandle region, ObjectSlot slot,
+                                   AttributeSet attributes) {
+  return regions_.overlapping(regions_[regions_.slot_of(federate, region)], slot, attributes);
 }
 
 void Interest::object_registered(ObjectSlot slot) {
-  if (slot >= uses_.size()) uses_.resize(slot + 1);
+  regions_.add_object(slot);
   changed_objects_.push_back(slot);
 }
 
 void Interest::object_deleted(ObjectSlot slot) {
-  if (uses_[slot].region != no_region) set_associations(slot, {});
-  if (slot < roles_.size()) roles_[slot] = {};
-  for (const auto& interest : federates_)
-    if (interest) interest->in_scope.erase(slot);
-}
-
-bool Interest::overlaps(const Regional& regional, RegionSlot update) {
-  const DistributedRegion& region = regions_[update];
-  if (!regional.is_placed || !region.is_placed)
-    return regions_overlap(region, regions_[regional.region]);
-  if (!regional.inside.contains(region.entity)) return false;
-  if (regional.is_planar || region.is_planar) return true;
-  const DistributedRegion& subscribed = regions_[regional.region];
-  return ranges_overlap(
-      region, subscribed,
-      DimensionSet(region.dimensions.bits & subscribed.dimensions.bits & ~plane_.bits));
-}
-
-/// Those of `attributes` that the regional subscription gets of an object that uses several
-/// regions.
-AttributeSet Interest::covered(const Regional& regional, ObjectSlot object,
-                               AttributeSet attributes) {
-  AttributeSet placed, inside;
-  for (const Association& each : associations_.at(object)) {
-    placed = placed | each.attributes;
-    if (!(each.attributes & attributes).is_empty() && overlaps(regional, each.region))
-      inside = inside | each.attributes;
-  }
-  return AttributeSet(attributes.bits & (inside.bits | ~placed.bits));
+  if (regions_.use_of(slot).region != no_region) take(regions_.associate(slot, no_region));
+  facts_.forget(slot);
+  scopes_.forget(slot);
 }
 
 void Interest::owner_changed(ObjectSlot slot) {
   changed_objects_.push_back(slot);
-  touch(slot);
-}
-
-template <bool is_active_only>
-AttributeSet Interest::wanted(const DeclaredInterest& interest, ObjectSlot slot) {
-  const Object& object = objects_[slot];
-  if (!object.is_alive || object.is_leaving || object.owner == interest.federate) return {};
-  AttributeSet set = is_active_only ? active(interest.everywhere, object.object_class)
-                                    : interest.everywhere.expanded[object.object_class];
-  const Use& used = uses_[slot];
-  for (const Regional& each : interest.regionals) {
-    const AttributeSet named = is_active_only ? active(each.classes, object.object_class)
-                                              : each.classes.expanded[object.object_class];
-    if (used.region == several) {
-      set = set | (is_own(interest, slot) ? named : covered(each, slot, named));
-      continue;
-    }
-    const bool is_heard = used.region == no_region || (used.entity != no_entity && each.is_placed
-                                                           ? each.inside.contains(used.entity)
-                                                           : overlaps(each, used.region));
-    if (is_heard || is_own(interest, slot)) set = set | named;
-  }
-  return object.owner == no_federate ? set & ownership_.owned_by_others(interest.federate, slot)
-                                     : set;
+  scopes_.touch(slot);
 }
 
 AttributeSet Interest::told_actively(std::uint32_t federate, ObjectSlot slot) {
-  const DeclaredInterest& interest = *federates_[federate];
-  const AttributeSet told = interest.told(slot, objects_[slot].object_class);
-  const auto is_passive = [](const Regional& each) { return !each.classes.passive.empty(); };
-  const bool has_passive =
-      !interest.everywhere.passive.empty() || std::ranges::any_of(interest.regionals, is_passive);
-  return told.is_empty() || !has_passive ? told : told & wanted<true>(interest, slot);
+  return matcher_.told_actively(federate, slot);
+}
+
+void Interest::set_role(ObjectSlot slot, const im::Role& role) {
+  const im::Role former = facts_.object_role(slot);
+  if (former == role) return;
+  if (former.owner != role.owner) changed_objects_.push_back(slot);
+  facts_.set_object_role(slot, role);
+  if (!facts_.are_roles_used()) return;
+  for (const Association& each : regions_.associations_of(slot))
+    facts_.tell_entity(regions_[each.region]);
+}
+
+void Interest::set_federate_role(std::uint32_t federate, const im::Role& role) {
+  const im::Role former = facts_.role_of(federate);
+  if (former == role) return;
+  facts_.set_federate_role(federate, role);
+  if (former.owner != role.owner && !subscriptions_.of(federate).regionals.empty())
+    subscriptions_.mark_changed(federate);
+  subscriptions_.tell_filter(federate);
+}
+
+void Interest::set_federate_heading(std::uint32_t federate, const im::Heading& heading) {
+  if (facts_.set_heading(federate, heading)) subscriptions_.tell_headings(federate);
+}
+
+void Interest::set_flight(ObjectSlot slot, const im::Flight& flight) {
+  if (!facts_.are_flights_used()) return;
+  for (const Association& each : regions_.associations_of(slot))
+    facts_.set_flight(regions_[each.region], flight);
+}
+
+void Interest::share_out(std::uint32_t federate, const BytesDue& bytes_due) {
+  planner_.share_out(scopes_.of(federate), bytes_due);
 }
 
 void Interest::match() {
-  ++match_;
-  take_filter_changes();
-  for (const auto& interest : federates_)
-    if (interest && interest->is_changed) reconsider_all(*interest);
-  take_changed_regions();
-  for (const ObjectSlot slot : changed_objects_)
-    for (const auto& interest : federates_)
-      if (interest) reconsider(*interest, slot);
-  changed_objects_.clear();
+  planner_.begin_match();
+  matcher_.match(filter_->match(), changed_objects_);
 }
 
-void Interest::take_filter_changes() {
-  // Memberships first, all of them: what a federate wants of an object depends on several regions.
-  const std::span<const im::Change> changes = filter_->match();
-  for (const im::Change& each : changes) {
-    Regional* regional = find(*federates_[subscribers_[each.subscriber]], each.subscriber);
-    if (each.transition == im::Transition::left) regional->inside.erase(each.entity);
-    else regional->inside.insert(each.entity);  // it may be there already and only change its tier
-    if (traits_.says_tiers)
-      set_tier(*regional, each.entity, each.transition == im::Transition::left ? 0u : each.tier);
-  }
-  for (const im::Change& each : changes) {
-    DeclaredInterest& interest = *federates_[subscribers_[each.subscriber]];
-    if (interest.is_changed) continue;
-    for (const ObjectSlot slot : regions_[region_of_entity_[each.entity]].objects)
-      reconsider(interest, slot);
-  }
-}
-
-/// Those that changed in a way that the filter can't know: in other dimensions than the plane's, or
-/// against a region that lacks one of these.
-void Interest::take_changed_regions() {
-  for (const RegionSlot slot : changed_regions_) {
-    DistributedRegion& region = regions_[slot];
-    region.is_changed = false;
-    changed_objects_.insert(changed_objects_.end(), region.objects.begin(), region.objects.end());
-    if (region.subscription_count == 0) continue;
-    DeclaredInterest& interest = *federates_[region.federate];
-    for (const Regional& each : interest.regionals)
-      if (each.region == slot) reconsider_around(interest, each);
-  }
-  changed_regions_.clear();
-}
-
-/// All that may have come or gone by a change of the subscription's region in other dimensions:
-/// what the filter lets through and what it doesn't know.
-void Interest::reconsider_around(DeclaredInterest& interest, const Regional& regional) {
-  if (!regional.is_placed) {
-    for (ObjectSlot slot = 0; slot < uses_.size(); ++slot)
-      if (uses_[slot].region != no_region) reconsider(interest, slot);
-    return;
-  }
-  if (!regional.is_planar)
-    regional.inside.for_each([&](im::Entity entity) {
-      for (const ObjectSlot slot : regions_[region_of_entity_[entity]].objects)
-        reconsider(interest, slot);
-    });
-  for (const RegionSlot region : unplaced_)
-    for (const ObjectSlot slot : regions_[region].objects) reconsider(interest, slot);
-}
-
-bool Interest::uniform_classes(const DeclaredInterest& interest,
-                               std::vector<AttributeSet>& by_class) const {
-  if (!associations_.empty() && !interest.regionals.empty()) return false;
-  by_class = interest.everywhere.expanded;
-  for (const Regional& each : interest.regionals)
-    for (std::size_t i = 0; i < by_class.size(); ++i) {
-      const AttributeSet set = each.classes.expanded[i];
-      if (by_class[i].is_empty()) by_class[i] = set;
-      else if (!set.is_empty() && set != by_class[i]) return false;
-    }
-  return true;
-}
-
-void Interest::reconsider_all(DeclaredInterest& interest) {
-  interest.is_changed = false;
-  std::vector<AttributeSet> by_class, by_object;
-  const bool is_uniform = uniform_classes(interest, by_class);
-  if (!is_uniform)
-    by_object.resize(
-        objects_.slot_count());  // else four bytes per object of the world would come and go with
-                                 // every client, and leave holes in the heap
-  for (ObjectSlot slot = 0; slot < objects_.slot_count(); ++slot) {
-    const AttributeSet was = interest.told(slot, objects_[slot].object_class);
-    const AttributeSet is = wanted(interest, slot);
-    settle(interest, slot, was, is);
-    if (!is.is_empty()) touch(slot);
-    if (!is_uniform) by_object[slot] = is;
-  }
-  interest.is_uniform = is_uniform;
-  interest.by_class = std::move(by_class);
-  interest.by_object = std::move(by_object);
-}
-
-void Interest::reconsider(DeclaredInterest& interest, ObjectSlot slot) {
-  ++counters_.pairs_reconsidered;
-  const AttributeSet was = interest.told(slot, objects_[slot].object_class),
-                     is = wanted(interest, slot);
-  settle(interest, slot, was, is);
-  if (!is.is_empty()) touch(slot);  // what is heard as before may be heard passively now
-  if (interest.is_uniform) return;
-  if (slot >= interest.by_object.size()) interest.by_object.resize(objects_.slot_count());
-  interest.by_object[slot] = is;
-}
-
-void Interest::settle(DeclaredInterest& interest, ObjectSlot slot, AttributeSet was,
-                      AttributeSet is) {
-  if (traits_.says_tiers && !is.is_empty()) place_in_tier(interest, slot, was.is_empty());
-  if (was == is) return;
-  touch(slot);
-  if (was.is_empty()) {
-    interest.in_scope.insert(slot);
-    interest.events.push_back({slot, im::Transition::entered});
-    ++counters_.entries;
-  } else if (is.is_empty()) {
-    interest.in_scope.erase(slot);
-    interest.events.push_back({slot, im::Transition::left});
-    ++counters_.exits;
-  }
-  if (!was.includes(is)) {
-    interest.fresh.insert(slot);
-    interest.has_fresh = true;
-  }
+void Interest::list_regions_of_interest(std::vector<RegionOfInterest>& regions) const {
+  subscriptions_.list_regions(regions);
 }
 
 }  // namespace rink::rti

@@ -1,0 +1,53 @@
+// Says nothing that the filter makes nothing of.
+#include "rti/distribution/filter_facts.h"
+
+#include <cstddef>
+
+namespace rink::rti {
+
+void FilterFacts::add_federate(std::uint32_t federate) {
+  if (federate >= federates_.size()) federates_.resize(federate + std::size_t{1});
+  federates_[federate] = {};
+}
+
+bool FilterFacts::set_heading(std::uint32_t federate, const im::Heading& heading) {
+  if (federates_[federate].heading == heading) return false;
+  federates_[federate].heading = heading;
+  return true;
+}
+
+void FilterFacts::tell_subscriber(std::uint32_t federate, im::Subscriber subscriber) const {
+  if (traits_.uses_roles) filter_.set_subscriber_role(subscriber, federates_[federate].role);
+  tell_heading(federate, subscriber);
+}
+
+void FilterFacts::tell_heading(std::uint32_t federate, im::Subscriber subscriber) const {
+  if (traits_.uses_headings) filter_.set_heading(subscriber, federates_[federate].heading);
+}
+
+void FilterFacts::set_object_role(ObjectSlot object, const im::Role& role) {
+  if (object >= objects_.size()) objects_.resize(object + std::size_t{1});
+  objects_[object] = role;
+}
+
+/// Objects that share a region differ to the filter in nothing, so they have in common what they
+/// agree in; one of them that is always relevant takes the others along.
+void FilterFacts::tell_entity(const DistributedRegion& region) const {
+  if (!traits_.uses_roles || !region.is_placed || !region.is_committed || region.objects.empty())
+    return;
+  im::Role common = object_role(region.objects.front());
+  for (const ObjectSlot object : region.objects) {
+    const im::Role role = object_role(object);
+    if (role.team != common.team) common.team = im::Role::none;
+    if (role.owner != common.owner) common.owner = im::Role::none;
+    common.is_always_relevant |= role.is_always_relevant;
+  }
+  filter_.set_entity_role(region.entity, common);
+}
+
+void FilterFacts::set_flight(const DistributedRegion& region, const im::Flight& flight) const {
+  if (traits_.uses_flights && region.is_placed && region.is_committed)
+    filter_.set_flight(region.entity, flight);
+}
+
+}  // namespace rink::rti

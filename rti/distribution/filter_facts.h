@@ -1,0 +1,67 @@
+// What the filter is told beside regions: roles, headings and flights of objects and federates, and
+// by them what a federate owns.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "im/filter.h"
+#include "rti/distribution/distributed_region.h"
+
+namespace rink::rti {
+
+/// The filter forgets what it was told of whom it forgets, so who is new to it is told of anew.
+class FilterFacts {
+ public:
+  /// `filter` must outlive it.
+  explicit FilterFacts(im::Filter& filter) : filter_(filter), traits_(filter.traits()) {}
+
+  bool are_roles_used() const { return traits_.uses_roles; }
+  bool are_flights_used() const { return traits_.uses_flights; }
+
+  void add_federate(std::uint32_t federate);
+  const im::Role& role_of(std::uint32_t federate) const { return federates_[federate].role; }
+  void set_federate_role(std::uint32_t federate, const im::Role& role) {
+    federates_[federate].role = role;
+  }
+  /// False if it looks there already.
+  bool set_heading(std::uint32_t federate, const im::Heading& heading);
+  /// Says a federate's role and heading of one of its subscriptions.
+  void tell_subscriber(std::uint32_t federate, im::Subscriber subscriber) const;
+  /// The heading alone.
+  void tell_heading(std::uint32_t federate, im::Subscriber subscriber) const;
+
+  im::Role object_role(ObjectSlot object) const {
+    return object < objects_.size() ? objects_[object] : im::Role{};
+  }
+  void set_object_role(ObjectSlot object, const im::Role& role);
+  /// It is gone; the slot's next object has no role.
+  void forget(ObjectSlot object) {
+    if (object < objects_.size()) objects_[object] = {};
+  }
+  /// Says what is known of the objects that use the region.
+  void tell_entity(const DistributedRegion& region) const;
+  void set_flight(const DistributedRegion& region, const im::Flight& flight) const;
+  void set_time(double now) const {
+    if (traits_.uses_flights) filter_.set_time(now);
+  }
+
+  /// Whether the object's owner has the number of the federate's.
+  bool is_own(std::uint32_t federate, ObjectSlot object) const {
+    const std::uint32_t owner = federates_[federate].role.owner;
+    return owner != im::Role::none && object < objects_.size() && objects_[object].owner == owner;
+  }
+
+ private:
+  struct Known {
+    im::Role role;
+    im::Heading heading;
+  };
+
+  im::Filter& filter_;
+  const im::Traits traits_;
+  std::vector<Known> federates_;   ///< by slot
+  std::vector<im::Role> objects_;  ///< by slot; as long as the last that has one
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,138 @@
+// Regions of all federates: their bounds, which objects use them for updates, and when two of them
+// overlap.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "im/filter.h"
+#include "rti/distribution/data_distribution.h"
+#include "rti/distribution/distributed_region.h"
+#include "rti/distribution/filter_facts.h"
+
+namespace rink::rti {
+
+/// Attributes of an object that use a region.
+struct Association {
+  RegionSlot region = no_region;
+  AttributeSet attributes;
+};
+
+/// What follows when objects use other regions than before.
+struct Reassociation {
+  std::vector<ObjectSlot> objects;  ///< those
+  std::vector<im::Entity> gone;     ///< the filter's numbers that stand for nothing any more
+  bool is_mixing_changed = false;   ///< some object uses several regions now, or none does any more
+
+  void add(const Reassociation& other) {
+    objects.insert(objects.end(), other.objects.begin(), other.objects.end());
+    gone.insert(gone.end(), other.gone.begin(), other.gone.end());
+    is_mixing_changed |= other.is_mixing_changed;
+  }
+};
+
+/// What a commit did.
+enum class Commit : std::uint8_t { impossible, unchanged, first, moved };
+
+/// Tells the filter where entities are. Federates and regions that are asked for exist, where
+/// nothing else is said (asserted where it costs little).
+class RegionTable {
+ public:
+  /// What an object uses. The entity spares those that use one region over the plane alone, nearly
+  /// all, a look at the region.
+  struct Use {
+    RegionSlot region = no_region;  ///< or none, or `several`
+    im::Entity entity = no_entity;  ///< if it is planar
+  };
+  static constexpr RegionSlot several = no_region - 1;
+  static constexpr im::Entity no_entity = 0xffffffffu;
+
+  /// All must outlive it.
+  RegionTable(const Fom& fom, const ObjectTable& objects, im::Filter& filter,
+              const FilterFacts& facts, DistributionCounters& counters);
+
+  void add_federate(std::uint32_t federate);
+  bool has(std::uint32_t federate, RegionHandle region) const;
+  RegionSlot slot_of(std::uint32_t federate, RegionHandle region) const {
+    return handles_[federate][region.value];
+  }
+  /// Handles below it may be in use.
+  std::uint32_t handle_count(std::uint32_t federate) const {
+    return static_cast<std::uint32_t>(handles_[federate].size());
+  }
+  const DistributedRegion& operator[](RegionSlot slot) const { return regions_[slot]; }
+  const DistributedRegion& of_entity(im::Entity entity) const {
+    return regions_[region_of_entity_[entity]];
+  }
+
+  bool create(std::uint32_t federate, RegionHandle region, DimensionSet dimensions);
+  /// Impossible where there is no such region, or it is not over the plane alone.
+  Commit modify(std::uint32_t federate, RegionHandle region, const im::Region& bounds);
+  Commit modify(std::uint32_t federate, RegionHandle region, std::span<const Range> ranges);
+  /// Nothing may subscribe with it any more (asserted).
+  Reassociation remove(std::uint32_t federate, RegionHandle region);
+  /// One subscription to an object class more, or less, names the region.
+  void count_subscription(RegionSlot slot, bool is_added);
+
+  void add_object(ObjectSlot object);
+  const Use& use_of(ObjectSlot object) const { return uses_[object]; }
+  ObjectSlot object_count() const { return static_cast<ObjectSlot>(uses_.size()); }
+  /// Of an object that uses several.
+  const std::vector<Association>& several_of(ObjectSlot object) const {
+    return associations_.at(object);
+  }
+  bool has_several() const { return !associations_.empty(); }
+  std::vector<Association> associations_of(ObjectSlot object) const;
+  /// All of the object uses the region alone, or none if it is no_region.
+  Reassociation associate(ObjectSlot object, RegionSlot region);
+  Reassociation associate(ObjectSlot object, RegionSlot region, AttributeSet attributes);
+  Reassociation disassociate(ObjectSlot object, RegionSlot region, AttributeSet attributes);
+
+  /// IEEE 1516.1-2010, 9.1: in all dimensions that they have in common, of which there must be one.
+  bool overlap(const DistributedRegion& a, const DistributedRegion& b);
+  /// The same of two that overlap in the plane: in all others.
+  bool overlap_beyond_plane(const DistributedRegion& a, const DistributedRegion& b);
+  /// Those of `attributes` whose regions overlap `asked`; those of the default region always do.
+  AttributeSet overlapping(const DistributedRegion& asked, ObjectSlot object,
+                           AttributeSet attributes);
+
+  /// Those that are used for updates and lack X or Y.
+  std::span<const RegionSlot> unplaced() const { return unplaced_; }
+  /// Those that changed since they were last forgotten, in a way that the filter can't know: in
+  /// other dimensions than the plane's, or against a region that lacks one of these.
+  std::span<const RegionSlot> changed() const { return changed_; }
+  void forget_changed();
+
+ private:
+  RegionSlot take_slot();
+  Commit commit(RegionSlot slot, const im::Region& plane, std::span<const Range> ranges);
+  void take_entity(RegionSlot slot);
+  void free_entity(RegionSlot slot, Reassociation& change);
+  void use(RegionSlot region, ObjectSlot object);
+  void stop_using(RegionSlot region, ObjectSlot object, Reassociation& change);
+  Reassociation set_associations(ObjectSlot object, std::vector<Association> associations);
+  AttributeSet all_of(ObjectSlot object) const;
+  bool overlap_in(const DistributedRegion& a, const DistributedRegion& b, DimensionSet dimensions);
+  Range range(const DistributedRegion& region, DimensionHandle dimension) const;
+
+  const Fom& fom_;
+  const ObjectTable& objects_;
+  im::Filter& filter_;
+  const FilterFacts& facts_;
+  DistributionCounters& counters_;
+  DimensionHandle x_, y_;                         ///< if the model has both
+  DimensionSet plane_;                            ///< of these
+  std::vector<std::vector<RegionSlot>> handles_;  ///< by federate and handle
+  std::vector<DistributedRegion> regions_;        ///< by slot
+  std::vector<RegionSlot> free_, changed_, unplaced_;
+  std::uint32_t unplaced_subscription_count_ = 0;
+  std::vector<RegionSlot> region_of_entity_;
+  std::vector<im::Entity> free_entities_;
+  std::vector<Use> uses_;  ///< by object
+  std::unordered_map<ObjectSlot, std::vector<Association>>
+      associations_;  ///< of objects that use `several`
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,182 @@
+// Reconsiders pairs of a federate and an object, each as often as something of it changed.
+#include "rti/distribution/scope_matcher.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rink::rti {
+
+void ScopeMatcher::match(std::span<const im::Change> changes, std::vector<ObjectSlot>& changed) {
+  take_filter_changes(changes);
+  parts_.subscriptions.for_each([this](const DeclaredInterest& declared) {
+    if (declared.is_changed) reconsider_all(declared);
+  });
+  take_changed_regions(changed);
+  for (const ObjectSlot slot : changed)
+    parts_.subscriptions.for_each(
+        [&](const DeclaredInterest& declared) { reconsider(declared, slot); });
+  changed.clear();
+}
+
+void ScopeMatcher::take_filter_changes(std::span<const im::Change> changes) {
+  // Memberships first, all of them: what a federate wants of an object depends on several regions.
+  Subscriptions& subscriptions = parts_.subscriptions;
+  const bool says_tiers = parts_.turns.says_tiers();
+  for (const im::Change& each : changes) subscriptions.take(each, says_tiers);
+  for (const im::Change& each : changes) {
+    const DeclaredInterest& declared = subscriptions.of(subscriptions.federate_of(each.subscriber));
+    if (declared.is_changed) continue;
+    for (const ObjectSlot slot : parts_.regions.of_entity(each.entity).objects)
+      reconsider(declared, slot);
+  }
+}
+
+void ScopeMatcher::take_changed_regions(std::vector<ObjectSlot>& changed) {
+  for (const RegionSlot slot : parts_.regions.changed()) {
+    const DistributedRegion& region = parts_.regions[slot];
+    changed.insert(changed.end(), region.objects.begin(), region.objects.end());
+    if (region.subscription_count == 0) continue;
+    const DeclaredInterest& declared = parts_.subscriptions.of(region.federate);
+    for (const Regional& each : declared.regionals)
+      if (each.region == slot) reconsider_around(declared, each);
+  }
+  parts_.regions.forget_changed();
+}
+
+/// All that may have come or gone by a change of the subscription's region in other dimensions:
+/// what the filter lets through and what it doesn't know.
+void ScopeMatcher::reconsider_around(const DeclaredInterest& declared, const Regional& regional) {
+  const RegionTable& regions = parts_.regions;
+  if (!regional.is_placed) {
+    for (ObjectSlot slot = 0; slot < regions.object_count(); ++slot)
+      if (regions.use_of(slot).region != no_region) reconsider(declared, slot);
+    return;
+  }
+  if (!regional.is_planar)
+    regional.inside.for_each([&](im::Entity entity) {
+      for (const ObjectSlot slot : regions.of_entity(entity).objects) reconsider(declared, slot);
+    });
+  for (const RegionSlot region : regions.unplaced())
+    for (const ObjectSlot slot : regions[region].objects) reconsider(declared, slot);
+}
+
+/// Those of `attributes` that the regional subscription gets of an object that uses several
+/// regions.
+AttributeSet ScopeMatcher::covered(const Regional& regional, ObjectSlot object,
+                                   AttributeSet attributes) const {
+  AttributeSet placed, inside;
+  for (const Association& each : parts_.regions.several_of(object)) {
+    placed = placed | each.attributes;
+    if (!(each.attributes & attributes).is_empty() &&
+        parts_.subscriptions.is_within(regional, each.region))
+      inside = inside | each.attributes;
+  }
+  return AttributeSet(attributes.bits & (inside.bits | ~placed.bits));
+}
+
+template <bool is_active_only>
+AttributeSet ScopeMatcher::wanted(const DeclaredInterest& declared, ObjectSlot slot) const {
+  const Object& object = parts_.objects[slot];
+  if (!object.is_alive || object.is_leaving || object.owner == declared.federate) return {};
+  const std::uint16_t object_class = object.object_class;
+  const auto named_by = [&](const ClassInterest& classes) {
+    return is_active_only ? parts_.subscriptions.active(classes, object_class)
+                          : classes.expanded[object_class];
+  };
+  const auto is_own = [&] { return parts_.facts.is_own(declared.federate, slot); };
+  AttributeSet set = named_by(declared.everywhere);
+  const RegionTable::Use& used = parts_.regions.use_of(slot);
+  for (const Regional& each : declared.regionals) {
+    const AttributeSet named = named_by(each.classes);
+    if (used.region == RegionTable::several) {
+      set = set | (is_own() ? named : covered(each, slot, named));
+      continue;
+    }
+    const bool is_heard =
+        used.region == no_region || (used.entity != RegionTable::no_entity && each.is_placed
+                                         ? each.inside.contains(used.entity)
+                                         : parts_.subscriptions.is_within(each, used.region));
+    if (is_heard || is_own()) set = set | named;
+  }
+  return object.owner == no_federate
+             ? set & parts_.ownership.owned_by_others(declared.federate, slot)
+             : set;
+}
+
+AttributeSet ScopeMatcher::told_actively(std::uint32_t federate, ObjectSlot slot) const {
+  const DeclaredInterest& declared = parts_.subscriptions.of(federate);
+  const AttributeSet told =
+      parts_.scopes.of(federate).told(slot, parts_.objects[slot].object_class);
+  const auto is_passive = [](const Regional& each) { return !each.classes.passive.empty(); };
+  const bool has_passive =
+      !declared.everywhere.passive.empty() || std::ranges::any_of(declared.regionals, is_passive);
+  return told.is_empty() || !has_passive ? told : told & wanted<true>(declared, slot);
+}
+
+bool ScopeMatcher::uniform_classes(const DeclaredInterest& declared,
+                                   std::vector<AttributeSet>& by_class) const {
+  if (parts_.regions.has_several() && !declared.regionals.empty()) return false;
+  by_class = declared.everywhere.expanded;
+  for (const Regional& each : declared.regionals)
+    for (std::size_t i = 0; i < by_class.size(); ++i) {
+      const AttributeSet set = each.classes.expanded[i];
+      if (by_class[i].is_empty()) by_class[i] = set;
+      else if (!set.is_empty() && set != by_class[i]) return false;
+    }
+  return true;
+}
+
+void ScopeMatcher::reconsider_all(const DeclaredInterest& declared) {
+  parts_.subscriptions.clear_changed(declared.federate);
+  FederateInterest& interest = parts_.scopes.of(declared.federate);
+  const ObjectSlot count = parts_.objects.slot_count();
+  std::vector<AttributeSet> by_class, by_object;
+  const bool is_uniform = uniform_classes(declared, by_class);
+  if (!is_uniform)
+    by_object.resize(count);  // else four bytes per object of the world would come and go with
+                              // every client, and leave holes in the heap
+  for (ObjectSlot slot = 0; slot < count; ++slot) {
+    const AttributeSet is = wanted(declared, slot);
+    settle(declared, interest, slot, is);
+    if (!is_uniform) by_object[slot] = is;
+  }
+  interest.is_uniform = is_uniform;
+  interest.by_class = std::move(by_class);
+  interest.by_object = std::move(by_object);
+}
+
+void ScopeMatcher::reconsider(const DeclaredInterest& declared, ObjectSlot slot) {
+  ++parts_.counters.pairs_reconsidered;
+  FederateInterest& interest = parts_.scopes.of(declared.federate);
+  const AttributeSet is = wanted(declared, slot);
+  settle(declared, interest, slot, is);
+  if (interest.is_uniform) return;
+  if (slot >= interest.by_object.size()) interest.by_object.resize(parts_.objects.slot_count());
+  interest.by_object[slot] = is;
+}
+
+/// Notes that a federate is told of the attributes `is` of an object from now on.
+void ScopeMatcher::settle(const DeclaredInterest& declared, FederateInterest& interest,
+                          ObjectSlot slot, AttributeSet is) {
+  const AttributeSet was = interest.told(slot, parts_.objects[slot].object_class);
+  if (parts_.turns.says_tiers() && !is.is_empty())
+    parts_.turns.place(*interest.turns, declared, slot, was.is_empty());
+  // What is heard as before is touched, too: it may be heard passively now.
+  if (was != is || !is.is_empty()) parts_.scopes.touch(slot);
+  if (was == is) return;
+  if (was.is_empty()) {
+    interest.in_scope.insert(slot);
+    interest.events.push_back({slot, im::Transition::entered});
+    ++parts_.counters.entries;
+  } else if (is.is_empty()) {
+    interest.in_scope.erase(slot);
+    interest.events.push_back({slot, im::Transition::left});
+    ++parts_.counters.exits;
+  }
+  if (!was.includes(is)) {
+    interest.fresh.insert(slot);
+    interest.has_fresh = true;
+  }
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,234 @@
+// Each region that a federate subscribes with is one subscriber of the filter, for all classes.
+#include "rti/distribution/subscriptions.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace rink::rti {
+namespace {
+
+void set_tier(DeclaredInterest::Regional& regional, im::Entity entity, std::uint32_t tier) {
+  tier = std::min(tier, Turns::tier_max);
+  if (tier > regional.tiers.size()) regional.tiers.resize(tier);
+  for (std::uint32_t k = 1; k <= regional.tiers.size(); ++k) {
+    if (k == tier) regional.tiers[k - 1].insert(entity);
+    else regional.tiers[k - 1].erase(entity);
+  }
+}
+
+}  // namespace
+
+Subscriptions::Subscriptions(const Fom& fom, RegionTable& regions, im::Filter& filter,
+                             const FilterFacts& facts)
+    : fom_(fom), regions_(regions), filter_(filter), facts_(facts) {}
+
+void Subscriptions::add_federate(std::uint32_t federate) {
+  if (federate >= federates_.size()) federates_.resize(federate + std::size_t{1});
+  federates_[federate] = std::make_unique<DeclaredInterest>();
+  DeclaredInterest& interest = *federates_[federate];
+  interest.federate = federate;
+  interest.everywhere.declared.resize(fom_.object_classes().size());
+  interest.everywhere.expanded = interest.everywhere.declared;
+}
+
+void Subscriptions::remove_federate(std::uint32_t federate) {
+  assert(federates_[federate]->regionals.empty());
+  federates_[federate].reset();
+}
+
+bool Subscriptions::is_a(std::uint16_t interaction_class, std::uint16_t superclass) const {
+  return fom_.is_a(InteractionClassHandle{interaction_class}, InteractionClassHandle{superclass});
+}
+
+void Subscriptions::expand(ClassInterest& interest) const {
+  for (std::uint32_t i = 0; i < interest.declared.size(); ++i) {
+    interest.expanded[i] = interest.declared[i];
+    for (ObjectClassHandle parent = fom_.at(ObjectClassHandle{i}).parent; parent;
+         parent = fom_.at(parent).parent)
+      interest.expanded[i] = interest.expanded[i] | interest.declared[parent.value];
+  }
+}
+
+AttributeSet Subscriptions::active(const ClassInterest& interest,
+                                   std::uint16_t object_class) const {
+  if (interest.passive.empty()) return interest.expanded[object_class];
+  AttributeSet set;
+  for (ObjectClassHandle each{object_class}; each; each = fom_.at(each).parent)
+    set = set | interest.declared[each.value].without(interest.passive[each.value]);
+  return set;
+}
+
+void Subscriptions::subscribe(std::uint32_t federate, std::uint16_t object_class,
+                              const Subscription& attributes, RegionSlot region) {
+  DeclaredInterest& interest = *federates_[federate];
+  const bool is_regional = region != no_region;
+  ClassInterest& classes = is_regional ? regional(interest, region).classes : interest.everywhere;
+  classes.declared[object_class] = attributes.heard;
+  const AttributeSet passive = attributes.heard.without(attributes.active);
+  if (classes.passive.empty() && !passive.is_empty())
+    classes.passive.resize(classes.declared.size());
+  if (!classes.passive.empty()) classes.passive[object_class] = passive;
+  expand(classes);
+  interest.is_changed = true;
+  const auto is_empty = [](AttributeSet set) { return set.is_empty(); };
+  if (is_regional && std::ranges::all_of(classes.declared, is_empty))
+    drop_regional(interest, region);
+}
+
+Subscription Subscriptions::subscribed(std::uint32_t federate, std::uint16_t object_class,
+                                       RegionSlot region) const {
+  const DeclaredInterest& interest = *federates_[federate];
+  const auto of = [object_class](const ClassInterest& classes) {
+    const AttributeSet heard = classes.declared[object_class];
+    return Subscription{
+        heard, classes.passive.empty() ? heard : heard.without(classes.passive[object_class])};
+  };
+  if (region == no_region) return of(interest.everywhere);
+  for (const Regional& each : interest.regionals)
+    if (each.region == region) return of(each.classes);
+  return {};
+}
+
+Subscription Subscriptions::subscribed_anywhere(std::uint32_t federate,
+                                                std::uint16_t object_class) const {
+  const DeclaredInterest& interest = *federates_[federate];
+  Subscription all{interest.everywhere.expanded[object_class],
+                   active(interest.everywhere, object_class)};
+  for (const Regional& each : interest.regionals) {
+    all.heard = all.heard | each.classes.expanded[object_class];
+    all.active = all.active | active(each.classes, object_class);
+  }
+  return all;
+}
+
+void Subscriptions::subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class,
+                                          RegionSlot region, Listening listening) {
+  auto& interactions = federates_[federate]->interactions;
+  std::erase_if(interactions, [&](const auto& each) {
+    return each.interaction_class == interaction_class && each.region == region;
+  });
+  if (listening != Listening::none)
+    interactions.push_back({interaction_class, region, listening == Listening::passive});
+}
+
+Listening Subscriptions::subscribes_interaction(std::uint32_t federate,
+                                                std::uint16_t interaction_class) const {
+  Listening found = Listening::none;
+  for (const auto& each : federates_[federate]->interactions) {
+    if (!is_a(interaction_class, each.interaction_class)) continue;
+    if (!each.is_passive) return Listening::active;
+    found = Listening::passive;
+  }
+  return found;
+}
+
+Subscriptions::Regional& Subscriptions::regional(DeclaredInterest& interest, RegionSlot slot) {
+  for (Regional& each : interest.regionals)
+    if (each.region == slot) return each;
+  const DistributedRegion& region = regions_[slot];
+  regions_.count_subscription(slot, true);
+  Regional& added = interest.regionals.emplace_back();
+  added.region = slot;
+  added.is_placed = region.is_placed;
+  added.is_planar = region.is_planar;
+  added.classes.declared.resize(fom_.object_classes().size());
+  added.classes.expanded = added.classes.declared;
+  if (!region.is_placed) return added;
+  number(interest, added);
+  if (!region.is_committed) return added;
+  filter_.set_subscription_region(added.subscriber, region.plane);
+  facts_.tell_subscriber(interest.federate, added.subscriber);
+  return added;
+}
+
+void Subscriptions::number(DeclaredInterest& interest, Regional& added) {
+  if (free_subscribers_.empty()) {
+    free_subscribers_.push_back(static_cast<im::Subscriber>(subscribers_.size()));
+    subscribers_.emplace_back();
+  }
+  added.subscriber = free_subscribers_.back();
+  free_subscribers_.pop_back();
+  subscribers_[added.subscriber] = interest.federate;
+}
+
+void Subscriptions::drop(std::uint32_t federate, RegionSlot region) {
+  DeclaredInterest& interest = *federates_[federate];
+  drop_regional(interest, region);
+  std::erase_if(interest.interactions,
+                [region](const auto& each) { return each.region == region; });
+}
+
+void Subscriptions::drop_regional(DeclaredInterest& interest, RegionSlot slot) {
+  const auto found = std::ranges::find(interest.regionals, slot, &Regional::region);
+  if (found == interest.regionals.end()) return;
+  regions_.count_subscription(slot, false);
+  if (found->is_placed) {
+    filter_.remove_subscriber(found->subscriber);
+    free_subscribers_.push_back(found->subscriber);
+  }
+  interest.regionals.erase(found);
+  interest.is_changed = true;
+}
+
+void Subscriptions::follow(RegionSlot slot, bool is_first) {
+  const DistributedRegion& region = regions_[slot];
+  if (!region.is_placed || region.subscription_count == 0) return;
+  for (const Regional& each : federates_[region.federate]->regionals) {
+    if (each.region != slot) continue;
+    filter_.set_subscription_region(each.subscriber, region.plane);
+    if (is_first) facts_.tell_subscriber(region.federate, each.subscriber);
+  }
+}
+
+void Subscriptions::tell_filter(std::uint32_t federate) {
+  for (const Regional& each : federates_[federate]->regionals)
+    if (each.is_placed) facts_.tell_subscriber(federate, each.subscriber);
+}
+
+void Subscriptions::tell_headings(std::uint32_t federate) {
+  for (const Regional& each : federates_[federate]->regionals)
+    if (each.is_placed) facts_.tell_heading(federate, each.subscriber);
+}
+
+void Subscriptions::take(const im::Change& change, bool says_tiers) {
+  std::vector<Regional>& regionals = federates_[subscribers_[change.subscriber]]->regionals;
+  const auto regional = std::ranges::find_if(regionals, [&](const Regional& each) {
+    return each.is_placed && each.subscriber == change.subscriber;
+  });
+  assert(regional != regionals.end());
+  const bool has_left = change.transition == im::Transition::left;
+  if (has_left) regional->inside.erase(change.entity);
+  else regional->inside.insert(change.entity);  // it may be there already and only change its tier
+  if (says_tiers) set_tier(*regional, change.entity, has_left ? 0u : change.tier);
+}
+
+void Subscriptions::forget(im::Entity entity) {
+  for (const std::unique_ptr<DeclaredInterest>& interest : federates_)
+    if (interest)
+      for (Regional& each : interest->regionals) each.inside.erase(entity);
+}
+
+bool Subscriptions::is_within(const Regional& regional, RegionSlot update) const {
+  const DistributedRegion &region = regions_[update], &subscribed = regions_[regional.region];
+  if (!regional.is_placed || !region.is_placed) return regions_.overlap(region, subscribed);
+  if (!regional.inside.contains(region.entity)) return false;
+  if (regional.is_planar || region.is_planar) return true;
+  return regions_.overlap_beyond_plane(region, subscribed);
+}
+
+void Subscriptions::mark_regional_changed() {
+  for (const std::unique_ptr<DeclaredInterest>& interest : federates_)
+    if (interest && !interest->regionals.empty()) interest->is_changed = true;
+}
+
+void Subscriptions::list_regions(std::vector<RegionOfInterest>& regions) const {
+  for_each([&](const DeclaredInterest& interest) {
+    for (const Regional& each : interest.regionals) {
+      const DistributedRegion& region = regions_[each.region];
+      if (region.is_placed && region.is_committed)
+        regions.push_back({interest.federate, region.plane});
+    }
+  });
+}
+
+}  // namespace rink::rti

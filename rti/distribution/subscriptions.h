@@ -1,0 +1,131 @@
+// What each federate subscribes to, everywhere or within a region, and what the filter let through
+// of it last.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "im/filter.h"
+#include "rti/distribution/data_distribution.h"
+#include "rti/distribution/filter_facts.h"
+#include "rti/distribution/region_table.h"
+#include "rti/objects/bitmap.h"
+
+namespace rink::rti {
+
+/// The attributes of each class that one subscription names, as declared and with what subclasses
+/// inherit.
+struct ClassInterest {
+  std::vector<AttributeSet> declared, expanded;  ///< by class
+  std::vector<AttributeSet> passive;  ///< those of `declared` that are passive; empty if none is
+};
+
+/// What one federate declared.
+struct DeclaredInterest {
+  struct Regional {
+    RegionSlot region = no_region;
+    im::Subscriber subscriber = 0;  ///< the filter's number, if placed
+    bool is_placed = false, is_planar = false;
+    ClassInterest classes;
+    Bitmap inside;  ///< entities whose region overlaps in the plane, as of the last match
+    std::vector<Bitmap> tiers;  ///< of those, who is in tier 1, 2 ..., as far as there are any
+  };
+  struct InteractionRegion {
+    std::uint16_t interaction_class = 0;
+    RegionSlot region = no_region;
+    bool is_passive = false;
+  };
+  std::uint32_t federate = 0;
+  ClassInterest everywhere;
+  std::vector<Regional> regionals;
+  std::vector<InteractionRegion> interactions;
+  bool is_changed = false;  ///< subscriptions differ from those of the last match
+};
+
+/// Tells the filter where subscribers are. Regions are named by their slots.
+class Subscriptions {
+ public:
+  using Regional = DeclaredInterest::Regional;
+
+  /// All must outlive it.
+  Subscriptions(const Fom& fom, RegionTable& regions, im::Filter& filter, const FilterFacts& facts);
+
+  void add_federate(std::uint32_t federate);
+  /// Its regions are gone (asserted), and with them what names them.
+  void remove_federate(std::uint32_t federate);
+  const DeclaredInterest& of(std::uint32_t federate) const { return *federates_[federate]; }
+  /// Calls `visit(declared)` for each federate in order of slots.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (const std::unique_ptr<DeclaredInterest>& each : federates_)
+      if (each) visit(*each);
+  }
+
+  /// Replaces what the federate named for the class and region; no_region is everywhere.
+  void subscribe(std::uint32_t federate, std::uint16_t object_class, const Subscription& attributes,
+                 RegionSlot region);
+  Subscription subscribed(std::uint32_t federate, std::uint16_t object_class,
+                          RegionSlot region) const;
+  Subscription subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const;
+  void subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class,
+                             RegionSlot region, Listening listening);
+  Listening subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const;
+  /// Calls `visit(region)` for each with which the federate subscribes to the class or a
+  /// superclass, until it returns true; whether it did.
+  template <class Visit>
+  bool any_region_of_interaction(std::uint32_t federate, std::uint16_t interaction_class,
+                                 Visit visit) const {
+    for (const auto& each : federates_[federate]->interactions)
+      if (is_a(interaction_class, each.interaction_class) && visit(each.region)) return true;
+    return false;
+  }
+  /// What a subscription names of a class that is not passive.
+  AttributeSet active(const ClassInterest& interest, std::uint16_t object_class) const;
+
+  /// Ends all that the federate subscribes with the region.
+  void drop(std::uint32_t federate, RegionSlot region);
+  /// The region was committed, for the first time or again: the filter is told of who subscribes
+  /// with it.
+  void follow(RegionSlot region, bool is_first);
+  /// What a federate is known by has changed: the filter is told for all its subscriptions.
+  void tell_filter(std::uint32_t federate);
+  void tell_headings(std::uint32_t federate);
+
+  /// The federate whose subscription the filter calls `subscriber`.
+  std::uint32_t federate_of(im::Subscriber subscriber) const { return subscribers_[subscriber]; }
+  /// The filter lets an entity through, or no longer, or puts it into another tier.
+  void take(const im::Change& change, bool says_tiers);
+  /// The filter's number stands for nothing any more.
+  void forget(im::Entity entity);
+  /// Whether the subscription's region overlaps an update region, as of the last match where the
+  /// filter decides.
+  bool is_within(const Regional& regional, RegionSlot update) const;
+
+  /// All that the federate hears of is to be worked out again.
+  void mark_changed(std::uint32_t federate) { federates_[federate]->is_changed = true; }
+  /// The same of everybody who subscribes with regions.
+  void mark_regional_changed();
+  void clear_changed(std::uint32_t federate) { federates_[federate]->is_changed = false; }
+
+  /// Appends every region of the plane that a federate subscribes with and has committed.
+  void list_regions(std::vector<RegionOfInterest>& regions) const;
+
+ private:
+  bool is_a(std::uint16_t interaction_class, std::uint16_t superclass) const;
+  void expand(ClassInterest& interest) const;
+  Regional& regional(DeclaredInterest& interest, RegionSlot region);
+  void number(DeclaredInterest& interest, Regional& added);
+  void drop_regional(DeclaredInterest& interest, RegionSlot region);
+
+  const Fom& fom_;
+  RegionTable& regions_;
+  im::Filter& filter_;
+  const FilterFacts& facts_;
+  std::vector<std::unique_ptr<DeclaredInterest>> federates_;  ///< by slot; null where nobody is
+  std::vector<std::uint32_t> subscribers_;  ///< federate slot, by the filter's number
+  std::vector<im::Subscriber> free_subscribers_;
+};
+
+}  // namespace rink::rti

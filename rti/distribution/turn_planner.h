@@ -1,0 +1,51 @@
+// Tiers and budgets: who of those in scope is not told of yet.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "im/filter.h"
+#include "rti/distribution/data_distribution.h"
+#include "rti/distribution/subscriptions.h"
+
+namespace rink::rti {
+
+/// For filters that say tiers or have a budget; of others nobody waits, and it is asked nothing.
+class TurnPlanner {
+ public:
+  /// All must outlive it.
+  TurnPlanner(im::Filter& filter, const ObjectTable& objects, const RegionTable& regions,
+              const Subscriptions& subscriptions, const FilterFacts& facts);
+
+  bool says_tiers() const { return says_tiers_; }
+  bool has_budget() const { return budget_ > 0; }
+  /// Whether federates have turns at all.
+  bool is_needed() const { return says_tiers_ || has_budget(); }
+
+  void begin_match() { ++match_; }
+  /// Puts an object in scope into the nearest tier in which some subscription has it; into none if
+  /// one hears of it without the filter's saying so.
+  void place(Turns& turns, const DeclaredInterest& declared, ObjectSlot slot, bool is_new) const;
+  /// See DataDistribution.
+  void take_turns(FederateInterest& interest) const;
+  void share_out(FederateInterest& interest, const DataDistribution::BytesDue& bytes_due);
+
+ private:
+  bool never_waits(const DeclaredInterest& declared, ObjectSlot slot) const;
+  std::uint32_t tier_of(const DeclaredInterest& declared, ObjectSlot slot) const;
+  void list(const DeclaredInterest& declared, im::Entity entity, Bitmap& objects) const;
+  void fill(const FederateInterest& interest, const DataDistribution::BytesDue& bytes_due,
+            std::size_t budget);
+
+  im::Filter& filter_;
+  const ObjectTable& objects_;
+  const RegionTable& regions_;
+  const Subscriptions& subscriptions_;
+  const FilterFacts& facts_;
+  const bool says_tiers_;
+  const std::size_t budget_;  ///< of the filter's priority [bytes]; 0: none
+  std::uint64_t match_ = 0;   ///< number of the last match
+  Bitmap put_off_, sent_;     ///< of the federate whose budget is shared out; kept for their memory
+};
+
+}  // namespace rink::rti
