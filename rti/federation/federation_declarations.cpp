@@ -141,21 +141,6 @@ void FederationParts::tell_relevance(std::uint32_t slot, std::size_t row) {
       ClassRelevanceMessage{is_interaction, number, others.heard.bits, others.active.bits});
 }
 
-/// Its sender keeps newer values back, for nobody heard them when it heard from us last.
-Outcome FederationParts::take_spare_update(std::uint32_t slot, Reader& reader) {
-  SpareUpdateMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  const ObjectSlot object = objects_.find({message.object});
-  if (object == no_object) return is_late({message.object}) ? Outcome() : Violation::unknown_name;
-  const AttributeSet attributes{message.attributes};
-  if (!ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
-  objects_[object].valued = objects_[object].valued.without(attributes);
-  if (UpwardWay* way = federates_[slot].upward.get())
-    way->accept({message.object}, objects_[object].object_class, attributes,
-                order_of_frame(federates_[slot].frames_heard));
-  return std::nullopt;
-}
-
 Outcome FederationParts::switch_advisory(std::uint32_t slot, Reader& reader) {
   AdvisorySwitchMessage message;
   if (!exchange(reader, message)) return Violation::malformed;

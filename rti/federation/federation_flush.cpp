@@ -27,7 +27,7 @@ void FederationParts::flush(Outlet& outlet) {
   settle_update_requests();
   const std::span<const UpdateRun> runs = buffering_->seal();
   baselines_.begin(runs, federates_.size());
-  batch_.begin_tick();
+  best_effort_sender_.begin_flush();
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot) {
     look_ahead(slot);
     if (!federates_[slot].is_joined) continue;
@@ -70,8 +70,8 @@ void FederationParts::flush_federate(FlushContext& context, Outlet& outlet) {
   std::ranges::sort(interest.pressing);
   for (const ObjectSlot each : interest.pressing)
     interest.fresh.insert(each);  // what this flush's runs say of them is part of what was told
-  context.channel = begin_datagrams(federate, outlet);
-  if (federate.upward) acknowledge_datagrams(federate, outlet);
+  context.channel = best_effort_sender_.begin(federate, outlet);
+  best_effort_receiver_.acknowledge(context.slot, outlet);
   frame.append(federate.outbox.head());
   tell(context, outlet);
   federate.counts.reflections_received += counters_.updates_sent - before;
@@ -97,7 +97,7 @@ void FederationParts::tell(FlushContext& context, Outlet& outlet) {
   if (interest.turns) catch_up(context);
   if (context.federate.way && !context.federate.way->due.empty()) write_due_states(context);
   gather_runs(context);
-  send_datagrams(context, outlet);
+  best_effort_sender_.send(context, outlet);
 }
 
 /// What was told whole is fresh no longer; not before, for its updates in this flush are part of
@@ -185,7 +185,7 @@ void FederationParts::announce(std::uint32_t slot, ObjectSlot at, std::vector<st
 void FederationParts::press(std::uint32_t slot, ObjectSlot object) {
   FederateInterest& interest = interest_.of(slot);
   announce(slot, object, federates_[slot].outbox.head());
-  say_last_state(slot, object, newest_of(object));
+  say_last_state(slot, object, newest_.of(object));
   interest.fresh.erase(object);
   interest.has_fresh = true;
   interest.pressing.push_back(object);
@@ -217,7 +217,7 @@ void FederationParts::write_fresh_states(FlushContext& context, std::size_t end)
     if (!object.is_alive) return true;
     const AttributeSet set = interest.told(fresh, object.object_class) & object.valued;
     if (set.is_empty()) return true;
-    const Stamp stamp = newest_of(fresh);
+    const Stamp stamp = newest_.of(fresh);
     if (!block || !frame.is_stamped(stamp)) {
       block.reset();
       frame.write_stamp(stamp);
@@ -262,7 +262,7 @@ void FederationParts::gather_runs(FlushContext& context) {
   for (const UpdateRun& run : context.runs) {
     if (run.owner == context.slot) continue;
     const auto index = static_cast<std::size_t>(&run - context.runs.data());
-    if (context.channel.way != nullptr && gather_datagrams(index, context)) continue;
+    if (context.channel.way != nullptr && best_effort_sender_.gather(index, context)) continue;
     if (baselines_.covers(index)) {
       gather_periodic(index, context);
       continue;
@@ -320,6 +320,31 @@ void FederationParts::gather_cut_run(const UpdateRun& run, FlushContext& context
     });
     ++counters_.updates_sent;
   });
+}
+
+/// What was lost goes out as it is now, by datagram again or, after a fallback, by the stream.
+void FederationParts::write_due_states(FlushContext& context) {
+  DatagramWay& way = *context.federate.way;
+  const FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  for (const DatagramLedger::Lost& each : way.due) {
+    const ObjectSlot object = objects_.find({each.handle});
+    if (object == no_object || interest.fresh.contains(object))
+      continue;  // gone, or told as a whole anyway
+    const AttributeSet set = interest.told(object, objects_[object].object_class) &
+                             objects_[object].valued & each.attributes;
+    if (set.is_empty()) continue;
+    values_.clear();
+    objects_.append(object, set, values_);
+    const Stamp stamp = newest_.of(object);
+    ++counters_.updates_sent;
+    ++counters_.updates_repaired;
+    if (best_effort_sender_.add(context, object, set, stamp, values_)) continue;
+    frame.write_stamp(stamp);
+    frame.say(UpdatesMessage{objects_[object].object_class, set.bits});
+    RecordWriter(frame.bytes()).add(each.handle, values_);
+  }
+  way.due.clear();
 }
 
 void FederationParts::send_frame(JoinedFederate& federate, Outlet& outlet) {

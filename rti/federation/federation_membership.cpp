@@ -49,13 +49,20 @@ FederationParts::FederationParts(const Fom& fom, const FederationSettings& setti
       distribution_(distribution_of(services, fom, objects_, ownership_, std::move(filter))),
       interest_(*distribution_),
       buffering_(buffering_of(services)),
+      known_(objects_, ownership_, interest_, counters_),
+      newest_(objects_, ownership_),
+      arrivals_(fom),
+      transportation_(basis_, ownership_, publications_, known_),
+      best_effort_sender_(basis_, transportation_, *buffering_),
+      updates_(basis_,
+               {ownership_, publications_, known_, newest_, arrivals_, best_effort_sender_}),
+      best_effort_receiver_(basis_, {transportation_, ownership_, known_, newest_, arrivals_,
+                                     best_effort_sender_, updates_}),
       baselines_(fom, settings.keyframe_period),
       relevance_(fom.object_classes().size() + fom.interaction_classes().size()),
       groups_(groups_of(services)),
       management_(fom),
-      is_auto_providing_(fom.switches().auto_provide) {
-  list_best_effort();
-}
+      is_auto_providing_(fom.switches().auto_provide) {}
 
 void FederationParts::connect(ConnectionId connection) {
   if (connection >= connections_.size()) connections_.resize(connection + 1);
@@ -144,6 +151,11 @@ void FederationParts::admit(ConnectionId connection, const JoinMessage& message)
   const std::uint32_t slot = federates_.admit(connection, message.name, message.type);
   Federate& federate = federates_[slot];
   publications_.joined(slot);
+  transportation_.joined(slot);
+  newest_.joined(slot);
+  arrivals_.joined(slot);
+  updates_.joined(slot);
+  best_effort_receiver_.joined(slot);
   federate.subscribed_interactions.resize(fom_.interaction_classes().size());
   federate.told_relevance.resize(relevance_.row_count());
   federate.last_said = now_;
@@ -182,6 +194,10 @@ void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
   ++counters_.resigns;
   leave_time(slot);
   publications_.left(slot);
+  transportation_.left(slot);
+  newest_.left(slot);
+  arrivals_.left(slot);
+  best_effort_receiver_.left(slot);
   federates_.release(slot);
 }
 

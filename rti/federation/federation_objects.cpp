@@ -17,8 +17,9 @@ std::string as_text(Bytes bytes) {
 Outcome FederationParts::delete_locally(std::uint32_t slot, Reader& reader) {
   LocalDeleteMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  const ObjectSlot object = objects_.find({message.object});
-  if (object == no_object) return is_late({message.object}) ? Outcome() : Violation::unknown_name;
+  ObjectSlot object = no_object;
+  if (const Outcome outcome = known_.find({message.object}, object); outcome || object == no_object)
+    return outcome;
   if (!ownership_.owned_by(slot, object).is_empty()) return Violation::not_owned;
   FederateInterest& interest = interest_.of(slot);
   if (!interest.known.contains(object)) return ++counters_.late_requests, std::nullopt;
@@ -36,7 +37,7 @@ Outcome FederationParts::request_update(std::uint32_t slot, Reader& reader) {
   const AttributeSet attributes{message.attributes};
   if (message.is_class == 0) {
     ObjectSlot object = no_object;
-    if (const Outcome outcome = find_known(slot, {message.number}, object);
+    if (const Outcome outcome = known_.find_known(slot, {message.number}, object);
         outcome || object == no_object)
       return outcome;
     if (!ownership_.all(object).includes(attributes)) return Violation::unknown_name;
@@ -71,79 +72,6 @@ void FederationParts::ask_owners(std::uint32_t slot, ObjectSlot object, Attribut
   };
   if (asked.owner != no_federate) ask(asked.owner);
   else ownership_.for_each_owner(object, ask);
-}
-
-/// Those that may travel by datagram: what the model says may become reliable, and only what it
-/// says travels so at all.
-AttributeSet FederationParts::by_datagram(ObjectSlot object) const {
-  const AttributeSet* changed = changed_transportation_.size() > 0
-                                    ? changed_transportation_.find(objects_[object].handle)
-                                    : nullptr;
-  const AttributeSet best_effort = best_effort_[objects_[object].object_class];
-  return changed != nullptr ? *changed & best_effort : best_effort;
-}
-
-Outcome FederationParts::change_transportation(std::uint32_t slot, Reader& reader) {
-  ChangeTransportationMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  const auto transportation = static_cast<Transportation>(message.transportation);
-  TransportationMessage answer{message.is_interaction, 1, message.number, message.attributes,
-                               message.transportation};
-  Federate& federate = federates_[slot];
-  if (message.is_interaction != 0) {
-    if (message.number >= fom_.interaction_classes().size()) return Violation::unknown_name;
-    if (!publications_.has_interaction(slot, message.number)) return Violation::undeclared;
-    std::erase_if(federate.changed_transportation,
-                  [&](const auto& each) { return each.first == message.number; });
-    federate.changed_transportation.emplace_back(static_cast<std::uint16_t>(message.number),
-                                                 transportation);
-    federate.outbox.after_updates(answer);
-    return std::nullopt;
-  }
-  const ObjectSlot object = objects_.find({message.number});
-  if (object == no_object) return is_late({message.number}) ? Outcome() : Violation::unknown_name;
-  const AttributeSet attributes{message.attributes};
-  if (!fom_.attributes(ObjectClassHandle{objects_[object].object_class}).includes(attributes))
-    return Violation::unknown_name;
-  if (!ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
-  const AttributeSet* changed = changed_transportation_.find(objects_[object].handle);
-  const AttributeSet before =
-      changed != nullptr ? *changed : best_effort_[objects_[object].object_class];
-  changed_transportation_[objects_[object].handle] = transportation == Transportation::best_effort
-                                                         ? before | attributes
-                                                         : before.without(attributes);
-  federate.outbox.after_updates(answer);
-  return std::nullopt;
-}
-
-Outcome FederationParts::query_transportation(std::uint32_t slot, Reader& reader) {
-  QueryTransportationMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  TransportationMessage answer{message.is_interaction, 0, message.number, message.which, 0};
-  Transportation found = Transportation::reliable;
-  if (message.is_interaction != 0) {
-    if (message.number >= fom_.interaction_classes().size()) return Violation::unknown_name;
-    found = fom_.at(InteractionClassHandle{message.number}).transportation;
-    if (const auto sender = federates_.joined({message.which}))
-      for (const auto& [interaction_class, transportation] :
-           federates_[*sender].changed_transportation)
-        if (interaction_class == message.number) found = transportation;
-  } else {
-    ObjectSlot object = no_object;
-    if (const Outcome outcome = find_known(slot, {message.number}, object);
-        outcome || object == no_object)
-      return outcome;
-    if (!fom_.attributes(ObjectClassHandle{objects_[object].object_class})
-             .contains({message.which}))
-      return Violation::unknown_name;
-    const AttributeSet* changed = changed_transportation_.find(objects_[object].handle);
-    const AttributeSet best_effort =
-        changed != nullptr ? *changed : best_effort_[objects_[object].object_class];
-    if (best_effort.contains({message.which})) found = Transportation::best_effort;
-  }
-  answer.transportation = static_cast<std::uint8_t>(found);
-  federates_[slot].outbox.after_updates(answer);
-  return std::nullopt;
 }
 
 }  // namespace rink::rti

@@ -64,17 +64,6 @@ Outcome FederationParts::take_ownership_requests(std::uint32_t slot, Reader& rea
   return is_read || outcome ? outcome : Violation::malformed;
 }
 
-bool FederationParts::is_known_to(std::uint32_t slot, ObjectSlot object) const {
-  return objects_[object].owner == slot || interest_.of(slot).known.contains(object) ||
-         !ownership_.owned_by(slot, object).is_empty();
-}
-
-Outcome FederationParts::find_known(std::uint32_t slot, ObjectHandle handle, ObjectSlot& object) {
-  object = objects_.find(handle);
-  if (object != no_object) return is_known_to(slot, object) ? Outcome() : Violation::unknown_name;
-  return is_late(handle) ? Outcome() : Violation::unknown_name;
-}
-
 AttributeSet FederationParts::acquirable(std::uint32_t slot, ObjectSlot object) const {
   const AttributeSet published = publications_.of_class(slot, objects_[object].object_class);
   return published.is_empty() ? published : published | AttributeSet{privilege_to_delete_object};
@@ -84,7 +73,8 @@ Outcome FederationParts::take_ownership_request(std::uint32_t slot,
                                                 const OwnershipRequestMessage& message,
                                                 ObjectHandle handle) {
   ObjectSlot object = no_object;
-  if (const Outcome outcome = find_known(slot, handle, object); outcome || object == no_object)
+  if (const Outcome outcome = known_.find_known(slot, handle, object);
+      outcome || object == no_object)
     return outcome;
   const AttributeSet attributes{message.attributes};
   const auto request = static_cast<OwnershipRequest>(message.word);
@@ -102,7 +92,7 @@ Outcome FederationParts::take_ownership_request(std::uint32_t slot,
 void FederationParts::serve_ownership(std::uint32_t slot, ObjectSlot object,
                                       OwnershipRequest request, AttributeSet attributes,
                                       Bytes tag) {
-  const Stamp newest = newest_of(object);
+  const Stamp newest = newest_.of(object);
   const AttributeSet before = ownership_.owned_by(slot, object);
   if (objects_[object].owner == slot)
     interest_.of(slot).known.insert(object);  // should it lose the object, it still knows it
@@ -143,7 +133,7 @@ void FederationParts::serve_ownership(std::uint32_t slot, ObjectSlot object,
 /// attributes back, as does a divestiture of what nobody wants.
 void FederationParts::give_ownership(std::uint32_t slot, ObjectSlot object,
                                      OwnershipRequest request, AttributeSet attributes, Bytes tag) {
-  const Stamp newest = newest_of(object);
+  const Stamp newest = newest_.of(object);
   const bool is_confirmation = request == OwnershipRequest::confirm;
   const AttributeSet given =
       is_confirmation ? attributes & ownership_.confirming(object) : attributes;
@@ -159,23 +149,9 @@ void FederationParts::give_ownership(std::uint32_t slot, ObjectSlot object,
 }
 
 void FederationParts::ownership_moved(ObjectSlot object, const Stamp& newest) {
-  if (object >= inherited_.size()) inherited_.resize(objects_.slot_count());
-  inherited_[object] = newest;
+  newest_.inherit(object, newest);
   interest_.owner_changed(object);
   has_ownership_moved_ = true;
-}
-
-/// The newest stamp of its owner, but not older than what a former owner said.
-Stamp FederationParts::newest_of(ObjectSlot object) const {
-  const std::uint32_t owner = objects_[object].owner;
-  if (inherited_.empty() && owner != no_federate) return federates_[owner].newest;
-  Stamp newest = object < inherited_.size() ? inherited_[object] : Stamp();
-  const auto include = [&](std::uint32_t federate) {
-    if (federates_[federate].newest.time > newest.time) newest = federates_[federate].newest;
-  };
-  if (owner != no_federate) include(owner);
-  else ownership_.for_each_owner(object, include);
-  return newest;
 }
 
 void FederationParts::notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object,
@@ -206,7 +182,7 @@ void FederationParts::say_ownership(std::uint32_t slot, ObjectSlot object, Owner
 void FederationParts::offer_to_all(std::uint32_t from, ObjectSlot object, AttributeSet attributes,
                                    Bytes tag) {
   for (std::uint32_t i = 0; i < federates_.size(); ++i)
-    if (i != from && federates_[i].is_joined && is_known_to(i, object))
+    if (i != from && federates_[i].is_joined && known_.is_known_to(i, object))
       notify(i, OwnershipNotice::assumption_requested, objects_[object].handle,
              attributes & acquirable(i, object), tag);
 }
@@ -246,7 +222,7 @@ Outcome FederationParts::query_ownership(std::uint32_t slot, Reader& reader) {
   QueryOwnershipMessage message;
   ObjectSlot object = no_object;
   if (!exchange(reader, message)) return Violation::malformed;
-  if (const Outcome outcome = find_known(slot, {message.object}, object);
+  if (const Outcome outcome = known_.find_known(slot, {message.object}, object);
       outcome || object == no_object)
     return outcome;
   if (!ownership_.all(object).contains({message.attribute})) return Violation::unknown_name;
@@ -274,7 +250,7 @@ void FederationParts::published_changed(std::uint32_t slot, std::uint16_t object
   }
   if (won.is_empty()) return;
   ownership_.for_each_record([&](ObjectSlot object) {
-    if (objects_[object].object_class == object_class && is_known_to(slot, object))
+    if (objects_[object].object_class == object_class && known_.is_known_to(slot, object))
       offer_to(slot, object, won);
   });
 }

@@ -10,10 +10,9 @@
 
 #include "rti/baselines/baselines.h"
 #include "rti/buffering/buffering.h"
-#include "rti/buffering/datagram_batch.h"
 #include "rti/central_component.h"
 #include "rti/distribution/relevance.h"
-#include "rti/federation/datagram_way.h"
+#include "rti/federation/delivery/best_effort_receiver.h"
 #include "rti/federation/delivery/flush_context.h"
 #include "rti/federation/federate_table.h"
 #include "rti/federation/federation_connection.h"
@@ -100,24 +99,16 @@ class FederationParts {
 
   // What a federate says (federation_receive.cpp).
   void receive(ConnectionId connection, Bytes bytes);
+  void receive_datagram(ConnectionId connection, Bytes datagram);
   Outcome take_frame(ConnectionId connection, Bytes frame);
   Outcome register_object(std::uint32_t slot, Reader& reader);
   void refuse_object(std::uint32_t slot, ObjectHandle object);
   Outcome delete_object(std::uint32_t slot, Reader& reader);
   /// All who know it are told, who deleted it too: up to then it may hear of it.
   void delete_object(ObjectSlot object);
-  /// True, and counted, if an object of that handle was here: who may delete it did so while this
-  /// was on its way, which is nobody's crime.
-  bool is_late(ObjectHandle handle);
   /// Objects that `federate` has registered and that are there.
   std::size_t registered_alive(const Federate& federate) const;
   void extend_block(Federate& federate);
-  Outcome take_stamp(std::uint32_t slot, Reader& reader);
-  Outcome take_updates(std::uint32_t slot, Reader& reader);
-  Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle,
-                      Bytes values);
-  void store_update(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
-                    const Stamp& stamp, Bytes values);
   Outcome take_interaction(std::uint32_t slot, Reader& reader);
   /// `regions` are the sender's; none: the default region, which overlaps all.
   Outcome deliver_interaction(std::uint32_t slot, InteractionMessage& message,
@@ -135,7 +126,6 @@ class FederationParts {
   void tell_publishers(std::size_t row);
   bool publishes(std::uint32_t slot, std::size_t row) const;
   void tell_relevance(std::uint32_t slot, std::size_t row);
-  Outcome take_spare_update(std::uint32_t slot, Reader& reader);
   Outcome switch_advisory(std::uint32_t slot, Reader& reader);
   void tell_object_relevance();
 
@@ -143,12 +133,6 @@ class FederationParts {
   Outcome delete_locally(std::uint32_t slot, Reader& reader);
   Outcome request_update(std::uint32_t slot, Reader& reader);
   void ask_owners(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes tag);
-  Outcome change_transportation(std::uint32_t slot, Reader& reader);
-  Outcome query_transportation(std::uint32_t slot, Reader& reader);
-  AttributeSet by_datagram(ObjectSlot object) const;
-  ObjectMap<AttributeSet>
-      changed_transportation_;  ///< of objects whose attributes travel otherwise than the model
-                                ///< says: those by best effort
 
   // Regions (federation_regions.cpp).
   Outcome create_or_delete_region(std::uint32_t slot, MessageKind kind, Reader& reader);
@@ -182,16 +166,12 @@ class FederationParts {
   Outcome take_ownership_request(std::uint32_t slot, const OwnershipRequestMessage& message,
                                  ObjectHandle object);
   Outcome query_ownership(std::uint32_t slot, Reader& reader);
-  /// The object that is meant, or no_object if it was deleted meanwhile, which is no crime.
-  Outcome find_known(std::uint32_t slot, ObjectHandle handle, ObjectSlot& object);
-  bool is_known_to(std::uint32_t slot, ObjectSlot object) const;
   AttributeSet acquirable(std::uint32_t slot, ObjectSlot object) const;
   void serve_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
                        AttributeSet attributes, Bytes tag);
   void give_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
                       AttributeSet attributes, Bytes tag);
   void ownership_moved(ObjectSlot object, const Stamp& newest);
-  Stamp newest_of(ObjectSlot object) const;
   void notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object,
               AttributeSet attributes, Bytes tag);
   void say_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
@@ -234,28 +214,7 @@ class FederationParts {
   void settle_time();
   void leave_time(std::uint32_t slot);
 
-  // Best-effort updates by datagram (federation_datagrams.cpp).
-  void list_best_effort();
-  void append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
-                    const Stamp& stamp, Bytes values);
-  DatagramChannel begin_datagrams(Federate& federate, Outlet& outlet);
-  void probe(Federate& federate, Outlet& outlet);
   void write_due_states(FlushContext& context);
-  bool gather_datagrams(std::size_t run, FlushContext& context);
-  void send_datagrams(FlushContext& context, Outlet& outlet);
-  void receive_datagram(ConnectionId connection, Bytes datagram);
-  // Those of federates (federation_upward.cpp).
-  bool take_datagram(std::uint32_t slot, Bytes datagram);
-  bool take_datagram_updates(std::uint32_t slot, const DatagramHead& head, const Stamp& stamp,
-                             Reader& reader);
-  bool take_acknowledgement(std::uint32_t slot, Reader& reader);
-  void take_held_datagrams(std::uint32_t slot);
-  void acknowledge_datagrams(Federate& federate, Outlet& outlet);
-  std::vector<AttributeSet> best_effort_;  ///< by class
-  bool has_best_effort_ = false;           ///< any at all
-  bool has_ways_ = false;                  ///< some federate had a way
-  DatagramBatch batch_;
-  std::vector<std::byte> values_;
 
   template <class Message>
   static void say(std::vector<std::byte>& bytes, Message message) {
@@ -271,6 +230,8 @@ class FederationParts {
 
   const Fom& fom_;
   FederationSettings settings_;
+  FederationCounters counters_;
+  double now_ = 0.0;
   std::function<std::unique_ptr<TimeManagement>()> make_time_management_;
   FederateTable federates_;
   Publications publications_;
@@ -278,12 +239,18 @@ class FederationParts {
   Synchronization synchronization_{federates_};
   ObjectTable objects_;
   Ownership ownership_;
-  std::vector<Stamp> inherited_;  ///< by object slot: the newest stamp of former owners; as long as
-                                  ///< the last object that changed hands
   bool has_ownership_moved_ = false;  ///< else whatever a federate owns is in its block
   std::unique_ptr<DataDistribution> distribution_;
   DataDistribution& interest_;  ///< the same
   std::unique_ptr<Buffering> buffering_;
+  FederationBasis basis_{fom_, settings_, federates_, objects_, counters_, now_};
+  KnownObjects known_;
+  NewestStamps newest_;
+  ArrivalOrders arrivals_;
+  TransportationTypes transportation_;
+  BestEffortSender best_effort_sender_;
+  UpdateService updates_;
+  BestEffortReceiver best_effort_receiver_;
   Baselines baselines_;
   std::vector<Connection> connections_;  ///< by id
   Relevance relevance_;
@@ -293,17 +260,16 @@ class FederationParts {
   std::vector<Farewell> farewells_,
       answers_;  ///< answers go to those who have not joined, and don't end their connection
   std::vector<Range> ranges_;  ///< of the region at hand
-  FederationCounters counters_;
   std::unique_ptr<Time> time_;
   ManagementHandles management_;
   std::unique_ptr<ManagementObjects>
       management_objects_;  ///< null until somebody subscribes to its objects
   bool is_auto_providing_ = false;
-  double now_ = 0.0;
 
   /// Lent to the flush at hand.
   GatheredFrame frame_;
   std::vector<ObjectSlot> told_whole_;
+  std::vector<std::byte> values_;
 };
 
 template <class Visit>

@@ -6,7 +6,6 @@
 #include "rti/federation/federation_parts.h"
 #include "rti/federation/message_table.h"
 #include "rti/wire/membership_messages.h"
-#include "rti/wire/update_block.h"
 
 namespace rink::rti {
 
@@ -45,13 +44,21 @@ void FederationParts::receive(ConnectionId id, Bytes bytes) {
   }
 }
 
+void FederationParts::receive_datagram(ConnectionId id, Bytes datagram) {
+  if (id >= connections_.size() || connections_[id].phase != Phase::joined) return;
+  counters_.bytes_received += datagram.size();
+  connections_[id].has_spoken = true;
+  const std::uint32_t slot = connections_[id].federate;
+  federates_[slot].counts.bytes_sent += datagram.size();
+  best_effort_receiver_.receive(slot, datagram);
+}
+
 Outcome FederationParts::take_frame(ConnectionId id, Bytes frame) {
   ++counters_.frames_received;
   connections_[id].has_spoken = true;
   if (connections_[id].phase == Phase::joined) {
-    Federate& sender = federates_[connections_[id].federate];
-    sender.stamp.reset();  // a stamp is good for its frame
-    ++sender.frames_heard;
+    updates_.begin_frame(connections_[id].federate);
+    arrivals_.hear_frame(connections_[id].federate);
   }
   Reader reader(frame);
   while (!reader.is_at_end() && connections_[id].phase != Phase::unknown) {
@@ -69,8 +76,7 @@ Outcome FederationParts::take_frame(ConnectionId id, Bytes frame) {
       return outcome;
   }
   if (connections_[id].phase != Phase::joined) return std::nullopt;
-  const std::uint32_t slot = connections_[id].federate;
-  if (federates_[slot].upward && !federates_[slot].upward->held.empty()) take_held_datagrams(slot);
+  best_effort_receiver_.take_held(connections_[id].federate);
   return std::nullopt;
 }
 
@@ -128,8 +134,9 @@ void FederationParts::refuse_object(std::uint32_t slot, ObjectHandle object) {
 Outcome FederationParts::delete_object(std::uint32_t slot, Reader& reader) {
   DeleteObjectMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  const ObjectSlot object = objects_.find({message.object});
-  if (object == no_object) return is_late({message.object}) ? Outcome() : Violation::unknown_name;
+  ObjectSlot object = no_object;
+  if (const Outcome outcome = known_.find({message.object}, object); outcome || object == no_object)
+    return outcome;
   if (objects_[object].owner != slot &&
       ownership_.owner_of(object, privilege_to_delete_object) != slot)
     return Violation::not_owned;
@@ -138,19 +145,13 @@ Outcome FederationParts::delete_object(std::uint32_t slot, Reader& reader) {
   return std::nullopt;
 }
 
-bool FederationParts::is_late(ObjectHandle handle) {
-  const bool was_here = objects_.was_registered(handle);
-  counters_.late_requests += was_here ? 1u : 0u;
-  return was_here;
-}
-
 void FederationParts::delete_object(ObjectSlot object) {
   interest_.object_deleted(object);
   ownership_.forget(object);
-  if (object < inherited_.size()) inherited_[object] = {};
+  newest_.forget(object);
+  arrivals_.forget(objects_[object].handle);
   for (std::uint32_t i = 0; i < federates_.size(); ++i) {
     if (federates_[i].is_joined) interest_.of(i).unannounced.erase(object);
-    if (federates_[i].upward) federates_[i].upward->arrivals.leave(objects_[object].handle);
     if (!federates_[i].is_joined || !interest_.of(i).known.contains(object)) continue;
     interest_.of(i).known.erase(object);
     ++federates_[i].objects_removed;
@@ -159,63 +160,8 @@ void FederationParts::delete_object(ObjectSlot object) {
     counters_.scope_bytes_sent += measure(removal);
   }
   if (!objects_[object].name.empty()) names_.give_back(objects_[object].name);
-  if (changed_transportation_.size() > 0) changed_transportation_.erase(objects_[object].handle);
+  transportation_.forget(objects_[object].handle);
   objects_.erase(object);
-}
-
-Outcome FederationParts::take_stamp(std::uint32_t slot, Reader& reader) {
-  StampMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  federates_[slot].stamp = message.stamp;
-  return std::nullopt;
-}
-
-Outcome FederationParts::take_updates(std::uint32_t slot, Reader& reader) {
-  UpdatesMessage message;
-  if (!exchange(reader, message) || !federates_[slot].stamp) return Violation::malformed;
-  if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
-  const ObjectClassHandle object_class{message.object_class};
-  const AttributeSet attributes{message.attributes};
-  if (!fom_.attributes(object_class).includes(attributes) || attributes.is_empty())
-    return Violation::unknown_name;
-  if (!publications_.of_class(slot, message.object_class).includes(attributes))
-    return Violation::undeclared;
-  Outcome outcome;
-  const bool is_read = read_records(reader, fom_.at(object_class), attributes,
-                                    [&](std::uint32_t handle, Bytes values) {
-                                      outcome = take_update(slot, message, {handle}, values);
-                                      return !outcome;
-                                    });
-  return is_read || outcome ? outcome : Violation::malformed;
-}
-
-Outcome FederationParts::take_update(std::uint32_t slot, const UpdatesMessage& message,
-                                     ObjectHandle handle, Bytes values) {
-  const ObjectSlot object = objects_.find(handle);
-  if (object == no_object && is_late(handle)) return std::nullopt;
-  if (object == no_object || objects_[object].object_class != message.object_class)
-    return Violation::unknown_name;
-  if (objects_[object].owner != slot &&
-      !ownership_.owned_by(slot, object).includes(AttributeSet(message.attributes)))
-    return Violation::not_owned;
-  Federate& owner = federates_[slot];
-  owner.newest = *owner.stamp;
-  if (owner.upward)
-    owner.upward->accept(handle, message.object_class, AttributeSet(message.attributes),
-                         order_of_frame(owner.frames_heard));
-  store_update(slot, object, AttributeSet(message.attributes), owner.newest, values);
-  return std::nullopt;
-}
-
-void FederationParts::store_update(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
-                                   const Stamp& stamp, Bytes values) {
-  Federate& owner = federates_[slot];
-  if (stamp.time >= owner.newest.time) owner.newest = stamp;  // a datagram may be late
-  objects_.store(object, attributes, values);
-  if (has_ways_) append_apart(slot, object, attributes, stamp, values);
-  else buffering_->append(slot, object, objects_[object], attributes, stamp, values);
-  ++counters_.updates_received;
-  ++owner.counts.updates_sent;
 }
 
 Outcome FederationParts::take_interaction(std::uint32_t slot, Reader& reader) {

@@ -96,7 +96,7 @@ Outcome FederationParts::associate_region(std::uint32_t slot, Reader& reader) {
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
   const RegionHandle region{message.region};
-  if (object == no_object && is_late({message.object})) return std::nullopt;
+  if (object == no_object && known_.is_late({message.object})) return std::nullopt;
   if (object == no_object || (region && !interest_.has_region(slot, region)))
     return Violation::unknown_name;
   if (ownership_.owned_by(slot, object).is_empty()) return Violation::not_owned;
@@ -108,7 +108,7 @@ Outcome FederationParts::associate_regions(std::uint32_t slot, Reader& reader) {
   AssociateRegionsMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
-  if (object == no_object && is_late({message.object})) return std::nullopt;
+  if (object == no_object && known_.is_late({message.object})) return std::nullopt;
   if (object == no_object) return Violation::unknown_name;
   const AttributeSet all = fom_.attributes(ObjectClassHandle{objects_[object].object_class});
   return for_each_record<AttributeRegionRecord>(

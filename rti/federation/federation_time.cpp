@@ -221,7 +221,7 @@ Outcome FederationParts::Time::read_update(std::uint32_t slot, Reader& content, 
   if (!is_read || records != 1) return Violation::malformed;
   const ObjectSlot object = parts_.objects_.find({message.object});
   const bool is_late =
-      object == no_object && parts_.is_late({message.object});  // then nobody will be told
+      object == no_object && parts_.known_.is_late({message.object});  // then nobody will be told
   if (!is_late &&
       (object == no_object || parts_.objects_[object].object_class != header.object_class))
     return Violation::unknown_name;
@@ -251,9 +251,9 @@ Outcome FederationParts::Time::read_deletion(std::uint32_t slot, Reader& content
   DeleteObjectMessage wire;
   if (!exchange(content, wire)) return Violation::malformed;
   const ObjectSlot object = parts_.objects_.find({wire.object});
-  const bool is_late = object == no_object
-                           ? parts_.is_late({wire.object})
-                           : parts_.objects_[object].is_leaving && parts_.is_late({wire.object});
+  const bool is_late = object == no_object ? parts_.known_.is_late({wire.object})
+                                           : parts_.objects_[object].is_leaving &&
+                                                 parts_.known_.is_late({wire.object});
   if (is_late) {  // what the first deletion does, and its retraction undoes, the second has no part
                   // in
     message.object = ObjectHandle::none;

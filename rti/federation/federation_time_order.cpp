@@ -167,8 +167,7 @@ void FederationParts::Time::complete(const Message& message) {
   parts_.objects_.store(slot, message.attributes, message.body);
   const Object& object = parts_.objects_[slot];
   if (object.owner == no_federate) return;
-  Stamp& newest = parts_.federates_[object.owner].newest;
-  if (newest.time < message.stamp.time) newest = message.stamp;
+  parts_.newest_.say_if_newer(object.owner, message.stamp);
 }
 
 /// False for an update that is completed after a later one of its object, which had fewer to wait

@@ -90,7 +90,7 @@ void FederationParts::catch_up(FlushContext& context) {
                                              : AttributeSet();
     turns.late.told(late);
     if (set.is_empty()) return;
-    const Stamp stamp = newest_of(late);
+    const Stamp stamp = newest_.of(late);
     if (!block || !frame.is_stamped(stamp)) {
       block.reset();
       frame.write_stamp(stamp);

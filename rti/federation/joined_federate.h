@@ -13,7 +13,6 @@
 #include "rti/federate_ambassador.h"
 #include "rti/federation/datagram_way.h"
 #include "rti/federation/outbox.h"
-#include "rti/federation/upward_way.h"
 #include "rti/fom/fom.h"
 #include "rti/handles.h"
 #include "rti/management/federation_report.h"
@@ -43,23 +42,16 @@ struct JoinedFederate {
   std::unique_ptr<ObjectMap<AttributeSet>>
       told_objects;  ///< likewise of objects, if it asked for it: those that others hear
   Outbox outbox;
-  std::vector<std::pair<std::uint16_t, Transportation>>
-      changed_transportation;  ///< of interactions that it sends otherwise than the model says
   ResignAction resign_action = ResignAction::cancel_then_delete_then_divest;
-  std::optional<Stamp> stamp;  ///< of the updates in the frame at hand, once it was said
-  Stamp newest;  ///< of its latest update: all that it says of its objects holds at least until
-                 ///< then
   double last_said = 0.0;
   double report_period = 0.0;  ///< of its HLAfederate object [s]; 0: none
   double lookahead = 0.0;      ///< as it last asked for [s]
   bool is_advancing = false;   ///< in logical time
   std::uint64_t objects_deleted = 0, objects_removed = 0, objects_discovered = 0;
-  FederateCounts counts;              ///< what is counted as it happens; `report` adds the rest
-  std::uint32_t frames = 0;           ///< sent to it
-  bool has_stream_only = false;       ///< no datagrams, whatever its connection could carry
-  std::unique_ptr<DatagramWay> way;   ///< null until it has one
-  std::uint32_t frames_heard = 0;     ///< after the one that asked to join
-  std::unique_ptr<UpwardWay> upward;  ///< null until a datagram of its comes
+  FederateCounts counts;             ///< what is counted as it happens; `report` adds the rest
+  std::uint32_t frames = 0;          ///< sent to it
+  bool has_stream_only = false;      ///< no datagrams, whatever its connection could carry
+  std::unique_ptr<DatagramWay> way;  ///< null until it has one
 };
 
 }  // namespace rink::rti

@@ -85,13 +85,13 @@ class MessageTable {
       return parts.names_.handle(slot, reader);
     };
     at(Kind::stamp) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_stamp(slot, reader);
+      return parts.updates_.handle_stamp(slot, reader);
     };
     at(Kind::updates) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_updates(slot, reader);
+      return parts.updates_.handle_updates(slot, reader);
     };
     at(Kind::spare_update) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_spare_update(slot, reader);
+      return parts.updates_.handle_spare(slot, reader);
     };
     at(Kind::interaction) = [](Parts& parts, Slot slot, Reader& reader) {
       return parts.take_interaction(slot, reader);
@@ -100,10 +100,10 @@ class MessageTable {
       return parts.request_update(slot, reader);
     };
     at(Kind::change_transportation) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.change_transportation(slot, reader);
+      return parts.transportation_.handle_change(slot, reader);
     };
     at(Kind::query_transportation) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.query_transportation(slot, reader);
+      return parts.transportation_.handle_query(slot, reader);
     };
     at(Kind::acknowledge_keyframe) = [](Parts& parts, Slot slot, Reader& reader) {
       return parts.take_keyframe(slot, Kind::acknowledge_keyframe, reader);

@@ -1,0 +1,59 @@
+// Best-effort updates by datagram, where a federate has a way for them: what goes out, what was
+// lost, and falling back to the stream.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rti/buffering/buffering.h"
+#include "rti/buffering/datagram_batch.h"
+#include "rti/central_component.h"
+#include "rti/federation/delivery/flush_context.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/services/transportation_types.h"
+
+namespace rink::rti {
+
+class BestEffortSender {
+ public:
+  BestEffortSender(const FederationBasis& basis, const TransportationTypes& types,
+                   Buffering& buffering)
+      : basis_(basis), types_(types), buffering_(buffering) {}
+  /// Federates' ways go with it, for what they have sent is noted in its lists.
+  ~BestEffortSender() {
+    for (JoinedFederate& each : basis_.federates) each.way.reset();
+  }
+  BestEffortSender(const BestEffortSender&) = delete;
+  BestEffortSender& operator=(const BestEffortSender&) = delete;
+
+  /// An update for the next flush, in two parts where one goes by datagram and the other does not.
+  void append(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp,
+              Bytes values);
+  /// False if it names nothing that was sent so.
+  bool acknowledge(std::uint32_t slot, Reader& reader);
+
+  void begin_flush() { batch_.begin_tick(); }
+  /// The way for the federate's datagrams in this flush, null if it has none.
+  DatagramChannel begin(JoinedFederate& federate, Outlet& outlet);
+  /// A state that was lost, or false if it does not go by datagram.
+  bool add(const FlushContext& context, ObjectSlot object, AttributeSet set, const Stamp& stamp,
+           Bytes values);
+  /// Run number `index` of the flush; false if it does not go by datagram.
+  bool gather(std::size_t index, FlushContext& context);
+  void send(FlushContext& context, Outlet& outlet);
+
+ private:
+  void append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
+                    const Stamp& stamp, Bytes values);
+  bool is_usable(JoinedFederate& federate, bool is_open, Outlet& outlet);
+  void probe(JoinedFederate& federate, Outlet& outlet);
+
+  FederationBasis basis_;
+  const TransportationTypes& types_;
+  Buffering& buffering_;
+  bool has_ways_ = false;  ///< some federate had one
+  DatagramBatch batch_;
+  std::vector<std::byte> values_;  ///< of the record at hand
+};
+
+}  // namespace rink::rti

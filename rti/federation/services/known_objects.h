@@ -1,0 +1,53 @@
+// Which objects a federate may name, and what it means if there is none of that handle.
+#pragma once
+
+#include <cstdint>
+
+#include "rti/distribution/data_distribution.h"
+#include "rti/federation/outcome.h"
+#include "rti/federation_counters.h"
+#include "rti/objects/object_table.h"
+#include "rti/ownership/ownership.h"
+
+namespace rink::rti {
+
+class KnownObjects {
+ public:
+  KnownObjects(const ObjectTable& objects, const Ownership& ownership,
+               const DataDistribution& distribution, FederationCounters& counters)
+      : objects_(objects),
+        ownership_(ownership),
+        distribution_(distribution),
+        counters_(counters) {}
+
+  /// True, and counted, if an object of that handle was here: who may delete it did so while this
+  /// was on its way, which is nobody's crime.
+  bool is_late(ObjectHandle handle) {
+    const bool was_here = objects_.was_registered(handle);
+    counters_.late_requests += was_here ? 1u : 0u;
+    return was_here;
+  }
+  bool is_known_to(std::uint32_t slot, ObjectSlot object) const {
+    return objects_[object].owner == slot || distribution_.of(slot).known.contains(object) ||
+           !ownership_.owned_by(slot, object).is_empty();
+  }
+  /// The object that is meant, or no_object if it was deleted meanwhile.
+  Outcome find(ObjectHandle handle, ObjectSlot& object) {
+    object = objects_.find(handle);
+    return object != no_object || is_late(handle) ? Outcome() : Violation::unknown_name;
+  }
+  /// The same of one that the federate must know.
+  Outcome find_known(std::uint32_t slot, ObjectHandle handle, ObjectSlot& object) {
+    const Outcome outcome = find(handle, object);
+    if (outcome || object == no_object) return outcome;
+    return is_known_to(slot, object) ? Outcome() : Violation::unknown_name;
+  }
+
+ private:
+  const ObjectTable& objects_;
+  const Ownership& ownership_;
+  const DataDistribution& distribution_;
+  FederationCounters& counters_;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,66 @@
+// What travels reliably and what by best effort, as the model says and federates change it (IEEE
+// 1516.1-2010, 6.23 to 6.30).
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/outcome.h"
+#include "rti/federation/services/known_objects.h"
+#include "rti/federation/services/publications.h"
+#include "rti/objects/object_map.h"
+#include "rti/ownership/ownership.h"
+#include "rti/wire/object_messages.h"
+
+namespace rink::rti {
+
+class TransportationTypes {
+ public:
+  TransportationTypes(const FederationBasis& basis, const Ownership& ownership,
+                      const Publications& publications, KnownObjects& known);
+
+  Outcome handle_change(std::uint32_t slot, Reader& reader);
+  Outcome handle_query(std::uint32_t slot, Reader& reader);
+
+  /// Of a class, as the model says.
+  AttributeSet best_effort(std::uint16_t object_class) const { return best_effort_[object_class]; }
+  bool has_best_effort() const { return has_best_effort_; }
+  /// Those that may travel by datagram: what the model says may become reliable, and only what it
+  /// says travels so at all.
+  AttributeSet by_datagram(ObjectSlot object) const {
+    return chosen(object) & best_effort_[basis_.objects[object].object_class];
+  }
+  /// Of any object.
+  bool has_changed() const { return objects_.size() > 0; }
+  void forget(ObjectHandle object) {
+    if (has_changed()) objects_.erase(object);
+  }
+  void joined(std::uint32_t slot);
+  void left(std::uint32_t slot) { interactions_[slot].clear(); }
+
+ private:
+  using ChangedInteractions = std::vector<std::pair<std::uint16_t, Transportation>>;
+  /// Its attributes by best effort, whether there are datagrams for them or not.
+  AttributeSet chosen(ObjectSlot object) const {
+    const AttributeSet* changed =
+        has_changed() ? objects_.find(basis_.objects[object].handle) : nullptr;
+    return changed != nullptr ? *changed : best_effort_[basis_.objects[object].object_class];
+  }
+  Outcome change_object(std::uint32_t slot, const ChangeTransportationMessage& message);
+  Outcome change_interaction(std::uint32_t slot, const ChangeTransportationMessage& message);
+  Transportation of_interaction(std::uint16_t interaction_class, FederateHandle sender) const;
+
+  FederationBasis basis_;
+  const Ownership& ownership_;
+  const Publications& publications_;
+  KnownObjects& known_;
+  std::vector<AttributeSet> best_effort_;  ///< by class
+  bool has_best_effort_ = false;           ///< any at all
+  ObjectMap<AttributeSet> objects_;  ///< whose attributes travel otherwise than the model says:
+                                     ///< those by best effort
+  std::vector<ChangedInteractions> interactions_;  ///< by sender's slot: otherwise than it says
+};
+
+}  // namespace rink::rti

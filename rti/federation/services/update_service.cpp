@@ -1,0 +1,80 @@
+// One update after the other, from a block to the objects' states and the next flush.
+#include "rti/federation/services/update_service.h"
+
+#include "rti/wire/declaration_messages.h"
+#include "rti/wire/update_block.h"
+
+namespace rink::rti {
+
+void UpdateService::joined(std::uint32_t slot) {
+  if (slot >= stamps_.size()) stamps_.resize(slot + 1);
+  stamps_[slot].reset();
+}
+
+Outcome UpdateService::handle_stamp(std::uint32_t slot, Reader& reader) {
+  StampMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  stamps_[slot] = message.stamp;
+  return std::nullopt;
+}
+
+Outcome UpdateService::handle_updates(std::uint32_t slot, Reader& reader) {
+  UpdatesMessage message;
+  if (!exchange(reader, message) || !stamps_[slot]) return Violation::malformed;
+  if (message.object_class >= basis_.fom.object_classes().size()) return Violation::unknown_name;
+  const ObjectClassHandle object_class{message.object_class};
+  const AttributeSet attributes{message.attributes};
+  if (!basis_.fom.attributes(object_class).includes(attributes) || attributes.is_empty())
+    return Violation::unknown_name;
+  if (!uses_.publications.of_class(slot, message.object_class).includes(attributes))
+    return Violation::undeclared;
+  Outcome outcome;
+  const bool is_read = read_records(reader, basis_.fom.at(object_class), attributes,
+                                    [&](std::uint32_t handle, Bytes values) {
+                                      outcome = take(slot, message, {handle}, values);
+                                      return !outcome;
+                                    });
+  return is_read || outcome ? outcome : Violation::malformed;
+}
+
+Outcome UpdateService::take(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle,
+                            Bytes values) {
+  const ObjectSlot object = basis_.objects.find(handle);
+  if (object == no_object && uses_.known.is_late(handle)) return std::nullopt;
+  if (object == no_object || basis_.objects[object].object_class != message.object_class)
+    return Violation::unknown_name;
+  const AttributeSet attributes{message.attributes};
+  if (basis_.objects[object].owner != slot &&
+      !uses_.ownership.owned_by(slot, object).includes(attributes))
+    return Violation::not_owned;
+  const Stamp& stamp = *stamps_[slot];
+  uses_.newest.say(slot, stamp);
+  uses_.arrivals.accept_frame(slot, handle, message.object_class, attributes);
+  store(slot, object, attributes, stamp, values);
+  return std::nullopt;
+}
+
+void UpdateService::store(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
+                          const Stamp& stamp, Bytes values) {
+  basis_.objects.store(object, attributes, values);
+  uses_.sender.append(slot, object, attributes, stamp, values);
+  ++basis_.counters.updates_received;
+  ++basis_.federates[slot].counts.updates_sent;
+}
+
+Outcome UpdateService::handle_spare(std::uint32_t slot, Reader& reader) {
+  SpareUpdateMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  ObjectSlot object = no_object;
+  if (const Outcome outcome = uses_.known.find({message.object}, object);
+      outcome || object == no_object)
+    return outcome;
+  const AttributeSet attributes{message.attributes};
+  if (!uses_.ownership.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
+  Object& spared = basis_.objects[object];
+  spared.valued = spared.valued.without(attributes);
+  uses_.arrivals.accept_frame(slot, spared.handle, spared.object_class, attributes);
+  return std::nullopt;
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,52 @@
+// Updates that federates send by their streams: checked once, here; then they are state.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "rti/federation/delivery/arrival_orders.h"
+#include "rti/federation/delivery/best_effort_sender.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/outcome.h"
+#include "rti/federation/services/known_objects.h"
+#include "rti/federation/services/newest_stamps.h"
+#include "rti/federation/services/publications.h"
+#include "rti/ownership/ownership.h"
+
+namespace rink::rti {
+
+class UpdateService {
+ public:
+  struct Uses {
+    const Ownership& ownership;
+    const Publications& publications;
+    KnownObjects& known;
+    NewestStamps& newest;
+    ArrivalOrders& arrivals;
+    BestEffortSender& sender;
+  };
+  UpdateService(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
+
+  Outcome handle_stamp(std::uint32_t slot, Reader& reader);
+  Outcome handle_updates(std::uint32_t slot, Reader& reader);
+  /// Its sender keeps newer values back, for nobody heard them when it heard from us last.
+  Outcome handle_spare(std::uint32_t slot, Reader& reader);
+  /// Values that its owner was allowed to say, by whichever way they came.
+  void store(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp,
+             Bytes values);
+  /// A stamp is good for its frame.
+  void begin_frame(std::uint32_t slot) { stamps_[slot].reset(); }
+  void joined(std::uint32_t slot);
+
+ private:
+  Outcome take(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle,
+               Bytes values);
+
+  FederationBasis basis_;
+  Uses uses_;
+  std::vector<std::optional<Stamp>> stamps_;  ///< by slot: of the updates in the frame at hand,
+                                              ///< once it was said
+};
+
+}  // namespace rink::rti
