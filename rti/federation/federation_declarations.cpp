@@ -37,50 +37,18 @@ Outcome FederationParts::subscribe_object_class(std::uint32_t slot, Reader& read
   return std::nullopt;
 }
 
-Outcome FederationParts::declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  SubscribeInteractionClassMessage message;
+Outcome FederationParts::publish_interaction_class(std::uint32_t slot, Reader& reader) {
+  PublishInteractionClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.interaction_class >= fom_.interaction_classes().size())
     return Violation::unknown_name;
-  if (kind == MessageKind::publish_interaction_class) {
-    if (message.is_declared > 1) return Violation::malformed;
-    const InteractionClassHandle interaction_class{message.interaction_class};
-    if (fom_.is_management(interaction_class) && !fom_.is_for_rti(interaction_class))
-      return Violation::not_owned;
-    publications_.set_interaction(slot, message.interaction_class, message.is_declared != 0);
-    tell_relevance(slot, fom_.object_classes().size() + message.interaction_class);
-    return std::nullopt;
-  }
-  federates_[slot].subscribed_interactions[message.interaction_class] =
-      static_cast<Listening>(message.is_declared);
-  join_groups(slot);
+  if (message.is_declared > 1) return Violation::malformed;
+  const InteractionClassHandle interaction_class{message.interaction_class};
+  if (fom_.is_management(interaction_class) && !fom_.is_for_rti(interaction_class))
+    return Violation::not_owned;
+  publications_.set_interaction(slot, message.interaction_class, message.is_declared != 0);
+  tell_relevance(slot, fom_.object_classes().size() + message.interaction_class);
   return std::nullopt;
-}
-
-/// Those who subscribe to a class or a superclass, in whatever region, belong to its group.
-void FederationParts::join_groups(std::uint32_t slot) {
-  for (std::uint32_t i = 0; i < fom_.interaction_classes().size(); ++i) {
-    if (listening(slot, static_cast<std::uint16_t>(i)) != Listening::none) groups_->join(i, slot);
-    else groups_->leave(i, slot);
-  }
-  subscribed(slot);
-}
-
-/// How it subscribes to the class or a superclass, with and without regions.
-Listening FederationParts::listening(std::uint32_t slot, std::uint16_t interaction_class) const {
-  Listening found = interest_.subscribes_interaction(slot, interaction_class);
-  for (InteractionClassHandle each{interaction_class}; each && found != Listening::active;
-       each = fom_.at(each).parent)
-    if (const Listening here = federates_[slot].subscribed_interactions[each.value];
-        here != Listening::none)
-      found = here;
-  return found;
-}
-
-bool FederationParts::hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const {
-  for (InteractionClassHandle each{interaction_class}; each; each = fom_.at(each).parent)
-    if (federates_[slot].subscribed_interactions[each.value] != Listening::none) return true;
-  return false;
 }
 
 /// Takes what it subscribes now into account, and tells publishers who are concerned, at once:
@@ -93,7 +61,7 @@ void FederationParts::subscribed(std::uint32_t slot) {
     Subscription now;
     if (federates_[slot].is_joined)
       now = row < object_classes ? interest_.subscribed_anywhere(slot, number)
-                                 : Relevance::of(listening(slot, number));
+                                 : Relevance::of(interactions_.listening(slot, number));
     if (relevance_.set(slot, row, now)) tell_publishers(row);
   }
   manage_subscriptions(slot);

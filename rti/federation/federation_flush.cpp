@@ -24,7 +24,7 @@ void fetch(const Value& value) {
 
 void FederationParts::flush(Outlet& outlet) {
   send_answers(outlet);
-  settle_update_requests();
+  update_requests_.settle();
   const std::span<const UpdateRun> runs = buffering_->seal();
   baselines_.begin(runs, federates_.size());
   best_effort_sender_.begin_flush();
@@ -36,6 +36,8 @@ void FederationParts::flush(Outlet& outlet) {
     flush_federate(context, outlet);
   }
   baselines_.end();
+  update_requests_.flushed();
+  interactions_.flushed();
   buffering_->clear();
   objects_.recycle();
   for (const Farewell& each : farewells_) {
@@ -77,7 +79,6 @@ void FederationParts::flush_federate(FlushContext& context, Outlet& outlet) {
   federate.counts.reflections_received += counters_.updates_sent - before;
   frame.append(federate.outbox.tail());
   federate.outbox.clear();
-  federate.looked_at = federate.said = 0;
   settle_interest(context);
   if (frame.is_empty()) {
     if (now_ - federate.last_said < settings_.patience.heartbeat_s) return;
@@ -171,7 +172,7 @@ void FederationParts::announce(std::uint32_t slot, ObjectSlot at, std::vector<st
   if (!interest.known.contains(at)) {
     say(bytes, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
     ++federates_[slot].objects_discovered;
-    if (is_auto_providing_) ask_owners(slot, at, interest.told(at, object.object_class), {});
+    update_requests_.discovered(slot, at, interest.told(at, object.object_class));
   }
   if (object.negotiation != Object::no_negotiation && !interest.known.contains(at))
     offer_to(slot, at, ownership_.all(at));

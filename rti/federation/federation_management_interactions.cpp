@@ -18,7 +18,7 @@ Outcome FederationParts::take_management(std::uint32_t slot, const InteractionMe
     const std::int32_t value = reader.count();
     if (!reader.is_whole() || !reader.is_at_end() || value < 0 || value > 1)
       return Violation::malformed;
-    is_auto_providing_ = value != 0;
+    update_requests_.provide_automatically(value != 0);
     if (management_objects_) management_objects_->switched();
     return std::nullopt;
   }
@@ -39,22 +39,6 @@ Outcome FederationParts::take_management(std::uint32_t slot, const InteractionMe
   return std::nullopt;
 }
 
-/// To all who subscribe to the report; its bytes count as said by who asked for it, so that asking
-/// can't fill the queues of those who listen.
-void FederationParts::report_to_all(std::uint32_t asking, InteractionClassHandle report,
-                                    Bytes parameters) {
-  const std::span<const std::uint32_t> receivers = groups_->receivers(report.value, no_federate);
-  InteractionMessage message{
-      static_cast<std::uint16_t>(report.value), FederateHandle::none, {}, parameters};
-  if (!receivers.empty()) federates_[asking].said += interaction_head + parameters.size();
-  for (const std::uint32_t receiver : receivers) {
-    federates_[receiver].outbox.after_updates(message);
-    counters_.interaction_bytes_sent += measure(message);
-    ++counters_.interactions_sent;
-    ++federates_[receiver].counts.interactions_received;
-  }
-}
-
 /// One report for each class of which `set_of(class)` names attributes; one of no class if there is
 /// none.
 template <class SetOf, class Write>
@@ -73,7 +57,7 @@ void FederationParts::report_classes(std::uint32_t asking, std::uint32_t about,
     writer.handle(object_class);
     write(writer, object_class);
     writer.handles(attributes);
-    report_to_all(asking, report, parameters);
+    interactions_.report(asking, report, parameters);
   };
   for (const std::uint32_t each : classes) tell(each, set_of(each));
   if (classes.empty()) tell(ObjectClassHandle::none, {});
@@ -89,7 +73,7 @@ void FederationParts::report_interactions(std::uint32_t asking, std::uint32_t ab
   ManagementWriter writer(parameters);
   writer.handle(federates_[about].handle.value);
   writer.handles(classes);
-  report_to_all(asking, report, parameters);
+  interactions_.report(asking, report, parameters);
 }
 
 void FederationParts::report_publications(std::uint32_t asking, std::uint32_t about) {
@@ -114,10 +98,10 @@ void FederationParts::report_subscriptions(std::uint32_t asking, std::uint32_t a
       [&](ManagementWriter& writer, std::uint32_t i) {
         writer.count(heard(i).active.is_empty() ? 0 : 1);
       });
-  report_interactions(asking, about, management_.report_interaction_subscription,
-                      [&](std::uint32_t i) {
-                        return listening(about, static_cast<std::uint16_t>(i)) != Listening::none;
-                      });
+  report_interactions(
+      asking, about, management_.report_interaction_subscription, [&](std::uint32_t i) {
+        return interactions_.listening(about, static_cast<std::uint16_t>(i)) != Listening::none;
+      });
 }
 
 void FederationParts::report_points(std::uint32_t asking) {
@@ -126,7 +110,7 @@ void FederationParts::report_points(std::uint32_t asking) {
     if (labels.size() + each.label.size() <= label_bytes_max)
       ManagementWriter(labels).text(each.label);
   ManagementWriter(parameters).text({reinterpret_cast<const char*>(labels.data()), labels.size()});
-  report_to_all(asking, management_.report_points, parameters);
+  interactions_.report(asking, management_.report_points, parameters);
 }
 
 }  // namespace rink::rti

@@ -24,10 +24,6 @@ FederationParts::ManagementObjects::ManagementObjects(FederationParts& parts)
       federate_class_(parts.management_.federate),
       slot_(parts.federates_.add()) {}
 
-bool FederationParts::ManagementObjects::owns(ObjectSlot object) const {
-  return parts_.objects_[object].owner == slot_;
-}
-
 FederationParts::ManagementObjects::Told& FederationParts::ManagementObjects::told_of(
     std::uint32_t slot) {
   if (slot >= federates_.size()) federates_.resize(slot + 1);
@@ -94,16 +90,15 @@ void FederationParts::ManagementObjects::left(std::uint32_t slot) {
   federation_.is_due = true;
 }
 
-void FederationParts::ManagementObjects::ask(ObjectSlot object, AttributeSet attributes) {
-  const auto slot = slots_.find(parts_.objects_[object].handle.value);
+void FederationParts::ManagementObjects::ask(ObjectHandle object, AttributeSet attributes) {
+  const auto slot = slots_.find(object.value);
   Told& told = slot == slots_.end() ? federation_ : federates_[slot->second];
-  if (told.object != parts_.objects_[object].handle) return;
-  told.asked = told.asked |
-               (attributes &
-                parts_.fom_.attributes(ObjectClassHandle{parts_.objects_[object].object_class}));
+  if (told.object == object) told.asked = told.asked | attributes;
 }
 
 void FederationParts::ManagementObjects::tell() {
+  for (const UpdateRequests::Asked& each : parts_.update_requests_.take_asked_of_rti())
+    ask(each.object, each.attributes);
   if (!is_heard_) return;
   has_counted_ = false;
   if (federation_.is_due || !federation_.asked.is_empty()) tell_federation();
@@ -149,7 +144,8 @@ void FederationParts::ManagementObjects::tell_federation() {
   value([&](ManagementWriter to) { to.text("HLAstandardMIM"); });
   value([&](ManagementWriter to) { to.text(parts_.fom_.name()); });
   value([&](ManagementWriter to) { to.text("HLAfloat64Time"); });
-  value([&](ManagementWriter to) { to.count(parts_.is_auto_providing_ ? 1 : 0); });
+  value(
+      [&](ManagementWriter to) { to.count(parts_.update_requests_.is_auto_providing() ? 1 : 0); });
   update(federation_);
 }
 

@@ -28,9 +28,6 @@ class FederationParts::ManagementObjects {
   }
   /// HLAautoProvide has changed.
   void switched() { federation_.is_due = static_cast<bool>(federation_.object); }
-  bool owns(ObjectSlot object) const;
-  /// Somebody asks for these: they are told at the next flush, changed or not.
-  void ask(ObjectSlot object, AttributeSet attributes);
   /// Once per flush, before it.
   void tell();
   static bool is_heard(const FederationParts& parts);
@@ -48,6 +45,8 @@ class FederationParts::ManagementObjects {
   void end();
   void add(Told& told, ObjectClassHandle object_class);
   void remove(Told& told);
+  /// They are told whether they have changed or not.
+  void ask(ObjectHandle object, AttributeSet attributes);
   Told& told_of(std::uint32_t slot);
   void tell_federation();
   void tell_federate(std::uint32_t slot, Told& told);

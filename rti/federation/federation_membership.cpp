@@ -58,11 +58,12 @@ FederationParts::FederationParts(const Fom& fom, const FederationSettings& setti
                {ownership_, publications_, known_, newest_, arrivals_, best_effort_sender_}),
       best_effort_receiver_(basis_, {transportation_, ownership_, known_, newest_, arrivals_,
                                      best_effort_sender_, updates_}),
+      groups_(groups_of(services)),
+      interactions_(basis_, *groups_, interest_, publications_),
+      update_requests_(basis_, ownership_, interest_, known_),
       baselines_(fom, settings.keyframe_period),
       relevance_(fom.object_classes().size() + fom.interaction_classes().size()),
-      groups_(groups_of(services)),
-      management_(fom),
-      is_auto_providing_(fom.switches().auto_provide) {}
+      management_(fom) {}
 
 void FederationParts::connect(ConnectionId connection) {
   if (connection >= connections_.size()) connections_.resize(connection + 1);
@@ -156,7 +157,8 @@ void FederationParts::admit(ConnectionId connection, const JoinMessage& message)
   arrivals_.joined(slot);
   updates_.joined(slot);
   best_effort_receiver_.joined(slot);
-  federate.subscribed_interactions.resize(fom_.interaction_classes().size());
+  update_requests_.joined(slot);
+  interactions_.joined(slot);
   federate.told_relevance.resize(relevance_.row_count());
   federate.last_said = now_;
   federate.resign_action = fom_.switches().automatic_resign_action;
@@ -176,14 +178,14 @@ void FederationParts::admit(ConnectionId connection, const JoinMessage& message)
 void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
   leave_objects(slot);
   interest_.remove_federate(slot);
-  forget_update_requests(slot);
+  update_requests_.left(slot);
   buffering_->remove_federate(slot);
   baselines_.forget(slot);
   give_back_blocks(federates_[slot]);
   federates_.retire(slot);
   subscribed(slot);
   if (management_objects_) management_objects_->left(slot);
-  groups_->remove_federate(slot);
+  interactions_.left(slot);
   names_.left(slot);
   synchronization_.left(slot);
   const Federate& federate = federates_[slot];

@@ -1,11 +1,8 @@
 // What a federation execution is made of; for its own sources only.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
-#include <tuple>
-#include <unordered_map>
 #include <vector>
 
 #include "rti/baselines/baselines.h"
@@ -18,9 +15,11 @@
 #include "rti/federation/federation_connection.h"
 #include "rti/federation/joined_federate.h"
 #include "rti/federation/outcome.h"
+#include "rti/federation/services/interactions.h"
 #include "rti/federation/services/object_names.h"
 #include "rti/federation/services/publications.h"
 #include "rti/federation/services/synchronization.h"
+#include "rti/federation/services/update_requests.h"
 #include "rti/federation_counters.h"
 #include "rti/federation_services.h"
 #include "rti/federation_settings.h"
@@ -36,9 +35,6 @@
 #include "rti/wire/ownership_messages.h"
 
 namespace rink::rti {
-
-/// What an interaction costs beside its parameters, roughly.
-inline constexpr std::size_t interaction_head = 16;
 
 class FederationParts {
  public:
@@ -86,7 +82,6 @@ class FederationParts {
   void manage_subscriptions(std::uint32_t slot);
   Subscription others_hear(std::uint32_t slot, std::size_t row) const;
   Outcome take_management(std::uint32_t slot, const InteractionMessage& message);
-  void report_to_all(std::uint32_t asking, InteractionClassHandle report, Bytes parameters);
   template <class SetOf, class Write>
   void report_classes(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report,
                       SetOf set_of, Write write);
@@ -109,19 +104,11 @@ class FederationParts {
   /// Objects that `federate` has registered and that are there.
   std::size_t registered_alive(const Federate& federate) const;
   void extend_block(Federate& federate);
-  Outcome take_interaction(std::uint32_t slot, Reader& reader);
-  /// `regions` are the sender's; none: the default region, which overlaps all.
-  Outcome deliver_interaction(std::uint32_t slot, InteractionMessage& message,
-                              std::span<const RegionHandle> regions = {});
 
   // Declarations (federation_declarations.cpp).
   Outcome publish_object_class(std::uint32_t slot, Reader& reader);
   Outcome subscribe_object_class(std::uint32_t slot, Reader& reader);
-  Outcome declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader);
-  void join_groups(std::uint32_t slot);
-  Listening listening(std::uint32_t slot, std::uint16_t interaction_class) const;
-  /// True if it subscribes to the class or a superclass without a region.
-  bool hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const;
+  Outcome publish_interaction_class(std::uint32_t slot, Reader& reader);
   void subscribed(std::uint32_t slot);
   void tell_publishers(std::size_t row);
   bool publishes(std::uint32_t slot, std::size_t row) const;
@@ -131,8 +118,6 @@ class FederationParts {
 
   // Objects beyond updates (federation_objects.cpp).
   Outcome delete_locally(std::uint32_t slot, Reader& reader);
-  Outcome request_update(std::uint32_t slot, Reader& reader);
-  void ask_owners(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes tag);
 
   // Regions (federation_regions.cpp).
   Outcome create_or_delete_region(std::uint32_t slot, MessageKind kind, Reader& reader);
@@ -143,22 +128,6 @@ class FederationParts {
   Outcome associate_region(std::uint32_t slot, Reader& reader);
   Outcome associate_regions(std::uint32_t slot, Reader& reader);
   Outcome take_regional_class(std::uint32_t slot, Reader& reader);
-  /// Looks for the objects that requests mean, and tells their owners. Once per flush: however
-  /// often is asked, each owner is told of an object once.
-  void settle_update_requests();
-  Outcome settle_update_requests(std::uint32_t slot, RegionHandle region);
-  void find_owners(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes,
-                   RegionHandle region, Bytes tag);
-  void forget_update_requests(std::uint32_t slot);
-  static constexpr std::size_t looked_at_max =
-      1u
-      << 19;  ///< objects for one federate's requests in one flush; the rest waits for the next one
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::string>, AttributeSet>
-      update_requests_;  ///< by asking federate's slot, region, class and tag
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::string>, AttributeSet>
-      updates_to_provide_;  ///< by owner's slot, object and tag
-  Outcome take_regional_interaction(std::uint32_t slot, Reader& reader);
-  Outcome take_interaction_within(std::uint32_t slot, Reader& reader);
 
   // Ownership (federation_ownership.cpp).
   Outcome take_resign_directive(std::uint32_t slot, Reader& reader);
@@ -251,11 +220,12 @@ class FederationParts {
   BestEffortSender best_effort_sender_;
   UpdateService updates_;
   BestEffortReceiver best_effort_receiver_;
+  std::unique_ptr<GroupCommunication> groups_;
+  Interactions interactions_;
+  UpdateRequests update_requests_;
   Baselines baselines_;
   std::vector<Connection> connections_;  ///< by id
   Relevance relevance_;
-  std::unique_ptr<GroupCommunication>
-      groups_;  ///< of federate slots: a group for each interaction class
   std::vector<ConnectionId> management_queries_;  ///< that wait for the next flush
   std::vector<Farewell> farewells_,
       answers_;  ///< answers go to those who have not joined, and don't end their connection
@@ -264,7 +234,6 @@ class FederationParts {
   ManagementHandles management_;
   std::unique_ptr<ManagementObjects>
       management_objects_;  ///< null until somebody subscribes to its objects
-  bool is_auto_providing_ = false;
 
   /// Lent to the flush at hand.
   GatheredFrame frame_;

@@ -164,41 +164,4 @@ void FederationParts::delete_object(ObjectSlot object) {
   objects_.erase(object);
 }
 
-Outcome FederationParts::take_interaction(std::uint32_t slot, Reader& reader) {
-  InteractionMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  if (message.interaction_class >= fom_.interaction_classes().size())
-    return Violation::unknown_name;
-  return deliver_interaction(slot, message);
-}
-
-Outcome FederationParts::deliver_interaction(std::uint32_t slot, InteractionMessage& message,
-                                             std::span<const RegionHandle> regions) {
-  if (!publications_.has_interaction(slot, message.interaction_class)) return Violation::undeclared;
-  ++counters_.interactions_received;
-  ++federates_[slot].counts.interactions_sent;
-  // Interactions are never held back, so a shouter would fill the queues of those who listen, and
-  // they would be closed instead of it.
-  const std::span<const std::uint32_t> receivers =
-      groups_->receivers(message.interaction_class, slot);
-  if (!receivers.empty()) federates_[slot].said += interaction_head + message.parameters.size();
-  if (fom_.is_management(InteractionClassHandle{message.interaction_class}))
-    if (const Outcome outcome = take_management(slot, message)) return outcome;
-  if (federates_[slot].said > settings_.interaction_bytes_per_flush_max)
-    return Violation::over_limit;
-  const std::uint32_t only = message.federate;
-  message.federate = federates_[slot].handle.value;
-  for (const std::uint32_t receiver : receivers) {
-    if (only != FederateHandle::none && federates_[receiver].handle.value != only) continue;
-    if (!regions.empty() && !hears_everywhere(receiver, message.interaction_class) &&
-        !interest_.hears(receiver, message.interaction_class, slot, regions))
-      continue;
-    federates_[receiver].outbox.after_updates(message);
-    counters_.interaction_bytes_sent += measure(message);
-    ++counters_.interactions_sent;
-    ++federates_[receiver].counts.interactions_received;
-  }
-  return std::nullopt;
-}
-
 }  // namespace rink::rti

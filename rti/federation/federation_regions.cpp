@@ -20,13 +20,6 @@ Outcome for_each_record(Bytes bytes, std::size_t count, Take take) {
   return std::nullopt;
 }
 
-std::vector<RegionHandle> regions_of(Bytes bytes) {
-  std::vector<RegionHandle> regions(bytes.size() / sizeof(std::uint32_t));
-  Reader reader(bytes);
-  for (RegionHandle& each : regions) reader.number(each.value);
-  return regions;
-}
-
 }  // namespace
 
 Outcome FederationParts::create_or_delete_region(std::uint32_t slot, MessageKind kind,
@@ -36,10 +29,11 @@ Outcome FederationParts::create_or_delete_region(std::uint32_t slot, MessageKind
   const RegionHandle region{message.region};
   if (kind == MessageKind::create_region) return create_region(slot, region, {});
   if (!interest_.has_region(slot, region)) return Violation::unknown_name;
-  if (const Outcome outcome = settle_update_requests(slot, region)) return outcome;
+  if (const Outcome outcome = update_requests_.settle_within(slot, region)) return outcome;
   interest_.delete_region(slot, region);
   --federates_[slot].counts.regions;
-  join_groups(slot);
+  interactions_.join_groups(slot);
+  subscribed(slot);
   return std::nullopt;
 }
 
@@ -137,9 +131,7 @@ Outcome FederationParts::take_regional_class(std::uint32_t slot, Reader& reader)
           return Violation::unknown_name;
         const auto action = static_cast<RegionAction>(message.action);
         if (action == RegionAction::request_update) {
-          AttributeSet& asked =
-              update_requests_[{slot, region.value, message.object_class, std::string()}];
-          asked = asked | attributes;
+          update_requests_.ask_within(slot, region, message.object_class, attributes);
           return std::nullopt;
         }
         Subscription now = interest_.subscribed(slot, message.object_class, region);
@@ -152,84 +144,6 @@ Outcome FederationParts::take_regional_class(std::uint32_t slot, Reader& reader)
       });
   if (!outcome) subscribed(slot);
   return outcome;
-}
-
-/// Looks at every object: it is asked for seldom, and what overlaps is not kept.
-void FederationParts::find_owners(std::uint32_t slot, ObjectClassHandle object_class,
-                                  AttributeSet attributes, RegionHandle region, Bytes tag) {
-  federates_[slot].looked_at += objects_.slot_count();
-  for (ObjectSlot object = 0; object < objects_.slot_count(); ++object) {
-    const Object& asked = objects_[object];
-    if (!asked.is_alive || !fom_.is_a(ObjectClassHandle{asked.object_class}, object_class))
-      continue;
-    ask_owners(slot, object,
-               region ? interest_.overlapping(slot, region, object, attributes) : attributes, tag);
-  }
-}
-
-void FederationParts::settle_update_requests() {
-  for (auto each = update_requests_.begin(); each != update_requests_.end();) {
-    const auto& [slot, region, object_class, tag] = each->first;
-    if (federates_[slot].looked_at >= looked_at_max) {
-      each = update_requests_.lower_bound({slot + 1, 0, 0, {}});
-      continue;
-    }
-    find_owners(slot, {object_class}, each->second, {region}, std::as_bytes(std::span(tag)));
-    each = update_requests_.erase(each);
-  }
-  for (const auto& [whom, attributes] : updates_to_provide_) {
-    const auto& [owner, object, tag] = whom;
-    federates_[owner].outbox.after_updates(
-        ProvideUpdateMessage{object, attributes.bits, std::as_bytes(std::span(tag))});
-  }
-  updates_to_provide_.clear();
-}
-
-/// Those within a region that is about to go. Who makes regions, asks and deletes them faster than
-/// anybody can look is not waited for.
-Outcome FederationParts::settle_update_requests(std::uint32_t slot, RegionHandle region) {
-  for (auto each = update_requests_.lower_bound({slot, region.value, 0, {}});
-       each != update_requests_.end();) {
-    const auto& [asking, within, object_class, tag] = each->first;
-    if (asking != slot || within != region.value) break;
-    if (federates_[slot].looked_at >= looked_at_max) return Violation::over_limit;
-    find_owners(slot, {object_class}, each->second, region, std::as_bytes(std::span(tag)));
-    each = update_requests_.erase(each);
-  }
-  return std::nullopt;
-}
-
-void FederationParts::forget_update_requests(std::uint32_t slot) {
-  update_requests_.erase(update_requests_.lower_bound({slot, 0, 0, {}}),
-                         update_requests_.lower_bound({slot + 1, 0, 0, {}}));
-  updates_to_provide_.erase(updates_to_provide_.lower_bound({slot, 0, {}}),
-                            updates_to_provide_.lower_bound({slot + 1, 0, {}}));
-}
-
-Outcome FederationParts::take_regional_interaction(std::uint32_t slot, Reader& reader) {
-  RegionalInteractionMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  if (message.interaction_class >= fom_.interaction_classes().size())
-    return Violation::unknown_name;
-  for (const RegionHandle region : regions_of(message.regions))
-    if (!interest_.subscribe_interaction(slot, message.interaction_class, region,
-                                         static_cast<Listening>(message.is_subscribed)))
-      return Violation::unknown_name;
-  join_groups(slot);
-  return std::nullopt;
-}
-
-Outcome FederationParts::take_interaction_within(std::uint32_t slot, Reader& reader) {
-  InteractionWithinMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  if (message.interaction_class >= fom_.interaction_classes().size())
-    return Violation::unknown_name;
-  const std::vector<RegionHandle> regions = regions_of(message.regions);
-  for (const RegionHandle region : regions)
-    if (!interest_.has_region(slot, region)) return Violation::unknown_name;
-  InteractionMessage interaction{message.interaction_class, FederateHandle::none, message.stamp,
-                                 message.parameters};
-  return deliver_interaction(slot, interaction, regions);
 }
 
 }  // namespace rink::rti

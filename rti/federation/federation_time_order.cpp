@@ -38,7 +38,7 @@ void FederationParts::Time::find_receivers(Message& message) {
   if (message.kind == MessageKind::interaction) {
     // The sender may be gone: its handle then names nobody's slot, and the check in `add` is all
     // there is.
-    for (const std::uint32_t slot : parts_.groups_->receivers(
+    for (const std::uint32_t slot : parts_.interactions_.receivers(
              message.class_number,
              is_here(message.sender) ? parts_.federates_.slot_of(message.sender) : no_federate))
       if (!message.only || parts_.federates_[slot].handle == message.only) add(slot, {});

@@ -33,10 +33,7 @@ struct JoinedFederate {
   std::optional<std::uint32_t> further_block{};  ///< that it was given for when this one is used up
   std::vector<std::uint32_t> former_blocks{};    ///< used up
   std::size_t name_bytes = 0;                    ///< of their names
-  std::size_t looked_at = 0, said = 0;  ///< since the last flush: objects, for its requests for
-                                        ///< updates; bytes of interactions
   std::string name, type;
-  std::vector<Listening> subscribed_interactions;  ///< by class
   std::vector<Subscription>
       told_relevance;  ///< what it was told that others hear, by row of `Relevance`
   std::unique_ptr<ObjectMap<AttributeSet>>

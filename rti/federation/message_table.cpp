@@ -35,6 +35,21 @@ class MessageTable {
   }
 
  private:
+  /// What it subscribes has changed, if all is well: publishers are told at once.
+  static Outcome subscribed(Parts& parts, Slot slot, const Outcome& outcome) {
+    if (!outcome) parts.subscribed(slot);
+    return outcome;
+  }
+  /// One that is for the RTI is answered before it reaches others.
+  static Outcome send(Parts& parts, Slot slot, InteractionMessage& message,
+                      std::span<const RegionHandle> regions) {
+    Interactions::Receivers receivers;
+    if (const Outcome outcome = parts.interactions_.accept(slot, message, receivers))
+      return outcome;
+    if (parts.fom_.is_management(InteractionClassHandle{message.interaction_class}))
+      if (const Outcome outcome = parts.take_management(slot, message)) return outcome;
+    return parts.interactions_.deliver(slot, message, receivers, regions);
+  }
   constexpr Handler& at(MessageKind kind) { return handlers_[static_cast<std::size_t>(kind)]; }
 
   constexpr void add_membership() {
@@ -62,10 +77,10 @@ class MessageTable {
       return parts.subscribe_object_class(slot, reader);
     };
     at(Kind::publish_interaction_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.declare_interaction(slot, Kind::publish_interaction_class, reader);
+      return parts.publish_interaction_class(slot, reader);
     };
     at(Kind::subscribe_interaction_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.declare_interaction(slot, Kind::subscribe_interaction_class, reader);
+      return subscribed(parts, slot, parts.interactions_.handle_subscribe(slot, reader));
     };
     at(Kind::advisory_switch) = [](Parts& parts, Slot slot, Reader& reader) {
       return parts.switch_advisory(slot, reader);
@@ -93,11 +108,13 @@ class MessageTable {
     at(Kind::spare_update) = [](Parts& parts, Slot slot, Reader& reader) {
       return parts.updates_.handle_spare(slot, reader);
     };
-    at(Kind::interaction) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_interaction(slot, reader);
+    at(Kind::interaction) = [](Parts& parts, Slot slot, Reader& reader) -> Outcome {
+      InteractionMessage message;
+      if (const Outcome outcome = parts.interactions_.read(reader, message)) return outcome;
+      return send(parts, slot, message, {});
     };
     at(Kind::request_update) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.request_update(slot, reader);
+      return parts.update_requests_.handle(slot, reader);
     };
     at(Kind::change_transportation) = [](Parts& parts, Slot slot, Reader& reader) {
       return parts.transportation_.handle_change(slot, reader);
@@ -138,10 +155,13 @@ class MessageTable {
       return parts.take_regional_class(slot, reader);
     };
     at(Kind::regional_interaction) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_regional_interaction(slot, reader);
+      return subscribed(parts, slot, parts.interactions_.handle_subscribe_within(slot, reader));
     };
-    at(Kind::interaction_within) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_interaction_within(slot, reader);
+    at(Kind::interaction_within) = [](Parts& parts, Slot slot, Reader& reader) -> Outcome {
+      InteractionMessage message;
+      std::vector<RegionHandle> regions;
+      const Outcome outcome = parts.interactions_.read_within(slot, reader, message, regions);
+      return outcome ? outcome : send(parts, slot, message, regions);
     };
   }
   constexpr void add_ownership() {

@@ -182,4 +182,12 @@ bool exchange(Stream& stream, InteractionWithinMessage& message) {
          stream.template bytes<std::uint16_t>(message.parameters, parameters_max);
 }
 
+/// The handles that a message names one after the other.
+inline std::vector<RegionHandle> regions_of(Bytes bytes) {
+  std::vector<RegionHandle> regions(bytes.size() / sizeof(std::uint32_t));
+  Reader reader(bytes);
+  for (RegionHandle& each : regions) reader.number(each.value);
+  return regions;
+}
+
 }  // namespace rink::rti

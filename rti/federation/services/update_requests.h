@@ -1,0 +1,81 @@
+// Requests for the values of attributes, from who asks to those who own them (IEEE 1516.1-2010,
+// 6.19 and 6.20).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "rti/distribution/data_distribution.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/outcome.h"
+#include "rti/federation/services/known_objects.h"
+#include "rti/ownership/ownership.h"
+#include "rti/wire/object_messages.h"
+
+namespace rink::rti {
+
+/// However often is asked, each owner is told of an object once per flush and tag.
+class UpdateRequests {
+ public:
+  UpdateRequests(const FederationBasis& basis, const Ownership& ownership,
+                 DataDistribution& distribution, KnownObjects& known)
+      : basis_(basis),
+        ownership_(ownership),
+        distribution_(distribution),
+        known_(known),
+        is_auto_providing_(basis.fom.switches().auto_provide) {}
+
+  Outcome handle(std::uint32_t slot, Reader& reader);
+  /// For what overlaps a region of the federate that asks.
+  void ask_within(std::uint32_t slot, RegionHandle region, std::uint16_t object_class,
+                  AttributeSet attributes);
+  /// Those within a region that is about to go. Who makes regions, asks and deletes them faster
+  /// than anybody can look is not waited for.
+  Outcome settle_within(std::uint32_t slot, RegionHandle region);
+  /// Looks for the objects that requests mean, and tells their owners. Once per flush.
+  void settle();
+  /// From now on as many objects again are looked at for everybody.
+  void flushed();
+  /// It is about to be told of an object for the first time.
+  void discovered(std::uint32_t slot, ObjectSlot object, AttributeSet told) {
+    if (is_auto_providing_) ask(slot, object, told, {});
+  }
+  void joined(std::uint32_t slot);
+  void left(std::uint32_t slot);
+
+  bool is_auto_providing() const { return is_auto_providing_; }
+  void provide_automatically(bool is_on) { is_auto_providing_ = is_on; }
+  /// What was asked of the RTI, whose objects are those of no federate that has joined.
+  struct Asked {
+    ObjectHandle object;
+    AttributeSet attributes;
+  };
+  std::vector<Asked> take_asked_of_rti() { return std::exchange(asked_of_rti_, {}); }
+
+ private:
+  static constexpr std::size_t looked_at_max =
+      1u
+      << 19;  ///< objects for one federate's requests in one flush; the rest waits for the next one
+  void ask(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes tag);
+  void find_owners(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes,
+                   RegionHandle region, Bytes tag);
+
+  FederationBasis basis_;
+  const Ownership& ownership_;
+  DataDistribution& distribution_;
+  KnownObjects& known_;
+  bool is_auto_providing_;
+  std::vector<std::size_t> looked_at_;  ///< by slot: objects since the last flush
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::string>, AttributeSet>
+      requests_;  ///< by asking federate's slot, region, class and tag
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::string>, AttributeSet>
+      to_provide_;  ///< by owner's slot, object and tag
+  std::vector<Asked> asked_of_rti_;
+};
+
+}  // namespace rink::rti
