@@ -69,7 +69,7 @@ void FederationExecution::set_time(double now) { parts_->interest_.set_time(now)
 
 void FederationExecution::flush(Outlet& outlet) {
   parts_->settle_time();
-  parts_->tell_object_relevance();
+  parts_->declarations_.tell_object_relevance();
   if (parts_->management_objects_) parts_->management_objects_->tell();
   parts_->flush(outlet);
 }

@@ -173,9 +173,8 @@ void FederationParts::announce(std::uint32_t slot, ObjectSlot at, std::vector<st
     say(bytes, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
     ++federates_[slot].objects_discovered;
     update_requests_.discovered(slot, at, interest.told(at, object.object_class));
+    owners_.discovered(slot, at);
   }
-  if (object.negotiation != Object::no_negotiation && !interest.known.contains(at))
-    offer_to(slot, at, ownership_.all(at));
   interest.known.insert(at);
   interest.unannounced.erase(at);
   say(bytes, InScopeMessage{object.handle.value});
@@ -186,7 +185,7 @@ void FederationParts::announce(std::uint32_t slot, ObjectSlot at, std::vector<st
 void FederationParts::press(std::uint32_t slot, ObjectSlot object) {
   FederateInterest& interest = interest_.of(slot);
   announce(slot, object, federates_[slot].outbox.head());
-  say_last_state(slot, object, newest_.of(object));
+  owners_.say_state(slot, object, newest_.of(object));
   interest.fresh.erase(object);
   interest.has_fresh = true;
   interest.pressing.push_back(object);

@@ -13,7 +13,7 @@ namespace rink::rti {
 
 bool FederationParts::ManagementObjects::is_heard(const FederationParts& parts) {
   const auto heard = [&parts](ObjectClassHandle each) {
-    return each && !parts.relevance_.of_others(no_federate, each.value).heard.is_empty();
+    return each && parts.declarations_.is_heard(each);
   };
   return heard(parts.management_.federation) || heard(parts.management_.federate);
 }
@@ -56,24 +56,15 @@ void FederationParts::ManagementObjects::end() {
 }
 
 void FederationParts::ManagementObjects::add(Told& told, ObjectClassHandle object_class) {
-  Federate& self = parts_.federates_[slot_];
-  if (self.objects_registered ==
-      object_block) {  // those who come and go have used up all handles of the block
-    parts_.objects_.close_block(self.block);
-    self.block = parts_.federates_.take_block();
-    self.objects_registered = 0;
-  }
   told = {};
-  told.object = {self.block * object_block + self.objects_registered++};
+  told.object = parts_.object_service_.register_own(slot_, object_class);
   told.is_due = true;
-  parts_.interest_.object_registered(parts_.objects_.insert(
-      told.object, slot_, static_cast<std::uint16_t>(object_class.value), {}));
   if (&told != &federation_)
     slots_[told.object.value] = static_cast<std::uint32_t>(&told - federates_.data());
 }
 
 void FederationParts::ManagementObjects::remove(Told& told) {
-  if (told.object) parts_.delete_object(parts_.objects_.find(told.object));
+  if (told.object) parts_.object_service_.remove(parts_.objects_.find(told.object));
   slots_.erase(told.object.value);
   told = {};
 }
@@ -177,7 +168,7 @@ void FederationParts::ManagementObjects::tell_federate(std::uint32_t slot, Told&
        {federate.counts.reflections_received, federate.counts.updates_sent,
         federate.counts.interactions_received, federate.counts.interactions_sent,
         std::uint64_t{deletable_[slot]}, federate.objects_deleted, federate.objects_removed,
-        std::uint64_t{federate.objects_registered}, federate.objects_discovered})
+        std::uint64_t{parts_.object_service_.registered(slot)}, federate.objects_discovered})
     value([&](ManagementWriter to) { to.count(count); });
   update(told);
 }

@@ -61,8 +61,12 @@ FederationParts::FederationParts(const Fom& fom, const FederationSettings& setti
       groups_(groups_of(services)),
       interactions_(basis_, *groups_, interest_, publications_),
       update_requests_(basis_, ownership_, interest_, known_),
+      object_service_(basis_, {ownership_, interest_, publications_, known_, names_, newest_,
+                               arrivals_, transportation_}),
+      regions_(basis_, {interest_, ownership_, known_, update_requests_}),
+      owners_(basis_, {ownership_, interest_, publications_, known_, newest_, object_service_}),
+      declarations_(basis_, {interest_, ownership_, publications_, interactions_, owners_}),
       baselines_(fom, settings.keyframe_period),
-      relevance_(fom.object_classes().size() + fom.interaction_classes().size()),
       management_(fom) {}
 
 void FederationParts::connect(ConnectionId connection) {
@@ -159,9 +163,10 @@ void FederationParts::admit(ConnectionId connection, const JoinMessage& message)
   best_effort_receiver_.joined(slot);
   update_requests_.joined(slot);
   interactions_.joined(slot);
-  federate.told_relevance.resize(relevance_.row_count());
+  object_service_.joined(slot);
+  owners_.joined(slot);
+  declarations_.joined(slot);
   federate.last_said = now_;
-  federate.resign_action = fom_.switches().automatic_resign_action;
   interest_.add_federate(slot);
   connections_[connection].phase = Phase::joined;
   connections_[connection].federate = slot;
@@ -176,12 +181,12 @@ void FederationParts::admit(ConnectionId connection, const JoinMessage& message)
 }
 
 void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
-  leave_objects(slot);
+  owners_.left(slot);
   interest_.remove_federate(slot);
   update_requests_.left(slot);
   buffering_->remove_federate(slot);
   baselines_.forget(slot);
-  give_back_blocks(federates_[slot]);
+  object_service_.left(slot);
   federates_.retire(slot);
   subscribed(slot);
   if (management_objects_) management_objects_->left(slot);
@@ -200,13 +205,16 @@ void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
   newest_.left(slot);
   arrivals_.left(slot);
   best_effort_receiver_.left(slot);
+  declarations_.left(slot);
   federates_.release(slot);
 }
 
-void FederationParts::give_back_blocks(const Federate& federate) {
-  if (federate.further_block) federates_.give_back(*federate.further_block);
-  if (federate.objects_registered == 0) federates_.give_back(federate.block);
-  else objects_.close_block(federate.block);  // its handles have been seen
+/// Publishers hear at once of what a federate subscribes now, and so do the RTI's own objects.
+void FederationParts::subscribed(std::uint32_t slot) {
+  declarations_.subscriptions_changed(slot);
+  if (!management_objects_ && ManagementObjects::is_heard(*this))
+    management_objects_ = std::make_unique<ManagementObjects>(*this);
+  if (management_objects_) management_objects_->subscribed(slot);
 }
 
 Outcome FederationParts::resign(std::uint32_t slot) {

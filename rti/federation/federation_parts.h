@@ -8,16 +8,19 @@
 #include "rti/baselines/baselines.h"
 #include "rti/buffering/buffering.h"
 #include "rti/central_component.h"
-#include "rti/distribution/relevance.h"
 #include "rti/federation/delivery/best_effort_receiver.h"
 #include "rti/federation/delivery/flush_context.h"
 #include "rti/federation/federate_table.h"
 #include "rti/federation/federation_connection.h"
 #include "rti/federation/joined_federate.h"
 #include "rti/federation/outcome.h"
+#include "rti/federation/services/declarations.h"
 #include "rti/federation/services/interactions.h"
 #include "rti/federation/services/object_names.h"
+#include "rti/federation/services/object_service.h"
+#include "rti/federation/services/ownership_service.h"
 #include "rti/federation/services/publications.h"
+#include "rti/federation/services/region_service.h"
 #include "rti/federation/services/synchronization.h"
 #include "rti/federation/services/update_requests.h"
 #include "rti/federation_counters.h"
@@ -58,11 +61,11 @@ class FederationParts {
   std::vector<std::byte> framed_digest() const;
   void admit(ConnectionId connection, const JoinMessage& message);
   void remove_federate(std::uint32_t slot, ResignReason reason);
-  void give_back_blocks(const Federate& federate);
   void expel(ConnectionId connection, Violation violation, ResignReason reason,
              std::string_view why);
   Outcome resign(std::uint32_t slot);
   Outcome watch(Federate& federate);
+  void subscribed(std::uint32_t slot);
 
   // Federation management (federation_management.cpp).
   Outcome answer_stranger(ConnectionId connection, MessageKind kind, Reader& reader);
@@ -79,8 +82,6 @@ class FederationParts {
   // The management object model (federation_management_objects.h). Nothing is kept, and nothing
   // done, while nobody subscribes to it.
   class ManagementObjects;
-  void manage_subscriptions(std::uint32_t slot);
-  Subscription others_hear(std::uint32_t slot, std::size_t row) const;
   Outcome take_management(std::uint32_t slot, const InteractionMessage& message);
   template <class SetOf, class Write>
   void report_classes(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report,
@@ -96,62 +97,6 @@ class FederationParts {
   void receive(ConnectionId connection, Bytes bytes);
   void receive_datagram(ConnectionId connection, Bytes datagram);
   Outcome take_frame(ConnectionId connection, Bytes frame);
-  Outcome register_object(std::uint32_t slot, Reader& reader);
-  void refuse_object(std::uint32_t slot, ObjectHandle object);
-  Outcome delete_object(std::uint32_t slot, Reader& reader);
-  /// All who know it are told, who deleted it too: up to then it may hear of it.
-  void delete_object(ObjectSlot object);
-  /// Objects that `federate` has registered and that are there.
-  std::size_t registered_alive(const Federate& federate) const;
-  void extend_block(Federate& federate);
-
-  // Declarations (federation_declarations.cpp).
-  Outcome publish_object_class(std::uint32_t slot, Reader& reader);
-  Outcome subscribe_object_class(std::uint32_t slot, Reader& reader);
-  Outcome publish_interaction_class(std::uint32_t slot, Reader& reader);
-  void subscribed(std::uint32_t slot);
-  void tell_publishers(std::size_t row);
-  bool publishes(std::uint32_t slot, std::size_t row) const;
-  void tell_relevance(std::uint32_t slot, std::size_t row);
-  Outcome switch_advisory(std::uint32_t slot, Reader& reader);
-  void tell_object_relevance();
-
-  // Objects beyond updates (federation_objects.cpp).
-  Outcome delete_locally(std::uint32_t slot, Reader& reader);
-
-  // Regions (federation_regions.cpp).
-  Outcome create_or_delete_region(std::uint32_t slot, MessageKind kind, Reader& reader);
-  Outcome create_region(std::uint32_t slot, RegionHandle region, DimensionSet dimensions);
-  Outcome create_region_over(std::uint32_t slot, Reader& reader);
-  Outcome modify_regions(std::uint32_t slot, Reader& reader);
-  Outcome modify_ranges(std::uint32_t slot, Reader& reader);
-  Outcome associate_region(std::uint32_t slot, Reader& reader);
-  Outcome associate_regions(std::uint32_t slot, Reader& reader);
-  Outcome take_regional_class(std::uint32_t slot, Reader& reader);
-
-  // Ownership (federation_ownership.cpp).
-  Outcome take_resign_directive(std::uint32_t slot, Reader& reader);
-  Outcome take_ownership_requests(std::uint32_t slot, Reader& reader);
-  Outcome take_ownership_request(std::uint32_t slot, const OwnershipRequestMessage& message,
-                                 ObjectHandle object);
-  Outcome query_ownership(std::uint32_t slot, Reader& reader);
-  AttributeSet acquirable(std::uint32_t slot, ObjectSlot object) const;
-  void serve_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
-                       AttributeSet attributes, Bytes tag);
-  void give_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
-                      AttributeSet attributes, Bytes tag);
-  void ownership_moved(ObjectSlot object, const Stamp& newest);
-  void notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object,
-              AttributeSet attributes, Bytes tag);
-  void say_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
-                     Ownership::Events events, Bytes tag, const Stamp& newest);
-  void offer_to_all(std::uint32_t from, ObjectSlot object, AttributeSet attributes, Bytes tag);
-  void offer_to(std::uint32_t slot, ObjectSlot object, AttributeSet newly_published);
-  void say_last_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest);
-  void published_changed(std::uint32_t slot, std::uint16_t object_class, AttributeSet before);
-  template <class Visit>
-  void for_each_owned(std::uint32_t slot, Visit visit);
-  void leave_objects(std::uint32_t slot);
 
   // What goes out (federation_flush.cpp).
   void flush(Outlet& outlet);
@@ -208,7 +153,6 @@ class FederationParts {
   Synchronization synchronization_{federates_};
   ObjectTable objects_;
   Ownership ownership_;
-  bool has_ownership_moved_ = false;  ///< else whatever a federate owns is in its block
   std::unique_ptr<DataDistribution> distribution_;
   DataDistribution& interest_;  ///< the same
   std::unique_ptr<Buffering> buffering_;
@@ -223,13 +167,15 @@ class FederationParts {
   std::unique_ptr<GroupCommunication> groups_;
   Interactions interactions_;
   UpdateRequests update_requests_;
+  ObjectService object_service_;
+  RegionService regions_;
+  OwnershipService owners_;
+  Declarations declarations_;
   Baselines baselines_;
-  std::vector<Connection> connections_;  ///< by id
-  Relevance relevance_;
+  std::vector<Connection> connections_;           ///< by id
   std::vector<ConnectionId> management_queries_;  ///< that wait for the next flush
   std::vector<Farewell> farewells_,
       answers_;  ///< answers go to those who have not joined, and don't end their connection
-  std::vector<Range> ranges_;  ///< of the region at hand
   std::unique_ptr<Time> time_;
   ManagementHandles management_;
   std::unique_ptr<ManagementObjects>
@@ -240,16 +186,5 @@ class FederationParts {
   std::vector<ObjectSlot> told_whole_;
   std::vector<std::byte> values_;
 };
-
-template <class Visit>
-void FederationParts::for_each_owned(std::uint32_t slot, Visit visit) {
-  if (!has_ownership_moved_) {
-    for (const std::uint32_t block : federates_[slot].former_blocks)
-      objects_.for_each_in_block(block, visit);
-    return objects_.for_each_in_block(federates_[slot].block, visit);
-  }
-  for (ObjectSlot object = 0; object < objects_.slot_count(); ++object)
-    if (objects_[object].is_alive && !ownership_.owned_by(slot, object).is_empty()) visit(object);
-}
 
 }  // namespace rink::rti

@@ -161,7 +161,7 @@ void FederationParts::Time::complete(const Message& message) {
   if (slot == no_object) return;
   if (message.kind == MessageKind::delete_object) {
     told_until_.erase(message.object);
-    return parts_.delete_object(slot);
+    return parts_.object_service_.remove(slot);
   }
   if (!is_news(message)) return;
   parts_.objects_.store(slot, message.attributes, message.body);

@@ -28,18 +28,9 @@ struct JoinedFederate {
   bool is_joined = false, is_watching = false;
   ConnectionId connection = 0;
   FederateHandle handle;
-  std::uint32_t block = 0;                       ///< of its objects' handles
-  std::uint32_t objects_registered = 0;          ///< in that block
-  std::optional<std::uint32_t> further_block{};  ///< that it was given for when this one is used up
-  std::vector<std::uint32_t> former_blocks{};    ///< used up
-  std::size_t name_bytes = 0;                    ///< of their names
+  std::uint32_t block = 0;  ///< of its objects' handles
   std::string name, type;
-  std::vector<Subscription>
-      told_relevance;  ///< what it was told that others hear, by row of `Relevance`
-  std::unique_ptr<ObjectMap<AttributeSet>>
-      told_objects;  ///< likewise of objects, if it asked for it: those that others hear
   Outbox outbox;
-  ResignAction resign_action = ResignAction::cancel_then_delete_then_divest;
   double last_said = 0.0;
   double report_period = 0.0;  ///< of its HLAfederate object [s]; 0: none
   double lookahead = 0.0;      ///< as it last asked for [s]

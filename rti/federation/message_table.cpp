@@ -71,30 +71,30 @@ class MessageTable {
   }
   constexpr void add_declarations() {
     at(Kind::publish_object_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.publish_object_class(slot, reader);
+      return parts.declarations_.handle_publish_class(slot, reader);
     };
     at(Kind::subscribe_object_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.subscribe_object_class(slot, reader);
+      return subscribed(parts, slot, parts.declarations_.handle_subscribe_class(slot, reader));
     };
     at(Kind::publish_interaction_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.publish_interaction_class(slot, reader);
+      return parts.declarations_.handle_publish_interaction(slot, reader);
     };
     at(Kind::subscribe_interaction_class) = [](Parts& parts, Slot slot, Reader& reader) {
       return subscribed(parts, slot, parts.interactions_.handle_subscribe(slot, reader));
     };
     at(Kind::advisory_switch) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.switch_advisory(slot, reader);
+      return parts.declarations_.handle_advisory_switch(slot, reader);
     };
   }
   constexpr void add_objects() {
     at(Kind::register_object) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.register_object(slot, reader);
+      return parts.object_service_.handle_register(slot, reader);
     };
     at(Kind::delete_object) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.delete_object(slot, reader);
+      return parts.object_service_.handle_delete(slot, reader);
     };
     at(Kind::local_delete) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.delete_locally(slot, reader);
+      return parts.object_service_.handle_local_delete(slot, reader);
     };
     at(Kind::instance_names) = [](Parts& parts, Slot slot, Reader& reader) {
       return parts.names_.handle(slot, reader);
@@ -131,28 +131,30 @@ class MessageTable {
   }
   constexpr void add_regions() {
     at(Kind::create_region) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.create_or_delete_region(slot, Kind::create_region, reader);
+      return parts.regions_.handle_create(slot, reader);
     };
     at(Kind::delete_region) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.create_or_delete_region(slot, Kind::delete_region, reader);
+      const Outcome outcome = parts.regions_.handle_delete(slot, reader);
+      if (!outcome) parts.interactions_.join_groups(slot);
+      return subscribed(parts, slot, outcome);
     };
     at(Kind::create_region_over) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.create_region_over(slot, reader);
+      return parts.regions_.handle_create_over(slot, reader);
     };
     at(Kind::modify_regions) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.modify_regions(slot, reader);
+      return parts.regions_.handle_modify(slot, reader);
     };
     at(Kind::modify_ranges) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.modify_ranges(slot, reader);
+      return parts.regions_.handle_modify_ranges(slot, reader);
     };
     at(Kind::associate_region) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.associate_region(slot, reader);
+      return parts.regions_.handle_associate(slot, reader);
     };
     at(Kind::associate_regions) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.associate_regions(slot, reader);
+      return parts.regions_.handle_associate_parts(slot, reader);
     };
     at(Kind::regional_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_regional_class(slot, reader);
+      return subscribed(parts, slot, parts.regions_.handle_class(slot, reader));
     };
     at(Kind::regional_interaction) = [](Parts& parts, Slot slot, Reader& reader) {
       return subscribed(parts, slot, parts.interactions_.handle_subscribe_within(slot, reader));
@@ -166,13 +168,13 @@ class MessageTable {
   }
   constexpr void add_ownership() {
     at(Kind::ownership_request) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_ownership_requests(slot, reader);
+      return parts.owners_.handle_requests(slot, reader);
     };
     at(Kind::query_ownership) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.query_ownership(slot, reader);
+      return parts.owners_.handle_query(slot, reader);
     };
     at(Kind::resign_directive) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_resign_directive(slot, reader);
+      return parts.owners_.handle_resign_directive(slot, reader);
     };
   }
   constexpr void add_time() {

@@ -1,0 +1,83 @@
+// Ownership management at the RTI: checks what federates ask, lets the state machine decide, tells
+// everybody concerned.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rti/distribution/data_distribution.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/outcome.h"
+#include "rti/federation/services/known_objects.h"
+#include "rti/federation/services/newest_stamps.h"
+#include "rti/federation/services/object_service.h"
+#include "rti/federation/services/publications.h"
+#include "rti/ownership/ownership.h"
+#include "rti/wire/ownership_messages.h"
+
+namespace rink::rti {
+
+class OwnershipService {
+ public:
+  struct Uses {
+    Ownership& ownership;
+    DataDistribution& distribution;
+    const Publications& publications;
+    KnownObjects& known;
+    NewestStamps& newest;
+    ObjectService& objects;
+  };
+  OwnershipService(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
+
+  Outcome handle_requests(std::uint32_t slot, Reader& reader);
+  Outcome handle_query(std::uint32_t slot, Reader& reader);
+  Outcome handle_resign_directive(std::uint32_t slot, Reader& reader);
+
+  /// Publishing less gives up what it owns of it (5.3); publishing more, it may be asked to take
+  /// what has no owner.
+  void published_changed(std::uint32_t slot, std::uint16_t object_class, AttributeSet before);
+  /// It may take what looks for an owner.
+  void discovered(std::uint32_t slot, ObjectSlot object);
+  /// The newest state goes before all that the next flush says to it.
+  void say_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest);
+  /// Calls `visit(object)` for each object of which it owns anything.
+  template <class Visit>
+  void for_each_owned(std::uint32_t slot, Visit visit) const {
+    if (!has_moved_) return uses_.objects.for_each_registered(slot, visit);
+    for (ObjectSlot object = 0; object < basis_.objects.slot_count(); ++object)
+      if (basis_.objects[object].is_alive && !uses_.ownership.owned_by(slot, object).is_empty())
+        visit(object);
+  }
+  void joined(std::uint32_t slot);
+  /// What it owns goes the way that it chose.
+  void left(std::uint32_t slot);
+
+ private:
+  Outcome take(std::uint32_t slot, const OwnershipRequestMessage& message, ObjectHandle handle);
+  AttributeSet acquirable(std::uint32_t slot, ObjectSlot object) const;
+  void serve(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
+             AttributeSet attributes, Bytes tag);
+  Ownership::Events decide(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
+                           AttributeSet attributes, Bytes tag);
+  void give(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
+            AttributeSet attributes, Bytes tag);
+  void moved(ObjectSlot object, const Stamp& newest);
+  void notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object,
+              AttributeSet attributes, Bytes tag);
+  /// Of one request.
+  struct Told {
+    OwnershipRequest request;
+    Bytes tag;
+    Stamp newest;  ///< of the object, before anything moved
+  };
+  void tell(std::uint32_t slot, ObjectSlot object, Ownership::Events events, const Told& told);
+  void offer_to_all(std::uint32_t from, ObjectSlot object, AttributeSet attributes, Bytes tag);
+  void offer_to(std::uint32_t slot, ObjectSlot object, AttributeSet newly_published);
+
+  FederationBasis basis_;
+  Uses uses_;
+  bool has_moved_ = false;                    ///< else whatever a federate owns is in its blocks
+  std::vector<ResignAction> resign_actions_;  ///< by slot
+};
+
+}  // namespace rink::rti

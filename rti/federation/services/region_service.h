@@ -1,0 +1,49 @@
+// What federates say of regions: checked once, here; then it is the data distribution's (IEEE
+// 1516.1-2010, clause 9).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rti/distribution/data_distribution.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/outcome.h"
+#include "rti/federation/services/known_objects.h"
+#include "rti/federation/services/update_requests.h"
+#include "rti/ownership/ownership.h"
+#include "rti/wire/region_messages.h"
+
+namespace rink::rti {
+
+class RegionService {
+ public:
+  struct Uses {
+    DataDistribution& distribution;
+    const Ownership& ownership;
+    KnownObjects& known;
+    UpdateRequests& requests;
+  };
+  RegionService(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
+
+  Outcome handle_create(std::uint32_t slot, Reader& reader);
+  Outcome handle_create_over(std::uint32_t slot, Reader& reader);
+  /// Its subscriptions end.
+  Outcome handle_delete(std::uint32_t slot, Reader& reader);
+  Outcome handle_modify(std::uint32_t slot, Reader& reader);
+  Outcome handle_modify_ranges(std::uint32_t slot, Reader& reader);
+  Outcome handle_associate(std::uint32_t slot, Reader& reader);
+  Outcome handle_associate_parts(std::uint32_t slot, Reader& reader);
+  /// A subscription, its end, or a request for updates.
+  Outcome handle_class(std::uint32_t slot, Reader& reader);
+
+ private:
+  Outcome create(std::uint32_t slot, RegionHandle region, DimensionSet dimensions);
+  void subscribe(std::uint32_t slot, const RegionalClassMessage& message, RegionHandle region,
+                 AttributeSet attributes);
+
+  FederationBasis basis_;
+  Uses uses_;
+  std::vector<Range> ranges_;  ///< of the region at hand
+};
+
+}  // namespace rink::rti
