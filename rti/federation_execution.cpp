@@ -81,7 +81,7 @@ std::size_t FederationExecution::federate_count() const {
 std::size_t FederationExecution::object_count() const { return parts_->objects_.size(); }
 const FederationCounters& FederationExecution::counters() const { return parts_->counters_; }
 const BaselineCounters& FederationExecution::baseline_counters() const {
-  return parts_->baselines_.counters();
+  return parts_->periodic_.counters();
 }
 const im::Filter& FederationExecution::filter() const { return parts_->interest_.filter(); }
 const DataDistribution& FederationExecution::distribution() const { return parts_->interest_; }

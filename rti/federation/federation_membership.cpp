@@ -66,7 +66,16 @@ FederationParts::FederationParts(const Fom& fom, const FederationSettings& setti
       regions_(basis_, {interest_, ownership_, known_, update_requests_}),
       owners_(basis_, {ownership_, interest_, publications_, known_, newest_, object_service_}),
       declarations_(basis_, {interest_, ownership_, publications_, interactions_, owners_}),
-      baselines_(fom, settings.keyframe_period),
+      announcements_(basis_, {interest_, owners_, update_requests_, newest_}),
+      periodic_(basis_),
+      turns_(basis_, interest_, newest_),
+      sender_(basis_,
+              {interest_, *buffering_, newest_, announcements_, periodic_, turns_,
+               best_effort_sender_, best_effort_receiver_},
+              [this](std::uint32_t slot, Violation violation, ResignReason reason,
+                     std::string_view why) {
+                expel(federates_[slot].connection, violation, reason, why);
+              }),
       management_(fom) {}
 
 void FederationParts::connect(ConnectionId connection) {
@@ -185,7 +194,7 @@ void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
   interest_.remove_federate(slot);
   update_requests_.left(slot);
   buffering_->remove_federate(slot);
-  baselines_.forget(slot);
+  periodic_.left(slot);
   object_service_.left(slot);
   federates_.retire(slot);
   subscribed(slot);

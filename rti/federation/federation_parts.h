@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "rti/baselines/baselines.h"
 #include "rti/buffering/buffering.h"
 #include "rti/central_component.h"
 #include "rti/federation/delivery/best_effort_receiver.h"
-#include "rti/federation/delivery/flush_context.h"
+#include "rti/federation/delivery/sender.h"
 #include "rti/federation/federate_table.h"
 #include "rti/federation/federation_connection.h"
 #include "rti/federation/joined_federate.h"
@@ -100,26 +99,6 @@ class FederationParts {
 
   // What goes out (federation_flush.cpp).
   void flush(Outlet& outlet);
-  void look_ahead(std::uint32_t slot);
-  void flush_federate(FlushContext& context, Outlet& outlet);
-  void tell(FlushContext& context, Outlet& outlet);
-  void settle_interest(FlushContext& context);
-  std::size_t entry_room(const FlushContext& context, const Outlet& outlet) const;
-  void write_scope_events(FlushContext& context, std::size_t end);
-  void announce(std::uint32_t slot, ObjectSlot object, std::vector<std::byte>& bytes);
-  void press(std::uint32_t slot, ObjectSlot object);
-  void write_fresh_states(FlushContext& context, std::size_t end);
-  // Tiers and budgets (federation_turns.cpp). Nothing is done for a filter that says neither.
-  void take_turns(FlushContext& context);
-  void note_late(const FlushContext& context, Turns& turns);
-  std::size_t bytes_due(std::uint32_t slot, ObjectSlot object) const;
-  void catch_up(FlushContext& context);
-  bool holds_back(const FlushContext& context, const Outlet& outlet);
-  void hold_back(FlushContext& context);
-  void gather_runs(FlushContext& context);
-  void gather_run(const UpdateRun& run, FlushContext& context);
-  void gather_cut_run(const UpdateRun& run, FlushContext& context);
-  void send_frame(Federate& federate, Outlet& outlet);
 
   // Time management (federation_time.h). Nothing is kept, and nothing done, before the first
   // message of that kind.
@@ -128,19 +107,10 @@ class FederationParts {
   void settle_time();
   void leave_time(std::uint32_t slot);
 
-  void write_due_states(FlushContext& context);
-
   template <class Message>
   static void say(std::vector<std::byte>& bytes, Message message) {
     write(bytes, message);
   }
-
-  // Periodic state by baselines (federation_baselines.cpp).
-  Outcome take_keyframe(std::uint32_t slot, MessageKind kind, Reader& reader);
-  void gather_periodic(std::size_t run, FlushContext& context);
-  void cut_periodic(const UpdateRun& run, const DeltaBlock& block, FlushContext& context);
-  void count_periodic(std::size_t records, std::size_t differences);
-  void begin_keyframe(const Stamp& stamp, GatheredFrame& frame);
 
   const Fom& fom_;
   FederationSettings settings_;
@@ -171,7 +141,10 @@ class FederationParts {
   RegionService regions_;
   OwnershipService owners_;
   Declarations declarations_;
-  Baselines baselines_;
+  Announcements announcements_;
+  PeriodicWriter periodic_;
+  TurnWriter turns_;
+  Sender sender_;
   std::vector<Connection> connections_;           ///< by id
   std::vector<ConnectionId> management_queries_;  ///< that wait for the next flush
   std::vector<Farewell> farewells_,
@@ -180,11 +153,6 @@ class FederationParts {
   ManagementHandles management_;
   std::unique_ptr<ManagementObjects>
       management_objects_;  ///< null until somebody subscribes to its objects
-
-  /// Lent to the flush at hand.
-  GatheredFrame frame_;
-  std::vector<ObjectSlot> told_whole_;
-  std::vector<std::byte> values_;
 };
 
 }  // namespace rink::rti

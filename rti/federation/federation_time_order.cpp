@@ -123,7 +123,7 @@ bool FederationParts::Time::tell(std::uint32_t slot, const Message& message, Att
       interest.known.erase(object);
     } else if (is_in_scope && (!is_known || interest.unannounced.contains(object) ||
                                interest.fresh.contains(object))) {
-      parts_.press(slot, object);
+      parts_.announcements_.press(slot, object);
     }
   }
   write_content(message, told);

@@ -123,10 +123,10 @@ class MessageTable {
       return parts.transportation_.handle_query(slot, reader);
     };
     at(Kind::acknowledge_keyframe) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_keyframe(slot, Kind::acknowledge_keyframe, reader);
+      return parts.periodic_.handle_acknowledgement(slot, reader);
     };
     at(Kind::refuse_keyframe) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_keyframe(slot, Kind::refuse_keyframe, reader);
+      return parts.periodic_.handle_refusal(slot, reader);
     };
   }
   constexpr void add_regions() {

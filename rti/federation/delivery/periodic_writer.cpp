@@ -1,5 +1,8 @@
-// Periodic state on its way out, and what federates say of the keyframes that they were sent.
-#include "rti/federation/federation_parts.h"
+// Differences to the keyframes that each federate has acknowledged.
+#include "rti/federation/delivery/periodic_writer.h"
+
+#include <bit>
+
 #include "rti/wire/baseline_messages.h"
 
 namespace rink::rti {
@@ -50,7 +53,7 @@ class Wanted {
 
 }  // namespace
 
-void FederationParts::gather_periodic(std::size_t index, FlushContext& context) {
+void PeriodicWriter::gather(std::size_t index, FlushContext& context) {
   const UpdateRun& run = context.runs[index];
   const std::uint32_t slot = context.slot;
   const Wanted wanted(run, context.interest);
@@ -66,15 +69,14 @@ void FederationParts::gather_periodic(std::size_t index, FlushContext& context) 
   }
   if (!is_any) return;
   context.frame.write_stamp(run.stamp);
-  if (!knows_all || !wanted.is_all()) return cut_periodic(run, block, context);
+  if (!knows_all || !wanted.is_all()) return cut(run, block, context);
   ++baselines_.counters().blocks_shared;
-  count_periodic(block.records.size(), block.difference_count);
+  count(block.records.size(), block.difference_count);
   context.frame.add_shared(block.message);
 }
 
 /// The records in the federate's interest, bit by bit; those whose baseline it lacks are absolute.
-void FederationParts::cut_periodic(const UpdateRun& run, const DeltaBlock& block,
-                                   FlushContext& context) {
+void PeriodicWriter::cut(const UpdateRun& run, const DeltaBlock& block, FlushContext& context) {
   const std::uint32_t slot = context.slot;
   context.frame.say(DeltasMessage{run.object_class});
   BitWriter bits(context.frame.bytes());
@@ -94,26 +96,32 @@ void FederationParts::cut_periodic(const UpdateRun& run, const DeltaBlock& block
     differences += record.is_difference && is_known ? 1 : 0;
   });
   write_end(bits);
-  count_periodic(records, differences);
+  count(records, differences);
 }
 
-void FederationParts::count_periodic(std::size_t records, std::size_t differences) {
-  counters_.updates_sent += records;
+void PeriodicWriter::count(std::size_t records, std::size_t differences) {
+  basis_.counters.updates_sent += records;
   baselines_.counters().differences_sent += differences;
   baselines_.counters().absolutes_sent += records - differences;
 }
 
-void FederationParts::begin_keyframe(const Stamp& stamp, GatheredFrame& frame) {
+void PeriodicWriter::begin_keyframe(const Stamp& stamp, GatheredFrame& frame) {
   if (!frame.begins_keyframe()) return;
   frame.write_stamp(stamp);
   frame.say(BeginKeyframeMessage{*baselines_.keyframe()});
 }
 
-Outcome FederationParts::take_keyframe(std::uint32_t slot, MessageKind kind, Reader& reader) {
+Outcome PeriodicWriter::handle_acknowledgement(std::uint32_t slot, Reader& reader) {
   AcknowledgeKeyframeMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  if (kind == MessageKind::acknowledge_keyframe) baselines_.acknowledge(slot, message.number);
-  else baselines_.refuse(slot);
+  baselines_.acknowledge(slot, message.number);
+  return std::nullopt;
+}
+
+Outcome PeriodicWriter::handle_refusal(std::uint32_t slot, Reader& reader) {
+  RefuseKeyframeMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  baselines_.refuse(slot);
   return std::nullopt;
 }
 

@@ -1,23 +1,22 @@
-// Who is in scope and not told of yet, for his tier's turn has not come or his subscriber's budget
-// is spent: what becomes late of him, and when it is told.
-#include <bit>
+// Turns worked out 64 objects at a time.
+#include "rti/federation/delivery/turn_writer.h"
 
-#include "rti/federation/federation_parts.h"
+#include <bit>
+#include <optional>
+
 #include "rti/wire/updates_block.h"
 
 namespace rink::rti {
 
-/// Decides for the flush at hand. Of whom it is the turn, that goes out by this flush's updates if
-/// they say all that is late of him, so that it is shared, goes by datagram or as a difference like
-/// anybody's; else by `catch_up`.
-void FederationParts::take_turns(FlushContext& context) {
+void TurnWriter::take_turns(FlushContext& context) {
   const std::uint32_t slot = context.slot;
   FederateInterest& interest = context.interest;
   Turns& turns = *interest.turns;
-  interest_.take_turns(slot);
+  distribution_.take_turns(slot);
   note_late(context, turns);
-  if (interest_.has_budget())
-    interest_.share_out(slot, [this, slot](ObjectSlot object) { return bytes_due(slot, object); });
+  if (distribution_.has_budget())
+    distribution_.share_out(slot,
+                            [this, slot](ObjectSlot object) { return bytes_due(slot, object); });
   turns.caught_up.clear();
   turns.heard.clear();
   const auto is_due = [&](std::size_t i) {
@@ -31,7 +30,7 @@ void FederationParts::take_turns(FlushContext& context) {
     for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
       const std::uint64_t members = run.members.word(i);
       turns.caught_up.erase_word(i, members & ~turns.late.beyond(i, run.attributes));
-      counters_.updates_put_off += static_cast<std::uint64_t>(std::popcount(
+      basis_.counters.updates_put_off += static_cast<std::uint64_t>(std::popcount(
           members & interest.in_scope.word(i) & turns.waiting.word(i) & ~interest.fresh.word(i)));
     }
   }
@@ -45,12 +44,12 @@ void FederationParts::take_turns(FlushContext& context) {
 /// Of those who wait, or did so: what this flush's updates say becomes late; under a budget of all,
 /// for who waits is not known yet. What was late of whom is out of scope is forgotten: if he comes
 /// back he is told of whole.
-void FederationParts::note_late(const FlushContext& context, Turns& turns) {
+void TurnWriter::note_late(const FlushContext& context, Turns& turns) {
   const FederateInterest& interest = context.interest;
   for (std::size_t i = 0; i < turns.late.word_count(); ++i)
     if (const std::uint64_t gone = turns.late.any(i) & ~interest.in_scope.word(i); gone != 0)
       turns.late.told(i, gone);
-  const bool has_budget = interest_.has_budget();
+  const bool has_budget = distribution_.has_budget();
   for (const UpdateRun& run : context.runs) {
     if (run.owner == context.slot ||
         (interest.is_uniform && (interest.by_class[run.object_class] & run.attributes).is_empty()))
@@ -66,25 +65,24 @@ void FederationParts::note_late(const FlushContext& context, Turns& turns) {
 }
 
 /// What telling of `object` takes now; its state on entry whole.
-std::size_t FederationParts::bytes_due(std::uint32_t slot, ObjectSlot object) const {
+std::size_t TurnWriter::bytes_due(std::uint32_t slot, ObjectSlot object) const {
   constexpr std::size_t handle_bytes = 2;  // a step to the next handle, mostly
-  const FederateInterest& interest = interest_.of(slot);
+  const FederateInterest& interest = distribution_.of(slot);
   const bool is_fresh = interest.fresh.contains(object);
   const AttributeSet told =
-      interest.told(object, objects_[object].object_class) & objects_[object].valued;
+      interest.told(object, basis_.objects[object].object_class) & basis_.objects[object].valued;
   const AttributeSet set = is_fresh ? told : told & interest.turns->late.of(object);
-  return set.is_empty() ? (is_fresh ? 1 : 0) : handle_bytes + objects_.size_of(object, set);
+  return set.is_empty() ? (is_fresh ? 1 : 0) : handle_bytes + basis_.objects.size_of(object, set);
 }
 
-/// The newest state of whom has waited, as far as it is late.
-void FederationParts::catch_up(FlushContext& context) {
+void TurnWriter::catch_up(FlushContext& context) {
   const FederateInterest& interest = context.interest;
   GatheredFrame& frame = context.frame;
   Turns& turns = *interest.turns;
   const std::size_t before = frame.size();
   std::optional<UpdatesBlock> block;
   turns.caught_up.for_each([&](ObjectSlot late) {
-    const Object& object = objects_[late];
+    const Object& object = basis_.objects[late];
     const AttributeSet set = object.is_alive ? interest.told(late, object.object_class) &
                                                    object.valued & turns.late.of(late)
                                              : AttributeSet();
@@ -97,12 +95,12 @@ void FederationParts::catch_up(FlushContext& context) {
       block.emplace(frame.bytes());
     }
     block->append(object.object_class, set, object.handle,
-                  [&] { objects_.append(late, set, frame.bytes()); });
-    ++counters_.updates_sent;
-    ++counters_.updates_caught_up;
+                  [&] { basis_.objects.append(late, set, frame.bytes()); });
+    ++basis_.counters.updates_sent;
+    ++basis_.counters.updates_caught_up;
   });
   block.reset();
-  counters_.update_bytes_sent += frame.size() - before;
+  basis_.counters.update_bytes_sent += frame.size() - before;
 }
 
 }  // namespace rink::rti

@@ -1,0 +1,79 @@
+// Discoveries and changes of scope, in the order in which the matches found them.
+#include "rti/federation/delivery/announcements.h"
+
+#include <algorithm>
+
+namespace rink::rti {
+
+namespace {
+
+template <class Message>
+void say(std::vector<std::byte>& bytes, Message message) {
+  write(bytes, message);
+}
+
+}  // namespace
+
+void Announcements::write(FlushContext& context, std::size_t end) {
+  const std::size_t before = context.frame.size();
+  if (context.interest.has_unannounced) write_postponed(context, end);
+  for (const ScopeEvent& event : context.interest.events) write_event(context, event, end);
+  basis_.counters.scope_bytes_sent += context.frame.size() - before;
+}
+
+void Announcements::write_postponed(FlushContext& context, std::size_t end) {
+  FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  interest.announced_to =
+      interest.unannounced.visit_from(interest.announced_to, [&](ObjectSlot object) {
+        if (frame.size() >= end) return false;
+        if (is_too_late(interest, object)) interest.unannounced.erase(object);
+        else announce(context.slot, object, frame.bytes());
+        return true;
+      });
+  interest.has_unannounced = frame.size() >= end;
+}
+
+void Announcements::write_event(FlushContext& context, const ScopeEvent& event, std::size_t end) {
+  FederateInterest& interest = context.interest;
+  const Object& object = basis_.objects[event.slot];
+  if (!object.is_alive || std::ranges::binary_search(interest.pressing, event.slot))
+    return;  // it came and went between two flushes, or its removal is on its way
+  if (is_too_late(interest, event.slot)) return interest.unannounced.erase(event.slot);
+  if (event.transition == im::Transition::left) {
+    if (interest.unannounced.contains(event.slot)) interest.unannounced.erase(event.slot);
+    else if (interest.known.contains(event.slot))
+      context.frame.say(OutOfScopeMessage{object.handle.value});
+  } else if (context.frame.size() < end) {
+    announce(context.slot, event.slot, context.frame.bytes());
+  } else {
+    interest.unannounced.insert(event.slot);
+    interest.has_unannounced = true;
+    ++basis_.counters.entries_postponed;
+  }
+}
+
+void Announcements::announce(std::uint32_t slot, ObjectSlot at, std::vector<std::byte>& bytes) {
+  FederateInterest& interest = uses_.distribution.of(slot);
+  const Object& object = basis_.objects[at];
+  if (!interest.known.contains(at)) {
+    say(bytes, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
+    ++basis_.federates[slot].objects_discovered;
+    uses_.requests.discovered(slot, at, interest.told(at, object.object_class));
+    uses_.owners.discovered(slot, at);
+  }
+  interest.known.insert(at);
+  interest.unannounced.erase(at);
+  say(bytes, InScopeMessage{object.handle.value});
+}
+
+void Announcements::press(std::uint32_t slot, ObjectSlot object) {
+  FederateInterest& interest = uses_.distribution.of(slot);
+  announce(slot, object, basis_.federates[slot].outbox.head());
+  uses_.owners.say_state(slot, object, uses_.newest.of(object));
+  interest.fresh.erase(object);
+  interest.has_fresh = true;
+  interest.pressing.push_back(object);
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,46 @@
+// What tells a federate which objects come into its scope and which go out of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "rti/distribution/data_distribution.h"
+#include "rti/federation/delivery/flush_context.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/services/newest_stamps.h"
+#include "rti/federation/services/ownership_service.h"
+#include "rti/federation/services/update_requests.h"
+
+namespace rink::rti {
+
+class Announcements {
+ public:
+  struct Uses {
+    DataDistribution& distribution;
+    OwnershipService& owners;
+    UpdateRequests& requests;
+    const NewestStamps& newest;
+  };
+  Announcements(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
+
+  /// As many as fit into the frame up to `end`; the others stay unannounced until a later flush.
+  void write(FlushContext& context, std::size_t end);
+  /// A message in time-stamp order is about to speak of it: it is announced, and its state told,
+  /// before all else that the next flush says.
+  void press(std::uint32_t slot, ObjectSlot object);
+
+ private:
+  void write_postponed(FlushContext& context, std::size_t end);
+  void write_event(FlushContext& context, const ScopeEvent& event, std::size_t end);
+  void announce(std::uint32_t slot, ObjectSlot object, std::vector<std::byte>& bytes);
+  /// Nobody discovers it any more.
+  bool is_too_late(const FederateInterest& interest, ObjectSlot object) const {
+    return basis_.objects[object].is_leaving && !interest.known.contains(object);
+  }
+
+  FederationBasis basis_;
+  Uses uses_;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,291 @@
+// The flush, federate by federate.
+#include "rti/federation/delivery/sender.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+#include "rti/buffering/run_scope.h"
+#include "rti/fom/coded_values.h"
+#include "rti/wire/membership_messages.h"
+#include "rti/wire/update_block.h"
+#include "rti/wire/updates_block.h"
+
+namespace rink::rti {
+
+namespace {
+
+/// Every cache line of it.
+template <class Value>
+void fetch(const Value& value) {
+  for (std::size_t at = 0; at < sizeof value; at += 64)
+    __builtin_prefetch(reinterpret_cast<const char*>(&value) + at);
+}
+
+}  // namespace
+
+void Sender::flush(Outlet& outlet) {
+  const std::span<const UpdateRun> runs = uses_.buffering.seal();
+  uses_.periodic.begin_flush(runs);
+  uses_.datagrams.begin_flush();
+  for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot) {
+    look_ahead(slot);
+    if (!basis_.federates[slot].is_joined) continue;
+    told_whole_.clear();
+    FlushContext context{
+        slot, basis_.federates[slot], uses_.distribution.of(slot), runs, frame_, told_whole_};
+    flush_federate(context, outlet);
+  }
+  uses_.periodic.end_flush();
+  uses_.buffering.clear();
+}
+
+/// What a flush needs of a federate has left the cache since the last one if there are many: what
+/// the next ones need is fetched meanwhile, in the order in which one leads to the other.
+void Sender::look_ahead(std::uint32_t slot) const {
+  if (slot + 3 < basis_.federates.size()) fetch(basis_.federates[slot + 3]);
+  if (slot + 2 < basis_.federates.size() && basis_.federates[slot + 2].is_joined) {
+    fetch(uses_.distribution.of(slot + 2));
+    if (basis_.federates[slot + 2].way) fetch(*basis_.federates[slot + 2].way);
+  }
+  if (slot + 1 < basis_.federates.size() && basis_.federates[slot + 1].is_joined) {
+    const FederateInterest& interest = uses_.distribution.of(slot + 1);
+    __builtin_prefetch(interest.by_class.data());
+    interest.in_scope.prefetch();
+  }
+}
+
+void Sender::flush_federate(FlushContext& context, Outlet& outlet) {
+  JoinedFederate& federate = context.federate;
+  FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  const std::uint64_t before = basis_.counters.updates_sent;
+  frame.begin();
+  std::ranges::sort(interest.pressing);
+  for (const ObjectSlot each : interest.pressing)
+    interest.fresh.insert(each);  // what this flush's runs say of them is part of what was told
+  context.channel = uses_.datagrams.begin(federate, outlet);
+  uses_.received.acknowledge(context.slot, outlet);
+  frame.append(federate.outbox.head());
+  tell(context, outlet);
+  federate.counts.reflections_received += basis_.counters.updates_sent - before;
+  frame.append(federate.outbox.tail());
+  federate.outbox.clear();
+  settle_interest(context);
+  if (frame.is_empty()) {
+    if (basis_.now - federate.last_said < basis_.settings.patience.heartbeat_s) return;
+    frame.say(HeartbeatMessage{});
+  }
+  send_frame(context, outlet);
+}
+
+/// Who is in scope, and what is new of them.
+void Sender::tell(FlushContext& context, Outlet& outlet) {
+  FederateInterest& interest = context.interest;
+  const std::size_t entry_end = context.frame.size() + entry_room(context, outlet);
+  uses_.announcements.write(context, entry_end);
+  if (holds_back(context, outlet)) return hold_back(context);
+  if (interest.turns) uses_.turns.take_turns(context);
+  write_fresh_states(context, entry_end);
+  if (interest.turns) uses_.turns.catch_up(context);
+  if (context.federate.way && !context.federate.way->due.empty()) write_due_states(context);
+  gather_runs(context);
+  uses_.datagrams.send(context, outlet);
+}
+
+/// What was told whole is fresh no longer; not before, for its updates in this flush are part of
+/// what was told.
+void Sender::settle_interest(FlushContext& context) {
+  FederateInterest& interest = context.interest;
+  interest.events.clear();
+  if (context.is_all_told) interest.has_fresh = false;
+  for (const ObjectSlot told : interest.pressing) interest.fresh.erase(told);
+  interest.pressing.clear();
+  for (const ObjectSlot told : context.told_whole) {
+    interest.fresh.erase(told);
+    if (interest.turns) interest.turns->late.told(told);
+  }
+}
+
+/// Who comes into a large world would be closed for a queue that no reader empties in one tick:
+/// what does not fit is told by the next flushes.
+std::size_t Sender::entry_room(const FlushContext& context, const Outlet& outlet) const {
+  const FederateInterest& interest = context.interest;
+  if (interest.events.empty() && !interest.has_fresh && !interest.has_unannounced) return 0;
+  return basis_.settings.entry_bytes_per_flush_max -
+         std::min(basis_.settings.entry_bytes_per_flush_max,
+                  outlet.waiting_bytes(context.federate.connection));
+}
+
+/// Up to `end` bytes in the frame. Their stamp is their owner's newest, not that of the update
+/// which said it: what they are was not changed until then.
+void Sender::write_fresh_states(FlushContext& context, std::size_t end) {
+  FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  if (!interest.has_fresh) return;
+  bool is_whole = !interest.has_unannounced;
+  const std::size_t before = frame.size();
+  std::optional<UpdatesBlock> block;
+  interest.told_to = interest.fresh.visit_from(interest.told_to, [&](ObjectSlot fresh) {
+    if (interest.unannounced.contains(fresh) ||
+        std::ranges::binary_search(interest.pressing, fresh))
+      return true;
+    if (frame.size() >= end) {
+      is_whole = false;
+      return false;
+    }
+    if (interest.turns && interest.turns->waiting.contains(fresh)) {
+      is_whole = false;
+      return true;
+    }
+    context.told_whole.push_back(fresh);
+    const Object& object = basis_.objects[fresh];
+    if (!object.is_alive) return true;
+    const AttributeSet set = interest.told(fresh, object.object_class) & object.valued;
+    if (set.is_empty()) return true;
+    const Stamp stamp = uses_.newest.of(fresh);
+    if (!block || !frame.is_stamped(stamp)) {
+      block.reset();
+      frame.write_stamp(stamp);
+      block.emplace(frame.bytes());
+    }
+    block->append(object.object_class, set, object.handle,
+                  [&] { basis_.objects.append(fresh, set, frame.bytes()); });
+    ++basis_.counters.updates_sent;
+    return true;
+  });
+  block.reset();
+  context.is_all_told = is_whole;
+  basis_.counters.entry_bytes_sent += frame.size() - before;
+}
+
+bool Sender::holds_back(const FlushContext& context, const Outlet& outlet) {
+  if (context.runs.empty() && !context.interest.has_fresh) return false;
+  return uses_.buffering.holds_back(context.slot,
+                                    outlet.waiting_bytes(context.federate.connection));
+}
+
+/// What it would have heard of becomes due whole, as if it had come into scope: the newest state,
+/// once, however many updates there were.
+void Sender::hold_back(FlushContext& context) {
+  FederateInterest& interest = context.interest;
+  for (const UpdateRun& run : context.runs) {
+    if (run.owner == context.slot ||
+        (interest.is_uniform && (interest.by_class[run.object_class] & run.attributes).is_empty()))
+      continue;
+    for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
+      const std::uint64_t heard = run.members.word(i) & interest.in_scope.word(i);
+      interest.fresh.insert_word(i, heard);
+      interest.has_fresh |= heard != 0;
+      basis_.counters.updates_held_back += static_cast<std::uint64_t>(std::popcount(heard));
+    }
+  }
+}
+
+void Sender::gather_runs(FlushContext& context) {
+  const FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  const std::size_t before = frame.size();
+  for (const UpdateRun& run : context.runs) {
+    if (run.owner == context.slot) continue;
+    const auto index = static_cast<std::size_t>(&run - context.runs.data());
+    if (context.channel.way != nullptr && uses_.datagrams.gather(index, context)) continue;
+    if (uses_.periodic.covers(index)) {
+      uses_.periodic.gather(index, context);
+      continue;
+    }
+    if (!interest.is_uniform) {
+      gather_cut_run(run, context);
+      continue;
+    }
+    const AttributeSet wanted = interest.by_class[run.object_class] & run.attributes;
+    if (wanted.is_empty()) continue;
+    if (wanted != run.attributes) gather_cut_run(run, context);
+    else if (!interest.has_fresh && is_all_in_scope(run, interest.heard())) {
+      frame.write_stamp(run.stamp);
+      frame.add_shared(run.message);
+      basis_.counters.updates_sent += run.slots.size();
+    } else {
+      gather_run(run, context);
+    }
+  }
+  basis_.counters.update_bytes_sent += frame.size() - before;
+}
+
+void Sender::gather_run(const UpdateRun& run, FlushContext& context) {
+  GatheredFrame& frame = context.frame;
+  std::optional<RecordWriter> writer;
+  for_each_record(run, context.interest, [&](std::size_t index) {
+    if (!writer) {
+      frame.write_stamp(run.stamp);
+      frame.say(UpdatesMessage{run.object_class, run.attributes.bits});
+      writer.emplace(frame.bytes());
+    }
+    writer->add(run.records[index].handle, run.values(index));
+    ++basis_.counters.updates_sent;
+  });
+}
+
+void Sender::gather_cut_run(const UpdateRun& run, FlushContext& context) {
+  const FederateInterest& interest = context.interest;
+  std::vector<std::byte>& bytes = context.frame.bytes();
+  const ObjectClass& object_class = basis_.fom.at(ObjectClassHandle{run.object_class});
+  std::optional<UpdatesBlock> block;
+  for_each_record(run, interest, [&](std::size_t index) {
+    const AttributeSet wanted = interest.told(run.slots[index], run.object_class) & run.attributes;
+    if (wanted.is_empty()) return;
+    if (!block) {
+      context.frame.write_stamp(run.stamp);
+      block.emplace(bytes);
+    }
+    block->append(run.object_class, wanted, {run.records[index].handle}, [&] {
+      for (std::uint32_t bits = wanted.bits; bits != 0; bits &= bits - 1) {
+        const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
+        const Bytes value = coded_value(object_class, run.attributes, attribute, run.values(index));
+        bytes.insert(bytes.end(), value.begin(), value.end());
+      }
+    });
+    ++basis_.counters.updates_sent;
+  });
+}
+
+/// What was lost goes out as it is now, by datagram again or, after a fallback, by the stream.
+void Sender::write_due_states(FlushContext& context) {
+  DatagramWay& way = *context.federate.way;
+  const FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  for (const DatagramLedger::Lost& each : way.due) {
+    const ObjectSlot object = basis_.objects.find({each.handle});
+    if (object == no_object || interest.fresh.contains(object))
+      continue;  // gone, or told as a whole anyway
+    const AttributeSet set = interest.told(object, basis_.objects[object].object_class) &
+                             basis_.objects[object].valued & each.attributes;
+    if (set.is_empty()) continue;
+    values_.clear();
+    basis_.objects.append(object, set, values_);
+    const Stamp stamp = uses_.newest.of(object);
+    ++basis_.counters.updates_sent;
+    ++basis_.counters.updates_repaired;
+    if (uses_.datagrams.add(context, object, set, stamp, values_)) continue;
+    frame.write_stamp(stamp);
+    frame.say(UpdatesMessage{basis_.objects[object].object_class, set.bits});
+    RecordWriter(frame.bytes()).add(each.handle, values_);
+  }
+  way.due.clear();
+}
+
+void Sender::send_frame(FlushContext& context, Outlet& outlet) {
+  JoinedFederate& federate = context.federate;
+  const std::size_t size = context.frame.size();
+  if (size - frame_header_size > frame_max_to_federate)
+    return expel_(context.slot, Violation::over_limit, ResignReason::lost,
+                  "more to tell in one tick than a frame holds");
+  federate.last_said = basis_.now;
+  basis_.counters.bytes_sent += size;
+  federate.counts.bytes_received += size;
+  ++basis_.counters.frames_sent;
+  ++federate.frames;
+  outlet.send(federate.connection, context.frame.finish());
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,64 @@
+// What goes out: one gathered write per destination, shared blocks without a copy.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rti/buffering/buffering.h"
+#include "rti/central_component.h"
+#include "rti/federation/delivery/announcements.h"
+#include "rti/federation/delivery/best_effort_receiver.h"
+#include "rti/federation/delivery/best_effort_sender.h"
+#include "rti/federation/delivery/flush_context.h"
+#include "rti/federation/delivery/periodic_writer.h"
+#include "rti/federation/delivery/turn_writer.h"
+#include "rti/federation/expulsion.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/services/newest_stamps.h"
+
+namespace rink::rti {
+
+class Sender final {
+ public:
+  struct Uses {
+    DataDistribution& distribution;
+    Buffering& buffering;
+    const NewestStamps& newest;
+    Announcements& announcements;
+    PeriodicWriter& periodic;
+    TurnWriter& turns;
+    BestEffortSender& datagrams;
+    BestEffortReceiver& received;
+  };
+  Sender(const FederationBasis& basis, const Uses& uses, Expulsion expel)
+      : basis_(basis), uses_(uses), expel_(std::move(expel)) {}
+
+  /// To everybody who has joined, in the order of slots.
+  void flush(Outlet& outlet);
+
+ private:
+  void look_ahead(std::uint32_t slot) const;
+  void flush_federate(FlushContext& context, Outlet& outlet);
+  void tell(FlushContext& context, Outlet& outlet);
+  void settle_interest(FlushContext& context);
+  std::size_t entry_room(const FlushContext& context, const Outlet& outlet) const;
+  bool holds_back(const FlushContext& context, const Outlet& outlet);
+  void hold_back(FlushContext& context);
+  void write_fresh_states(FlushContext& context, std::size_t end);
+  void write_due_states(FlushContext& context);
+  void gather_runs(FlushContext& context);
+  void gather_run(const UpdateRun& run, FlushContext& context);
+  void gather_cut_run(const UpdateRun& run, FlushContext& context);
+  void send_frame(FlushContext& context, Outlet& outlet);
+
+  FederationBasis basis_;
+  Uses uses_;
+  Expulsion expel_;
+  GatheredFrame frame_;                 ///< lent to the flush at hand
+  std::vector<ObjectSlot> told_whole_;  ///< likewise
+  std::vector<std::byte> values_;       ///< of the record at hand
+};
+
+}  // namespace rink::rti
