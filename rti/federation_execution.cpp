@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "rti/federation/federation_management_objects.h"
-#include "rti/federation/federation_time.h"
 
 namespace rink::rti {
 
@@ -68,7 +67,7 @@ void FederationExecution::set_object_flight(ObjectHandle object, const im::Fligh
 void FederationExecution::set_time(double now) { parts_->interest_.set_time(now); }
 
 void FederationExecution::flush(Outlet& outlet) {
-  parts_->settle_time();
+  parts_->time_.settle();
   parts_->declarations_.tell_object_relevance();
   if (parts_->management_objects_) parts_->management_objects_->tell();
   parts_->flush(outlet);

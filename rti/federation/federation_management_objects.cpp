@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "rti/federation/federation_time.h"
 #include "rti/management/management_values.h"
 
 namespace rink::rti {
@@ -105,9 +104,9 @@ void FederationParts::ManagementObjects::tell() {
 }
 
 unsigned FederationParts::ManagementObjects::state_of(std::uint32_t slot) const {
-  if (!parts_.time_) return 0;
-  const TimeManagement& management = parts_.time_->management();
-  return (management.is_constrained(slot) ? 1u : 0u) | (management.is_regulating(slot) ? 2u : 0u);
+  const TimeManagement* management = parts_.time_.management();
+  if (management == nullptr) return 0;
+  return (management->is_constrained(slot) ? 1u : 0u) | (management->is_regulating(slot) ? 2u : 0u);
 }
 
 void FederationParts::ManagementObjects::begin_values(ObjectClassHandle object_class) {
@@ -145,7 +144,7 @@ void FederationParts::ManagementObjects::tell_federate(std::uint32_t slot, Told&
   const Federate& federate = parts_.federates_[slot];
   told.state = state_of(slot);
   const bool is_constrained = (told.state & 1u) != 0, is_regulating = (told.state & 2u) != 0;
-  const TimeManagement* time = parts_.time_ ? &parts_.time_->management() : nullptr;
+  const TimeManagement* time = parts_.time_.management();
   constexpr double unbounded = std::numeric_limits<double>::infinity();
   begin_values(federate_class_);
   value([&](ManagementWriter to) { to.handle(federate.handle.value); });
@@ -157,11 +156,11 @@ void FederationParts::ManagementObjects::tell_federate(std::uint32_t slot, Told&
   value([&](ManagementWriter to) {
     to.count(1);
   });  // ActiveFederate: nothing is saved or restored here
-  value([&](ManagementWriter to) { to.count(federate.is_advancing ? 1 : 0); });
+  value([&](ManagementWriter to) { to.count(parts_.time_.is_advancing(slot) ? 1 : 0); });
   value([&](ManagementWriter to) {
     to.time(time != nullptr && told.state != 0 ? time->time(slot) : 0.0);
   });
-  value([&](ManagementWriter to) { to.time(is_regulating ? federate.lookahead : 0.0); });
+  value([&](ManagementWriter to) { to.time(is_regulating ? parts_.time_.lookahead(slot) : 0.0); });
   value([&](ManagementWriter to) { to.time(time != nullptr ? time->galt(slot) : unbounded); });
   value([&](ManagementWriter to) { to.time(time != nullptr ? time->lits(slot) : unbounded); });
   for (const std::uint64_t count :

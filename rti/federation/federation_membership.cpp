@@ -4,7 +4,6 @@
 #include "rti/buffering/newest_state.h"
 #include "rti/distribution/interest.h"
 #include "rti/federation/federation_management_objects.h"
-#include "rti/federation/federation_time.h"
 #include "rti/fom/fom_digest.h"
 #include "rti/groups/member_lists.h"
 #include "rti/refusal_words.h"
@@ -41,7 +40,6 @@ FederationParts::FederationParts(const Fom& fom, const FederationSettings& setti
                                  std::unique_ptr<im::Filter> filter)
     : fom_(fom),
       settings_(settings),
-      make_time_management_(services.time_management),
       publications_(fom),
       names_(federates_, 2 * std::size_t{settings.object_max}),
       objects_(fom),
@@ -72,11 +70,19 @@ FederationParts::FederationParts(const Fom& fom, const FederationSettings& setti
       sender_(basis_,
               {interest_, *buffering_, newest_, announcements_, periodic_, turns_,
                best_effort_sender_, best_effort_receiver_},
-              [this](std::uint32_t slot, Violation violation, ResignReason reason,
-                     std::string_view why) {
-                expel(federates_[slot].connection, violation, reason, why);
-              }),
+              expulsion()),
+      time_(basis_,
+            {publications_, ownership_, known_, interest_, interactions_, object_service_, newest_,
+             announcements_},
+            services.time_management, expulsion()),
       management_(fom) {}
+
+Expulsion FederationParts::expulsion() {
+  return
+      [this](std::uint32_t slot, Violation violation, ResignReason reason, std::string_view why) {
+        expel(federates_[slot].connection, violation, reason, why);
+      };
+}
 
 void FederationParts::connect(ConnectionId connection) {
   if (connection >= connections_.size()) connections_.resize(connection + 1);
@@ -175,6 +181,7 @@ void FederationParts::admit(ConnectionId connection, const JoinMessage& message)
   object_service_.joined(slot);
   owners_.joined(slot);
   declarations_.joined(slot);
+  time_.joined(slot);
   federate.last_said = now_;
   interest_.add_federate(slot);
   connections_[connection].phase = Phase::joined;
@@ -208,7 +215,7 @@ void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
       other.outbox.after_updates(FederateResignedMessage{
           federate.handle.value, static_cast<std::uint8_t>(reason), federate.name, federate.type});
   ++counters_.resigns;
-  leave_time(slot);
+  time_.left(slot);
   publications_.left(slot);
   transportation_.left(slot);
   newest_.left(slot);

@@ -21,6 +21,7 @@
 #include "rti/federation/services/publications.h"
 #include "rti/federation/services/region_service.h"
 #include "rti/federation/services/synchronization.h"
+#include "rti/federation/services/time_service.h"
 #include "rti/federation/services/update_requests.h"
 #include "rti/federation_counters.h"
 #include "rti/federation_services.h"
@@ -65,6 +66,7 @@ class FederationParts {
   Outcome resign(std::uint32_t slot);
   Outcome watch(Federate& federate);
   void subscribed(std::uint32_t slot);
+  Expulsion expulsion();
 
   // Federation management (federation_management.cpp).
   Outcome answer_stranger(ConnectionId connection, MessageKind kind, Reader& reader);
@@ -100,13 +102,6 @@ class FederationParts {
   // What goes out (federation_flush.cpp).
   void flush(Outlet& outlet);
 
-  // Time management (federation_time.h). Nothing is kept, and nothing done, before the first
-  // message of that kind.
-  class Time;
-  Outcome take_time(std::uint32_t slot, MessageKind kind, Reader& reader);
-  void settle_time();
-  void leave_time(std::uint32_t slot);
-
   template <class Message>
   static void say(std::vector<std::byte>& bytes, Message message) {
     write(bytes, message);
@@ -116,7 +111,6 @@ class FederationParts {
   FederationSettings settings_;
   FederationCounters counters_;
   double now_ = 0.0;
-  std::function<std::unique_ptr<TimeManagement>()> make_time_management_;
   FederateTable federates_;
   Publications publications_;
   ObjectNames names_;
@@ -145,11 +139,11 @@ class FederationParts {
   PeriodicWriter periodic_;
   TurnWriter turns_;
   Sender sender_;
+  TimeService time_;
   std::vector<Connection> connections_;           ///< by id
   std::vector<ConnectionId> management_queries_;  ///< that wait for the next flush
   std::vector<Farewell> farewells_,
       answers_;  ///< answers go to those who have not joined, and don't end their connection
-  std::unique_ptr<Time> time_;
   ManagementHandles management_;
   std::unique_ptr<ManagementObjects>
       management_objects_;  ///< null until somebody subscribes to its objects

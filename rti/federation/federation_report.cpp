@@ -1,7 +1,6 @@
 // The management service: a federation execution counts little and works out the rest when it is
 // asked.
 #include "rti/federation/federation_parts.h"
-#include "rti/federation/federation_time.h"
 #include "rti/federation_execution.h"
 #include "rti/wire/management_messages.h"
 
@@ -28,14 +27,14 @@ FederationReport FederationParts::report(const Outlet* outlet) const {
     each.counts.objects_owned = owned[slot];
     interest_.of(slot).in_scope.for_each([&](ObjectSlot) { ++each.counts.objects_in_scope; });
     each.counts.queue_bytes = outlet != nullptr ? outlet->waiting_bytes(federate.connection) : 0;
-    if (time_) tell_time(slot, each.counts);
+    if (time_.management() != nullptr) tell_time(slot, each.counts);
     each.counts.silence_s = now_ - connections_[federate.connection].last_heard;
   }
   return report;
 }
 
 void FederationParts::tell_time(std::uint32_t slot, FederateCounts& counts) const {
-  const TimeManagement& management = time_->management();
+  const TimeManagement& management = *time_.management();
   counts.is_time_regulating = management.is_regulating(slot);
   counts.is_time_constrained = management.is_constrained(slot);
   if (counts.is_time_regulating != 0 || counts.is_time_constrained != 0)

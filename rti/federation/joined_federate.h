@@ -33,8 +33,6 @@ struct JoinedFederate {
   Outbox outbox;
   double last_said = 0.0;
   double report_period = 0.0;  ///< of its HLAfederate object [s]; 0: none
-  double lookahead = 0.0;      ///< as it last asked for [s]
-  bool is_advancing = false;   ///< in logical time
   std::uint64_t objects_deleted = 0, objects_removed = 0, objects_discovered = 0;
   FederateCounts counts;             ///< what is counted as it happens; `report` adds the rest
   std::uint32_t frames = 0;          ///< sent to it

@@ -179,25 +179,25 @@ class MessageTable {
   }
   constexpr void add_time() {
     at(Kind::enable_time_regulation) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_time(slot, Kind::enable_time_regulation, reader);
+      return parts.time_.handle_regulation(slot, reader);
     };
     at(Kind::modify_lookahead) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_time(slot, Kind::modify_lookahead, reader);
+      return parts.time_.handle_lookahead(slot, reader);
     };
     at(Kind::time_switch) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_time(slot, Kind::time_switch, reader);
+      return parts.time_.handle_switch(slot, reader);
     };
     at(Kind::advance_request) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_time(slot, Kind::advance_request, reader);
+      return parts.time_.handle_advance(slot, reader);
     };
     at(Kind::timed_send) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_time(slot, Kind::timed_send, reader);
+      return parts.time_.handle_send(slot, reader);
     };
     at(Kind::retract) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_time(slot, Kind::retract, reader);
+      return parts.time_.handle_retract(slot, reader);
     };
-    at(Kind::query_time_bounds) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.take_time(slot, Kind::query_time_bounds, reader);
+    at(Kind::query_time_bounds) = [](Parts& parts, Slot slot, Reader&) {
+      return parts.time_.handle_query(slot);
     };
   }
 

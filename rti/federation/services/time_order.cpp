@@ -1,8 +1,8 @@
 // Messages in time-stamp order on their way: whom they go to, when they are told, and what they
 // leave behind.
-#include <algorithm>
+#include <bit>
 
-#include "rti/federation/federation_time.h"
+#include "rti/federation/services/time_service.h"
 #include "rti/fom/coded_values.h"
 #include "rti/wire/update_block.h"
 
@@ -14,43 +14,44 @@ namespace {
 /// goes with it.
 constexpr std::size_t body_kept_max = 512, places_kept_max = 4096;
 
+template <class Message>
+void write_into(std::vector<std::byte>& bytes, Message message) {
+  write(bytes, message);
+}
+
 }  // namespace
 
-void FederationParts::Time::settle() {
+void TimeService::settle() {
+  if (!management_) return;
   for (const std::uint32_t index : arrived_) distribute(index);
   arrived_.clear();
   management_->settle(*this);
   for (const std::uint32_t slot : asking_)
-    parts_.federates_[slot].outbox.after_updates(
+    basis_.federates[slot].outbox.after_updates(
         TimeBoundsMessage{management_->galt(slot), management_->lits(slot)});
   asking_.clear();
 }
 
-bool FederationParts::Time::is_here(FederateHandle federate) const {
-  return parts_.federates_.joined(federate).has_value();
-}
-
-void FederationParts::Time::find_receivers(Message& message) {
+void TimeService::find_receivers(Message& message) {
   const auto add = [&](std::uint32_t slot, AttributeSet told) {
-    if (parts_.federates_[slot].handle != message.sender)
-      message.receivers.push_back({parts_.federates_[slot].handle, told});
+    if (basis_.federates[slot].handle != message.sender)
+      message.receivers.push_back({basis_.federates[slot].handle, told});
   };
   if (message.kind == MessageKind::interaction) {
     // The sender may be gone: its handle then names nobody's slot, and the check in `add` is all
     // there is.
-    for (const std::uint32_t slot : parts_.interactions_.receivers(
-             message.class_number,
-             is_here(message.sender) ? parts_.federates_.slot_of(message.sender) : no_federate))
-      if (!message.only || parts_.federates_[slot].handle == message.only) add(slot, {});
+    const std::uint32_t sender = basis_.federates.joined(message.sender).value_or(no_federate);
+    for (const std::uint32_t slot : uses_.interactions.receivers(message.class_number, sender))
+      if (!message.only || basis_.federates[slot].handle == message.only) add(slot, {});
     return;
   }
-  const ObjectSlot object = parts_.objects_.find({message.object});
+  const ObjectSlot object = basis_.objects.find({message.object});
   if (object == no_object) return;
-  for (std::uint32_t slot = 0; slot < parts_.federates_.size(); ++slot) {
-    if (!parts_.federates_[slot].is_joined) continue;
-    const FederateInterest& interest = parts_.interest_.of(slot);
+  for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot) {
+    if (!basis_.federates[slot].is_joined) continue;
+    const FederateInterest& interest = uses_.distribution.of(slot);
     const AttributeSet told =
-        interest.told(object, parts_.objects_[object].object_class) & message.attributes;
+        interest.told(object, basis_.objects[object].object_class) & message.attributes;
     const bool is_concerned =
         message.kind == MessageKind::updates
             ? !told.is_empty()
@@ -58,17 +59,17 @@ void FederationParts::Time::find_receivers(Message& message) {
     if (is_concerned) add(slot, told);
   }
   if (message.kind == MessageKind::delete_object)
-    parts_.interest_.object_deleted(object);  // nobody else shall discover it any more
+    uses_.distribution.object_deleted(object);  // nobody else shall discover it any more
 }
 
 /// To the queues of those who are constrained, to the others at once.
-void FederationParts::Time::distribute(std::uint32_t index) {
+void TimeService::distribute(std::uint32_t index) {
   Message& message = messages_[index];
   message.is_distributed = true;
   if (!message.is_retracted) find_receivers(message);
   for (std::uint32_t place = 0; place < message.receivers.size(); ++place) {
     Message::Receiver& receiver = message.receivers[place];
-    const std::uint32_t slot = parts_.federates_.slot_of(receiver.federate);
+    const std::uint32_t slot = basis_.federates.slot_of(receiver.federate);
     receiver.is_waiting = management_->is_constrained(slot);
     if (!receiver.is_waiting) {
       receiver.has_it = tell(slot, message, receiver.told, false);
@@ -83,19 +84,20 @@ void FederationParts::Time::distribute(std::uint32_t index) {
 }
 
 /// The message in the form in which it travels, in `content_`.
-void FederationParts::Time::write_content(const Message& message, AttributeSet told) {
+void TimeService::write_content(const Message& message, AttributeSet told) {
   content_.clear();
   if (message.kind == MessageKind::interaction) {
-    say(content_, InteractionMessage{message.class_number, message.sender.value, {}, message.body});
+    write_into(content_,
+               InteractionMessage{message.class_number, message.sender.value, {}, message.body});
     return;
   }
   if (message.kind == MessageKind::delete_object) {
-    say(content_, RemoveObjectMessage{message.object});
+    write_into(content_, RemoveObjectMessage{message.object});
     return;
   }
-  say(content_, UpdatesMessage{message.class_number, told.bits});
+  write_into(content_, UpdatesMessage{message.class_number, told.bits});
   write_handle(content_, 0, message.object);
-  const ObjectClass& object_class = parts_.fom_.at(ObjectClassHandle{message.class_number});
+  const ObjectClass& object_class = basis_.fom.at(ObjectClassHandle{message.class_number});
   for (std::uint32_t bits = told.bits; bits != 0; bits &= bits - 1) {
     const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
     const Bytes value = told == message.attributes ? Bytes(message.body)
@@ -108,12 +110,12 @@ void FederationParts::Time::write_content(const Message& message, AttributeSet t
 }
 
 /// False if there is nothing to tell, since the object is gone meanwhile.
-bool FederationParts::Time::tell(std::uint32_t slot, const Message& message, AttributeSet told,
-                                 bool is_in_order) {
+bool TimeService::tell(std::uint32_t slot, const Message& message, AttributeSet told,
+                       bool is_in_order) {
   if (message.kind != MessageKind::interaction) {
-    const ObjectSlot object = parts_.objects_.find({message.object});
+    const ObjectSlot object = basis_.objects.find({message.object});
     if (object == no_object) return false;
-    FederateInterest& interest = parts_.interest_.of(slot);
+    FederateInterest& interest = uses_.distribution.of(slot);
     const bool is_known = interest.known.contains(object);
     const bool is_in_scope = interest.in_scope.contains(object);
     if (!is_known && !is_in_scope) return false;
@@ -123,21 +125,21 @@ bool FederationParts::Time::tell(std::uint32_t slot, const Message& message, Att
       interest.known.erase(object);
     } else if (is_in_scope && (!is_known || interest.unannounced.contains(object) ||
                                interest.fresh.contains(object))) {
-      parts_.announcements_.press(slot, object);
+      uses_.announcements.press(slot, object);
     }
   }
   write_content(message, told);
-  parts_.federates_[slot].outbox.after_updates(
+  basis_.federates[slot].outbox.after_updates(
       TimedDeliveryMessage{message.sender.value, static_cast<std::uint8_t>(is_in_order),
                            message.number, message.stamp, content_});
-  ++parts_.counters_.timed_sent;
-  FederateCounts& counts = parts_.federates_[slot].counts;
+  ++basis_.counters.timed_sent;
+  FederateCounts& counts = basis_.federates[slot].counts;
   if (message.kind == MessageKind::updates) ++counts.reflections_received;
   if (message.kind == MessageKind::interaction) ++counts.interactions_received;
   return true;
 }
 
-void FederationParts::Time::deliver(std::uint32_t federate, const TimedEntry& entry) {
+void TimeService::deliver(std::uint32_t federate, const TimedEntry& entry) {
   Message& message = messages_[entry.message];
   Message::Receiver& receiver = message.receivers[entry.place];
   receiver.is_waiting = false;
@@ -146,7 +148,7 @@ void FederationParts::Time::deliver(std::uint32_t federate, const TimedEntry& en
   finish(entry.message);
 }
 
-void FederationParts::Time::discard(std::uint32_t, const TimedEntry& entry) {
+void TimeService::discard(std::uint32_t, const TimedEntry& entry) {
   Message& message = messages_[entry.message];
   message.receivers[entry.place].is_waiting = false;
   if (--message.waiting == 0) complete(message);
@@ -155,27 +157,27 @@ void FederationParts::Time::discard(std::uint32_t, const TimedEntry& entry) {
 
 /// Nobody waits for it any more: what it says is now the state that newcomers are told. (Earlier,
 /// they would be told what is to come.)
-void FederationParts::Time::complete(const Message& message) {
+void TimeService::complete(const Message& message) {
   const ObjectSlot slot =
-      message.kind == MessageKind::interaction ? no_object : parts_.objects_.find({message.object});
+      message.kind == MessageKind::interaction ? no_object : basis_.objects.find({message.object});
   if (slot == no_object) return;
   if (message.kind == MessageKind::delete_object) {
     told_until_.erase(message.object);
-    return parts_.object_service_.remove(slot);
+    return uses_.objects.remove(slot);
   }
   if (!is_news(message)) return;
-  parts_.objects_.store(slot, message.attributes, message.body);
-  const Object& object = parts_.objects_[slot];
+  basis_.objects.store(slot, message.attributes, message.body);
+  const Object& object = basis_.objects[slot];
   if (object.owner == no_federate) return;
-  parts_.newest_.say_if_newer(object.owner, message.stamp);
+  uses_.newest.say_if_newer(object.owner, message.stamp);
 }
 
 /// False for an update that is completed after a later one of its object, which had fewer to wait
 /// for.
-bool FederationParts::Time::is_news(const Message& message) {
-  if (told_until_.size() > 64 + 2 * parts_.objects_.size())
+bool TimeService::is_news(const Message& message) {
+  if (told_until_.size() > 64 + 2 * basis_.objects.size())
     std::erase_if(told_until_, [this](const auto& each) {
-      return parts_.objects_.find({each.first}) == no_object;
+      return basis_.objects.find({each.first}) == no_object;
     });
   double& until = told_until_.try_emplace(message.object, message.stamp.time).first->second;
   if (message.stamp.time < until) return false;
@@ -184,12 +186,12 @@ bool FederationParts::Time::is_news(const Message& message) {
 }
 
 /// Frees the message's place once nobody can ask for it.
-void FederationParts::Time::finish(std::uint32_t index) {
+void TimeService::finish(std::uint32_t index) {
   const Message& message = messages_[index];
   if (message.is_distributed && !message.is_retractable && message.waiting == 0) release(index);
 }
 
-void FederationParts::Time::release(std::uint32_t index) {
+void TimeService::release(std::uint32_t index) {
   Message& message = messages_[index];
   std::vector<std::byte> body = std::move(message.body);
   std::vector<Message::Receiver> receivers = std::move(message.receivers);
@@ -206,17 +208,16 @@ void FederationParts::Time::release(std::uint32_t index) {
   free_ = {};
 }
 
-void FederationParts::Time::regulation_enabled(std::uint32_t federate, double time,
-                                               double earliest) {
-  parts_.federates_[federate].outbox.after_updates(TimeRegulationEnabledMessage{time, earliest});
+void TimeService::regulation_enabled(std::uint32_t federate, double time, double earliest) {
+  basis_.federates[federate].outbox.after_updates(TimeRegulationEnabledMessage{time, earliest});
 }
-void FederationParts::Time::constrained_enabled(std::uint32_t federate, double time) {
-  parts_.federates_[federate].outbox.after_updates(TimeConstrainedEnabledMessage{time});
+void TimeService::constrained_enabled(std::uint32_t federate, double time) {
+  basis_.federates[federate].outbox.after_updates(TimeConstrainedEnabledMessage{time});
 }
-void FederationParts::Time::grant(std::uint32_t federate, double time) {
-  parts_.federates_[federate].outbox.after_updates(TimeAdvanceGrantMessage{time});
-  parts_.federates_[federate].is_advancing = false;
-  ++parts_.counters_.time_advance_grants;
+void TimeService::grant(std::uint32_t federate, double time) {
+  basis_.federates[federate].outbox.after_updates(TimeAdvanceGrantMessage{time});
+  federates_[federate].is_advancing = false;
+  ++basis_.counters.time_advance_grants;
 }
 
 }  // namespace rink::rti
