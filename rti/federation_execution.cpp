@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "rti/federation/federation_management_objects.h"
+#include "rti/federation/federation_parts.h"
 
 namespace rink::rti {
 
@@ -69,8 +69,11 @@ void FederationExecution::set_time(double now) { parts_->interest_.set_time(now)
 void FederationExecution::flush(Outlet& outlet) {
   parts_->time_.settle();
   parts_->declarations_.tell_object_relevance();
-  if (parts_->management_objects_) parts_->management_objects_->tell();
+  parts_->management_objects_.tell();
   parts_->flush(outlet);
+}
+FederationReport FederationExecution::report(const Outlet* outlet) const {
+  return parts_->report(outlet);
 }
 const std::string& FederationExecution::name() const { return parts_->settings_.federation; }
 const Fom& FederationExecution::fom() const { return parts_->fom_; }

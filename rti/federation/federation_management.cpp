@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "rti/federation/federation_parts.h"
+#include "rti/wire/management_messages.h"
 
 namespace rink::rti {
 
@@ -65,6 +66,39 @@ Outcome FederationParts::answer_stranger(ConnectionId connection, MessageKind ki
     default:
       return Violation::wrong_phase;
   }
+}
+
+/// How long each has been silent is the connections' to say.
+FederationReport FederationParts::report(const Outlet* outlet) const {
+  FederationReport report = census_.report(outlet);
+  for (FederateReport& each : report.federates)
+    if (const auto slot = federates_.joined(each.federate))
+      each.counts.silence_s = now_ - connections_[federates_[*slot].connection].last_heard;
+  return report;
+}
+
+/// One report serves all who asked since the last flush.
+void FederationParts::answer_queries(Outlet& outlet) {
+  if (management_queries_.empty()) return;
+  const FederationReport whole = report(&outlet);
+  for (const ConnectionId id : management_queries_) {
+    if (id >= connections_.size() || connections_[id].phase == Phase::unknown) continue;
+    FrameWriter frame(frame_max_to_federate);
+    const auto append = [&frame](auto message) {
+      write(frame.begin_message(measure(message)), message);
+      frame.appended();
+    };
+    for_each_message(whole, append);
+    append(ReportEndMessage{});
+    const Bytes bytes = frame.bytes();
+    if (connections_[id].phase != Phase::joined) {
+      outlet.send(id, std::span(&bytes, 1));
+      continue;
+    }
+    std::vector<std::byte>& head = federates_[connections_[id].federate].outbox.head();
+    head.insert(head.end(), bytes.begin() + frame_header_size, bytes.end());
+  }
+  management_queries_.clear();
 }
 
 }  // namespace rink::rti

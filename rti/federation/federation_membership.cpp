@@ -3,7 +3,7 @@
 
 #include "rti/buffering/newest_state.h"
 #include "rti/distribution/interest.h"
-#include "rti/federation/federation_management_objects.h"
+#include "rti/federation/federation_parts.h"
 #include "rti/fom/fom_digest.h"
 #include "rti/groups/member_lists.h"
 #include "rti/refusal_words.h"
@@ -75,7 +75,16 @@ FederationParts::FederationParts(const Fom& fom, const FederationSettings& setti
             {publications_, ownership_, known_, interest_, interactions_, object_service_, newest_,
              announcements_},
             services.time_management, expulsion()),
-      management_(fom) {}
+      management_(fom),
+      management_objects_(basis_,
+                          {interest_, ownership_, declarations_, object_service_, update_requests_,
+                           time_, *buffering_},
+                          management_),
+      management_interactions_(basis_,
+                               {interest_, publications_, synchronization_, interactions_,
+                                update_requests_, management_objects_},
+                               management_),
+      census_(basis_, interest_, ownership_, time_) {}
 
 Expulsion FederationParts::expulsion() {
   return
@@ -193,7 +202,7 @@ void FederationParts::admit(ConnectionId connection, const JoinMessage& message)
       other.outbox.before_updates(
           FederateJoinedMessage{federate.handle.value, federate.name, federate.type});
   synchronization_.joined(slot);
-  if (management_objects_) management_objects_->joined(slot);
+  management_objects_.joined(slot);
 }
 
 void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
@@ -205,7 +214,7 @@ void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
   object_service_.left(slot);
   federates_.retire(slot);
   subscribed(slot);
-  if (management_objects_) management_objects_->left(slot);
+  management_objects_.left(slot);
   interactions_.left(slot);
   names_.left(slot);
   synchronization_.left(slot);
@@ -228,9 +237,7 @@ void FederationParts::remove_federate(std::uint32_t slot, ResignReason reason) {
 /// Publishers hear at once of what a federate subscribes now, and so do the RTI's own objects.
 void FederationParts::subscribed(std::uint32_t slot) {
   declarations_.subscriptions_changed(slot);
-  if (!management_objects_ && ManagementObjects::is_heard(*this))
-    management_objects_ = std::make_unique<ManagementObjects>(*this);
-  if (management_objects_) management_objects_->subscribed(slot);
+  management_objects_.subscribed(slot);
 }
 
 Outcome FederationParts::resign(std::uint32_t slot) {

@@ -12,6 +12,9 @@
 #include "rti/federation/federate_table.h"
 #include "rti/federation/federation_connection.h"
 #include "rti/federation/joined_federate.h"
+#include "rti/federation/management/federation_census.h"
+#include "rti/federation/management/management_interactions.h"
+#include "rti/federation/management/management_objects.h"
 #include "rti/federation/outcome.h"
 #include "rti/federation/services/declarations.h"
 #include "rti/federation/services/interactions.h"
@@ -75,24 +78,7 @@ class FederationParts {
   Outcome query_management(ConnectionId connection);
   void send_answers(Outlet& outlet);
   FederationReport report(const Outlet* outlet) const;
-  std::vector<std::uint32_t> count_owned() const;
-  void tell_time(std::uint32_t slot, FederateCounts& counts) const;
   void answer_queries(Outlet& outlet);
-  std::vector<std::uint32_t> count_deletable() const;
-
-  // The management object model (federation_management_objects.h). Nothing is kept, and nothing
-  // done, while nobody subscribes to it.
-  class ManagementObjects;
-  Outcome take_management(std::uint32_t slot, const InteractionMessage& message);
-  template <class SetOf, class Write>
-  void report_classes(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report,
-                      SetOf set_of, Write write);
-  template <class IsNamed>
-  void report_interactions(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report,
-                           IsNamed is_named);
-  void report_publications(std::uint32_t asking, std::uint32_t about);
-  void report_subscriptions(std::uint32_t asking, std::uint32_t about);
-  void report_points(std::uint32_t asking);
 
   // What a federate says (federation_receive.cpp).
   void receive(ConnectionId connection, Bytes bytes);
@@ -140,13 +126,14 @@ class FederationParts {
   TurnWriter turns_;
   Sender sender_;
   TimeService time_;
+  ManagementHandles management_;
+  ManagementObjects management_objects_;
+  ManagementInteractions management_interactions_;
+  FederationCensus census_;
   std::vector<Connection> connections_;           ///< by id
   std::vector<ConnectionId> management_queries_;  ///< that wait for the next flush
   std::vector<Farewell> farewells_,
       answers_;  ///< answers go to those who have not joined, and don't end their connection
-  ManagementHandles management_;
-  std::unique_ptr<ManagementObjects>
-      management_objects_;  ///< null until somebody subscribes to its objects
 };
 
 }  // namespace rink::rti

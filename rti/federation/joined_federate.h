@@ -32,7 +32,6 @@ struct JoinedFederate {
   std::string name, type;
   Outbox outbox;
   double last_said = 0.0;
-  double report_period = 0.0;  ///< of its HLAfederate object [s]; 0: none
   std::uint64_t objects_deleted = 0, objects_removed = 0, objects_discovered = 0;
   FederateCounts counts;             ///< what is counted as it happens; `report` adds the rest
   std::uint32_t frames = 0;          ///< sent to it

@@ -47,7 +47,8 @@ class MessageTable {
     if (const Outcome outcome = parts.interactions_.accept(slot, message, receivers))
       return outcome;
     if (parts.fom_.is_management(InteractionClassHandle{message.interaction_class}))
-      if (const Outcome outcome = parts.take_management(slot, message)) return outcome;
+      if (const Outcome outcome = parts.management_interactions_.take(slot, message))
+        return outcome;
     return parts.interactions_.deliver(slot, message, receivers, regions);
   }
   constexpr Handler& at(MessageKind kind) { return handlers_[static_cast<std::size_t>(kind)]; }

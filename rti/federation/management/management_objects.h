@@ -1,20 +1,46 @@
-// The RTI as the owner of the management object model's objects (IEEE 1516.1-2010, clause 11); for
-// the federation execution's own sources only.
+// The RTI as the owner of the management object model's objects (IEEE 1516.1-2010, clause 11).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <unordered_map>
+#include <vector>
 
-#include "rti/federation/federation_parts.h"
+#include "rti/buffering/buffering.h"
+#include "rti/distribution/data_distribution.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/services/declarations.h"
+#include "rti/federation/services/object_service.h"
+#include "rti/federation/services/time_service.h"
+#include "rti/federation/services/update_requests.h"
+#include "rti/management/management_handles.h"
+#include "rti/management/management_values.h"
+#include "rti/ownership/ownership.h"
 
 namespace rink::rti {
 
-/// Made when the first federate subscribes to HLAmanager.HLAfederation or HLAmanager.HLAfederate;
-/// while nobody does, there is no object and nothing is worked out. It has a slot among the
+/// While nobody subscribes to HLAmanager.HLAfederation or HLAmanager.HLAfederate, there is no
+/// object and nothing is worked out. From the first subscription on it has a slot among the
 /// federates, as the owner of objects, but has not joined: it is sent nothing, and nobody counts
 /// it.
-class FederationParts::ManagementObjects {
+class ManagementObjects {
  public:
-  explicit ManagementObjects(FederationParts& parts);
+  struct Uses {
+    DataDistribution& distribution;
+    const Ownership& ownership;
+    const Declarations& declarations;
+    ObjectService& objects;
+    UpdateRequests& requests;
+    const TimeService& time;
+    Buffering& buffering;
+  };
+  ManagementObjects(const FederationBasis& basis, const Uses& uses,
+                    const ManagementHandles& handles)
+      : basis_(basis),
+        uses_(uses),
+        federation_class_(handles.federation),
+        federate_class_(handles.federate) {}
 
   /// Somebody's subscriptions changed: to whom it now hears anything, everything is up to date at
   /// the next flush.
@@ -22,15 +48,12 @@ class FederationParts::ManagementObjects {
   void joined(std::uint32_t slot);
   /// While it is still known what it was.
   void left(std::uint32_t slot);
-  /// Its period of reports has changed: the next one is due a period from now.
-  void timed(std::uint32_t slot) {
-    told_of(slot).due_at = parts_.now_ + parts_.federates_[slot].report_period;
-  }
+  /// Its period of reports has changed [s], 0 for none: the next one is due a period from now.
+  void timed(std::uint32_t slot, double period);
   /// HLAautoProvide has changed.
   void switched() { federation_.is_due = static_cast<bool>(federation_.object); }
   /// Once per flush, before it.
   void tell();
-  static bool is_heard(const FederationParts& parts);
 
  private:
   /// One object of ours.
@@ -51,6 +74,11 @@ class FederationParts::ManagementObjects {
   void tell_federation();
   void tell_federate(std::uint32_t slot, Told& told);
   unsigned state_of(std::uint32_t slot) const;
+  std::vector<std::uint32_t> count_deletable() const;
+  bool is_any_heard() const;
+  bool hears(std::uint32_t slot) const;
+  void value_counts(std::uint32_t slot);
+  void value_times(std::uint32_t slot, unsigned state);
   /// The values of the class's attributes are in `values_`, those of attribute k up to `ends_[k]`:
   /// tells those that differ from what was told, and those asked for.
   void update(Told& told);
@@ -58,12 +86,14 @@ class FederationParts::ManagementObjects {
   template <class Write>
   void value(Write write);
 
-  FederationParts& parts_;
+  FederationBasis basis_;
+  Uses uses_;
   ObjectClassHandle federation_class_, federate_class_;
-  std::uint32_t slot_;
+  std::optional<std::uint32_t> slot_;  ///< once it has one
   bool is_heard_ = false;
   Told federation_;
   std::vector<Told> federates_;  ///< by slot
+  std::vector<double> periods_;  ///< likewise, of their reports [s]; 0: none
   std::unordered_map<std::uint32_t, std::uint32_t>
       slots_;  ///< by object, of the federates that they are about
   std::vector<std::byte> values_, before_, changed_;
