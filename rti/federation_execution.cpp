@@ -23,92 +23,88 @@ FederationExecution::FederationExecution(const Fom& fom, const FederationSetting
                                          const FederationServices& services)
     : parts_(std::make_unique<FederationParts>(fom, settings, services, filter_called(settings))) {}
 FederationExecution::~FederationExecution() = default;
-FederationParts::~FederationParts() = default;
 
-void FederationExecution::connect(ConnectionId connection) { parts_->connect(connection); }
+void FederationExecution::connect(ConnectionId connection) {
+  parts_->connections.connect(connection);
+}
 void FederationExecution::receive(ConnectionId connection, Bytes bytes) {
-  parts_->receive(connection, bytes);
+  parts_->connections.receive(connection, bytes);
 }
 void FederationExecution::receive_datagram(ConnectionId connection, Bytes datagram) {
-  parts_->receive_datagram(connection, datagram);
+  parts_->connections.receive_datagram(connection, datagram);
 }
-void FederationExecution::disconnect(ConnectionId connection, std::string_view why) {
-  parts_->disconnect(connection, why);
+void FederationExecution::disconnect(ConnectionId connection, std::string_view) {
+  parts_->connections.disconnect(connection);
 }
 void FederationExecution::advance_clock(double now) { parts_->advance_clock(now); }
 
-void FederationExecution::match() {
-  parts_->interest_.match();
-  parts_->counters_.scope_entries = parts_->interest_.counters().entries;
-  parts_->counters_.scope_exits = parts_->interest_.counters().exits;
-}
+void FederationExecution::match() { parts_->match(); }
 
 void FederationExecution::set_object_role(ObjectHandle object, const im::Role& role) {
-  const ObjectSlot slot = parts_->objects_.find(object);
-  if (slot != no_object) parts_->interest_.set_role(slot, role);
+  const ObjectSlot slot = parts_->ground.objects.find(object);
+  if (slot != no_object) parts_->ground.distribution->set_role(slot, role);
 }
 
 void FederationExecution::set_federate_role(FederateHandle federate, const im::Role& role) {
-  if (const auto slot = parts_->federates_.joined(federate))
-    parts_->interest_.set_federate_role(*slot, role);
+  if (const auto slot = parts_->ground.federates.joined(federate))
+    parts_->ground.distribution->set_federate_role(*slot, role);
 }
 
 void FederationExecution::set_federate_heading(FederateHandle federate,
                                                const im::Heading& heading) {
-  if (const auto slot = parts_->federates_.joined(federate))
-    parts_->interest_.set_federate_heading(*slot, heading);
+  if (const auto slot = parts_->ground.federates.joined(federate))
+    parts_->ground.distribution->set_federate_heading(*slot, heading);
 }
 
 void FederationExecution::set_object_flight(ObjectHandle object, const im::Flight& flight) {
-  const ObjectSlot slot = parts_->objects_.find(object);
-  if (slot != no_object) parts_->interest_.set_flight(slot, flight);
+  const ObjectSlot slot = parts_->ground.objects.find(object);
+  if (slot != no_object) parts_->ground.distribution->set_flight(slot, flight);
 }
 
-void FederationExecution::set_time(double now) { parts_->interest_.set_time(now); }
+void FederationExecution::set_time(double now) { parts_->ground.distribution->set_time(now); }
 
-void FederationExecution::flush(Outlet& outlet) {
-  parts_->time_.settle();
-  parts_->declarations_.tell_object_relevance();
-  parts_->management_objects_.tell();
-  parts_->flush(outlet);
-}
+void FederationExecution::flush(Outlet& outlet) { parts_->flush(outlet); }
 FederationReport FederationExecution::report(const Outlet* outlet) const {
-  return parts_->report(outlet);
+  return parts_->connections.report(outlet);
 }
-const std::string& FederationExecution::name() const { return parts_->settings_.federation; }
-const Fom& FederationExecution::fom() const { return parts_->fom_; }
+const std::string& FederationExecution::name() const { return parts_->ground.settings.federation; }
+const Fom& FederationExecution::fom() const { return parts_->ground.fom; }
 std::size_t FederationExecution::federate_count() const {
-  return parts_->federates_.joined_count();
+  return parts_->ground.federates.joined_count();
 }
-std::size_t FederationExecution::object_count() const { return parts_->objects_.size(); }
-const FederationCounters& FederationExecution::counters() const { return parts_->counters_; }
+std::size_t FederationExecution::object_count() const { return parts_->ground.objects.size(); }
+const FederationCounters& FederationExecution::counters() const { return parts_->ground.counters; }
 const BaselineCounters& FederationExecution::baseline_counters() const {
-  return parts_->periodic_.counters();
+  return parts_->periodic.counters();
 }
-const im::Filter& FederationExecution::filter() const { return parts_->interest_.filter(); }
-const DataDistribution& FederationExecution::distribution() const { return parts_->interest_; }
+const im::Filter& FederationExecution::filter() const {
+  return parts_->ground.distribution->filter();
+}
+const DataDistribution& FederationExecution::distribution() const {
+  return *parts_->ground.distribution;
+}
 
 bool FederationExecution::is_in_scope(FederateHandle federate, ObjectHandle object) const {
-  const ObjectSlot slot = parts_->objects_.find(object);
-  const auto federate_slot = parts_->federates_.joined(federate);
+  const ObjectSlot slot = parts_->ground.objects.find(object);
+  const auto federate_slot = parts_->ground.federates.joined(federate);
   return slot != no_object && federate_slot &&
-         parts_->interest_.of(*federate_slot).in_scope.contains(slot);
+         parts_->ground.distribution->of(*federate_slot).in_scope.contains(slot);
 }
 
 void FederationExecution::list_scope(FederateHandle federate,
                                      std::vector<ObjectHandle>& objects) const {
-  const auto federate_slot = parts_->federates_.joined(federate);
+  const auto federate_slot = parts_->ground.federates.joined(federate);
   if (!federate_slot) return;
-  parts_->interest_.of(*federate_slot).in_scope.for_each([&](ObjectSlot slot) {
-    objects.push_back(parts_->objects_[slot].handle);
+  parts_->ground.distribution->of(*federate_slot).in_scope.for_each([&](ObjectSlot slot) {
+    objects.push_back(parts_->ground.objects[slot].handle);
   });
 }
 
 void FederationExecution::list_subscribed_regions(std::vector<SubscribedRegion>& regions) const {
   std::vector<RegionOfInterest> found;
-  parts_->interest_.list_regions_of_interest(found);
+  parts_->ground.distribution->list_regions_of_interest(found);
   for (const RegionOfInterest& each : found)
-    regions.push_back({parts_->federates_[each.federate].handle, each.bounds});
+    regions.push_back({parts_->ground.federates[each.federate].handle, each.bounds});
 }
 
 }  // namespace rink::rti

@@ -1,6 +1,4 @@
-// One line for each kind of message.
-#include "rti/federation/message_table.h"
-
+// Who answers for which kind of message that a federate may send: one line for each.
 #include <array>
 
 #include "rti/federation/federation_parts.h"
@@ -35,170 +33,161 @@ class MessageTable {
   }
 
  private:
-  /// What it subscribes has changed, if all is well: publishers are told at once.
+  /// What it subscribes has changed, if all is well.
   static Outcome subscribed(Parts& parts, Slot slot, const Outcome& outcome) {
-    if (!outcome) parts.subscribed(slot);
+    if (!outcome) parts.subscriptions_changed(slot);
     return outcome;
-  }
-  /// One that is for the RTI is answered before it reaches others.
-  static Outcome send(Parts& parts, Slot slot, InteractionMessage& message,
-                      std::span<const RegionHandle> regions) {
-    Interactions::Receivers receivers;
-    if (const Outcome outcome = parts.interactions_.accept(slot, message, receivers))
-      return outcome;
-    if (parts.fom_.is_management(InteractionClassHandle{message.interaction_class}))
-      if (const Outcome outcome = parts.management_interactions_.take(slot, message))
-        return outcome;
-    return parts.interactions_.deliver(slot, message, receivers, regions);
   }
   constexpr Handler& at(MessageKind kind) { return handlers_[static_cast<std::size_t>(kind)]; }
 
   constexpr void add_membership() {
     at(Kind::join) = [](Parts&, Slot, Reader&) -> Outcome { return Violation::wrong_phase; };
     at(Kind::heartbeat) = [](Parts&, Slot, Reader&) -> Outcome { return std::nullopt; };
-    at(Kind::resign) = [](Parts& parts, Slot slot, Reader&) { return parts.resign(slot); };
+    at(Kind::resign) = [](Parts& parts, Slot slot, Reader&) {
+      return parts.connections.resign(parts.ground.federates[slot].connection);
+    };
     at(Kind::watch_federates) = [](Parts& parts, Slot slot, Reader&) {
-      return parts.watch(parts.federates_[slot]);
+      return parts.membership.handle_watch(slot);
     };
     at(Kind::query_management) = [](Parts& parts, Slot slot, Reader&) {
-      return parts.query_management(parts.federates_[slot].connection);
+      return parts.connections.query_report(parts.ground.federates[slot].connection);
     };
     at(Kind::register_synchronization_point) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.synchronization_.handle_register(slot, reader);
+      return parts.synchronization.handle_register(slot, reader);
     };
     at(Kind::synchronization_point_achieved) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.synchronization_.handle_achieved(slot, reader);
+      return parts.synchronization.handle_achieved(slot, reader);
     };
   }
   constexpr void add_declarations() {
     at(Kind::publish_object_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.declarations_.handle_publish_class(slot, reader);
+      return parts.declarations.handle_publish_class(slot, reader);
     };
     at(Kind::subscribe_object_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return subscribed(parts, slot, parts.declarations_.handle_subscribe_class(slot, reader));
+      return subscribed(parts, slot, parts.declarations.handle_subscribe_class(slot, reader));
     };
     at(Kind::publish_interaction_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.declarations_.handle_publish_interaction(slot, reader);
+      return parts.declarations.handle_publish_interaction(slot, reader);
     };
     at(Kind::subscribe_interaction_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return subscribed(parts, slot, parts.interactions_.handle_subscribe(slot, reader));
+      return subscribed(parts, slot, parts.interactions.handle_subscribe(slot, reader));
     };
     at(Kind::advisory_switch) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.declarations_.handle_advisory_switch(slot, reader);
+      return parts.declarations.handle_advisory_switch(slot, reader);
     };
   }
   constexpr void add_objects() {
     at(Kind::register_object) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.object_service_.handle_register(slot, reader);
+      return parts.objects.objects.handle_register(slot, reader);
     };
     at(Kind::delete_object) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.object_service_.handle_delete(slot, reader);
+      return parts.objects.objects.handle_delete(slot, reader);
     };
     at(Kind::local_delete) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.object_service_.handle_local_delete(slot, reader);
+      return parts.objects.objects.handle_local_delete(slot, reader);
     };
     at(Kind::instance_names) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.names_.handle(slot, reader);
+      return parts.objects.names.handle(slot, reader);
     };
     at(Kind::stamp) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.updates_.handle_stamp(slot, reader);
+      return parts.objects.updates.handle_stamp(slot, reader);
     };
     at(Kind::updates) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.updates_.handle_updates(slot, reader);
+      return parts.objects.updates.handle_updates(slot, reader);
     };
     at(Kind::spare_update) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.updates_.handle_spare(slot, reader);
+      return parts.objects.updates.handle_spare(slot, reader);
     };
     at(Kind::interaction) = [](Parts& parts, Slot slot, Reader& reader) -> Outcome {
       InteractionMessage message;
-      if (const Outcome outcome = parts.interactions_.read(reader, message)) return outcome;
-      return send(parts, slot, message, {});
+      if (const Outcome outcome = parts.interactions.read(reader, message)) return outcome;
+      return parts.send(slot, message, {});
     };
     at(Kind::request_update) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.update_requests_.handle(slot, reader);
+      return parts.objects.requests.handle(slot, reader);
     };
     at(Kind::change_transportation) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.transportation_.handle_change(slot, reader);
+      return parts.objects.types.handle_change(slot, reader);
     };
     at(Kind::query_transportation) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.transportation_.handle_query(slot, reader);
+      return parts.objects.types.handle_query(slot, reader);
     };
     at(Kind::acknowledge_keyframe) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.periodic_.handle_acknowledgement(slot, reader);
+      return parts.periodic.handle_acknowledgement(slot, reader);
     };
     at(Kind::refuse_keyframe) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.periodic_.handle_refusal(slot, reader);
+      return parts.periodic.handle_refusal(slot, reader);
     };
   }
   constexpr void add_regions() {
     at(Kind::create_region) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.regions_.handle_create(slot, reader);
+      return parts.regions.handle_create(slot, reader);
     };
     at(Kind::delete_region) = [](Parts& parts, Slot slot, Reader& reader) {
-      const Outcome outcome = parts.regions_.handle_delete(slot, reader);
-      if (!outcome) parts.interactions_.join_groups(slot);
+      const Outcome outcome = parts.regions.handle_delete(slot, reader);
+      if (!outcome) parts.interactions.join_groups(slot);
       return subscribed(parts, slot, outcome);
     };
     at(Kind::create_region_over) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.regions_.handle_create_over(slot, reader);
+      return parts.regions.handle_create_over(slot, reader);
     };
     at(Kind::modify_regions) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.regions_.handle_modify(slot, reader);
+      return parts.regions.handle_modify(slot, reader);
     };
     at(Kind::modify_ranges) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.regions_.handle_modify_ranges(slot, reader);
+      return parts.regions.handle_modify_ranges(slot, reader);
     };
     at(Kind::associate_region) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.regions_.handle_associate(slot, reader);
+      return parts.regions.handle_associate(slot, reader);
     };
     at(Kind::associate_regions) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.regions_.handle_associate_parts(slot, reader);
+      return parts.regions.handle_associate_parts(slot, reader);
     };
     at(Kind::regional_class) = [](Parts& parts, Slot slot, Reader& reader) {
-      return subscribed(parts, slot, parts.regions_.handle_class(slot, reader));
+      return subscribed(parts, slot, parts.regions.handle_class(slot, reader));
     };
     at(Kind::regional_interaction) = [](Parts& parts, Slot slot, Reader& reader) {
-      return subscribed(parts, slot, parts.interactions_.handle_subscribe_within(slot, reader));
+      return subscribed(parts, slot, parts.interactions.handle_subscribe_within(slot, reader));
     };
     at(Kind::interaction_within) = [](Parts& parts, Slot slot, Reader& reader) -> Outcome {
       InteractionMessage message;
       std::vector<RegionHandle> regions;
-      const Outcome outcome = parts.interactions_.read_within(slot, reader, message, regions);
-      return outcome ? outcome : send(parts, slot, message, regions);
+      const Outcome outcome = parts.interactions.read_within(slot, reader, message, regions);
+      return outcome ? outcome : parts.send(slot, message, regions);
     };
   }
   constexpr void add_ownership() {
     at(Kind::ownership_request) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.owners_.handle_requests(slot, reader);
+      return parts.owners.handle_requests(slot, reader);
     };
     at(Kind::query_ownership) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.owners_.handle_query(slot, reader);
+      return parts.owners.handle_query(slot, reader);
     };
     at(Kind::resign_directive) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.owners_.handle_resign_directive(slot, reader);
+      return parts.owners.handle_resign_directive(slot, reader);
     };
   }
   constexpr void add_time() {
     at(Kind::enable_time_regulation) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.time_.handle_regulation(slot, reader);
+      return parts.time.handle_regulation(slot, reader);
     };
     at(Kind::modify_lookahead) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.time_.handle_lookahead(slot, reader);
+      return parts.time.handle_lookahead(slot, reader);
     };
     at(Kind::time_switch) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.time_.handle_switch(slot, reader);
+      return parts.time.handle_switch(slot, reader);
     };
     at(Kind::advance_request) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.time_.handle_advance(slot, reader);
+      return parts.time.handle_advance(slot, reader);
     };
     at(Kind::timed_send) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.time_.handle_send(slot, reader);
+      return parts.time.handle_send(slot, reader);
     };
     at(Kind::retract) = [](Parts& parts, Slot slot, Reader& reader) {
-      return parts.time_.handle_retract(slot, reader);
+      return parts.time.handle_retract(slot, reader);
     };
     at(Kind::query_time_bounds) = [](Parts& parts, Slot slot, Reader&) {
-      return parts.time_.handle_query(slot);
+      return parts.time.handle_query(slot);
     };
   }
 
@@ -209,8 +198,8 @@ constexpr MessageTable message_table;
 
 }  // namespace
 
-Outcome take_message(FederationParts& parts, std::uint32_t slot, Reader& reader) {
-  return message_table.take(parts, slot, reader);
+Outcome FederationParts::take_message(std::uint32_t slot, Reader& reader) {
+  return message_table.take(*this, slot, reader);
 }
 
 }  // namespace rink::rti

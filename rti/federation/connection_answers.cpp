@@ -1,0 +1,107 @@
+// What connections ask of a federation that they need not have joined.
+#include <utility>
+
+#include "rti/federation/connections.h"
+#include "rti/wire/federation_messages.h"
+#include "rti/wire/management_messages.h"
+
+namespace rink::rti {
+
+template <class Message>
+Outcome Connections::answer(ConnectionId id, Message message) {
+  if (answers_.empty() || answers_.back().connection != id) answers_.push_back({id, {}, {}});
+  const std::vector<std::byte> frame = framed(message);
+  answers_.back().bytes.insert(answers_.back().bytes.end(), frame.begin(), frame.end());
+  return std::nullopt;
+}
+
+/// A host of one execution makes no others and keeps the one it has.
+Outcome Connections::answer_stranger(ConnectionId id, MessageKind kind, Reader& reader) {
+  if (!connections_[id].questions.ask()) return Violation::over_limit;
+  const std::string& own = basis_.settings.federation;
+  switch (kind) {
+    case MessageKind::create_federation_execution: {
+      CreateFederationExecutionMessage message;
+      if (!exchange(reader, message)) return Violation::malformed;
+      const HlaError error = message.federation == own
+                                 ? HlaError::federation_execution_already_exists
+                                 : HlaError::unauthorized;
+      return answer(id, FederationExecutionCreatedMessage{message.federation,
+                                                          static_cast<std::uint8_t>(error)});
+    }
+    case MessageKind::destroy_federation_execution: {
+      DestroyFederationExecutionMessage message;
+      if (!exchange(reader, message)) return Violation::malformed;
+      const HlaError error = message.federation == own
+                                 ? HlaError::unauthorized
+                                 : HlaError::federation_execution_does_not_exist;
+      return answer(id, FederationExecutionDestroyedMessage{message.federation,
+                                                            static_cast<std::uint8_t>(error)});
+    }
+    case MessageKind::list_federation_executions:
+      return list_executions(id);
+    case MessageKind::query_management:
+      return query_report(id);
+    default:
+      return Violation::wrong_phase;
+  }
+}
+
+Outcome Connections::list_executions(ConnectionId id) {
+  if (std::exchange(connections_[id].questions.wants_list, true)) return std::nullopt;
+  answer(id,
+         FederationExecutionMessage{0, basis_.settings.federation, basis_.fom.name(),
+                                    static_cast<std::uint32_t>(basis_.federates.joined_count())});
+  return answer(id, FederationExecutionMessage{1, {}, {}, 0});
+}
+
+Outcome Connections::query_report(ConnectionId id) {
+  if (!std::exchange(connections_[id].questions.wants_report, true)) report_queries_.push_back(id);
+  return std::nullopt;
+}
+
+/// How long each has been silent is the connections' to say.
+FederationReport Connections::report(const Outlet* outlet) const {
+  FederationReport report = census_.report(outlet);
+  for (FederateReport& each : report.federates)
+    if (const auto slot = basis_.federates.joined(each.federate))
+      each.counts.silence_s =
+          basis_.now - connections_[basis_.federates[*slot].connection].last_heard;
+  return report;
+}
+
+void Connections::send_answers(Outlet& outlet) {
+  for (const Farewell& each : answers_) {
+    const Bytes bytes = each.bytes;
+    outlet.send(each.connection, std::span(&bytes, 1));
+    connections_[each.connection].questions = {};
+  }
+  for (const ConnectionId each : report_queries_) connections_[each].questions = {};
+  answers_.clear();
+  if (!report_queries_.empty()) send_reports(outlet);
+}
+
+/// One report serves all who asked since the last flush.
+void Connections::send_reports(Outlet& outlet) {
+  const FederationReport whole = report(&outlet);
+  for (const ConnectionId id : report_queries_) {
+    if (is_unknown(id)) continue;
+    FrameWriter frame(frame_max_to_federate);
+    const auto append = [&frame](auto message) {
+      write(frame.begin_message(measure(message)), message);
+      frame.appended();
+    };
+    for_each_message(whole, append);
+    append(ReportEndMessage{});
+    const Bytes bytes = frame.bytes();
+    if (!is_joined(id)) {
+      outlet.send(id, std::span(&bytes, 1));
+      continue;
+    }
+    std::vector<std::byte>& head = basis_.federates[connections_[id].federate].outbox.head();
+    head.insert(head.end(), bytes.begin() + frame_header_size, bytes.end());
+  }
+  report_queries_.clear();
+}
+
+}  // namespace rink::rti

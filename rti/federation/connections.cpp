@@ -1,0 +1,161 @@
+// Bytes into frames and messages, and what ends a connection.
+#include "rti/federation/connections.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "rti/fom/fom_digest.h"
+#include "rti/wire/fom_messages.h"
+#include "rti/wire/membership_messages.h"
+
+namespace rink::rti {
+
+void Connections::connect(ConnectionId id) {
+  if (id >= connections_.size()) connections_.resize(id + 1);
+  connections_[id] = {};
+  connections_[id].phase = Phase::connected;
+  connections_[id].last_heard = basis_.now;
+}
+
+void Connections::disconnect(ConnectionId id) {
+  if (id >= connections_.size()) return;
+  if (is_joined(id)) desk_.remove(connections_[id].federate, ResignReason::lost);
+  connections_[id] = {};
+  forget_words(id);
+}
+
+void Connections::forget_words(ConnectionId id) {
+  for (std::vector<Farewell>* words : {&answers_, &farewells_})
+    std::erase_if(*words, [id](const Farewell& each) { return each.connection == id; });
+}
+
+void Connections::advance_clock() {
+  for (ConnectionId id = 0; id < connections_.size(); ++id) {
+    FederationConnection& connection = connections_[id];
+    if (connection.phase == Phase::unknown) continue;
+    if (connection.has_spoken) connection.last_heard = basis_.now;
+    connection.has_spoken = false;
+    if (basis_.now - connection.last_heard > basis_.settings.patience.lost_after_s)
+      expel(id, Violation::silent, ResignReason::lost, explain(Violation::silent));
+  }
+}
+
+void Connections::expel(ConnectionId id, Violation violation, ResignReason reason,
+                        std::string_view why) {
+  assert(id < connections_.size());
+  ++basis_.counters.drops[static_cast<std::size_t>(violation)];
+  // A stranger who breaks a rule gets no answer: it may be another program altogether.
+  const bool was_joined = is_joined(id);
+  if (was_joined) desk_.remove(connections_[id].federate, reason);
+  connections_[id] = {};
+  farewells_.push_back(
+      {id, std::string(why), was_joined ? framed(ExpelledMessage{why}) : std::vector<std::byte>()});
+}
+
+Outcome Connections::resign(ConnectionId id) {
+  assert(is_joined(id));
+  desk_.remove(connections_[id].federate, ResignReason::resigned);
+  connections_[id] = {};
+  farewells_.push_back({id, "resigned", {}});
+  return std::nullopt;
+}
+
+void Connections::receive(ConnectionId id, Bytes bytes) {
+  if (is_unknown(id)) return;
+  basis_.counters.bytes_received += bytes.size();
+  // A stranger's frame counts when it is whole: one byte now and then says nothing.
+  connections_[id].has_spoken |= is_joined(id);
+  if (is_joined(id)) basis_.federates[connections_[id].federate].counts.bytes_sent += bytes.size();
+  // The reader leaves its connection meanwhile: dropping the connection must not pull it from under
+  // our feet.
+  FrameReader reader = std::move(connections_[id].reader);
+  Outcome outcome;
+  const auto limit = [&] { return is_joined(id) ? frame_max_to_rti : frame_max_to_join; };
+  const auto take = [&](Bytes frame) {
+    outcome = take_frame(id, frame);
+    return !outcome && !is_unknown(id);
+  };
+  const Framing framing = reader.receive(bytes, limit, take);
+  if (framing == Framing::sound) connections_[id].reader = std::move(reader);
+  else punish(id, framing, outcome);
+}
+
+void Connections::punish(ConnectionId id, Framing framing, const Outcome& outcome) {
+  if (framing == Framing::empty)
+    expel(id, Violation::malformed, ResignReason::misbehaved, "it sent a frame without a message");
+  if (framing == Framing::oversized)
+    expel(id, Violation::oversized, ResignReason::misbehaved, explain(Violation::oversized));
+  if (framing == Framing::stopped && outcome)
+    expel(id, *outcome, ResignReason::misbehaved, explain(*outcome));
+  assert(is_unknown(id));
+}
+
+void Connections::receive_datagram(ConnectionId id, Bytes datagram) {
+  if (is_unknown(id) || !is_joined(id)) return;
+  basis_.counters.bytes_received += datagram.size();
+  connections_[id].has_spoken = true;
+  const std::uint32_t slot = connections_[id].federate;
+  basis_.federates[slot].counts.bytes_sent += datagram.size();
+  desk_.take_datagram(slot, datagram);
+}
+
+Outcome Connections::take_frame(ConnectionId id, Bytes frame) {
+  ++basis_.counters.frames_received;
+  connections_[id].has_spoken = true;
+  if (is_joined(id)) desk_.begin_frame(connections_[id].federate);
+  Reader reader(frame);
+  while (!reader.is_at_end() && !is_unknown(id))
+    if (const Outcome outcome = take_message(id, reader)) return outcome;
+  if (is_joined(id)) desk_.end_frame(connections_[id].federate);
+  return std::nullopt;
+}
+
+Outcome Connections::take_message(ConnectionId id, Reader& reader) {
+  if (is_joined(id)) return desk_.take_message(connections_[id].federate, reader);
+  std::uint8_t kind = 0;
+  reader.number(kind);
+  return static_cast<MessageKind>(kind) == MessageKind::join
+             ? join(id, reader)
+             : answer_stranger(id, static_cast<MessageKind>(kind), reader);
+}
+
+Outcome Connections::join(ConnectionId id, Reader& reader) {
+  JoinMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (const auto objection = membership_.objection(message))
+    return refuse(id, *objection), std::nullopt;
+  const std::uint32_t slot = desk_.admit(id, message);
+  connections_[id].phase = Phase::joined;
+  connections_[id].federate = slot;
+  return std::nullopt;
+}
+
+void Connections::refuse(ConnectionId id, const Membership::Objection& objection) {
+  expel(id, Violation::refused, ResignReason::misbehaved, objection.why);
+  std::vector<std::byte>& bytes = farewells_.back().bytes;
+  if (objection.refusal == Refusal::wrong_fom) bytes = framed_digest();
+  const std::vector<std::byte> refused =
+      framed(RefusedMessage{static_cast<std::uint8_t>(objection.refusal), objection.why});
+  bytes.insert(bytes.end(), refused.begin(), refused.end());
+}
+
+/// The federate finds out from the digest where its own model differs; nothing of a model too large
+/// for one.
+std::vector<std::byte> Connections::framed_digest() const {
+  const std::vector<FomDigestEntry> entries = digest(basis_.fom);
+  if (entries.size() > FomDigestMessage::count_max) return {};
+  return framed(FomDigestMessage{static_cast<std::uint16_t>(entries.size()),
+                                 std::as_bytes(std::span(entries))});
+}
+
+void Connections::send_farewells(Outlet& outlet) {
+  for (const Farewell& each : farewells_) {
+    const Bytes bytes = each.bytes;
+    if (!bytes.empty()) outlet.send(each.connection, std::span(&bytes, 1));
+    outlet.drop(each.connection, each.why);
+  }
+  farewells_.clear();
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,83 @@
+// Connections, from their first bytes to their farewell: whose words are a federate's, and what
+// strangers are answered.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "rti/central_component.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/federation_connection.h"
+#include "rti/federation/management/federation_census.h"
+#include "rti/federation/membership.h"
+#include "rti/federation/outcome.h"
+
+namespace rink::rti {
+
+/// What a connection leads to: the federation itself.
+class FederateDesk {
+ public:
+  virtual ~FederateDesk() = default;
+  /// The slot of who joins.
+  virtual std::uint32_t admit(ConnectionId connection, const JoinMessage& message) = 0;
+  virtual void remove(std::uint32_t slot, ResignReason reason) = 0;
+  /// A frame of a federate that has joined: its beginning, each message, and its end.
+  virtual void begin_frame(std::uint32_t slot) = 0;
+  virtual Outcome take_message(std::uint32_t slot, Reader& reader) = 0;
+  virtual void end_frame(std::uint32_t slot) = 0;
+  virtual void take_datagram(std::uint32_t slot, Bytes datagram) = 0;
+};
+
+class Connections {
+ public:
+  Connections(const FederationBasis& basis, const Membership& membership,
+              const FederationCensus& census, FederateDesk& desk)
+      : basis_(basis), membership_(membership), census_(census), desk_(desk) {}
+
+  void connect(ConnectionId id);
+  void disconnect(ConnectionId id);
+  void receive(ConnectionId id, Bytes bytes);
+  void receive_datagram(ConnectionId id, Bytes datagram);
+  /// Drops who has been silent for too long.
+  void advance_clock();
+  void expel(ConnectionId id, Violation violation, ResignReason reason, std::string_view why);
+  Outcome resign(ConnectionId id);
+  /// Answered by the next flush.
+  Outcome query_report(ConnectionId id);
+  FederationReport report(const Outlet* outlet) const;
+
+  /// What strangers asked goes out at once, reports to federates by their outboxes.
+  void send_answers(Outlet& outlet);
+  void send_farewells(Outlet& outlet);
+
+ private:
+  using Phase = FederationConnection::Phase;
+  bool is_joined(ConnectionId id) const { return connections_[id].phase == Phase::joined; }
+  bool is_unknown(ConnectionId id) const {
+    return id >= connections_.size() || connections_[id].phase == Phase::unknown;
+  }
+  void forget_words(ConnectionId id);
+  void punish(ConnectionId id, Framing framing, const Outcome& outcome);
+  Outcome take_frame(ConnectionId id, Bytes frame);
+  Outcome take_message(ConnectionId id, Reader& reader);
+  Outcome join(ConnectionId id, Reader& reader);
+  void refuse(ConnectionId id, const Membership::Objection& objection);
+  std::vector<std::byte> framed_digest() const;
+  Outcome answer_stranger(ConnectionId id, MessageKind kind, Reader& reader);
+  template <class Message>
+  Outcome answer(ConnectionId id, Message message);
+  Outcome list_executions(ConnectionId id);
+  void send_reports(Outlet& outlet);
+
+  FederationBasis basis_;
+  const Membership& membership_;
+  const FederationCensus& census_;
+  FederateDesk& desk_;
+  std::vector<FederationConnection> connections_;  ///< by id
+  std::vector<ConnectionId> report_queries_;       ///< that wait for the next flush
+  std::vector<Farewell> farewells_,
+      answers_;  ///< answers go to those who have not joined, and don't end their connection
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,46 @@
+// The parts that come with the RTI stand where the user gives none.
+#include "rti/federation/federation_ground.h"
+
+#include <utility>
+
+#include "rti/buffering/newest_state.h"
+#include "rti/distribution/interest.h"
+#include "rti/groups/member_lists.h"
+
+namespace rink::rti {
+
+namespace {
+
+std::unique_ptr<DataDistribution> distribution_of(const FederationServices& services,
+                                                  const Fom& fom, const ObjectTable& objects,
+                                                  const Ownership& ownership,
+                                                  std::unique_ptr<im::Filter> filter) {
+  if (services.data_distribution)
+    return services.data_distribution(fom, objects, ownership, std::move(filter));
+  return std::make_unique<Interest>(fom, objects, ownership, std::move(filter));
+}
+
+std::unique_ptr<GroupCommunication> groups_of(const FederationServices& services) {
+  if (services.group_communication) return services.group_communication();
+  return std::make_unique<MemberLists>();
+}
+
+std::unique_ptr<Buffering> buffering_of(const FederationServices& services) {
+  if (services.buffering) return services.buffering();
+  return std::make_unique<NewestState>();
+}
+
+}  // namespace
+
+FederationGround::FederationGround(const Fom& model, const FederationSettings& wanted,
+                                   const FederationServices& services,
+                                   std::unique_ptr<im::Filter> filter)
+    : fom(model),
+      settings(wanted),
+      objects(model),
+      ownership(model, objects),
+      distribution(distribution_of(services, model, objects, ownership, std::move(filter))),
+      buffering(buffering_of(services)),
+      groups(groups_of(services)) {}
+
+}  // namespace rink::rti

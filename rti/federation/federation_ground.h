@@ -1,0 +1,37 @@
+// What all services of a federation execution stand on, and the parts that a user may replace.
+#pragma once
+
+#include <memory>
+
+#include "im/filter.h"
+#include "rti/buffering/buffering.h"
+#include "rti/distribution/data_distribution.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation_services.h"
+#include "rti/groups/group_communication.h"
+#include "rti/ownership/ownership.h"
+
+namespace rink::rti {
+
+/// Owns what `FederationBasis` names. It stays where it is.
+struct FederationGround {
+  FederationGround(const Fom& fom, const FederationSettings& settings,
+                   const FederationServices& services, std::unique_ptr<im::Filter> filter);
+  FederationGround(const FederationGround&) = delete;
+  FederationGround& operator=(const FederationGround&) = delete;
+  FederationBasis basis() { return {fom, settings, federates, objects, counters, now}; }
+
+  const Fom& fom;
+  const FederationSettings settings;
+  FederationCounters counters;
+  double now = 0.0;  ///< as the clock was last advanced [s]
+  FederateTable federates;
+  ObjectTable objects;
+  Ownership ownership;
+  const std::unique_ptr<DataDistribution> distribution;
+  const std::unique_ptr<Buffering> buffering;
+  const std::unique_ptr<GroupCommunication> groups;  ///< of federate slots: a group for each
+                                                     ///< interaction class
+};
+
+}  // namespace rink::rti

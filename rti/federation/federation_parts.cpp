@@ -1,0 +1,135 @@
+// How the services are put together, and in which order they hear of those who come and go.
+#include "rti/federation/federation_parts.h"
+
+#include <cassert>
+#include <utility>
+
+namespace rink::rti {
+
+FederationParts::FederationParts(const Fom& fom, const FederationSettings& settings,
+                                 const FederationServices& services,
+                                 std::unique_ptr<im::Filter> filter)
+    : ground(fom, settings, services, std::move(filter)),
+      objects(ground),
+      interactions(ground.basis(), *ground.groups, *ground.distribution, objects.publications),
+      regions(ground.basis(),
+              {*ground.distribution, ground.ownership, objects.known, objects.requests}),
+      synchronization(ground.federates),
+      owners(ground.basis(), {ground.ownership, *ground.distribution, objects.publications,
+                              objects.known, objects.newest, objects.objects}),
+      declarations(ground.basis(), {*ground.distribution, ground.ownership, objects.publications,
+                                    interactions, owners}),
+      announcements(ground.basis(),
+                    {*ground.distribution, owners, objects.requests, objects.newest}),
+      periodic(ground.basis()),
+      turns(ground.basis(), *ground.distribution, objects.newest),
+      sender(ground.basis(),
+             {*ground.distribution, *ground.buffering, objects.newest, announcements, periodic,
+              turns, objects.sender, objects.receiver},
+             expulsion()),
+      time(ground.basis(),
+           {objects.publications, ground.ownership, objects.known, *ground.distribution,
+            interactions, objects.objects, objects.newest, announcements},
+           services.time_management, expulsion()),
+      management_objects(ground.basis(),
+                         {*ground.distribution, ground.ownership, declarations, objects.objects,
+                          objects.requests, time, *ground.buffering},
+                         ManagementHandles(fom)),
+      management_interactions(ground.basis(),
+                              {*ground.distribution, objects.publications, synchronization,
+                               interactions, objects.requests, management_objects},
+                              ManagementHandles(fom)),
+      census(ground.basis(), *ground.distribution, ground.ownership, time),
+      membership(ground.basis()),
+      connections(ground.basis(), membership, census, *this) {}
+
+Expulsion FederationParts::expulsion() {
+  return
+      [this](std::uint32_t slot, Violation violation, ResignReason reason, std::string_view why) {
+        connections.expel(ground.federates[slot].connection, violation, reason, why);
+      };
+}
+
+void FederationParts::advance_clock(double now) {
+  assert(now >= ground.now);
+  ground.now = now;
+  connections.advance_clock();
+}
+
+void FederationParts::match() {
+  ground.distribution->match();
+  ground.counters.scope_entries = ground.distribution->counters().entries;
+  ground.counters.scope_exits = ground.distribution->counters().exits;
+}
+
+/// What is announced asks its owner in the next flush, for requests are settled before it; what a
+/// message in time-stamp order presses asks in this one.
+void FederationParts::flush(Outlet& outlet) {
+  time.settle();
+  declarations.tell_object_relevance();
+  management_objects.tell();
+  connections.send_answers(outlet);
+  objects.requests.settle();
+  sender.flush(outlet);
+  objects.requests.flushed();
+  interactions.flushed();
+  ground.objects.recycle();
+  connections.send_farewells(outlet);
+}
+
+std::uint32_t FederationParts::admit(ConnectionId connection, const JoinMessage& message) {
+  const std::uint32_t slot = ground.federates.admit(connection, message.name, message.type);
+  objects.joined(slot);
+  interactions.joined(slot);
+  owners.joined(slot);
+  declarations.joined(slot);
+  time.joined(slot);
+  ground.distribution->add_federate(slot);
+  membership.joined(slot);
+  synchronization.joined(slot);
+  management_objects.joined(slot);
+  return slot;
+}
+
+/// The order shows on the wire: objects go before those are told who watch federates, and blocks
+/// are free before the RTI's own objects may take one.
+void FederationParts::remove(std::uint32_t slot, ResignReason reason) {
+  owners.left(slot);
+  ground.distribution->remove_federate(slot);
+  objects.requests.left(slot);
+  ground.buffering->remove_federate(slot);
+  periodic.left(slot);
+  objects.objects.left(slot);
+  ground.federates.retire(slot);
+  subscriptions_changed(slot);
+  management_objects.left(slot);
+  interactions.left(slot);
+  objects.names.left(slot);
+  synchronization.left(slot);
+  membership.left(slot, reason);
+  time.left(slot);
+  objects.left(slot);
+  declarations.left(slot);
+  ground.federates.release(slot);
+}
+
+void FederationParts::begin_frame(std::uint32_t slot) {
+  objects.updates.begin_frame(slot);
+  objects.arrivals.hear_frame(slot);
+}
+
+void FederationParts::subscriptions_changed(std::uint32_t slot) {
+  declarations.subscriptions_changed(slot);
+  management_objects.subscribed(slot);
+}
+
+Outcome FederationParts::send(std::uint32_t slot, InteractionMessage& message,
+                              std::span<const RegionHandle> sent_within) {
+  Interactions::Receivers receivers;
+  if (const Outcome outcome = interactions.accept(slot, message, receivers)) return outcome;
+  if (ground.fom.is_management(InteractionClassHandle{message.interaction_class}))
+    if (const Outcome outcome = management_interactions.take(slot, message)) return outcome;
+  return interactions.deliver(slot, message, receivers, sent_within);
+}
+
+}  // namespace rink::rti
