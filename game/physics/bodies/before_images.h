@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "game/physics/bodies/observers.h"
 #include "game/physics/body_state.h"
 #include "game/physics/real.h"
 
@@ -15,7 +16,7 @@ class ImpactHistory;
 class Jams;
 
 /// A free impact changes the flights of bodies alone, so that nearly always no more is kept.
-class BeforeImages {
+class BeforeImages final : public ChangeObserver {
  public:
   struct KeptFlight {
     std::uint32_t body;
@@ -33,9 +34,9 @@ class BeforeImages {
   /// From here on is another window.
   void begin();
   /// Before the body changes otherwise than in a free impact.
-  void keep(std::uint32_t body);
+  void keep(std::uint32_t body) override;
   /// Before it changes in a free impact; or in any, then with `flight` from before that.
-  void keep_flight(std::uint32_t body, const Flight& flight) {
+  void keep_flight(std::uint32_t body, const Flight& flight) override {
     if (marks_[body].number >= number_) return;
     marks_[body] = {number_, static_cast<std::uint32_t>(flights_.size()), 0};
     flights_.push_back({body, flight});

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "game/physics/bodies/before_images.h"
 #include "game/physics/bodies/body_records.h"
 #include "game/physics/bodies/energy_ledger.h"
 #include "game/physics/bodies/observers.h"
