@@ -2,7 +2,10 @@
 // the RTI has given it a further one.
 #include <gtest/gtest.h>
 
+#include "rti/wire/declaration_messages.h"
+#include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
+#include "tests/rti/bare.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
@@ -96,6 +99,38 @@ TEST(FurtherBlocks, LeaveTheLimitOfWhatIsThereAtOnce) {
   rig.settle();
   EXPECT_FALSE(owner.heard.lost.empty());
   EXPECT_EQ(rig.execution().counters().drops[static_cast<std::size_t>(Violation::over_limit)], 1u);
+}
+
+/// The handle behind the last of a block is the first of another's.
+TEST(FurtherBlocks, AreNotTakenFromOthersByWhoIsGivenNone) {
+  Bare bare;
+  const PublishObjectClassMessage publish{vessel_number, both.bits};
+  const auto come_and_go = [&](ObjectHandle object) {
+    bare.execution.receive(1, frame_of(RegisterObjectMessage{object.value, vessel_number, ""},
+                                       DeleteObjectMessage{object.value}));
+  };
+  bare.enter(1, "hoarder");
+  bare.execution.receive(1, frame_of(publish));
+  // Everybody else leaves a block behind that was used.
+  std::uint32_t block = 2;
+  for (ConnectionId connection = 2; block < object_block_max; ++block, ++connection) {
+    bare.enter(connection, "guest");
+    bare.execution.receive(
+        connection,
+        frame_of(publish, RegisterObjectMessage{block * object_block, vessel_number, ""},
+                 ResignMessage{}));
+    bare.tick();
+  }
+  for (std::uint32_t number = 0; number < object_block; ++number) {
+    come_and_go({object_block + number});
+    if (number % 4096 == 0) bare.tick();
+  }
+  bare.tick();
+  ASSERT_EQ(bare.dropped.count(1), 0u) << bare.dropped[1];
+  come_and_go({2 * object_block});
+  bare.tick();
+  EXPECT_EQ(bare.drops(Violation::over_limit), 1u);
+  EXPECT_EQ(bare.execution.object_count(), 0u);
 }
 
 }  // namespace

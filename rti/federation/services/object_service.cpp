@@ -34,7 +34,7 @@ Outcome ObjectService::handle_register(std::uint32_t slot, Reader& reader) {
   const std::size_t own = alive(slot);
   if (own >= settings.objects_per_federate_max) return Violation::over_limit;
   Registered& registered = federates_[slot];
-  if (registered.count == object_block) extend_block(slot);
+  if (registered.count == object_block && !extend_block(slot)) return Violation::over_limit;
   // Handles come in order, so that a stranger can't make the table grow by naming a great one.
   if (message.object != basis_.federates[slot].block * object_block + registered.count)
     return Violation::unknown_name;
@@ -60,16 +60,16 @@ std::size_t ObjectService::alive(std::uint32_t slot) const {
   return count;
 }
 
-/// Goes on in the block that it was given. Without one it stays where it is, and its next handle is
-/// none of its own.
-void ObjectService::extend_block(std::uint32_t slot) {
+/// Goes on in the block that it was given; false if no block was left to give.
+bool ObjectService::extend_block(std::uint32_t slot) {
   Registered& registered = federates_[slot];
-  if (!registered.further_block) return;
+  if (!registered.further_block) return false;
   std::uint32_t& block = basis_.federates[slot].block;
   basis_.objects.close_block(block);
   registered.former_blocks.push_back(block);
   block = *std::exchange(registered.further_block, std::nullopt);
   registered.count = 0;
+  return true;
 }
 
 /// For when half of what is left is used too.

@@ -67,7 +67,7 @@ class ObjectService {
   };
   Registered& of(std::uint32_t slot);
   std::size_t alive(std::uint32_t slot) const;
-  void extend_block(std::uint32_t slot);
+  bool extend_block(std::uint32_t slot);
   void promise_block(std::uint32_t slot);
   void refuse(std::uint32_t slot, ObjectHandle object);
 
