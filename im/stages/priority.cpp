@@ -107,7 +107,7 @@ void PriorityOrder::check() const {
   for (const Buffer<Entry>& entries : entries_) {
     for (std::size_t i = 1; i < entries.size(); ++i)
       assert(entries[i - 1].entity < entries[i].entity);
-    for (const Entry& entry : entries.span()) {
+    for ([[maybe_unused]] const Entry& entry : entries.span()) {
       assert(entry.entity < entities_.size());
       assert(entry.sent <= now_);
     }

@@ -157,7 +157,7 @@ void Engine::remove(std::uint32_t body) {
 }
 
 void Engine::place(std::uint32_t puck, const RealVector& position, const RealVector& velocity) {
-  const Body& b = bodies_[puck];
+  [[maybe_unused]] const Body& b = bodies_[puck];
   assert(b.kind == BodyKind::puck && (b.flags & Body::gone) == Body::out_of_play &&
          position.allFinite() && velocity.allFinite());
   assert(is_free(present(), position, {RealVector(0.0, 0.0), b.radius}));
