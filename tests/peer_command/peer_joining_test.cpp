@@ -76,7 +76,7 @@ TEST_F(PeerJoining, SeveralWhoComeAtOnceEachPlayTheirOwnBats) {
   const Words real{"--pace", "realtime", "--bots", "1", "--players", "random"};
   Words recorded = real;
   recorded.insert(recorded.end(), {"--record", file});
-  Process& first = found(1, "4", recorded);
+  Process& first = found(1, "7", recorded);
   ASSERT_TRUE(are_playing({&first}));
   std::vector<Process*> all{&first};
   for (int k = 0; k < 5; ++k) all.push_back(&join(first, real));
@@ -108,7 +108,7 @@ TEST_F(PeerJoining, MayBeAskedForBeforeTheFirstListens) {
 
 TEST_F(PeerJoining, InAStormOfLeavingAndDyingLeavesTheGameOfOneEngine) {
   const Words real{"--pace", "realtime"};
-  Process& first = found(3, "7", real);
+  Process& first = found(3, "12", real);
   std::vector<Process*> there{&first, &join(first, real), &join(first, real)};
   ASSERT_TRUE(are_playing({there[0], there[1], there[2]}));
   int killed = 0;
@@ -132,7 +132,7 @@ TEST_F(PeerJoining, InAStormOfLeavingAndDyingLeavesTheGameOfOneEngine) {
   for (const Process* peer : there) {
     ASSERT_TRUE(ends(*peer));
     EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
-    EXPECT_EQ(hash_of(*peer), truth(7.0));
+    EXPECT_EQ(hash_of(*peer), truth(12.0));
   }
 }
 
