@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "im/filter.h"
 #include "im/matching/buffer.h"
 

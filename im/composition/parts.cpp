@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::im {
 namespace {

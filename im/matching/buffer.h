@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::im {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::im {
 namespace {

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "im/filter.h"
 #include "im/matching/buffer.h"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "im/composition/parts.h"
 #include "im/stages/stages.h"
 

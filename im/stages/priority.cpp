@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "im/composition/parts.h"
 #include "im/stages/priority_order.h"
 #include "im/stages/stages.h"

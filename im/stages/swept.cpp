@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "im/composition/parts.h"
 #include "im/schemes/candidate_pairs.h"
 #include "im/stages/flight.h"

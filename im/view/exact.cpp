@@ -1,7 +1,7 @@
 // Adds and multiplies expansions, part by part.
 #include "im/view/exact.h"
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::im {
 namespace {

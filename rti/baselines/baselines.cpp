@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "rti/fom/fom.h"
 #include "rti/wire/baseline_messages.h"
 

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::rti {
 

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <unordered_map>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::rti {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "rti/wire/message.h"
 #include "rti/wire/update_block.h"
 

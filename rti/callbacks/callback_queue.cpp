@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::rti {
 

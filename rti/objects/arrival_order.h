@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 #include "rti/fom/fom.h"
 #include "rti/objects/object_map.h"

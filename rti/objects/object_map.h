@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 #include "rti/handles.h"
 

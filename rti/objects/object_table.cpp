@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstring>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "rti/fom/coded_values.h"
 #include "rti/wire/message.h"
 

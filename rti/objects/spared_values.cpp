@@ -5,7 +5,7 @@
 #include <bit>
 #include <cassert>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::rti {
 

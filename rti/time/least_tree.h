@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::rti {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 #include "rti/wire/stream.h"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 #include "rti/federate_ambassador.h"
 #include "rti/handles.h"

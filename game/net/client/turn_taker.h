@@ -9,7 +9,7 @@
 
 namespace rink::game {
 
-/// Sends nothing itself. Idle until it is told a pace: the server then ticks by its own timer, and
+/// A turn taker sends nothing itself. Until it has a pace, the server ticks by its own timer, and
 /// nobody waits for anybody.
 class TurnTaker {
  public:

@@ -28,7 +28,7 @@ struct BodyTable {
   std::vector<Law> laws;
   std::vector<Real>
       rest_times;  ///< of worlds with friction: when it will have brought the body to rest [s]
-  std::vector<RealVector> slowing;  ///< likewise: its part in the acceleration of the body
+  std::vector<RealVector> slowing;  ///< of worlds with friction: its part in the acceleration
   std::vector<Real> spins;          ///< of worlds with surface friction [rad/s]
 };
 
@@ -84,9 +84,9 @@ class Bodies {
   }
   /// Brings the body up to `time`, which its event then changes.
   void rebase(std::uint32_t body, Real time);
-  /// The event at hand touches the body: whoever looks is told, and it will be predicted anew.
+  /// Notes that the present event changes the body, whose next event is then predicted anew.
   void touch(std::uint32_t body);
-  /// Likewise in a free impact, but for predictions.
+  /// Restarts the body's flight after a free impact, which predicts the next event itself.
   void restart(std::uint32_t body, const RealVector& position, const RealVector& velocity,
                Real time) {
     table_.bodies[body].restart(position.x(), position.y(), velocity.x(), velocity.y(), time);

@@ -9,7 +9,7 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-/// A body, whom or what it meets, and the gap between them.
+/// A body, the body or obstacle that it touches, and the gap between the two.
 struct Contact {
   std::uint32_t body;
   Partner partner;

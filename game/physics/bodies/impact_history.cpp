@@ -11,12 +11,11 @@ namespace rink::physics::inline RINK_PRECISION {
 namespace {
 
 constexpr std::uint32_t slow_impacts_max = 8;  // within contact_time, before a hop
-constexpr std::uint32_t impacts_max =
-    24;  // likewise, whatever their speed, where impacts lose energy
+constexpr std::uint32_t impacts_max = 24;      // of impacts at any speed, where impacts lose energy
 /// Impacts of one body at one and the same instant. Free bodies in overlap part after a few; a body
 /// that lies in two fixed ones at once never would.
 constexpr std::uint32_t repeats_max = 100;
-/// Likewise within roundings of the clock: more than elastic series between masses 1e12 apart take.
+/// Impacts within roundings of the clock: more than an elastic series takes, masses 1e12 apart.
 constexpr std::uint32_t hemmed_in_min = 10'000;
 constexpr std::uint32_t rests_max = 8;  // at one instant
 

@@ -15,7 +15,7 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-/// Part of the physical history: what is pressed, or has no room, is told by it.
+/// Part of the physical state: these counts decide which bodies are pressed or have no room.
 class ImpactHistory {
  public:
   ImpactHistory(const WorldSpec& spec, Bodies& bodies, const Observers& observers);

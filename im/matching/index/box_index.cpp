@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "im/matching/ring.h"
 
 namespace rink::im {

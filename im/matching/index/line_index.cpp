@@ -6,7 +6,7 @@
 #include <bit>
 #include <cassert>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "im/matching/index/line_scan.h"
 
 namespace rink::im {

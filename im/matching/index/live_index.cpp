@@ -4,7 +4,7 @@
 #include <bit>
 #include <cassert>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 #include "im/matching/ring.h"
 
 namespace rink::im {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::im {
 namespace {

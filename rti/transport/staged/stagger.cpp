@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cstring>
 
-#include "im/checked.h"
+#include "im/basics/checked.h"
 
 namespace rink::rti {
 
