@@ -4,6 +4,7 @@ function(run)
   if(NOT status EQUAL 0)
     message(FATAL_ERROR "${ARGV}\nended with ${status}:\n${output}")
   endif()
+  set(output "${output}" PARENT_SCOPE)
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
@@ -12,4 +13,8 @@ run(${CMAKE_COMMAND} --install ${BUILD} --component library --prefix ${WORK}/pre
 run(${CMAKE_COMMAND} --no-warn-unused-cli -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${WORK}/prefix -D CMAKE_CXX_COMPILER=${COMPILER}
     "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/build/consumer)
+# The program is called after its folder, or consumer.
+get_filename_component(program ${CONSUMER} NAME)
+string(REGEX REPLACE "^consumer.*" "consumer" program ${program})
+run(${WORK}/build/${program})
+message(STATUS "${output}")
