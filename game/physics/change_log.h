@@ -25,11 +25,7 @@ class ChangeCursor {
 class ChangeLog {
  public:
   void note(std::uint32_t body) {
-    std::uint64_t& word = is_listed_[body / 64];
-    const std::uint64_t bit = std::uint64_t{1} << (body % 64);
-    if ((word & bit) != 0) return;
-    word |= bit;
-    entries_.push_back({body});
+    if ((is_listed_[body / 64] >> (body % 64) & 1) == 0) list(body);
   }
   /// The next body, by number.
   void add(std::uint32_t body) {
@@ -55,6 +51,12 @@ class ChangeLog {
 
  private:
   static constexpr std::size_t entries_kept_min = 1024;
+
+  /// Kept apart: most bodies that change are listed already.
+  [[gnu::noinline]] void list(std::uint32_t body) {
+    is_listed_[body / 64] |= std::uint64_t{1} << (body % 64);
+    entries_.push_back({body});
+  }
 
   std::span<const BodyId> entries_since(std::uint64_t from, std::uint32_t body_count) {
     const std::span<const BodyId> entries = std::span(entries_).subspan(from - begin_);

@@ -6,7 +6,6 @@
 
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/engine/field_parts.h"
-#include "game/physics/flight/exponential.h"
 #include "game/physics/flight/straight_flight.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -46,8 +45,7 @@ void Prediction::predict(std::uint32_t body) {
 void Prediction::predict_beyond(std::uint32_t body, CellGrid::Direction direction) {
   if (bodies_[body].is(Body::curved)) return predict(body);
   predict_flight(body);
-  candidates_.resize(grid_.collected_max());
-  predict_pairs(body, grid_.collect_ahead(body, direction, candidates_.data()));
+  predict_pairs(body, grid_.collect_ahead(body, direction, room_for_candidates()));
   events_.schedule(body);
 }
 
@@ -60,9 +58,8 @@ std::uint32_t Prediction::begin(std::uint32_t body) {
   slot.is_tied = false;
   predict_field(body);
   if ((bodies_[body].flags & Body::curved) != 0) predict_curved_crossing(body);
-  candidates_.resize(grid_.collected_max());
   --counters_.predictions;  // of the body with itself
-  return grid_.collect(body, candidates_.data());
+  return grid_.collect(body, room_for_candidates());
 }
 
 std::uint32_t Prediction::predict_counting(std::uint32_t body) {
@@ -80,14 +77,6 @@ void Prediction::predict_field(std::uint32_t body) {
   if ((b.flags & Body::curved) != 0) predict_curved_walls(body);
   else predict_flight(body);
   if (b.mouth != Body::no_mouth) predict_mouth(body);
-}
-
-/// The instant at which the pucks' warped clock has advanced by `warped` since `start`; infinite if
-/// it never does.
-Real Prediction::real_time(Real start, Real warped) const {
-  if (puck_drag_ == 0.0) return start + warped;
-  const Real lost = puck_drag_ * warped;
-  return lost < 1.0 ? start - log1p_of(-lost) / puck_drag_ : infinity;
 }
 
 /// The crossing of a body in straight flight and, where its cell lies at the rim, the wall: from

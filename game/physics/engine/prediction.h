@@ -12,6 +12,7 @@
 #include "game/physics/counters.h"
 #include "game/physics/engine/next_events.h"
 #include "game/physics/engine/rest_contacts.h"
+#include "game/physics/flight/exponential.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -33,6 +34,11 @@ class Prediction {
   void predict_beyond(std::uint32_t body, CellGrid::Direction direction);
 
  private:
+  /// For all whom the grid may name at once.
+  std::uint32_t* room_for_candidates() {
+    if (candidates_.size() < grid_.collected_max()) candidates_.resize(grid_.collected_max());
+    return candidates_.data();
+  }
   std::uint32_t begin(std::uint32_t body);
   void predict_field(std::uint32_t body);
   void predict_flight(std::uint32_t body);
@@ -48,7 +54,13 @@ class Prediction {
   void predict_curved_pair(std::uint32_t body, std::uint32_t other);
   void predict_curved_crossing(std::uint32_t body);
   void offer(std::uint32_t body, Real time, Partner partner);
-  Real real_time(Real start, Real warped) const;
+  /// The instant at which the pucks' warped clock has advanced by `warped` since `start`; infinite
+  /// if it never does.
+  Real real_time(Real start, Real warped) const {
+    if (puck_drag_ == 0.0) return start + warped;
+    const Real lost = puck_drag_ * warped;
+    return lost < 1.0 ? start - log1p_of(-lost) / puck_drag_ : infinity;
+  }
   bool is_open(Real y) const;
 
   const Field& field_;

@@ -79,8 +79,11 @@ class EventQueue {
   std::size_t place_of(std::int64_t number) const {
     return static_cast<std::size_t>(number) & (counts_.size() - 1);
   }
-  std::int64_t bucket_number(Real time) const;
-  void note(std::uint32_t body, Real time);
+  std::int64_t bucket_number(Real time) const {
+    constexpr double number_max = 4.0e18;
+    return static_cast<std::int64_t>(std::min<Real>(time * inverse_width_, number_max));
+  }
+  void note(std::uint32_t body, Real time, std::int64_t number);
   void spill(Bucket& bucket);
   void add_due(std::uint32_t body);
   template <class Visit>

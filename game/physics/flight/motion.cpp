@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "game/physics/flight/exponential.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -26,12 +25,6 @@ Real warped_square(Real elapsed, Real drag, Real s) {
 }
 
 }  // namespace
-
-WarpedTime warp_unaccelerated(Real elapsed, Real drag) {
-  if (drag == 0.0) return {elapsed, 0.0, 1.0};
-  const Real lost = expm1_of(-drag * elapsed);
-  return {-lost / drag, 0.0, 1.0 + lost};
-}
 
 WarpedTime warp(Real elapsed, Real drag) {
   WarpedTime warped = warp_unaccelerated(elapsed, drag);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "game/physics/body.h"
+#include "game/physics/flight/exponential.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -22,7 +23,11 @@ WarpedTime warp(Real elapsed, Real drag);
 
 /// The same, bit for bit, but with q = 0: it costs three times as much as the rest, and a body
 /// without thrust has no use for it.
-WarpedTime warp_unaccelerated(Real elapsed, Real drag);
+inline WarpedTime warp_unaccelerated(Real elapsed, Real drag) {
+  if (drag == 0.0) return {elapsed, 0.0, 1.0};
+  const Real lost = expm1_of(-drag * elapsed);
+  return {-lost / drag, 0.0, 1.0 + lost};
+}
 
 /// The state of a body at its last event, and the law it has followed since; each axis has its own
 /// acceleration and drag, for a body in rest contact shares those of its partners along the
