@@ -201,15 +201,13 @@ void ChangeJoin::ask_lines(const Side& askers, const Side& asked, bool is_by_ent
   Worker* const worker = for_movers(worker_, askers.moved.size());
   const std::size_t count = probes_.size(), middle = worker != nullptr ? count / 2 : count;
   answers_.clear(), other_answers_.clear();
+  const auto find = [&](std::size_t begin, std::size_t end, LineIndex::Answers& answers) {
+    lines.find_changes(
+        {.askers = probes_, .begin = begin, .end = end, .judge = judge, .regions = asked.regions},
+        instructions_, answers);
+  };
   run_both(
-      worker,
-      [&] {
-        lines.find_changes(probes_, 0, middle, judge, asked.regions, instructions_, answers_);
-      },
-      [&] {
-        lines.find_changes(probes_, middle, count, judge, asked.regions, instructions_,
-                           other_answers_);
-      });
+      worker, [&] { find(0, middle, answers_); }, [&] { find(middle, count, other_answers_); });
   for (const LineIndex::Answers* answers : {&answers_, &other_answers_}) {
     if (is_by_entity) changes_.add_by_entity(answers->found.span());
     else changes_.add_by_subscriber(answers->found.span());

@@ -21,8 +21,9 @@ void Join::Part::clear() {
 void Join::clear() { own_.clear(); }
 
 template <class Index, class Askers, class Find>
-void Join::Part::add(const Index& index, const Askers& all, std::size_t begin, std::size_t end,
-                     const TieJudge& judge, Scan scan, const Find& find) {
+void Join::Part::add(const Index& index, const Slice<Askers>& slice, const TieJudge& judge,
+                     Scan scan, const Find& find) {
+  const auto& [all, begin, end] = slice;
   assert(begin <= end && end <= all.size());
   const Candidates candidates = index.candidates();
   std::array<Probe, block_size> probes;
@@ -42,8 +43,8 @@ void Join::Part::add(const Index& index, const Askers& all, std::size_t begin, s
     candidate_count += block_candidates;
     const std::size_t found_before = found.size();
     found.reserve(found_before + block_candidates + 8);
-    const std::size_t found_now = scan(candidates, {probes.data(), count}, stretches.data(), judge,
-                                       found.data() + found_before, block_ends.data());
+    const std::size_t found_now = scan(candidates, {{probes.data(), count}, stretches.data()},
+                                       judge, {found.data() + found_before, block_ends.data()});
     assert(found_now <= block_candidates && block_ends[count - 1] == found_now);
     found.resize(found_before + found_now);
     for (std::size_t i = 0; i < count; ++i, ++place) {
@@ -72,11 +73,16 @@ template <class Index, class Askers, class Find>
 void Join::add(const Index& index, const Askers& askers, const TieJudge& judge, Scan scan,
                const Find& find) {
   const std::size_t count = askers.size(), middle = worker_ ? count / 2 : count;
-  if (middle == count) return own_.add(index, askers, 0, count, judge, scan, find);
+  if (middle == count) return own_.add(index, Slice<Askers>{askers, 0, count}, judge, scan, find);
   other_.clear();
   run_both(
-      worker_, [&] { own_.add(index, askers, 0, middle, judge, scan, find); },
-      [&] { other_.add(index, askers, middle, count, judge, scan, find); });
+      worker_,
+      [&] {
+        own_.add(index, Slice<Askers>{askers, 0, middle}, judge, scan, find);
+      },
+      [&] {
+        other_.add(index, Slice<Askers>{askers, middle, count}, judge, scan, find);
+      });
   own_.append(other_);
 }
 

@@ -41,6 +41,12 @@ class Join {
   std::size_t bytes() const;
 
  private:
+  /// Those of `all` from `begin` to before `end`.
+  template <class Askers>
+  struct Slice {
+    const Askers& all;
+    std::size_t begin, end;
+  };
   /// What some askers found.
   struct Part {
     std::uint64_t candidate_count = 0;
@@ -51,8 +57,8 @@ class Join {
     void clear();
     void append(const Part& other);
     template <class Index, class Askers, class Find>
-    void add(const Index& index, const Askers& askers, std::size_t begin, std::size_t end,
-             const TieJudge& judge, Scan scan, const Find& find);
+    void add(const Index& index, const Slice<Askers>& askers, const TieJudge& judge, Scan scan,
+             const Find& find);
     std::size_t bytes() const;
   };
   template <class Index, class Askers, class Find>

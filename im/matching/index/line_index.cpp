@@ -334,9 +334,8 @@ void LineIndex::read(const ProbeList& askers, const TieJudge& judge, const Regio
 }
 
 template <class Compare>
-void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end,
-                             const TieJudge& judge, const RegionHistory& regions,
-                             Answers& answers) const {
+void LineIndex::find_changes(const Inquiry& inquiry, Answers& answers) const {
+  const auto& [askers, begin, end, judge, regions] = inquiry;
   for (std::size_t first = begin; first < end; first += in_flight_max) {
     for (std::size_t i = first; i < std::min(first + in_flight_max, end); ++i) {
       visit(askers.probe(i), static_cast<std::uint32_t>(i), answers.visits);
@@ -346,14 +345,12 @@ void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::si
   }
 }
 
-void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end,
-                             const TieJudge& judge, const RegionHistory& regions,
-                             Instructions instructions, Answers& answers) const {
-  assert(is_built_ && begin <= end && end <= askers.size());
+void LineIndex::find_changes(const Inquiry& inquiry, Instructions instructions,
+                             Answers& answers) const {
+  assert(is_built_ && inquiry.begin <= inquiry.end && inquiry.end <= inquiry.askers.size());
   assert(answers.visits.empty() && answers.doubts.empty());  // the last question was answered
-  if (instructions == Instructions::scalar)
-    find_changes<OneByOne>(askers, begin, end, judge, regions, answers);
-  else find_changes<BySse2>(askers, begin, end, judge, regions, answers);
+  if (instructions == Instructions::scalar) find_changes<OneByOne>(inquiry, answers);
+  else find_changes<BySse2>(inquiry, answers);
 }
 
 void LineIndex::check() const {

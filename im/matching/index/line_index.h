@@ -53,6 +53,15 @@ class LineIndex {
     Buffer<std::uint64_t> doubts;  // the asker's id, and below it whom he may have found
   };
 
+  /// Who asks, some of `askers`, and what decides where bytes cannot: `judge`, which asks the
+  /// regions that `regions` holds.
+  struct Inquiry {
+    const ProbeList& askers;
+    std::size_t begin, end;
+    const TieJudge& judge;
+    const RegionHistory& regions;
+  };
+
   /// Starts anew with those of `regions` that are somewhere at `place`: where they were or where
   /// they are now.
   void build(const Region& world, const RegionHistory& regions, Region Motion::*place);
@@ -66,11 +75,8 @@ class LineIndex {
   /// True if it was never built, or so much came or grew since that it is worth building anew.
   bool is_outgrown() const;
   /// All of which an overlap with one of the askers changed while those went from where they were
-  /// to where they are. `judge` decides what bytes cannot and asks the regions that `regions`
-  /// holds.
-  void find_changes(const ProbeList& askers, std::size_t begin, std::size_t end,
-                    const TieJudge& judge, const RegionHistory& regions, Instructions instructions,
-                    Answers& answers) const;
+  /// to where they are.
+  void find_changes(const Inquiry& inquiry, Instructions instructions, Answers& answers) const;
   std::size_t bytes() const;
   /// Asserts that lines and runs hold each box once, where its id is looked for, and no other
   /// memory is lost.
@@ -102,8 +108,7 @@ class LineIndex {
   std::uint32_t take_run(std::uint32_t size);
   std::size_t check(std::uint32_t cell) const;
   template <class Compare>
-  void find_changes(const ProbeList& askers, std::size_t begin, std::size_t end,
-                    const TieJudge& judge, const RegionHistory& regions, Answers& answers) const;
+  void find_changes(const Inquiry& inquiry, Answers& answers) const;
   void visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& visits) const;
   static Hit* list(Hit* hit, const Line& line, std::uint32_t asker, const LineOutcome& outcome);
   template <class Compare>

@@ -53,12 +53,22 @@ struct TieJudge {
   }
 };
 
-/// Writes to `found` the ids of each probe's matches, in the order of its stretches, and to `ends`
-/// where those of each probe end, counted from `found`. `found` has room for all candidates and
-/// eight more. Returns the number of matches.
-using Scan = std::size_t (*)(const Candidates& candidates, std::span<const Probe> probes,
-                             const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
-                             std::uint32_t* ends);
+/// Probes that are answered together, and the stretches of them all.
+struct ProbeBlock {
+  std::span<const Probe> probes;
+  const Stretch* stretches;
+};
+
+/// Where a scan writes.
+struct ScanOutput {
+  std::uint32_t* found;  ///< the ids of each probe's matches, in the order of its stretches; has
+                         ///< room for all candidates and eight more
+  std::uint32_t* ends;   ///< where those of each probe end, counted from `found`
+};
+
+/// Returns the number of matches.
+using Scan = std::size_t (*)(const Candidates& candidates, const ProbeBlock& block,
+                             const TieJudge& judge, const ScanOutput& output);
 
 /// What is asked about two boxes: whether they overlap, or whether one touches the disc that the
 /// other holds (disc.h): the asker's disc, or the candidate's.

@@ -85,9 +85,10 @@ RINK_AVX2 inline std::size_t pack(unsigned hits, __m256i ids, std::uint32_t* fou
   return static_cast<std::size_t>(__builtin_popcount(hits));
 }
 
-RINK_AVX2 std::size_t scan_overlaps(const Candidates& candidates, std::span<const Probe> probes,
-                                    const Stretch* stretches, const TieJudge& judge,
-                                    std::uint32_t* found, std::uint32_t* ends) {
+RINK_AVX2 std::size_t scan_overlaps(const Candidates& candidates, const ProbeBlock& block,
+                                    const TieJudge& judge, const ScanOutput& output) {
+  const auto [probes, stretches] = block;
+  const auto [found, ends] = output;
   std::size_t count = 0, stretch = 0;
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const WideBox now = widen(probes[p].now);
@@ -108,9 +109,10 @@ RINK_AVX2 std::size_t scan_overlaps(const Candidates& candidates, std::span<cons
   return count;
 }
 
-RINK_AVX2 std::size_t scan_changes(const Candidates& candidates, std::span<const Probe> probes,
-                                   const Stretch* stretches, const TieJudge& judge,
-                                   std::uint32_t* found, std::uint32_t* ends) {
+RINK_AVX2 std::size_t scan_changes(const Candidates& candidates, const ProbeBlock& block,
+                                   const TieJudge& judge, const ScanOutput& output) {
+  const auto [probes, stretches] = block;
+  const auto [found, ends] = output;
   std::size_t count = 0, stretch = 0;
   const __m256 zero = _mm256_setzero_ps();
   for (std::size_t p = 0; p < probes.size(); ++p) {
@@ -193,9 +195,10 @@ RINK_AVX2 inline WideBox load(const BoxColumns& boxes, std::size_t i) {
 }
 
 template <bool is_of_askers>
-RINK_AVX2 std::size_t scan_discs(const Candidates& candidates, std::span<const Probe> probes,
-                                 const Stretch* stretches, const TieJudge& judge,
-                                 std::uint32_t* found, std::uint32_t* ends) {
+RINK_AVX2 std::size_t scan_discs(const Candidates& candidates, const ProbeBlock& block,
+                                 const TieJudge& judge, const ScanOutput& output) {
+  const auto [probes, stretches] = block;
+  const auto [found, ends] = output;
   std::size_t count = 0, stretch = 0;
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const WideBox before = widen(probes[p].before), now = widen(probes[p].now);

@@ -22,9 +22,10 @@ struct Outcome {
 };
 
 template <class Compare>
-std::size_t scan(const Candidates& candidates, std::span<const Probe> probes,
-                 const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
-                 std::uint32_t* ends, const Compare& compare) {
+std::size_t scan(const Candidates& candidates, const ProbeBlock& block, const TieJudge& judge,
+                 const ScanOutput& output, const Compare& compare) {
+  const auto [probes, stretches] = block;
+  const auto [found, ends] = output;
   std::size_t count = 0, stretch = 0;
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const Probe probe = probes[p];
@@ -47,26 +48,21 @@ std::size_t scan(const Candidates& candidates, std::span<const Probe> probes,
   return count;
 }
 
-std::size_t scan_overlaps(const Candidates& candidates, std::span<const Probe> probes,
-                          const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
-                          std::uint32_t* ends) {
-  return scan(candidates, probes, stretches, judge, found, ends,
-              [&](std::size_t i, const Probe& probe) {
-                const float now = clearance(candidates.now, i, probe.now);
-                return Outcome{now >= 0.0f, false, now == 0.0f};
-              });
+std::size_t scan_overlaps(const Candidates& candidates, const ProbeBlock& block,
+                          const TieJudge& judge, const ScanOutput& output) {
+  return scan(candidates, block, judge, output, [&](std::size_t i, const Probe& probe) {
+    const float now = clearance(candidates.now, i, probe.now);
+    return Outcome{now >= 0.0f, false, now == 0.0f};
+  });
 }
 
-std::size_t scan_changes(const Candidates& candidates, std::span<const Probe> probes,
-                         const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
-                         std::uint32_t* ends) {
-  return scan(candidates, probes, stretches, judge, found, ends,
-              [&](std::size_t i, const Probe& probe) {
-                const float before = clearance(candidates.before, i, probe.before),
-                            now = clearance(candidates.now, i, probe.now);
-                return Outcome{(before >= 0.0f) != (now >= 0.0f), now >= 0.0f,
-                               before == 0.0f || now == 0.0f};
-              });
+std::size_t scan_changes(const Candidates& candidates, const ProbeBlock& block,
+                         const TieJudge& judge, const ScanOutput& output) {
+  return scan(candidates, block, judge, output, [&](std::size_t i, const Probe& probe) {
+    const float before = clearance(candidates.before, i, probe.before),
+                now = clearance(candidates.now, i, probe.now);
+    return Outcome{(before >= 0.0f) != (now >= 0.0f), now >= 0.0f, before == 0.0f || now == 0.0f};
+  });
 }
 
 struct Nearness {
@@ -98,18 +94,16 @@ inline FloatBox box_at(const BoxColumns& boxes, std::size_t i) {
 }
 
 template <bool is_of_askers>
-std::size_t scan_discs(const Candidates& candidates, std::span<const Probe> probes,
-                       const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
-                       std::uint32_t* ends) {
-  return scan(
-      candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe) {
-        const FloatBox was = box_at(candidates.before, i), is = box_at(candidates.now, i);
-        const Nearness before =
-                           is_of_askers ? nearness(probe.before, was) : nearness(was, probe.before),
-                       now = is_of_askers ? nearness(probe.now, is) : nearness(is, probe.now);
-        return Outcome{before.is_inside != now.is_inside, now.is_inside,
-                       before.is_doubtful || now.is_doubtful};
-      });
+std::size_t scan_discs(const Candidates& candidates, const ProbeBlock& block, const TieJudge& judge,
+                       const ScanOutput& output) {
+  return scan(candidates, block, judge, output, [&](std::size_t i, const Probe& probe) {
+    const FloatBox was = box_at(candidates.before, i), is = box_at(candidates.now, i);
+    const Nearness before =
+                       is_of_askers ? nearness(probe.before, was) : nearness(was, probe.before),
+                   now = is_of_askers ? nearness(probe.now, is) : nearness(is, probe.now);
+    return Outcome{before.is_inside != now.is_inside, now.is_inside,
+                   before.is_doubtful || now.is_doubtful};
+  });
 }
 
 }  // namespace
