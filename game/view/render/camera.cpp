@@ -10,10 +10,10 @@ namespace {
 constexpr float near = 0.05f, far = 60.0f;  // m
 
 Eigen::Matrix4f perspective(const Vector3& eye, const Vector3& right, const Vector3& up,
-                            const Vector3& forward, float tangent_x, float tangent_y) {
+                            const Vector3& forward, const Eigen::Vector2f& tangents) {
   Eigen::Matrix4f matrix = Eigen::Matrix4f::Zero();
-  matrix.block<1, 3>(0, 0) = right.transpose() / tangent_x;
-  matrix.block<1, 3>(1, 0) = up.transpose() / tangent_y;
+  matrix.block<1, 3>(0, 0) = right.transpose() / tangents.x();
+  matrix.block<1, 3>(1, 0) = up.transpose() / tangents.y();
   matrix.block<1, 3>(2, 0) = forward.transpose() * ((far + near) / (far - near));
   matrix.block<1, 3>(3, 0) = forward.transpose();
   matrix.col(3) = matrix * Eigen::Vector4f(-eye.x(), -eye.y(), -eye.z(), 0.0f);
@@ -39,7 +39,7 @@ Sight::Sight(const Camera& camera, float aspect) : is_plan_(camera.is_plan) {
   forward_ = (camera.target - camera.eye).normalized();
   const Vector3 right = forward_.cross(Vector3::UnitZ()).normalized(), up = right.cross(forward_);
   const float tangent_y = std::tan(camera.opening / 2.0f), tangent_x = tangent_y * aspect;
-  matrix_ = perspective(eye_, right, up, forward_, tangent_x, tangent_y);
+  matrix_ = perspective(eye_, right, up, forward_, {tangent_x, tangent_y});
   right_ = right * tangent_x;
   up_ = up * tangent_y;
 }

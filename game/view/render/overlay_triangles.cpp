@@ -9,6 +9,15 @@ namespace {
 
 constexpr float line_pixels = 2.0f;
 
+struct Box {
+  float x0, y0, x1, y1;
+};
+
+/// In pixels; `half` is half of the square that the shader draws it in, 0 for a full square.
+struct Circle {
+  float half = 0.0f, radius = 0.0f, ring = 0.0f;
+};
+
 class Triangles {
  public:
   Triangles(float pixel, std::vector<float>& rows) : pixel_(pixel), rows_(rows) {}
@@ -17,7 +26,7 @@ class Triangles {
     if (colour.alpha <= 0.0f) return;
     const auto x0 = static_cast<float>(low_x), y0 = static_cast<float>(low_y),
                x1 = static_cast<float>(high_x), y1 = static_cast<float>(high_y);
-    square(x0, y0, x1, y1, 0.0f, 0.0f, 0.0f, colour);
+    square({x0, y0, x1, y1}, {}, colour);
   }
   void outline(const OverlayRectangle& r) {
     const double width = static_cast<double>(line_pixels * pixel_);
@@ -30,18 +39,21 @@ class Triangles {
     const float radius = static_cast<float>(disc.radius) / pixel_, half = radius + 1.0f,
                 x = static_cast<float>(disc.x), y = static_cast<float>(disc.y),
                 reach = half * pixel_;
-    square(x - reach, y - reach, x + reach, y + reach, half, radius,
-           disc.is_filled ? radius : std::min(radius, 0.5f * line_pixels), disc.colour);
+    square({x - reach, y - reach, x + reach, y + reach},
+           {.half = half,
+            .radius = radius,
+            .ring = disc.is_filled ? radius : std::min(radius, 0.5f * line_pixels)},
+           disc.colour);
   }
 
  private:
-  void square(float x0, float y0, float x1, float y1, float half, float radius, float ring,
-              const Colour& colour) {
+  void square(const Box& box, const Circle& circle, const Colour& colour) {
+    const auto [half, radius, ring] = circle;
     for (const int corner : {0, 1, 3, 0, 3, 2}) {
       const bool is_right = (corner & 1) != 0, is_high = (corner & 2) != 0;
-      rows_.insert(rows_.end(), {is_right ? x1 : x0, is_high ? y1 : y0, is_right ? half : -half,
-                                 is_high ? half : -half, radius, ring, colour.red, colour.green,
-                                 colour.blue, colour.alpha});
+      rows_.insert(rows_.end(), {is_right ? box.x1 : box.x0, is_high ? box.y1 : box.y0,
+                                 is_right ? half : -half, is_high ? half : -half, radius, ring,
+                                 colour.red, colour.green, colour.blue, colour.alpha});
     }
   }
 

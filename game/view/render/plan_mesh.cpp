@@ -19,6 +19,14 @@ Colour mixed(const Colour& a, const Colour& b, float part) {
           std::lerp(a.blue, b.blue, part), 1.0f};
 }
 
+constexpr float pi = 3.14159265f;
+
+/// The part of a ring between two radii from angle `from` on, `turn` [rad] long.
+struct Ring {
+  float x, y, inner, outer;
+  float from = 0.0f, turn = 2.0f * pi;
+};
+
 class PlanMesh {
  public:
   void vertex(float x, float y, const Colour& colour) {
@@ -28,16 +36,15 @@ class PlanMesh {
     for (const int corner : {0, 1, 3, 0, 3, 2})
       vertex((corner & 1) != 0 ? x1 : x0, (corner & 2) != 0 ? y1 : y0, colour);
   }
-  /// The part of a ring between two radii from angle `from` on, `turn` [rad] long.
-  void ring(float x, float y, float inner, float outer, float from, float turn,
-            const Colour& colour) {
+  void ring(const Ring& ring, const Colour& colour) {
     for (int i = 0; i < arc_segments; ++i) {
-      const float a = from + turn * static_cast<float>(i) / arc_segments,
-                  b = from + turn * static_cast<float>(i + 1) / arc_segments;
+      const float a = ring.from + ring.turn * static_cast<float>(i) / arc_segments,
+                  b = ring.from + ring.turn * static_cast<float>(i + 1) / arc_segments;
       const auto at = [&](float angle, float radius) {
-        vertex(x + radius * std::cos(angle), y + radius * std::sin(angle), colour);
+        vertex(ring.x + radius * std::cos(angle), ring.y + radius * std::sin(angle), colour);
       };
-      at(a, inner), at(a, outer), at(b, outer), at(a, inner), at(b, outer), at(b, inner);
+      at(a, ring.inner), at(a, ring.outer), at(b, ring.outer);
+      at(a, ring.inner), at(b, ring.outer), at(b, ring.inner);
     }
   }
   std::vector<float> take() { return std::move(rows_); }
@@ -45,8 +52,6 @@ class PlanMesh {
  private:
   std::vector<float> rows_;
 };
-
-constexpr float pi = 3.14159265f;
 
 }  // namespace
 
@@ -58,19 +63,19 @@ std::vector<float> plain_mesh(const Table& table) {
   mesh.box(-thick - trim, -thick - trim, length + thick + trim, width + thick + trim, edging);
   mesh.box(-thick, -thick, length + thick, width + thick, wood);
   mesh.box(0.0f, 0.0f, length, width, ice);
-  mesh.ring(0.5f * length, middle, 0.0f, 0.19f * unit, 0.0f, 2.0f * pi, mixed(ice, blue, 0.09f));
+  mesh.ring({0.5f * length, middle, 0.0f, 0.19f * unit}, mixed(ice, blue, 0.09f));
   for (const bool is_left : {true, false}) {
     const Colour& team = is_left ? table.left : table.right;
     const float end = is_left ? 0.0f : length, way = is_left ? 1.0f : -1.0f,
                 from = is_left ? -0.5f * pi : 0.5f * pi, crease = 0.72f * table.goal_width,
                 line = end + way * 0.33f * length;
-    mesh.ring(end, middle, 0.0f, crease, from, pi, mixed(ice, team, 0.18f));
-    mesh.ring(end, middle, crease - 0.006f * fine, crease + 0.006f * fine, from, pi, team);
+    mesh.ring({end, middle, 0.0f, crease, from, pi}, mixed(ice, team, 0.18f));
+    mesh.ring({end, middle, crease - 0.006f * fine, crease + 0.006f * fine, from, pi}, team);
     mesh.box(line - 0.008f * fine, 0.0f, line + 0.008f * fine, width, mixed(ice, blue, 0.8f));
     for (const float side : {-1.0f, 1.0f}) {
       const float x = end + way * 0.25f * length, y = middle + side * 0.25f * width;
-      mesh.ring(x, y, 0.0f, 0.018f * fine, 0.0f, 2.0f * pi, mixed(ice, red, 0.75f));
-      mesh.ring(x, y, 0.07f * unit - 0.004f * fine, 0.07f * unit + 0.004f * fine, 0.0f, 2.0f * pi,
+      mesh.ring({x, y, 0.0f, 0.018f * fine}, mixed(ice, red, 0.75f));
+      mesh.ring({x, y, 0.07f * unit - 0.004f * fine, 0.07f * unit + 0.004f * fine},
                 mixed(ice, red, 0.75f));
     }
     const float half = 0.5f * table.goal_width;
@@ -80,10 +85,10 @@ std::vector<float> plain_mesh(const Table& table) {
       mesh.box(is_left ? 0.0f : 0.5f * length, y, is_left ? 0.5f * length : length, y + band,
                mixed(team, {1.0f, 1.0f, 1.0f, 1.0f}, 0.4f));
   }
-  mesh.ring(0.5f * length, middle, 0.19f * unit - 0.006f * fine, 0.19f * unit + 0.006f * fine, 0.0f,
-            2.0f * pi, blue);
+  mesh.ring({0.5f * length, middle, 0.19f * unit - 0.006f * fine, 0.19f * unit + 0.006f * fine},
+            blue);
   mesh.box(0.5f * length - 0.010f * fine, 0.0f, 0.5f * length + 0.010f * fine, width, red);
-  mesh.ring(0.5f * length, middle, 0.0f, 0.03f * fine, 0.0f, 2.0f * pi, red);
+  mesh.ring({0.5f * length, middle, 0.0f, 0.03f * fine}, red);
   return mesh.take();
 }
 

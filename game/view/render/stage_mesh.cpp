@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 
@@ -20,8 +21,9 @@ constexpr float board_half = 0.40f, board_low = 0.06f,
 class Mesh {
  public:
   /// The corners anticlockwise as seen from where `corner[i]` x `corner[i+1]` points.
-  void quad(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
-            Material material, const Colour& colour, const Vector2f& low, const Vector2f& high) {
+  void quad(const std::array<Vector3, 4>& corners, Material material, const Colour& colour,
+            const Vector2f& low, const Vector2f& high) {
+    const auto& [a, b, c, d] = corners;
     const Vector3 normal = (b - a).cross(d - a).normalized();
     const Vector2f right_low(high.x(), low.y()), left_high(low.x(), high.y());
     for (const auto& [place, at] :
@@ -29,15 +31,29 @@ class Mesh {
       vertex(place, normal, at, material, colour);
   }
 
+  /// A whole texture at `height`, seen from above.
+  void level(const Vector2f& low, const Vector2f& high, float height, Material material,
+             const Colour& colour) {
+    quad({Vector3(low.x(), low.y(), height), Vector3(high.x(), low.y(), height),
+          Vector3(high.x(), high.y(), height), Vector3(low.x(), high.y(), height)},
+         material, colour, {0.0f, 0.0f}, {1.0f, 1.0f});
+  }
+
   /// A box from `low` to `high`; the wood's grain runs along the longest side of each face.
   void box(const Vector3& low, const Vector3& high, Material material, const Colour& colour) {
     for (int axis = 0; axis < 3; ++axis)
-      for (const bool is_high : {false, true}) face(low, high, axis, is_high, material, colour);
+      for (const bool is_high : {false, true}) face(low, high, {axis, is_high}, material, colour);
   }
 
   std::vector<float> take() { return std::move(rows_); }
 
  private:
+  /// The face of a box where it ends along `axis`.
+  struct Face {
+    int axis;
+    bool is_high;
+  };
+
   void vertex(const Vector3& place, const Vector3& normal, const Vector2f& at, Material material,
               const Colour& colour) {
     rows_.insert(rows_.end(),
@@ -45,8 +61,9 @@ class Mesh {
                   at.y(), colour.red, colour.green, colour.blue, static_cast<float>(material)});
   }
 
-  void face(const Vector3& low, const Vector3& high, int axis, bool is_high, Material material,
+  void face(const Vector3& low, const Vector3& high, const Face& face, Material material,
             const Colour& colour) {
+    const auto [axis, is_high] = face;
     int u = (axis + 1) % 3, v = (axis + 2) % 3;
     if (!is_high) std::swap(u, v);
     Vector3 a = low;
@@ -156,28 +173,41 @@ void add_board(Mesh& mesh, const Sizes& s, const Table& table, const Scoreboard&
   const auto place = [&](float across, float height, float forth) -> Vector3 {
     return middle + right * across + up * height - ahead * forth;
   };
-  const auto block = [&](float left, float right_end, float bottom, float top, float front,
-                         float back, Material material, const Colour& colour) {
-    const Vector3 a = place(left, bottom, front), b = place(right_end, top, back);
+  struct Block {
+    float left, right, bottom, top, front, back;
+  };
+  const auto add = [&](const Block& block, Material material, const Colour& colour) {
+    const Vector3 a = place(block.left, block.bottom, block.front),
+                  b = place(block.right, block.top, block.back);
     mesh.box(a.cwiseMin(b), a.cwiseMax(b), material, colour);
   };
-  block(-half, half, low, high, 0.0f, -0.05f * unit, Material::painted, black);
-  block(-half - 0.012f * unit, half + 0.012f * unit, high, high + 0.012f * unit, 0.006f * unit,
-        -0.056f * unit, Material::metal, steel);
-  block(-half - 0.012f * unit, half + 0.012f * unit, low - 0.012f * unit, low, 0.006f * unit,
-        -0.056f * unit, Material::metal, steel);
+  add({-half, half, low, high, 0.0f, -0.05f * unit}, Material::painted, black);
+  for (const auto& [bottom, top] :
+       {std::pair{high, high + 0.012f * unit}, {low - 0.012f * unit, low}})
+    add({.left = -half - 0.012f * unit,
+         .right = half + 0.012f * unit,
+         .bottom = bottom,
+         .top = top,
+         .front = 0.006f * unit,
+         .back = -0.056f * unit},
+        Material::metal, steel);
   for (const float side : {-1.0f, 1.0f})
-    block(side * 0.55f * half - 0.015f * unit, side * 0.55f * half + 0.015f * unit, ground, low,
-          -0.02f * unit, -0.05f * unit, Material::metal, steel);
+    add({.left = side * 0.55f * half - 0.015f * unit,
+         .right = side * 0.55f * half + 0.015f * unit,
+         .bottom = ground,
+         .top = low,
+         .front = -0.02f * unit,
+         .back = -0.05f * unit},
+        Material::metal, steel);
   const float width = 0.17f * unit, height = 1.6f * width,
               bottom = 0.5f * (low + high) - 0.5f * height, front = 0.002f * unit;
   const auto digit = [&](float across, std::uint32_t number, const Colour& colour) {
     const float from = static_cast<float>(number) / 10.0f;
-    mesh.quad(place(across - 0.5f * width, bottom, front),
-              place(across + 0.5f * width, bottom, front),
-              place(across + 0.5f * width, bottom + height, front),
-              place(across - 0.5f * width, bottom + height, front), Material::digit, colour,
-              {from, 0.0f}, {from + 0.1f, 1.0f});
+    mesh.quad(
+        {place(across - 0.5f * width, bottom, front), place(across + 0.5f * width, bottom, front),
+         place(across + 0.5f * width, bottom + height, front),
+         place(across - 0.5f * width, bottom + height, front)},
+        Material::digit, colour, {from, 0.0f}, {from + 0.1f, 1.0f});
   };
   const auto number = [&](float across, std::uint32_t value, const Colour& colour) {
     value = std::min(value, 99u);
@@ -189,8 +219,8 @@ void add_board(Mesh& mesh, const Sizes& s, const Table& table, const Scoreboard&
   number(0.5f * half, board.second, board.is_left_first ? table.right : table.left);
   for (const float height_part : {0.38f, 0.62f}) {
     const float at = bottom + height_part * height, dot = 0.011f * unit;
-    block(-dot, dot, at - dot, at + dot, 0.004f * unit, 0.0f, Material::glowing,
-          {0.75f, 0.8f, 0.85f, 1.0f});
+    add({-dot, dot, at - dot, at + dot, 0.004f * unit, 0.0f}, Material::glowing,
+        {0.75f, 0.8f, 0.85f, 1.0f});
   }
 }
 
@@ -200,11 +230,9 @@ std::vector<float> stage_mesh(const Table& table, const Scoreboard& board) {
   Mesh mesh;
   const Sizes s = sizes_of(table);
   const float ground = -0.8f * s.unit, around = 8.0f * s.unit;
-  mesh.quad({-around, -around, ground}, {s.length + around, -around, ground},
-            {s.length + around, s.width + around, ground}, {-around, s.width + around, ground},
-            Material::floor, white, {0.0f, 0.0f}, {1.0f, 1.0f});
-  mesh.quad({0.0f, 0.0f, 0.0f}, {s.length, 0.0f, 0.0f}, {s.length, s.width, 0.0f},
-            {0.0f, s.width, 0.0f}, Material::table, white, {0.0f, 0.0f}, {1.0f, 1.0f});
+  mesh.level({-around, -around}, {s.length + around, s.width + around}, ground, Material::floor,
+             white);
+  mesh.level({0.0f, 0.0f}, {s.length, s.width}, 0.0f, Material::table, white);
   add_surround(mesh, s, table);
   add_legs(mesh, s, ground);
   if (board.is_there) add_board(mesh, s, table, board, ground);
@@ -221,8 +249,7 @@ Eigen::AlignedBox3f board_box(const Table& table, const Scoreboard& board) {
 std::vector<float> plan_mesh(const Table& table) {
   Mesh mesh;
   const Sizes s = sizes_of(table);
-  mesh.quad({0.0f, 0.0f, 0.0f}, {s.length, 0.0f, 0.0f}, {s.length, s.width, 0.0f},
-            {0.0f, s.width, 0.0f}, Material::table, white, {0.0f, 0.0f}, {1.0f, 1.0f});
+  mesh.level({0.0f, 0.0f}, {s.length, s.width}, 0.0f, Material::table, white);
   add_surround(mesh, s, table);
   return mesh.take();
 }

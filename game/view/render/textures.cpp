@@ -40,8 +40,13 @@ std::uint8_t byte(float part) {
 constexpr std::array<unsigned, 10> segments{0x3f, 0x06, 0x5b, 0x4f, 0x66,
                                             0x6d, 0x7d, 0x07, 0x7f, 0x6f};
 
-/// Distance from (x, y) to the segment between two points.
-float distance(float x, float y, float x0, float y0, float x1, float y1) {
+struct Bar {
+  float x0, y0, x1, y1;
+};
+
+/// Distance from (x, y) to the segment between the bar's two ends.
+float distance(float x, float y, const Bar& bar) {
+  const auto [x0, y0, x1, y1] = bar;
   const float dx = x1 - x0, dy = y1 - y0,
               part = std::clamp(((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy), 0.0f, 1.0f);
   return std::hypot(x - x0 - part * dx, y - y0 - part * dy);
@@ -51,17 +56,17 @@ float distance(float x, float y, float x0, float y0, float x1, float y1) {
 float lit(unsigned digit, float x, float y) {
   constexpr float left = 0.24f, right = 0.76f, low = 0.22f, middle = 0.80f, high = 1.38f,
                   gap = 0.055f;
-  const std::array<std::array<float, 4>, 7> bars{{{left + gap, high, right - gap, high},
-                                                  {right, middle + gap, right, high - gap},
-                                                  {right, low + gap, right, middle - gap},
-                                                  {left + gap, low, right - gap, low},
-                                                  {left, low + gap, left, middle - gap},
-                                                  {left, middle + gap, left, high - gap},
-                                                  {left + gap, middle, right - gap, middle}}};
+  const std::array<Bar, 7> bars{{{left + gap, high, right - gap, high},
+                                 {right, middle + gap, right, high - gap},
+                                 {right, low + gap, right, middle - gap},
+                                 {left + gap, low, right - gap, low},
+                                 {left, low + gap, left, middle - gap},
+                                 {left, middle + gap, left, high - gap},
+                                 {left + gap, middle, right - gap, middle}}};
   assert(digit < segments.size());
   float bright = 0.0f;
   for (std::size_t bar = 0; bar < bars.size(); ++bar) {
-    const float away = distance(x, y, bars[bar][0], bars[bar][1], bars[bar][2], bars[bar][3]);
+    const float away = distance(x, y, bars[bar]);
     const float core = std::clamp((0.062f - away) / 0.02f + 0.5f, 0.0f, 1.0f);
     if ((segments[digit] >> bar & 1u) != 0)
       bright = std::max(bright, std::max(core, 0.42f * std::exp(-away / 0.09f)));
