@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -151,16 +152,16 @@ void set_seeds(Experiment& experiment, std::uint32_t count) {
 /// Replications are added one by one until every row's payload is known to within
 /// `options.until_width` of itself, or there are `options.seeds`.
 Outcome run_until_narrow(Experiment& experiment, const CompareOptions& options,
-                         const RunnerSettings& settings, ResultsDirectory& results,
-                         const KeyLogWriter& write_keys, std::vector<RunRecord> kept,
+                         const Campaign& campaign, std::vector<RunRecord> kept,
                          std::vector<WideRow>& wide) {
+  assert(&campaign.experiment == &experiment && "what is run gains the seeds");
   Outcome outcome;
   for (std::uint32_t count = std::min(options.seeds, least_replications); count <= options.seeds;
        ++count) {
     set_seeds(experiment, count);
     Progress progress(std::cerr, isatty(STDERR_FILENO) != 0,
                       cells_of(experiment).size() - kept.size(), expected_cell_s(experiment));
-    outcome = run_campaign(experiment, settings, results, write_keys, progress, std::move(kept));
+    outcome = run_campaign(campaign, progress, std::move(kept));
     if (outcome.was_interrupted || !outcome.output_failure.empty()) break;
     wide = wider_rows(summarise(outcome.runs, experiment.baseline()), options.until_width,
                       count - std::min(options.seeds, least_replications) + 1);
@@ -276,20 +277,20 @@ CompareStatus compare(const CompareOptions& options, const std::vector<std::stri
     to_come_s += is_kept(cell) ? 0.0 : expected_cell_s(experiment, cell);
   progress.expect([&experiment](const Cell& cell) { return expected_cell_s(experiment, cell); },
                   to_come_s);
-  const auto write_keys = [&experiment](const Cell& cell, const std::filesystem::path& file) {
-    write_game_plan(part_of(experiment, cell.part), cell, file);
-  };
+  const Campaign campaign{.experiment = experiment,
+                          .settings = settings,
+                          .results = results,
+                          .write_key_log = [&experiment](const Cell& cell, const auto& file) {
+                            write_game_plan(part_of(experiment, cell.part), cell, file);
+                          }};
   SaturateOptions search = options.saturate;
   if (search.is_wanted) search.allowed_clients = allowed_clients();
   std::vector<Saturation> found;
   std::vector<WideRow> wide;
-  Outcome outcome =
-      search.is_wanted
-          ? run_saturation(experiment, search, settings, write_keys, {results, std::cerr, found})
-      : options.until_width > 0.0
-          ? run_until_narrow(experiment, options, settings, results, write_keys, continuation.kept,
-                             wide)
-          : run_campaign(experiment, settings, results, write_keys, progress, continuation.kept);
+  Outcome outcome = search.is_wanted ? run_saturation(campaign, search, std::cerr, found)
+                    : options.until_width > 0.0
+                        ? run_until_narrow(experiment, options, campaign, continuation.kept, wide)
+                        : run_campaign(campaign, progress, continuation.kept);
   if (!outcome.runs.empty()) {
     std::vector<ReportSection> more_sections;
     if (options.saturate.is_wanted)

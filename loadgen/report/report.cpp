@@ -154,13 +154,15 @@ std::string introduction_of(const Findings& findings, const std::vector<EqualErr
 }  // namespace
 
 Report report_of(const Experiment& experiment, std::span<const RunRecord> runs,
-                 const Provenance& provenance, std::span<const CellLatencies> latencies,
-                 std::span<const ReportSection> more_sections,
-                 std::span<const CellDiscoveries> discoveries) {
+                 const Provenance& provenance, const MoreFindings& more) {
   const std::vector<RunRecord> rows = without_curves(experiment, runs);
   const std::vector<EqualError> comparisons = equal_errors_of(experiment, runs);
-  const Findings findings{experiment,         rows,       latencies, lines_of(rows),
-                          relevance_of(rows), discoveries};
+  const Findings findings{.experiment = experiment,
+                          .runs = rows,
+                          .latencies = more.latencies,
+                          .lines = lines_of(rows),
+                          .relevance = relevance_of(rows),
+                          .discoveries = more.discoveries};
   Page page;
   if (!comparisons.empty())
     page.add("equal-error", "Reduction factor: rivals at equal error",
@@ -170,7 +172,7 @@ Report report_of(const Experiment& experiment, std::span<const RunRecord> runs,
     page.add("modes", "With and without a server", modes_exhibit(findings));
   page.add("gains", "Bytes against dead-reckoning error", gains_exhibit(findings));
   page.add("relevance", "Precision and recall", relevance_exhibit(findings));
-  if (!discoveries.empty())
+  if (!more.discoveries.empty())
     page.add("discovery", "Discovery latency and missed contacts", discovery_exhibit(findings));
   page.add("sweeps", "Parameters", sweep_exhibit(findings));
   if (has_expressions_of_one_form(findings)) page.add("stages", "Stages", stages_exhibit(findings));
@@ -178,7 +180,7 @@ Report report_of(const Experiment& experiment, std::span<const RunRecord> runs,
   page.add("cost", "Cost of a tick (wall time)", cost_exhibit(findings));
   page.add("replications", "Replications", replication_exhibit(findings));
   page.add("growth", "Growth", growth_exhibit(findings));
-  for (const ReportSection& section : more_sections)
+  for (const ReportSection& section : more.sections)
     page.add(section.id, section.title, section.exhibit);
   page.add("generator", "The load generator", generator_exhibit(findings));
   page.add("runs", "All runs", runs_exhibit(findings));

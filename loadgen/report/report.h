@@ -18,14 +18,19 @@ struct ReportSection {
   Exhibit exhibit;
 };
 
+/// What a page may show besides runs.
+struct MoreFindings {
+  std::span<const CellLatencies> latencies{};
+  std::span<const CellDiscoveries> discoveries{};
+  std::span<const ReportSection> sections{};
+};
+
 /// The page: plots, tables, the runs that did not count with their reasons, definitions, how to
 /// reproduce, and provenance. Light and dark follow the reader's setting; print is light. All text
 /// from outside is escaped. The same input gives the same bytes. What was not measured is left out
 /// with a sentence.
 Report report_of(const Experiment& experiment, std::span<const RunRecord> runs,
-                 const Provenance& provenance, std::span<const CellLatencies> latencies = {},
-                 std::span<const ReportSection> more_sections = {},
-                 std::span<const CellDiscoveries> discoveries = {});
+                 const Provenance& provenance, const MoreFindings& more = {});
 
 /// The whole histograms of the valid `runs` from their reports in `cells`; whatever is missing or
 /// unreadable there is left out.

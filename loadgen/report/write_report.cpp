@@ -8,9 +8,10 @@ namespace rink::loadgen {
 void write_report(const ResultsDirectory& results, const Experiment& experiment,
                   std::span<const RunRecord> runs, const Provenance& provenance,
                   std::span<const ReportSection> more_sections) {
-  const Report report =
-      report_of(experiment, runs, provenance, latencies_in(results.path() / "cells", runs),
-                more_sections, discoveries_in(results.path() / "cells", runs));
+  const Report report = report_of(experiment, runs, provenance,
+                                  {.latencies = latencies_in(results.path() / "cells", runs),
+                                   .discoveries = discoveries_in(results.path() / "cells", runs),
+                                   .sections = more_sections});
   const std::filesystem::path plots = results.subdirectory("plots");
   std::error_code ignored;  // what cannot be removed is overwritten or stays
   for (const auto& entry : std::filesystem::directory_iterator(plots, ignored)) {

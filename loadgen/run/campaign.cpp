@@ -32,15 +32,13 @@ std::string played_game(const Experiment& experiment, const Cell& cell) {
 
 /// Game name to key log, all written before the first cell starts, so that an impossible one is
 /// found before anything was waited for.
-std::map<std::string, std::filesystem::path> write_key_logs(const Experiment& experiment,
-                                                            const ResultsDirectory& results,
-                                                            const KeyLogWriter& write) {
+std::map<std::string, std::filesystem::path> write_key_logs(const Campaign& campaign) {
   std::map<std::string, std::filesystem::path> logs;
-  const std::filesystem::path folder = results.subdirectory("keys");
-  for (const Cell& cell : cells_of(experiment)) {
-    const std::string game = played_game(experiment, cell);
+  const std::filesystem::path folder = campaign.results.subdirectory("keys");
+  for (const Cell& cell : cells_of(campaign.experiment)) {
+    const std::string game = played_game(campaign.experiment, cell);
     const auto [log, is_new] = logs.try_emplace(game, folder / (game + ".keys"));
-    if (is_new) write(cell, log->second);
+    if (is_new) campaign.write_key_log(cell, log->second);
   }
   return logs;
 }
@@ -76,11 +74,10 @@ using Clock = std::chrono::steady_clock;
 /// others alone. What these say is judged as soon as as many wait for it as there are processors.
 class CellQueue {
  public:
-  CellQueue(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results,
-            Progress& progress, Outcome& outcome)
-      : experiment_(experiment),
-        settings_(settings),
-        results_(results),
+  CellQueue(const Campaign& campaign, Progress& progress, Outcome& outcome)
+      : experiment_(campaign.experiment),
+        settings_(campaign.settings),
+        results_(campaign.results),
         progress_(progress),
         outcome_(outcome) {}
 
@@ -187,15 +184,14 @@ class CellQueue {
 
 }  // namespace
 
-Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings,
-                     ResultsDirectory& results, const KeyLogWriter& write_key_log,
-                     Progress& progress, std::vector<RunRecord> kept) {
+Outcome run_campaign(const Campaign& campaign, Progress& progress, std::vector<RunRecord> kept) {
+  const Experiment& experiment = campaign.experiment;
   Outcome outcome;
   const std::vector<RunRecord> before = std::move(kept);
   outcome.runs = before;
   try {
-    const auto key_logs = write_key_logs(experiment, results, write_key_log);
-    CellQueue queue(experiment, settings, results, progress, outcome);
+    const auto key_logs = write_key_logs(campaign);
+    CellQueue queue(campaign, progress, outcome);
     for (const Cell& cell : running_order(experiment))
       if (!has_run_of(cell, before) && !queue.run(cell, key_logs.at(played_game(experiment, cell))))
         break;

@@ -24,12 +24,19 @@ struct Outcome {
                                ///< runs after that
 };
 
+/// What is run, with what, and where its results go.
+struct Campaign {
+  const Experiment& experiment;
+  const RunnerSettings& settings;
+  ResultsDirectory& results;
+  KeyLogWriter write_key_log;
+};
+
 /// Runs, in their running_order(), every cell that is not among the `kept` runs of an earlier
-/// start, appending each record to `results`. The key log of a game is written once, to
-/// `results`/keys, and shared by all its cells. Throws ExperimentError, before the first cell runs.
-Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings,
-                     ResultsDirectory& results, const KeyLogWriter& write_key_log,
-                     Progress& progress, std::vector<RunRecord> kept = {});
+/// start, appending each record to the results. The key log of a game is written once, to their
+/// folder keys, and shared by all its cells. Throws ExperimentError, before the first cell runs.
+Outcome run_campaign(const Campaign& campaign, Progress& progress,
+                     std::vector<RunRecord> kept = {});
 
 /// Those of an earlier start's `runs` that are cells of `experiment`, each once.
 std::vector<RunRecord> runs_to_keep(const Experiment& experiment,

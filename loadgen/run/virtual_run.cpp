@@ -34,11 +34,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// What is played. `state_file` is read only where the game does not begin with the scene.
+struct PlannedGame {
+  const game::Scene& scene;
+  const std::vector<game::InputEvent>& keys;
+  const std::filesystem::path& state_file;
+};
+
 class VirtualRun {
  public:
   VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,
-             const rti::Fom& fom, const game::Scene& scene,
-             const std::vector<game::InputEvent>& keys, const std::filesystem::path& state_file);
+             const rti::Fom& fom, const PlannedGame& game);
 
   void run();
   Json server_report() const;
@@ -119,24 +125,24 @@ BotCrowdSettings VirtualRun::crowd_settings(const Experiment& experiment, const 
 }
 
 VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experiment,
-                       const Cell& cell, const rti::Fom& fom, const game::Scene& scene,
-                       const std::vector<game::InputEvent>& keys,
-                       const std::filesystem::path& state_file)
+                       const Cell& cell, const rti::Fom& fom, const PlannedGame& game)
     : settings_(settings),
       experiment_(experiment),
       cell_(cell),
-      state_file_(experiment.start_s > 0.0 ? state_file.string() : ""),
+      state_file_(experiment.start_s > 0.0 ? game.state_file.string() : ""),
       state_(state_file_.empty() ? std::vector<std::uint8_t>()
                                  : game::read_game_state(state_file_)),
-      begun_(state_file_.empty() ? std::nullopt
-                                 : std::optional(game::game_in_state(state_, scene, state_file_))),
+      begun_(state_file_.empty()
+                 ? std::nullopt
+                 : std::optional(game::game_in_state(state_, game.scene, state_file_))),
       model_(network_conditions(experiment, cell)),
       network_(model_),
-      serving_(fom, scene, server_settings(scene, keys),
-               game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
+      serving_(fom, game.scene, server_settings(game.scene, game.keys),
+               game::federation_settings(game.scene, cell.scheme, cell.parameters.cell_size),
                {[this] { return now_s(); }, [this] { return simulated_now(); }}),
       server_(serving_.server()),
-      crowd_(fom, bots_end_, crowd_settings(experiment, cell), keys, [this] { return now_s(); }) {
+      crowd_(fom, bots_end_, crowd_settings(experiment, cell), game.keys,
+             [this] { return now_s(); }) {
   if (settings.wants_truth) {
     serving_.collect_evidence({.seed = cell.seed,
                                .clients = cell.clients,
@@ -303,8 +309,9 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
          const std::filesystem::path& key_log, RunRecord& record) {
   const rti::Fom fom = game::load_rink_fom(game::fom_file());
   const game::Scene scene = scene_of(experiment, cell);
-  VirtualRun run(settings, experiment, cell, fom, scene, keys_in(key_log, scene),
-                 state_file_of(key_log));
+  VirtualRun run(
+      settings, experiment, cell, fom,
+      {.scene = scene, .keys = keys_in(key_log, scene), .state_file = state_file_of(key_log)});
   run.run();
   Json server = run.server_report();
   const Json bots = run.bots_report();

@@ -54,7 +54,8 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell,
 namespace {
 
 void judge(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server,
-           const BotsEvidence& bots, Discoveries* discoveries, Entries entries) {
+           const BotsEvidence& bots, Discoveries* discoveries) {
+  const Entries entries = discoveries ? Entries::found : Entries::passed_over;
   const RelevanceArea area =
       relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
   TruthFigures figures = truth_of(server, bots, area, discoveries, entries);
@@ -93,7 +94,7 @@ const char* const too_many_changes =
 void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server,
                const BotsEvidence& bots) {
   record_trouble(record, [&] {
-    judge(record, experiment, server, bots, nullptr, Entries::passed_over);
+    judge(record, experiment, server, bots, nullptr);
     if (!bots.is_complete) record.truth.trouble = too_many_changes;
   });
 }
@@ -111,7 +112,7 @@ void add_truth(RunRecord& record, const Experiment& experiment, const std::strin
     add_tick_costs(record, server);
     const BotsEvidence bots = read_bots_evidence(bots_file);
     Discoveries found;
-    judge(record, experiment, server, bots, &found, Entries::found);
+    judge(record, experiment, server, bots, &found);
     if (bots.is_complete) discoveries = found;
     if (!bots.is_complete) record.truth.trouble = bots_file + ": " + too_many_changes;
   });

@@ -110,13 +110,18 @@ struct Curves {
   }
 };
 
+struct Bytes {
+  const char *title, *table_name;
+  FigureOf of;
+};
+
 void add_plot(Exhibit& exhibit, const Curves& of, const std::vector<const RunRecord*>& runs,
-              const char* what, const char* name, FigureOf bytes) {
-  Chart plot{.title = std::string(what) + " against displayed error, " + shortest(of.delay_ms) +
-                      " ms of delay",
+              const Bytes& bytes) {
+  Chart plot{.title = std::string(bytes.title) + " against displayed error, " +
+                      shortest(of.delay_ms) + " ms of delay",
              .x = {"displayed error, RMS [mm]", true},
              .y = {"bytes per second and client", true}};
-  PlotTable table{std::string(name) + "-delay" + shortest(of.delay_ms),
+  PlotTable table{std::string(bytes.table_name) + "-delay" + shortest(of.delay_ms),
                   "Settings of each policy, at the smallest margin, that no other of its settings "
                   "beats in both error and bytes",
                   {"policy", "setting", "displayed_error_mm_rms", "bytes_per_client_per_s"}};
@@ -132,7 +137,7 @@ void add_plot(Exhibit& exhibit, const Curves& of, const std::vector<const RunRec
     for (const RunRecord* run : runs)
       if (run->cell.policy == policies[i] && run->cell.parameters.view_margin == least_margin)
         own.push_back(run);
-    plot.lines.push_back({policies[i], {i, i, i}, frontier_of(own, policies[i], bytes)});
+    plot.lines.push_back({policies[i], {i, i, i}, frontier_of(own, policies[i], bytes.of)});
     for (const PlotPoint& point : plot.lines.back().points)
       table.rows.push_back(
           {policies[i], point.title, exact_number(point.x), exact_number(point.y)});
@@ -162,8 +167,8 @@ Exhibit equal_error_exhibit(const Experiment& experiment, std::span<const RunRec
       curves[{run.delay_ms, run.cell.scheme}].push_back(&run);
   exhibit.html += "<div class=\"plots\">\n";
   for (const auto& [of, own] : curves) {
-    add_plot(exhibit, of, own, "Payload", "curves-payload", payload);
-    add_plot(exhibit, of, own, "On the wire", "curves-wire", on_the_wire);
+    add_plot(exhibit, of, own, {"Payload", "curves-payload", payload});
+    add_plot(exhibit, of, own, {"On the wire", "curves-wire", on_the_wire});
   }
   exhibit.html += "</div>\n";
   return exhibit;

@@ -26,10 +26,15 @@ ReferenceCurve equal_score(double score, double recall_least, double precision_l
   return curve;
 }
 
-void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, FigureOf recall,
-              const std::string& name, const std::string& title) {
+struct RelevancePlot {
+  FigureOf precision, recall;
+  std::string table_name, title;
+};
+
+void add_plot(Exhibit& exhibit, const Findings& findings, const RelevancePlot& of) {
+  const auto& [precision, recall, table_name, title] = of;
   Chart plot{.title = title, .x = {"recall"}, .y = {"precision"}};
-  PlotTable table{name, title + ": means over replications with their 95 % intervals",
+  PlotTable table{table_name, title + ": means over replications with their 95 % intervals",
                   cell_columns()};
   table.columns.insert(table.columns.end(), {"recall", "recall_low_95", "recall_high_95",
                                              "precision", "precision_low_95", "precision_high_95"});
@@ -155,10 +160,16 @@ Exhibit relevance_exhibit(const Findings& findings) {
   exhibit.html += "<p class=\"faint\">Relevant to a player: " + escaped(findings.relevance) +
                   ". Truth is the run's scene and key log simulated again; neither the filter nor "
                   "a client grades itself.</p>\n<div class=\"plots\">\n";
-  add_plot(exhibit, findings, filter_precision, filter_recall, "precision-recall-filter",
-           "The filter's decisions");
-  add_plot(exhibit, findings, delivered_precision, delivered_recall, "precision-recall-delivered",
-           "What clients held");
+  add_plot(exhibit, findings,
+           {.precision = filter_precision,
+            .recall = filter_recall,
+            .table_name = "precision-recall-filter",
+            .title = "The filter's decisions"});
+  add_plot(exhibit, findings,
+           {.precision = delivered_precision,
+            .recall = delivered_recall,
+            .table_name = "precision-recall-delivered",
+            .title = "What clients held"});
   add_bytes_against_relevance(exhibit, findings);
   add_recall_against_delay(exhibit, findings);
   exhibit.html += "</div>\n";

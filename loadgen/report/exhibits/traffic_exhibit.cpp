@@ -57,11 +57,18 @@ std::string extremes(const std::vector<CellLine>& lines, FigureOf figure) {
          plain_number(most->first / least->first) + " times as much.";
 }
 
-void add_plot(Exhibit& exhibit, const Traffic& traffic, FigureOf figure, const std::string& name,
-              const std::string& title, const std::string& reading) {
+struct TrafficPlot {
+  FigureOf figure;
+  std::string table_name, title;
+  std::string reading;  ///< how to read it, in words
+};
+
+void add_plot(Exhibit& exhibit, const Traffic& traffic, const TrafficPlot& of) {
+  const auto& [figure, table_name, title, reading] = of;
   Chart plot{.title = title, .x = {"clients", true}, .y = {"bytes per second and client", true}};
   PlotTable table{
-      name, title + ": bytes per second and client, mean over replications and its 95 % interval",
+      table_name,
+      title + ": bytes per second and client, mean over replications and its 95 % interval",
       cell_columns()};
   table.columns.insert(table.columns.end(), {"bytes_per_client_per_s", "low_95", "high_95"});
   for (const CellLine& line : traffic.lines) {
@@ -92,12 +99,20 @@ void add_plot(Exhibit& exhibit, const Traffic& traffic, FigureOf figure, const s
 Exhibit traffic_exhibit(const Findings& findings) {
   Exhibit exhibit{"<div class=\"plots\">\n"};
   const Traffic traffic = traffic_of(findings);
-  add_plot(exhibit, traffic, payload, "payload-against-clients", "Payload to each client",
+  add_plot(
+      exhibit, traffic,
+      {.figure = payload,
+       .table_name = "payload-against-clients",
+       .title = "Payload to each client",
+       .reading =
            "Lower is better; a flat line says that a client's traffic does not depend on how many "
-           "others there are. Bars: 95 % intervals of the mean.");
-  add_plot(exhibit, traffic, on_the_wire, "wire-against-clients", "On the wire for each client",
-           "Both directions with headers: what a client's link carries. Lines come closer where "
-           "headers outweigh payload.");
+           "others there are. Bars: 95 % intervals of the mean."});
+  add_plot(exhibit, traffic,
+           {.figure = on_the_wire,
+            .table_name = "wire-against-clients",
+            .title = "On the wire for each client",
+            .reading = "Both directions with headers: what a client's link carries. Lines come "
+                       "closer where headers outweigh payload."});
   exhibit.html += "</div>\n";
   exhibit.add(bytes_by_kind_exhibit(findings));
   return exhibit;

@@ -25,7 +25,11 @@ Axis height_axis(const Chart& chart) {
 
 std::string part_class(std::size_t part) { return "p" + std::to_string(part % 4); }
 
-std::string svg_bar(const Chart& chart, const Bar& bar, const Axis& y, double middle, double width,
+struct BarPlace {
+  double middle, width;
+};
+
+std::string svg_bar(const Chart& chart, const Bar& bar, const Axis& y, const BarPlace& place,
                     const std::string& name) {
   assert(bar.parts.size() <= chart.part_names.size() && "each part has a name");
   std::string svg;
@@ -35,15 +39,16 @@ std::string svg_bar(const Chart& chart, const Bar& bar, const Axis& y, double mi
     const std::string title =
         chart.part_names[part] + ", " + bar.name + ": " + short_number(bar.parts[part]);
     svg += "<rect" +
-           attributes({{"x", middle - width / 2.0},
+           attributes({{"x", place.middle - place.width / 2.0},
                        {"y", top},
-                       {"width", width},
+                       {"width", place.width},
                        {"height", std::max(bottom - top, 0.0)}}) +
            " class=\"bar " + part_class(part) + "\"><title>" + escaped(title) + "</title></rect>\n";
     base += bar.parts[part];
   }
-  if (!bar.flag.empty()) svg += svg_text(middle, y.clamped_at(base) - 5.0, "note middle", bar.flag);
-  return svg + svg_text(middle, y.from + 18.0, "tick middle", name);
+  if (!bar.flag.empty())
+    svg += svg_text(place.middle, y.clamped_at(base) - 5.0, "note middle", bar.flag);
+  return svg + svg_text(place.middle, y.from + 18.0, "tick middle", name);
 }
 
 constexpr double name_row = 17.0, gap = 4.0;
@@ -74,8 +79,9 @@ std::string svg_of_bars(const Chart& chart) {
       chart.bars, [&](const Bar& bar) { return text_width(bar.name) + gap <= slot; });
   sheet.draw_y_axis();
   for (std::size_t i = 0; i < chart.bars.size(); ++i)
-    sheet.draw(svg_bar(chart, chart.bars[i], y, frame.left + (static_cast<double>(i) + 0.5) * slot,
-                       std::min(slot * 0.7, 44.0),
+    sheet.draw(svg_bar(chart, chart.bars[i], y,
+                       {.middle = frame.left + (static_cast<double>(i) + 0.5) * slot,
+                        .width = std::min(slot * 0.7, 44.0)},
                        have_room ? chart.bars[i].name : std::to_string(i + 1)));
   if (!have_room) sheet.draw(svg_names(chart, frame.bottom + 42.0 + name_row - gap));
   sheet.draw(svg_x_axis(frame, {}, {}, chart.x.title));

@@ -14,7 +14,7 @@ namespace rink::loadgen {
 
 game::ServerEvidence evidence_of(const Experiment& experiment, const Cell& cell,
                                  const game::Game& start, const std::vector<game::InputEvent>& keys,
-                                 double end_s, const std::string& state_hash) {
+                                 const std::string& state_hash) {
   game::ServerEvidence server;
   server.choice = choice_of(experiment, cell);
   server.scheme = cell.scheme, server.policy = cell.policy;
@@ -22,7 +22,7 @@ game::ServerEvidence evidence_of(const Experiment& experiment, const Cell& cell,
   server.rate_hz = cell.parameters.tick_rate_hz;
   server.from_s = experiment.warm_up_s,
   server.until_s = experiment.warm_up_s + experiment.duration_s;
-  server.end_s = end_s;
+  server.end_s = static_cast<double>(last_window(experiment, cell)) / cell.parameters.tick_rate_hz;
   server.keys = keys;
   server.state_hash = std::stoull(state_hash, nullptr, 16);
   for (const game::Entity& entity : start.entities())
@@ -59,8 +59,8 @@ void add_player(BotsEvidence& bots, const game::PlayerEvidence& player) {
 }
 
 void judge_peers(const RunnerSettings& settings, const Experiment& experiment, RunRecord& record,
-                 const PeerTotals& totals, const Measurements& measured,
-                 const game::ServerEvidence& server, BotsEvidence& bots) {
+                 PeersFindings findings) {
+  auto& [totals, measured, server, bots] = findings;
   const nlohmann::ordered_json peers = peers_report(record.cell, totals),
                                players = players_report(record.cell, totals, measured);
   const std::string name = name_of(record.cell);

@@ -14,20 +14,26 @@
 
 namespace rink::loadgen {
 
-/// Of a run under recorded `keys` whose last window ended at `end_s`; decisions are still to be
-/// added.
+/// Of a run under recorded `keys` up to its last window; decisions are still to be added.
 game::ServerEvidence evidence_of(const Experiment& experiment, const Cell& cell,
                                  const game::Game& start, const std::vector<game::InputEvent>& keys,
-                                 double end_s, const std::string& state_hash);
+                                 const std::string& state_hash);
 /// Without bots.
 BotsEvidence bots_evidence_of(const game::ServerEvidence& server);
 /// The next watched player.
 void add_player(BotsEvidence& bots, const game::PlayerEvidence& player);
 
+/// What peers say together.
+struct PeersFindings {
+  const PeerTotals& totals;
+  const Measurements& measured;
+  const game::ServerEvidence& server;
+  BotsEvidence bots;
+};
+
 /// Writes NAME.peers.json, NAME.bots.json and, where truth is wanted, both kinds of evidence; and
-/// judges the run by them. Samples of `bots` are put in order.
+/// judges the run by them.
 void judge_peers(const RunnerSettings& settings, const Experiment& experiment, RunRecord& record,
-                 const PeerTotals& totals, const Measurements& measured,
-                 const game::ServerEvidence& server, BotsEvidence& bots);
+                 PeersFindings findings);
 
 }  // namespace rink::loadgen

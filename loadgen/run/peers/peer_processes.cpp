@@ -47,6 +47,7 @@ class PeerProcesses {
   void heed_interrupt() const {
     if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
   }
+  std::vector<std::string> arguments(const std::string& first, std::size_t number) const;
   void start(const std::string& first);
   std::string address_of_first();
   void await();
@@ -67,14 +68,54 @@ class PeerProcesses {
   std::vector<game::PeerEvidence> evidence_;
 };
 
+/// The first peer, or if `first` is not empty one that joins the peer there (ADDRESS:PORT).
+std::vector<std::string> PeerProcesses::arguments(const std::string& first,
+                                                  std::size_t number) const {
+  std::vector<std::string> words{"--scene", experiment_.scene};
+  const auto add = [&words](const char* flag, const std::string& value) {
+    words.insert(words.end(), {flag, value});
+  };
+  if (experiment_.population == Population::per_client)
+    add("--bats", std::to_string(cell_.clients));
+  if (cell_.bats > 0) add("--bat-count", std::to_string(cell_.bats));
+  if (cell_.pucks > 0) add("--puck-count", std::to_string(cell_.pucks));
+  add("--seed", std::to_string(cell_.seed));
+  add("--keys", key_log_.string());
+  add("--pace", "realtime");
+  add("--transport", to_string(experiment_.transport));
+  add("--listen", "127.0.0.1:0");
+  if (first.empty()) {
+    add("--peers", std::to_string(cell_.clients));
+    add("--until", decimal(static_cast<double>(last_window(experiment_, cell_)) /
+                           cell_.parameters.tick_rate_hz));
+    add("--window", decimal(1.0 / cell_.parameters.tick_rate_hz));
+    add("--balance", "0");
+    add("--scheme", cell_.scheme);
+    add("--policy", cell_.policy);
+    if (im::names_scheme(cell_.scheme, "always"))
+      for (const std::string& kind : experiment_.always) add("--always", kind);
+    if (cell_.parameters.cell_size > 0.0) add("--cell-size", decimal(cell_.parameters.cell_size));
+    words.insert(words.end(), {"--unmirrored", "--seated"});
+  } else {
+    add("--join", first);
+  }
+  add("--view", decimal(cell_.parameters.view_fraction));
+  if (experiment_.view_area > 0.0) add("--view-area", decimal(experiment_.view_area));
+  if (cell_.parameters.view_margin > 0.0)
+    add("--view-margin", decimal(cell_.parameters.view_margin));
+  add("--warm-up", decimal(experiment_.warm_up_s));
+  add("--evidence-seed", std::to_string(cell_.seed));
+  add("--evidence", file_of(number, ".jsonl").string());
+  add("--report", file_of(number, ".json").string());
+  return words;
+}
+
 void PeerProcesses::start(const std::string& first) {
   const std::size_t number = processes_.size();
   std::error_code ignored;
   for (const char* ending : {".json", ".jsonl"})
     std::filesystem::remove(file_of(number, ending), ignored);
-  processes_.emplace_back(
-      settings_.peer, peer_arguments(experiment_, cell_, key_log_, first, file_of(number, ".json"),
-                                     file_of(number, ".jsonl")));
+  processes_.emplace_back(settings_.peer, arguments(first, number));
 }
 
 std::string PeerProcesses::address_of_first() {
@@ -267,60 +308,16 @@ void PeerProcesses::run(RunRecord& record) {
     sum_s += process.ending()->cpu_s, busiest_s = std::max(busiest_s, process.ending()->cpu_s);
   record.nodes.busiest_cpu_s = busiest_s,
   record.nodes.mean_cpu_s = sum_s / static_cast<double>(processes_.size());
-  const double end_s =
-      static_cast<double>(last_window(experiment_, cell_)) / cell_.parameters.tick_rate_hz;
-  game::ServerEvidence server =
-      evidence_of(experiment_, cell_, start, keys_, end_s, sums.state_hash);
+  game::ServerEvidence server = evidence_of(experiment_, cell_, start, keys_, sums.state_hash);
   add_decisions(server, start);
   BotsEvidence bots = bots_evidence_of(server);
   for (const game::PeerEvidence& peer : evidence_)
     if (peer.player) add_player(bots, *peer.player);
-  judge_peers(settings_, experiment_, record, sums, measured, server, bots);
+  judge_peers(settings_, experiment_, record,
+              {.totals = sums, .measured = measured, .server = server, .bots = std::move(bots)});
 }
 
 }  // namespace
-
-std::vector<std::string> peer_arguments(const Experiment& experiment, const Cell& cell,
-                                        const std::filesystem::path& key_log,
-                                        const std::string& first,
-                                        const std::filesystem::path& report,
-                                        const std::filesystem::path& evidence) {
-  std::vector<std::string> arguments{"--scene", experiment.scene};
-  const auto add = [&arguments](const char* flag, const std::string& value) {
-    arguments.insert(arguments.end(), {flag, value});
-  };
-  if (experiment.population == Population::per_client) add("--bats", std::to_string(cell.clients));
-  if (cell.bats > 0) add("--bat-count", std::to_string(cell.bats));
-  if (cell.pucks > 0) add("--puck-count", std::to_string(cell.pucks));
-  add("--seed", std::to_string(cell.seed));
-  add("--keys", key_log.string());
-  add("--pace", "realtime");
-  add("--transport", to_string(experiment.transport));
-  add("--listen", "127.0.0.1:0");
-  if (first.empty()) {
-    add("--peers", std::to_string(cell.clients));
-    add("--until",
-        decimal(static_cast<double>(last_window(experiment, cell)) / cell.parameters.tick_rate_hz));
-    add("--window", decimal(1.0 / cell.parameters.tick_rate_hz));
-    add("--balance", "0");
-    add("--scheme", cell.scheme);
-    add("--policy", cell.policy);
-    if (im::names_scheme(cell.scheme, "always"))
-      for (const std::string& kind : experiment.always) add("--always", kind);
-    if (cell.parameters.cell_size > 0.0) add("--cell-size", decimal(cell.parameters.cell_size));
-    arguments.insert(arguments.end(), {"--unmirrored", "--seated"});
-  } else {
-    add("--join", first);
-  }
-  add("--view", decimal(cell.parameters.view_fraction));
-  if (experiment.view_area > 0.0) add("--view-area", decimal(experiment.view_area));
-  if (cell.parameters.view_margin > 0.0) add("--view-margin", decimal(cell.parameters.view_margin));
-  add("--warm-up", decimal(experiment.warm_up_s));
-  add("--evidence-seed", std::to_string(cell.seed));
-  add("--evidence", evidence.string());
-  add("--report", report.string());
-  return arguments;
-}
 
 std::optional<RunRecord> run_peer_processes(const RunnerSettings& settings,
                                             const Experiment& experiment, const Cell& cell,

@@ -4,22 +4,12 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/measure/run_record.h"
 #include "loadgen/run/cell_runner.h"
 
 namespace rink::loadgen {
-
-/// The arguments that start a peer of `cell`: the first one, or if `first` is not empty one that
-/// joins the peer there (ADDRESS:PORT).
-std::vector<std::string> peer_arguments(const Experiment& experiment, const Cell& cell,
-                                        const std::filesystem::path& key_log,
-                                        const std::string& first,
-                                        const std::filesystem::path& report,
-                                        const std::filesystem::path& evidence);
 
 /// As run_cell, with the same keys, evidence and judgement. A peer that fails makes the run invalid
 /// and is named.

@@ -174,10 +174,11 @@ PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, c
       network_(model_),
       keys_(keys) {
   const game::InterestSettings interest = interest_settings(experiment, cell, scene, seats_.bats);
+  const PeerMeasuring measuring{.clock = clock_, .measurements = measurements_};
   measurements_.from_s = experiment.warm_up_s, measurements_.until_s = played_s();
   for (peer::PeerNumber number = 0; number < cell.clients; ++number) {
     PeerStation& station =
-        stations_.emplace_back(game_, interest, seats_.division, number, clock_, measurements_);
+        stations_.emplace_back(game_, interest, seats_.division, number, measuring);
     ends_.emplace_back(network_, station, number, cell.clients);
   }
   node_of_player_.resize(game_.start().player_count(), cell.clients);
@@ -352,14 +353,15 @@ PeerTotals PeerRun::totals() const {
 
 void PeerRun::judge(RunRecord& record) const {
   const PeerTotals sums = totals();
-  game::ServerEvidence server = evidence_of(
-      experiment_, cell_, game_.start(), evidence_.keys,
-      static_cast<double>(last_window()) / cell_.parameters.tick_rate_hz, sums.state_hash);
+  game::ServerEvidence server =
+      evidence_of(experiment_, cell_, game_.start(), evidence_.keys, sums.state_hash);
   server.decisions = evidence_.decisions, server.in_scope = evidence_.in_scope;
   BotsEvidence bots = bots_evidence_of(server);
   for (const std::uint32_t player : players_)
     add_player(bots, stations_[node_of_player_[player]].evidence());
-  judge_peers(settings_, experiment_, record, sums, measurements_, server, bots);
+  judge_peers(
+      settings_, experiment_, record,
+      {.totals = sums, .measured = measurements_, .server = server, .bots = std::move(bots)});
 }
 
 void run_peers(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,

@@ -7,13 +7,13 @@ namespace rink::loadgen {
 
 PeerStation::PeerStation(const game::SharedGame& game, const game::InterestSettings& settings,
                          const peer::Division& division, peer::PeerNumber number,
-                         const RunClock& clock, Measurements& measurements)
-    : clock_(clock),
-      measurements_(measurements),
+                         const PeerMeasuring& measuring)
+    : clock_(measuring.clock),
+      measurements_(measuring.measurements),
       rate_hz_(settings.rate_hz),
       readers_(division.peer_count()),
       outboxes_(division.peer_count()),
-      probe_(measurements),
+      probe_(measurements_),
       node_(game, settings, division, number,
             [this](peer::PeerNumber to, game::Traffic about,
                    const std::vector<std::uint8_t>& content) {

@@ -24,12 +24,17 @@ struct RunClock {
   double simulated_s() const { return now_s - start_s; }
 };
 
+/// What stations measure by and where they put it; both must outlive them, and may be shared.
+struct PeerMeasuring {
+  const RunClock& clock;
+  Measurements& measurements;
+};
+
 class PeerStation {
  public:
-  /// `clock` must outlive the station, as must `measurements`, which may be shared.
   PeerStation(const game::SharedGame& game, const game::InterestSettings& settings,
-              const peer::Division& division, peer::PeerNumber number, const RunClock& clock,
-              Measurements& measurements);
+              const peer::Division& division, peer::PeerNumber number,
+              const PeerMeasuring& measuring);
 
   /// Keeps evidence of what the player was told and believes.
   void watch();

@@ -31,24 +31,21 @@ std::string figures_text(const RunRecord& record) {
 /// One search and what its probes left behind.
 class SaturationSearch {
  public:
-  SaturationSearch(const Cell& cell, const ServiceLevel& level, const SearchLimits& limits,
-                   std::span<const RunRecord> earlier, const CellRunning& run, std::ostream& out)
-      : level_(level), limits_(limits), earlier_(earlier), run_(run), out_(out) {
+  SaturationSearch(const Cell& cell, const SaturationProbing& probing) : probing_(probing) {
     found_.cell = cell;
   }
 
   Saturation find() {
-    found_.search = find_largest(limits_, [this](std::uint32_t clients, std::uint32_t attempt) {
-      return probe(clients, attempt);
-    });
+    found_.search = find_largest(
+        probing_.limits,
+        [this](std::uint32_t clients, std::uint32_t attempt) { return probe(clients, attempt); });
     for (const RunRecord& record : records_) {
-      const Judgement judgement = judgement_of(record, level_);
+      const Judgement judgement = judgement_of(record, probing_.level);
       if (record.cell.clients == found_.search.held && judgement.verdict == Verdict::holds)
         found_.edge = record;
       if (record.cell.clients == found_.search.failed && judgement.verdict != Verdict::holds)
         found_.why = judgement.why;
     }
-    foretell();
     foretell();
     return std::move(found_);
   }
@@ -58,22 +55,21 @@ class SaturationSearch {
     Cell cell = found_.cell;
     cell.clients = clients;
     cell.seed += attempt;
-    const auto before =
-        std::find_if(earlier_.begin(), earlier_.end(),
-                     [&cell](const RunRecord& record) { return record.cell == cell; });
-    const std::optional<RunRecord> record =
-        before != earlier_.end() ? std::optional(*before) : run_(cell);
+    const auto before = std::ranges::find_if(
+        probing_.earlier, [&cell](const RunRecord& record) { return record.cell == cell; });
+    const bool is_known = before != probing_.earlier.end();
+    const std::optional<RunRecord> record = is_known ? std::optional(*before) : probing_.run(cell);
     if (!record) return std::nullopt;
-    const Judgement judgement = judgement_of(*record, level_);
+    const Judgement judgement = judgement_of(*record, probing_.level);
     const char* verdict =
         judgement.verdict == Verdict::holds
             ? " clients hold: "
             : (judgement.verdict == Verdict::fails ? " clients fail: "
                                                    : " clients, does not count: ");
-    out_ << title_of(cell) << ": " << clients << verdict
-         << (judgement.verdict == Verdict::holds ? figures_text(*record) : judgement.why)
-         << (before != earlier_.end() ? " (measured before)" : "") << "\n"
-         << std::flush;
+    probing_.out << title_of(cell) << ": " << clients << verdict
+                 << (judgement.verdict == Verdict::holds ? figures_text(*record) : judgement.why)
+                 << (is_known ? " (measured before)" : "") << "\n"
+                 << std::flush;
     records_.push_back(*record);
     return judgement.verdict;
   }
@@ -91,11 +87,7 @@ class SaturationSearch {
     }
   }
 
-  const ServiceLevel& level_;
-  const SearchLimits& limits_;
-  std::span<const RunRecord> earlier_;
-  const CellRunning& run_;
-  std::ostream& out_;
+  const SaturationProbing& probing_;
   Saturation found_;
   std::vector<RunRecord> records_;
 };
@@ -111,26 +103,24 @@ SearchLimits search_limits(const Experiment& experiment, std::uint32_t most, dou
   return limits;
 }
 
-std::vector<Saturation> saturate(const Experiment& experiment, const ServiceLevel& level,
-                                 const SearchLimits& limits, std::span<const RunRecord> earlier,
-                                 const CellRunning& run, const SaturationKeeping& keep,
-                                 std::ostream& out) {
+std::vector<Saturation> saturate(const Experiment& experiment, const SaturationProbing& probing,
+                                 const SaturationKeeping& keep) {
   Experiment one = experiment;
-  one.clients = {limits.first};
+  one.clients = {probing.limits.first};
   one.seeds = {experiment.seeds.front()};
   std::vector<Saturation> found;
   for (const Cell& cell : cells_of(one)) {
-    found.push_back(SaturationSearch(cell, level, limits, earlier, run, out).find());
-    out << title_of(cell) << ": " << held_text(found.back().search) << "\n" << std::flush;
+    found.push_back(SaturationSearch(cell, probing).find());
+    probing.out << title_of(cell) << ": " << held_text(found.back().search) << "\n" << std::flush;
     keep(found);
     if (found.back().search.end == SearchEnd::interrupted) break;
   }
   return found;
 }
 
-Outcome run_saturation(const Experiment& experiment, const SaturateOptions& options,
-                       const RunnerSettings& settings, const KeyLogWriter& write_key_log,
-                       const SaturationOutput& output) {
+Outcome run_saturation(const Campaign& campaign, const SaturateOptions& options, std::ostream& out,
+                       std::vector<Saturation>& found) {
+  const Experiment& experiment = campaign.experiment;
   if (!experiment.parts.empty())
     throw ExperimentError("experiment " + experiment.name +
                           ": it has several parts; a search for the largest number of clients "
@@ -141,7 +131,6 @@ Outcome run_saturation(const Experiment& experiment, const SaturateOptions& opti
                           "so nothing saturates; allowed are \"tcp\", \"udp\", \"shm\"");
   }
   SearchLimits limits = search_limits(experiment, options.most, options.resolution);
-  auto& [results, out, found] = output;
   if (options.allowed_clients < limits.most) {
     out << "the limit on open files allows " << options.allowed_clients << " clients instead of "
         << limits.most << "\n";
@@ -149,28 +138,27 @@ Outcome run_saturation(const Experiment& experiment, const SaturateOptions& opti
     limits.first = std::min(limits.first, limits.most);
   }
   Outcome outcome;
-  const std::filesystem::path keys = results.subdirectory("keys");
-  const CellRunning run = [&, &results = results](const Cell& cell) -> std::optional<RunRecord> {
+  const std::filesystem::path keys = campaign.results.subdirectory("keys");
+  const CellRunning run = [&](const Cell& cell) -> std::optional<RunRecord> {
     const std::filesystem::path key_log = keys / (name_of(cell) + ".keys");
-    write_key_log(cell, key_log);
-    const auto record = run_cell(settings, experiment, cell, key_log);
+    campaign.write_key_log(cell, key_log);
+    const auto record = run_cell(campaign.settings, experiment, cell, key_log);
     std::error_code ignored;
     std::filesystem::remove(state_file_of(key_log), ignored);
     std::filesystem::remove(key_log, ignored);  // drawn again from its seed by anybody who wants
                                                 // it; thousands of players' plans fill a disk
     if (!record) return std::nullopt;
     outcome.runs.push_back(*record);
-    results.append(*record);
+    campaign.results.append(*record);
     return record;
   };
-  const SaturationKeeping keep = [&, &results = results,
-                                  &found = found](std::span<const Saturation> so_far) {
+  const SaturationKeeping keep = [&](std::span<const Saturation> so_far) {
     found.assign(so_far.begin(), so_far.end());
-    results.write("saturation.csv", to_csv(so_far));
-    results.write("saturation.json", to_json_text(so_far, options.level, limits));
+    campaign.results.write("saturation.csv", to_csv(so_far));
+    campaign.results.write("saturation.json", to_json_text(so_far, options.level, limits));
   };
   try {
-    saturate(experiment, options.level, limits, {}, run, keep, out);
+    saturate(experiment, {.level = options.level, .limits = limits, .run = run, .out = out}, keep);
     outcome.was_interrupted = !found.empty() && found.back().search.end == SearchEnd::interrupted;
   } catch (const OutputError& error) {
     outcome.output_failure = error.what();

@@ -39,14 +39,20 @@ using SaturationKeeping = std::function<void(std::span<const Saturation> found)>
 /// clients, the latter replaced by `most` unless that is 0.
 SearchLimits search_limits(const Experiment& experiment, std::uint32_t most, double resolution);
 
+/// How a search probes.
+struct SaturationProbing {
+  const ServiceLevel& level;
+  const SearchLimits& limits;
+  CellRunning run;
+  std::ostream& out;                     ///< is told what each probe showed
+  std::span<const RunRecord> earlier{};  ///< runs of an interrupted search, not run again
+};
+
 /// Searches once for each of the experiment's cells that differ in more than clients and seed. The
 /// first probe of a number of clients has the experiment's first seed, each repetition the next
-/// whole number. Runs in `earlier` (of an interrupted search) are not run again. Says on `out` what
-/// each probe showed.
-std::vector<Saturation> saturate(const Experiment& experiment, const ServiceLevel& level,
-                                 const SearchLimits& limits, std::span<const RunRecord> earlier,
-                                 const CellRunning& run, const SaturationKeeping& keep,
-                                 std::ostream& out);
+/// whole number.
+std::vector<Saturation> saturate(const Experiment& experiment, const SaturationProbing& probing,
+                                 const SaturationKeeping& keep);
 
 /// What `--saturate` is asked for.
 struct SaturateOptions {
@@ -57,19 +63,12 @@ struct SaturateOptions {
   std::uint32_t allowed_clients = 0xffffffffu;  ///< what the limit on open files leaves
 };
 
-/// Where a search keeps what it does and says what it finds.
-struct SaturationOutput {
-  ResultsDirectory& results;
-  std::ostream& out;
-  std::vector<Saturation>& found;  ///< what the probes say so far
-};
-
-/// Searches with real runs, each appended to `results`, and writes saturation.csv and
-/// saturation.json after each search. The outcome holds all probes. Throws ExperimentError if the
-/// scene cannot serve the first probe, or under a virtual clock, where no tick is ever late.
-Outcome run_saturation(const Experiment& experiment, const SaturateOptions& options,
-                       const RunnerSettings& settings, const KeyLogWriter& write_key_log,
-                       const SaturationOutput& output);
+/// Searches with real runs, each appended to the results, and writes saturation.csv and
+/// saturation.json after each search; `found` is what the probes say so far. The outcome holds all
+/// probes. Throws ExperimentError if the scene cannot serve the first probe, or under a virtual
+/// clock, where no tick is ever late.
+Outcome run_saturation(const Campaign& campaign, const SaturateOptions& options, std::ostream& out,
+                       std::vector<Saturation>& found);
 
 /// What was found in words, e.g. "at least 400", "905", "none".
 std::string held_text(const Search& search);

@@ -238,7 +238,8 @@ TEST(Exhibits, LatencyCurvesEndWhereTheSampleDoes) {
   const auto runs = two_by_two();
   CellLatencies latencies{runs[0].cell, {}, {}, {}};
   for (int i = 1; i <= 1000; ++i) latencies.update_age.record(i * 1e-3);
-  const Report report = report_of(small_experiment(), runs, {}, std::span(&latencies, 1));
+  const Report report =
+      report_of(small_experiment(), runs, {}, {.latencies = std::span(&latencies, 1)});
   const auto table =
       std::find_if(report.tables.begin(), report.tables.end(),
                    [](const PlotTable& other) { return other.name == "update-age"; });

@@ -107,9 +107,9 @@ TEST_F(PictureTest, EveryPlotIsAFileNamedAfterItsTable) {
     ++figures;
   const auto pictures = files(".svg"), tables = files(".csv");
   EXPECT_EQ(pictures.size(), figures);
-  EXPECT_EQ(
-      tables.size(),
-      report_of(experiment, runs, {}, latencies_in(folder_ / "out/cells", runs)).tables.size())
+  EXPECT_EQ(tables.size(), report_of(experiment, runs, {},
+                                     {.latencies = latencies_in(folder_ / "out/cells", runs)})
+                               .tables.size())
       << "two tables have one name";
   EXPECT_GT(figures, 25u);
   const std::set<std::string> of_numbers_alone{"gains", "quality"};

@@ -86,7 +86,7 @@ TEST(Report, HeadsItsFiguresWithTheTermsOfTheField) {
     latencies.late_entry.record(i * 1e-3);
   }
   const std::string html =
-      report_of(small_experiment(), runs, provenance, std::span(&latencies, 1)).html;
+      report_of(small_experiment(), runs, provenance, {.latencies = std::span(&latencies, 1)}).html;
   for (const char* heading :
        {"<h3>Update latency (update age)</h3>", "<h3>Input latency (key to effect)</h3>",
         "<h3>Discovery latency (late entry)</h3>", "<h2>Bytes against dead-reckoning error</h2>",

@@ -177,7 +177,7 @@ TEST_F(CampaignTest, AllCellsAreAppendedToTheRunsAsTheyRunAndReturnedAsTheyArePl
   Progress progress(text, false, 2, 1.0);
   int games = 0;
   const Outcome outcome = run_campaign(
-      experiment_, settings_, results, [&games](const Cell&, const auto&) { ++games; }, progress);
+      {experiment_, settings_, results, [&games](const Cell&, const auto&) { ++games; }}, progress);
   EXPECT_EQ(games, 1) << "one game, shared by both schemes";
   ASSERT_EQ(outcome.runs.size(), 2u);
   EXPECT_TRUE(outcome.runs[0].valid && outcome.runs[1].valid);
@@ -206,8 +206,8 @@ TEST_F(CampaignTest, AnInterruptEndsTheCellAndKeepsWhatWasMeasured) {
   static std::atomic<bool>* interrupted_flag = &is_interrupted;
   interrupted_flag = &is_interrupted;
   signal(SIGUSR1, [](int) { interrupted_flag->store(true); });
-  const Outcome outcome = run_campaign(
-      experiment_, settings_, results, [](const Cell&, const auto&) {}, progress);
+  const Outcome outcome =
+      run_campaign({experiment_, settings_, results, [](const Cell&, const auto&) {}}, progress);
   signal(SIGUSR1, SIG_DFL);
   EXPECT_TRUE(outcome.was_interrupted);
   EXPECT_EQ(outcome.runs.size(), 1u);
@@ -220,8 +220,8 @@ TEST_F(CampaignTest, AFullDiskEndsTheCampaignAndKeepsTheRunInMemory) {
   ResultsDirectory results(folder_ / "out", false);
   std::ostringstream text;
   Progress progress(text, false, 2, 1.0);
-  const Outcome outcome = run_campaign(
-      experiment_, settings_, results, [](const Cell&, const auto&) {}, progress);
+  const Outcome outcome =
+      run_campaign({experiment_, settings_, results, [](const Cell&, const auto&) {}}, progress);
   EXPECT_THAT(outcome.output_failure, AllOf(HasSubstr("runs.jsonl"), HasSubstr("No space left")));
   EXPECT_EQ(outcome.runs.size(), 1u);
 }

@@ -229,8 +229,13 @@ class SaturateTest : public testing::Test {
     const SaturationKeeping keep = [this](std::span<const Saturation> found) {
       kept_.push_back(found.size());
     };
-    return saturate(experiment_, level_, search_limits(experiment_, 0, 0.1), earlier, run, keep,
-                    said_);
+    return saturate(experiment_,
+                    {.level = level_,
+                     .limits = search_limits(experiment_, 0, 0.1),
+                     .run = run,
+                     .out = said_,
+                     .earlier = earlier},
+                    keep);
   }
 
   Experiment experiment_;
@@ -301,8 +306,8 @@ TEST_F(SaturateTest, UnderAVirtualClockNothingSaturates) {
   std::vector<Saturation> found;
   SaturateOptions options;
   options.allowed_clients = 100;
-  EXPECT_THROW(run_saturation(experiment_, options, {}, [](const Cell&, const auto&) {},
-                              {results, said_, found}),
+  EXPECT_THROW(run_saturation({experiment_, {}, results, [](const Cell&, const auto&) {}}, options,
+                              said_, found),
                ExperimentError);
 }
 
