@@ -28,7 +28,12 @@ void collect(benchmark::State& state) {
   std::size_t bytes = 0;
   for (auto _ : state) {
     for (ObjectSlot slot = 0; slot < object_count; ++slot)
-      buffering.append(0, slot, objects[slot], fom.attributes(entity), {1.0, 0}, value);
+      buffering.append({.owner = 0,
+                        .slot = slot,
+                        .object = objects[slot],
+                        .attributes = fom.attributes(entity),
+                        .stamp = {1.0, 0},
+                        .values = value});
     bytes = buffering.seal().front().message.size();
     buffering.clear();
   }

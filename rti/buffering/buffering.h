@@ -15,9 +15,8 @@ class Buffering {
  public:
   virtual ~Buffering() = default;
 
-  /// One update, `values` as they travel. Updates of one object keep their order.
-  virtual void append(std::uint32_t owner, ObjectSlot slot, const Object& object,
-                      AttributeSet attributes, const Stamp& stamp, Bytes values) = 0;
+  /// Updates of one object keep their order.
+  virtual void append(const ObjectUpdate& update) = 0;
   /// What was appended since `clear`, for all who hear of it; valid until `clear`. No `append` may
   /// follow before that.
   virtual std::span<const UpdateRun> seal() = 0;

@@ -24,10 +24,7 @@ class NewestState final : public Buffering {
  public:
   explicit NewestState(const NewestStateSettings& settings = {});
 
-  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes,
-              const Stamp& stamp, Bytes values) override {
-    runs_.append(owner, slot, object, attributes, stamp, values);
-  }
+  void append(const ObjectUpdate& update) override { runs_.append(update); }
   std::span<const UpdateRun> seal() override;
   void clear() override { runs_.clear(); }
   bool holds_back(std::uint32_t federate, std::size_t waiting_bytes) override;

@@ -9,47 +9,47 @@
 
 namespace rink::rti {
 
-UpdateRun& UpdateRuns::begin(std::uint32_t owner, const Object& object, AttributeSet attributes,
-                             const Stamp& stamp) {
+UpdateRun& UpdateRuns::begin(const ObjectUpdate& update) {
   if (size_ == runs_.size()) runs_.emplace_back();
   UpdateRun& run = runs_[size_++];
-  run.owner = owner;
-  run.object_class = object.object_class;
-  run.attributes = attributes;
-  run.stamp = stamp;
-  UpdatesMessage header{run.object_class, attributes.bits};
+  run.owner = update.owner;
+  run.object_class = update.object.object_class;
+  run.attributes = update.attributes;
+  run.stamp = update.stamp;
+  UpdatesMessage header{run.object_class, run.attributes.bits};
   write(run.message, header);
   run.first_word = static_cast<std::size_t>(-1);
   run.last_word = 0;
   return run;
 }
 
-UpdateRun& UpdateRuns::run_for(std::uint32_t owner, ObjectSlot slot, const Object& object,
-                               AttributeSet attributes, const Stamp& stamp) {
+UpdateRun& UpdateRuns::run_for(const ObjectUpdate& update) {
   // Only a run behind the object's last one may take its next record, or updates of one object
   // would overtake each other. Looking at the last eight runs suffices: a tick has few kinds of
   // updates.
-  const std::size_t earliest = std::max<std::size_t>(last_run_[slot], size_ > 8 ? size_ - 8 : 0);
+  const std::size_t earliest =
+      std::max<std::size_t>(last_run_[update.slot], size_ > 8 ? size_ - 8 : 0);
   for (std::size_t i = size_; i > earliest; --i) {
     UpdateRun& run = runs_[i - 1];
-    if (run.owner == owner && run.object_class == object.object_class &&
-        run.attributes == attributes && run.stamp == stamp)
+    if (run.owner == update.owner && run.object_class == update.object.object_class &&
+        run.attributes == update.attributes && run.stamp == update.stamp)
       return run;
   }
-  return begin(owner, object, attributes, stamp);
+  return begin(update);
 }
 
-void UpdateRuns::append(std::uint32_t owner, ObjectSlot slot, const Object& object,
-                        AttributeSet attributes, const Stamp& stamp, Bytes values) {
-  assert(slot != no_object && object.handle);
+void UpdateRuns::append(const ObjectUpdate& update) {
+  const ObjectSlot slot = update.slot;
+  const std::uint32_t handle = update.object.handle.value;
+  const Bytes values = update.values;
+  assert(slot != no_object && update.object.handle);
   if (slot >= last_run_.size()) last_run_.resize(slot + 1);
-  UpdateRun& run = run_for(owner, slot, object, attributes, stamp);
+  UpdateRun& run = run_for(update);
   assert(!run.members.contains(slot));  // at most one of each object
   last_run_[slot] = static_cast<std::uint32_t>(&run - runs_.data()) + 1;
   run.slots.push_back(slot);
-  write_handle(run.message, run.records.empty() ? 0 : run.records.back().handle,
-               object.handle.value);
-  run.records.push_back({object.handle.value, static_cast<std::uint32_t>(run.message.size()),
+  write_handle(run.message, run.records.empty() ? 0 : run.records.back().handle, handle);
+  run.records.push_back({handle, static_cast<std::uint32_t>(run.message.size()),
                          static_cast<std::uint32_t>(values.size())});
   run.message.insert(run.message.end(), values.begin(), values.end());
   run.members.insert(slot);

@@ -11,6 +11,16 @@
 
 namespace rink::rti {
 
+/// What one federate says of one object.
+struct ObjectUpdate {
+  std::uint32_t owner = 0;  ///< the federate's slot
+  ObjectSlot slot = no_object;
+  const Object& object;  ///< the one in `slot`
+  AttributeSet attributes;
+  Stamp stamp;
+  Bytes values;  ///< as they travel
+};
+
 /// Updates of one owner, class, attribute set and stamp; at most one of each object.
 struct UpdateRun {
   /// One object's values as they travel, in `message`.
@@ -43,19 +53,15 @@ struct UpdateRun {
 /// memory from tick to tick.
 class UpdateRuns {
  public:
-  /// `values` as they travel.
-  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes,
-              const Stamp& stamp, Bytes values);
+  void append(const ObjectUpdate& update);
   /// Completes the messages; no `append` may follow before `clear`.
   void seal();
   void clear();
   std::span<const UpdateRun> runs() const { return {runs_.data(), size_}; }
 
  private:
-  UpdateRun& run_for(std::uint32_t owner, ObjectSlot slot, const Object& object,
-                     AttributeSet attributes, const Stamp& stamp);
-  UpdateRun& begin(std::uint32_t owner, const Object& object, AttributeSet attributes,
-                   const Stamp& stamp);
+  UpdateRun& run_for(const ObjectUpdate& update);
+  UpdateRun& begin(const ObjectUpdate& update);
 
   std::vector<UpdateRun> runs_;
   std::size_t size_ = 0;

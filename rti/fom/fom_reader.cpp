@@ -47,8 +47,8 @@ class FomReader {
   template <class Member>
   Member read_member(const Node& node, const std::vector<Member>& others, const std::string& owner);
   template <class Member>
-  void add_member(std::vector<Member>& members, Member member, std::size_t most, const Node& node,
-                  const Node& owner, const char* kind) const;
+  void add_member(std::vector<Member>& members, Member member, const Node& node,
+                  const Node& owner) const;
   template <class Handle, class Class>
   Handle add_class(std::vector<Class>& classes, Class read, const Node& node,
                    const char* kind) const;
@@ -173,8 +173,7 @@ void FomReader::read_object_class(const Group& group, ObjectClassHandle parent) 
   for (const Node& attribute : definition.children("attribute")) {
     if (text(attribute, "name") == "HLAprivilegeToDeleteObject") continue;  // every object has it
     modules_.require_unreserved({text(attribute, "name"), {attribute}});
-    add_member(object_class.attributes, read_attribute(attribute, object_class),
-               named_attribute_max, attribute, front, "attributes");
+    add_member(object_class.attributes, read_attribute(attribute, object_class), attribute, front);
   }
   const auto handle = add_class<ObjectClassHandle>(fom_.object_classes_, std::move(object_class),
                                                    front, "object classes");
@@ -231,8 +230,7 @@ void FomReader::read_interaction_class(const Group& group, InteractionClassHandl
   for (const Node& parameter : definition.children("parameter")) {
     modules_.require_unreserved({text(parameter, "name"), {parameter}});
     add_member(interaction_class.parameters,
-               read_member(parameter, interaction_class.parameters, group.name), parameter_max,
-               parameter, front, "parameters");
+               read_member(parameter, interaction_class.parameters, group.name), parameter, front);
   }
   const auto handle = add_class<InteractionClassHandle>(
       fom_.interaction_classes_, std::move(interaction_class), front, "interaction classes");
@@ -256,11 +254,14 @@ Member FomReader::read_member(const Node& node, const std::vector<Member>& other
 }
 
 template <class Member>
-void FomReader::add_member(std::vector<Member>& members, Member member, std::size_t most,
-                           const Node& node, const Node& owner, const char* kind) const {
+void FomReader::add_member(std::vector<Member>& members, Member member, const Node& node,
+                           const Node& owner) const {
+  constexpr bool is_attribute = std::is_same_v<Member, Attribute>;
+  constexpr std::size_t most = is_attribute ? named_attribute_max : parameter_max;
   members.push_back(std::move(member));
   if (members.size() > most)
-    fail(node, path(owner) + " has more than " + std::to_string(most) + " " + kind);
+    fail(node, path(owner) + " has more than " + std::to_string(most) +
+                   (is_attribute ? " attributes" : " parameters"));
 }
 
 template <class Handle, class Class>

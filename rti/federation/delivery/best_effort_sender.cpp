@@ -25,21 +25,28 @@ void cut_values(const ObjectClass& object_class, AttributeSet set, AttributeSet 
 
 void BestEffortSender::append(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
                               const Stamp& stamp, Bytes values) {
-  if (has_ways_) return append_apart(slot, object, attributes, stamp, values);
-  buffering_.append(slot, object, basis_.objects[object], attributes, stamp, values);
+  const ObjectUpdate update{.owner = slot,
+                            .slot = object,
+                            .object = basis_.objects[object],
+                            .attributes = attributes,
+                            .stamp = stamp,
+                            .values = values};
+  if (has_ways_) append_apart(update);
+  else buffering_.append(update);
 }
 
-void BestEffortSender::append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
-                                    const Stamp& stamp, Bytes values) {
-  const AttributeSet best_effort = attributes & types_.by_datagram(object),
-                     reliable(attributes.bits & ~best_effort.bits);
-  if (best_effort.is_empty() || reliable.is_empty())
-    return buffering_.append(slot, object, basis_.objects[object], attributes, stamp, values);
-  for (const AttributeSet part : {reliable, best_effort}) {
+void BestEffortSender::append_apart(const ObjectUpdate& update) {
+  const AttributeSet best_effort = update.attributes & types_.by_datagram(update.slot),
+                     reliable(update.attributes.bits & ~best_effort.bits);
+  if (best_effort.is_empty() || reliable.is_empty()) return buffering_.append(update);
+  for (const AttributeSet attributes : {reliable, best_effort}) {
     values_.clear();
-    cut_values(basis_.fom.object_classes()[basis_.objects[object].object_class], attributes, part,
-               values, values_);
-    buffering_.append(slot, object, basis_.objects[object], part, stamp, values_);
+    cut_values(basis_.fom.object_classes()[update.object.object_class], update.attributes,
+               attributes, update.values, values_);
+    ObjectUpdate part = update;
+    part.attributes = attributes;
+    part.values = values_;
+    buffering_.append(part);
   }
 }
 

@@ -43,8 +43,7 @@ class BestEffortSender {
   void send(FlushContext& context, Outlet& outlet);
 
  private:
-  void append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
-                    const Stamp& stamp, Bytes values);
+  void append_apart(const ObjectUpdate& update);
   bool is_usable(JoinedFederate& federate, bool is_open, Outlet& outlet);
   void probe(JoinedFederate& federate, Outlet& outlet);
 

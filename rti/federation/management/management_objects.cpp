@@ -213,7 +213,12 @@ void ManagementObjects::update(Told& told) {
   told.is_due = false;
   if (set.is_empty()) return;
   basis_.objects.store(slot, set, changed_);
-  uses_.buffering.append(*slot_, slot, object, set, Stamp{}, changed_);
+  uses_.buffering.append({.owner = *slot_,
+                          .slot = slot,
+                          .object = object,
+                          .attributes = set,
+                          .stamp = {},
+                          .values = changed_});
   ++basis_.counters.management_updates;
 }
 

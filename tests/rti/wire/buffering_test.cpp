@@ -205,10 +205,7 @@ TEST(Buffering, RandomReadersAllEndWithTheNewestState) {
 /// A user's own: every destination hears of values at every third flush only.
 class EveryThird final : public Buffering {
  public:
-  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes,
-              const Stamp& stamp, Bytes values) override {
-    runs_.append(owner, slot, object, attributes, stamp, values);
-  }
+  void append(const ObjectUpdate& update) override { runs_.append(update); }
   std::span<const UpdateRun> seal() override {
     ++flushes_;
     runs_.seal();
