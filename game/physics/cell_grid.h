@@ -98,22 +98,28 @@ class CellGrid {
         prefetch(middle), prefetch(middle + across);
   }
 
-  /// Calls `visit(body)` for every body in the cells from (column + low_x, row + low_y) to (column
-  /// + high_x, row + high_y).
+  /// Cells from one to another, both included.
+  struct Range {
+    std::uint32_t column_low, row_low, column_high, row_high;
+  };
+  /// Calls `visit(body)` for every body in those of the cells that there are.
   template <class Visit>
-  void around(std::uint32_t column, std::uint32_t row, int low_x, int high_x, int low_y, int high_y,
-              Visit&& visit) const {
-    const int x0 = std::max(0, static_cast<int>(column) + low_x),
-              x1 = std::min(static_cast<int>(columns_) - 1, static_cast<int>(column) + high_x);
-    const int y0 = std::max(0, static_cast<int>(row) + low_y),
-              y1 = std::min(static_cast<int>(rows_) - 1, static_cast<int>(row) + high_y);
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) {
+  void within(const Range& range, Visit&& visit) const {
+    const std::uint32_t last_column = std::min(range.column_high, columns_ - 1),
+                        last_row = std::min(range.row_high, rows_ - 1);
+    for (std::uint32_t y = range.row_low; y <= last_row; ++y)
+      for (std::uint32_t x = range.column_low; x <= last_column; ++x) {
         const std::uint32_t* cell =
             &cells_[cell_at({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)}) *
                     stride_];
         for (std::uint32_t k = 1; k <= cell[0]; ++k) visit(cell[k]);
       }
+  }
+  /// The same for the nine cells around `body`.
+  template <class Visit>
+  void around(std::uint32_t body, Visit&& visit) const {
+    const std::uint32_t column = column_of(body), row = row_of(body);
+    within({column - std::min(column, 1u), row - std::min(row, 1u), column + 1, row + 1}, visit);
   }
   std::uint32_t column(double x) const { return clamp(x, columns_); }
   std::uint32_t row(double y) const { return clamp(y, rows_); }

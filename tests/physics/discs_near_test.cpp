@@ -44,7 +44,7 @@ TEST(DiscsNear, AreAsManyAsALookAtEachFinds) {
     };
     std::uint32_t expected = ((0u - count) & 3u) * (is_near(filler) ? 1u : 0u);
     for (std::uint32_t k = 0; k < count; ++k) expected += is_near(near[k]);
-    EXPECT_EQ(count_near_in_fours(discs.data(), near.data(), count, filler, x, y, time, least),
+    EXPECT_EQ(count_near_in_fours(discs.data(), near.data(), count, filler, {x, y, time, least}),
               expected)
         << "round " << round;
   }

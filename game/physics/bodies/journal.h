@@ -56,7 +56,14 @@ struct Journal {
                                        ///< of them: from then on all is
   HoldAge age;
 
-  void enter(std::uint32_t body, const Flight& f, std::uint64_t conditions) {
+  /// A body as an event leaves it.
+  struct Entry {
+    std::uint32_t body;
+    const Flight& flight;
+    std::uint64_t conditions;
+  };
+  void enter(const Entry& entry) {
+    const auto& [body, f, conditions] = entry;
     if (rooms_of[body] != 0) rooms_of[body] = 0, entered.push_back(body);
     changes.push_back(
         {time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, Change::straight});
@@ -68,10 +75,9 @@ struct Journal {
     return room.holds(f.x, f.y) && room.holds(f.x + f.vx * ahead, f.y + f.vy * ahead);
   }
   /// A free impact of two bodies, after it.
-  void enter_impact(std::uint32_t low, const Flight& a, std::uint64_t conditions_a,
-                    std::uint32_t high, const Flight& b, std::uint64_t conditions_b) {
-    if (is_quiet(low, a) && is_quiet(high, b)) ++quiet_events;
-    else enter(low, a, conditions_a), enter(high, b, conditions_b);
+  void enter_impact(const Entry& low, const Entry& high) {
+    if (is_quiet(low.body, low.flight) && is_quiet(high.body, high.flight)) ++quiet_events;
+    else enter(low), enter(high);
     ++event;
   }
   /// The event that is about to be processed.

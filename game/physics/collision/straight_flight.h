@@ -72,14 +72,24 @@ MaybeContact<Real> meet_box(const Vector<Real>& offset, const Vector<Real>& velo
   return contact_on_face(*entry, offset);
 }
 
-/// The corner of the rounded box in the quadrant of `place`: a quarter of a disc.
+/// One of a box's four corners, and a place in its quadrant.
+template <class Real>
+struct Corner {
+  Vector<Real> at, place;
+};
+
+template <class Real>
+Corner<Real> corner_near(const Vector<Real>& place, const Vector<Real>& half_extent) {
+  return {{std::copysign(half_extent.x(), place.x()), std::copysign(half_extent.y(), place.y())},
+          place};
+}
+
+/// A corner of the rounded box: a quarter of a disc.
 template <class Real>
 MaybeContact<Real> meet_corner(const Vector<Real>& offset, const Vector<Real>& velocity,
-                               const Vector<Real>& half_extent, Real radius,
-                               const Vector<Real>& place, Real limit) {
-  const Vector<Real> corner(std::copysign(half_extent.x(), place.x()),
-                            std::copysign(half_extent.y(), place.y())),
-      from_corner = offset - corner;
+                               const Corner<Real>& corner, Real radius, Real limit) {
+  const auto& [at, place] = corner;
+  const Vector<Real> from_corner = offset - at;
   const auto contact = meet_disc<Real>(from_corner, velocity, radius, limit);
   const bool moves_inwards =
       velocity.x() * place.x() < Real(0) && velocity.y() * place.y() < Real(0);
@@ -101,7 +111,8 @@ MaybeContact<Real> meet_rounded_box(const Vector<Real>& offset, const Vector<Rea
   if (radius == Real(0)) return meet_box<Real>(offset, velocity, half_extent, limit);
   const Vector<Real> outside = offset.cwiseAbs() - half_extent;
   if (outside.minCoeff() > Real(0) && outside.maxCoeff() < radius)
-    return meet_corner<Real>(offset, velocity, half_extent, radius, offset, limit);
+    return meet_corner<Real>(offset, velocity, corner_near<Real>(offset, half_extent), radius,
+                             limit);
   const auto entry =
       enter_box<Real>(offset, velocity, half_extent + Vector<Real>::Constant(radius));
   if (!entry || entry->time > limit) return std::nullopt;
@@ -109,7 +120,7 @@ MaybeContact<Real> meet_rounded_box(const Vector<Real>& offset, const Vector<Rea
   Vector<Real> place = offset;
   place[other] = offset[other] + velocity[other] * entry->time;
   if (std::abs(place[other]) <= half_extent[other]) return contact_on_face(*entry, offset);
-  return meet_corner<Real>(offset, velocity, half_extent, radius, place, limit);
+  return meet_corner<Real>(offset, velocity, corner_near<Real>(place, half_extent), radius, limit);
 }
 
 }  // namespace rink::physics::collision

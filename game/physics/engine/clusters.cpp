@@ -19,14 +19,13 @@ constexpr Real parting_min = 1e-12 * fineness;
 constexpr double creep_speed = 1e-9;  // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
 
-Clusters::Clusters(const WorldSpec& spec, Bodies& bodies, ContactDetection& detection,
-                   ImpactHistory& history, Jams& jams, RestContacts& rests, EventRecord& record)
-    : bodies_(bodies),
-      detection_(detection),
-      history_(history),
-      jams_(jams),
-      rests_(rests),
-      record_(record),
+Clusters::Clusters(const WorldSpec& spec, const Uses& uses)
+    : bodies_(uses.bodies),
+      detection_(uses.detection),
+      history_(uses.history),
+      jams_(uses.jams),
+      rests_(uses.rests),
+      record_(uses.record),
       puck_friction_(spec.puck_friction),
       contact_time_(spec.contact_time),
       rest_speed_(rest_speed(spec)) {}

@@ -22,8 +22,15 @@ namespace rink::physics::inline RINK_PRECISION {
 /// A cluster is everybody connected by gaps too small to be seen.
 class Clusters {
  public:
-  Clusters(const WorldSpec& spec, Bodies& bodies, ContactDetection& detection,
-           ImpactHistory& history, Jams& jams, RestContacts& rests, EventRecord& record);
+  struct Uses {
+    Bodies& bodies;
+    ContactDetection& detection;
+    ImpactHistory& history;
+    Jams& jams;
+    RestContacts& rests;
+    EventRecord& record;
+  };
+  Clusters(const WorldSpec& spec, const Uses& uses);
   Clusters(const Clusters&) = delete;
   Clusters& operator=(const Clusters&) = delete;
 

@@ -55,8 +55,10 @@ bool ContactDetection::is_alone(std::uint32_t one, std::uint32_t two, Real time)
   const double x = b.x + b.vx * ahead_b - ax, y = b.y + b.vy * ahead_b - ay,
                touching = a.radius + b.radius + 0.5 * clear_of_touching;
   return x * x + y * y <= touching * touching &&
-         count_near_in_fours(bodies_.table().bodies.data(), candidates_.data(), count, one, ax, ay,
-                             time, a.radius + clear_of_touching) == 2 + fillers;
+         count_near_in_fours(
+             bodies_.table().bodies.data(), candidates_.data(), count, one,
+             {.x = ax, .y = ay, .time = time, .least = a.radius + clear_of_touching}) ==
+             2 + fillers;
 }
 #endif
 

@@ -47,7 +47,7 @@ class ContactDetection {
 template <class Visit>
 void ContactDetection::visit_partners(std::uint32_t body, Visit&& visit) {
   near_.clear();
-  grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
+  grid_.around(body, [&](std::uint32_t other) {
     if (other != body) near_.push_back(other);
   });
   std::sort(near_.begin(), near_.end());

@@ -34,7 +34,7 @@ std::uint64_t Engine::conditions_of(std::uint32_t body) const {
 void Engine::enter_changes() {
   Journal& journal = *observers_.journal;
   const auto enter = [&](std::uint32_t body) {
-    journal.enter(body, bodies_[body], conditions_of(body) ^ journal.stirred);
+    journal.enter({body, bodies_[body], conditions_of(body) ^ journal.stirred});
     if ((bodies_[body].flags & (Body::curved | Body::held | Body::frozen | Body::gone)) == 0)
       return;
     journal.changes.back().motion = static_cast<std::uint32_t>(journal.motions.size());

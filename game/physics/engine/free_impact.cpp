@@ -11,16 +11,14 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-FreeImpact::FreeImpact(const WorldSpec& spec, Bodies& bodies, ContactDetection& detection,
-                       NextEvents& events, Prediction& prediction, EventRecord& record,
-                       const Observers& observers)
+FreeImpact::FreeImpact(const WorldSpec& spec, const Uses& uses)
     : restitution_(spec.restitution),
-      bodies_(bodies),
-      detection_(detection),
-      events_(events),
-      prediction_(prediction),
-      record_(record),
-      observers_(observers),
+      bodies_(uses.bodies),
+      detection_(uses.detection),
+      events_(uses.events),
+      prediction_(uses.prediction),
+      record_(uses.record),
+      observers_(uses.observers),
       rest_speed_(rest_speed(spec)),
       is_wanted_(spec.puck_drag == 0.0 && !(spec.puck_friction > 0.0) && !spec.surface_friction &&
                  !spec.accounts_energy && !spec.allow_overlap) {}
@@ -35,7 +33,7 @@ void FreeImpact::tell(std::uint32_t low, const Flight& before_low, std::uint32_t
   observers_.before->keep_flight(low, before_low);
   observers_.before->keep_flight(high, before_high);
   const Body &a = bodies_[low], &b = bodies_[high];
-  observers_.journal->enter_impact(low, a, a.mouth, high, b, b.mouth);
+  observers_.journal->enter_impact({low, a, a.mouth}, {high, b, b.mouth});
 }
 
 bool FreeImpact::collide(std::uint32_t body, Partner p, Real time, bool is_crowded) {

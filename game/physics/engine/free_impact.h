@@ -19,8 +19,15 @@ namespace rink::physics::inline RINK_PRECISION {
 /// The arithmetic of Impact without its questions, so the same bits.
 class FreeImpact {
  public:
-  FreeImpact(const WorldSpec& spec, Bodies& bodies, ContactDetection& detection, NextEvents& events,
-             Prediction& prediction, EventRecord& record, const Observers& observers);
+  struct Uses {
+    Bodies& bodies;
+    ContactDetection& detection;
+    NextEvents& events;
+    Prediction& prediction;
+    EventRecord& record;
+    const Observers& observers;
+  };
+  FreeImpact(const WorldSpec& spec, const Uses& uses);
   FreeImpact(const FreeImpact&) = delete;
   FreeImpact& operator=(const FreeImpact&) = delete;
 

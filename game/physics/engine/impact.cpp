@@ -16,18 +16,27 @@ constexpr double press_min = 1e-7;
 
 }  // namespace
 
-Impact::Impact(const WorldSpec& spec, Clock& clock, Bodies& bodies, ContactDetection& detection,
-               ImpactHistory& history, Jams& jams, RestContacts& rests, EventRecord& record,
-               const Observers& observers)
-    : clock_(clock),
-      bodies_(bodies),
-      detection_(detection),
-      history_(history),
-      rests_(rests),
-      record_(record),
-      clusters_(spec, bodies, detection, history, jams, rests, record),
-      joint_impacts_(spec, clock, bodies, detection, history, rests, record, observers),
-      bounce_(spec, bodies, rests),
+Impact::Impact(const WorldSpec& spec, const Uses& uses)
+    : clock_(uses.clock),
+      bodies_(uses.bodies),
+      detection_(uses.detection),
+      history_(uses.history),
+      rests_(uses.rests),
+      record_(uses.record),
+      clusters_(spec, {.bodies = uses.bodies,
+                       .detection = uses.detection,
+                       .history = uses.history,
+                       .jams = uses.jams,
+                       .rests = uses.rests,
+                       .record = uses.record}),
+      joint_impacts_(spec, {.clock = uses.clock,
+                            .bodies = uses.bodies,
+                            .detection = uses.detection,
+                            .history = uses.history,
+                            .rests = uses.rests,
+                            .record = uses.record,
+                            .observers = uses.observers}),
+      bounce_(spec, uses.bodies, uses.rests),
       rest_speed_(rest_speed(spec)),
       allows_overlap_(spec.allow_overlap) {}
 

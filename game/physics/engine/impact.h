@@ -25,9 +25,17 @@ namespace rink::physics::inline RINK_PRECISION {
 /// bounce.
 class Impact {
  public:
-  Impact(const WorldSpec& spec, Clock& clock, Bodies& bodies, ContactDetection& detection,
-         ImpactHistory& history, Jams& jams, RestContacts& rests, EventRecord& record,
-         const Observers& observers);
+  struct Uses {
+    Clock& clock;
+    Bodies& bodies;
+    ContactDetection& detection;
+    ImpactHistory& history;
+    Jams& jams;
+    RestContacts& rests;
+    EventRecord& record;
+    const Observers& observers;
+  };
+  Impact(const WorldSpec& spec, const Uses& uses);
   Impact(const Impact&) = delete;
   Impact& operator=(const Impact&) = delete;
 

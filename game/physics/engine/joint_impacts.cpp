@@ -28,16 +28,14 @@ EventKind impact_kind(const Bodies& bodies, std::uint32_t body, Partner p) {
   return is(BodyKind::puck) ? EventKind::puck_bat : EventKind::bat_bat;
 }
 
-JointImpacts::JointImpacts(const WorldSpec& spec, Clock& clock, Bodies& bodies,
-                           ContactDetection& detection, ImpactHistory& history, RestContacts& rests,
-                           EventRecord& record, const Observers& observers)
-    : clock_(clock),
-      bodies_(bodies),
-      detection_(detection),
-      history_(history),
-      rests_(rests),
-      record_(record),
-      observers_(observers),
+JointImpacts::JointImpacts(const WorldSpec& spec, const Uses& uses)
+    : clock_(uses.clock),
+      bodies_(uses.bodies),
+      detection_(uses.detection),
+      history_(uses.history),
+      rests_(uses.rests),
+      record_(uses.record),
+      observers_(uses.observers),
       is_rough_(spec.surface_friction.has_value()),
       tolerance_(offset_tolerance(spec)) {}
 

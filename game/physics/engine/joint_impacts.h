@@ -23,9 +23,16 @@ namespace rink::physics::inline RINK_PRECISION {
 /// Impacts among bodies that touch, directly or through others.
 class JointImpacts {
  public:
-  JointImpacts(const WorldSpec& spec, Clock& clock, Bodies& bodies, ContactDetection& detection,
-               ImpactHistory& history, RestContacts& rests, EventRecord& record,
-               const Observers& observers);
+  struct Uses {
+    Clock& clock;
+    Bodies& bodies;
+    ContactDetection& detection;
+    ImpactHistory& history;
+    RestContacts& rests;
+    EventRecord& record;
+    const Observers& observers;
+  };
+  JointImpacts(const WorldSpec& spec, const Uses& uses);
   JointImpacts(const JointImpacts&) = delete;
   JointImpacts& operator=(const JointImpacts&) = delete;
 

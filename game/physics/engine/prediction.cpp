@@ -10,16 +10,14 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-Prediction::Prediction(const WorldSpec& spec, const Clock& clock, const Bodies& bodies,
-                       const CellGrid& grid, const RestContacts& rests, NextEvents& events,
-                       Counters& counters)
+Prediction::Prediction(const WorldSpec& spec, const Uses& uses)
     : field_(spec.field),
-      clock_(clock),
-      bodies_(bodies),
-      grid_(grid),
-      rests_(rests),
-      events_(events),
-      counters_(counters),
+      clock_(uses.clock),
+      bodies_(uses.bodies),
+      grid_(uses.grid),
+      rests_(uses.rests),
+      events_(uses.events),
+      counters_(uses.counters),
       puck_drag_(spec.puck_drag),
       tolerance_(offset_tolerance(spec)) {}
 

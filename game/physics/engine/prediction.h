@@ -20,8 +20,15 @@ namespace rink::physics::inline RINK_PRECISION {
 /// Writes the next events, and nothing else.
 class Prediction {
  public:
-  Prediction(const WorldSpec& spec, const Clock& clock, const Bodies& bodies, const CellGrid& grid,
-             const RestContacts& rests, NextEvents& events, Counters& counters);
+  struct Uses {
+    const Clock& clock;
+    const Bodies& bodies;
+    const CellGrid& grid;
+    const RestContacts& rests;
+    NextEvents& events;
+    Counters& counters;
+  };
+  Prediction(const WorldSpec& spec, const Uses& uses);
   Prediction(const Prediction&) = delete;
   Prediction& operator=(const Prediction&) = delete;
 

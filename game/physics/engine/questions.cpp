@@ -18,11 +18,12 @@ bool is_free(const Present& present, const RealVector& centre, const RoundedBox&
   const CellGrid& grid = places.grid();
   const double range = static_cast<double>(extent.maxCoeff() + places.reach()) + grid.side() / 32.0;
   const double x = static_cast<double>(centre.x()), y = static_cast<double>(centre.y());
-  const std::uint32_t column = grid.column(x - range), row = grid.row(y - range);
-  const int columns = static_cast<int>(grid.column(x + range) - column),
-            rows = static_cast<int>(grid.row(y + range) - row);
+  const CellGrid::Range cells{.column_low = grid.column(x - range),
+                              .row_low = grid.row(y - range),
+                              .column_high = grid.column(x + range),
+                              .row_high = grid.row(y + range)};
   bool is_clear = true;
-  grid.around(column, row, 0, columns, 0, rows, [&](std::uint32_t body) {
+  grid.within(cells, [&](std::uint32_t body) {
     const RoundedBox both{bodies.build(body).half_extent + shape.half_extent,
                           bodies[body].radius + shape.radius};
     is_clear = is_clear && both.gap(centre - motion_at(bodies, body, now).position).distance >= 0.0;
@@ -80,7 +81,7 @@ Real max_overlap(const Present& present) {
             : Real(0.0);
     const Real side = std::min(position.y() - extent.y(), field.width - extent.y() - position.y());
     deepest = std::max({deepest, -end, -side});
-    grid.around(grid.column_of(body), grid.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
+    grid.around(body, [&](std::uint32_t other) {
       if (other != body)
         deepest = std::max(deepest, -shape_of(bodies, body, other)
                                          .gap(position - motion_at(bodies, other, now).position)

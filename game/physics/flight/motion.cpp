@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-
 namespace rink::physics::inline RINK_PRECISION {
 
 namespace {

@@ -168,15 +168,18 @@ Meeting first_meeting_in_pairs(const Disc* discs, std::uint32_t own, std::uint32
   return first;
 }
 
-/// Four numbers that lie `at` a, b, c and d, and the four that follow them.
-[[gnu::target("avx2"), gnu::always_inline]] inline void read_fours(const double* a, const double* b,
-                                                                   const double* c, const double* d,
+struct FourPlaces {
+  const double *a, *b, *c, *d;
+};
+
+/// The four numbers that lie there, and the four that follow them.
+[[gnu::target("avx2"), gnu::always_inline]] inline void read_fours(const FourPlaces& at,
                                                                    __m256d& first,
                                                                    __m256d& second) {
   const __m256d even =
-      _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(a)), _mm_load_pd(c), 1);
+      _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(at.a)), _mm_load_pd(at.c), 1);
   const __m256d odd =
-      _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(b)), _mm_load_pd(d), 1);
+      _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(at.b)), _mm_load_pd(at.d), 1);
   first = _mm256_unpacklo_pd(even, odd), second = _mm256_unpackhi_pd(even, odd);
 }
 
@@ -201,9 +204,9 @@ template <bool counts, class Disc>
     const Disc &b = discs[near[k]], &c = discs[near[k + 1]], &d = discs[near[k + 2]],
                &e = discs[near[k + 3]];
     __m256d bx, by, vx, vy, b_time, b_radius;
-    read_fours(&b.x, &c.x, &d.x, &e.x, bx, by);
-    read_fours(&b.vx, &c.vx, &d.vx, &e.vx, vx, vy);
-    read_fours(&b.time, &c.time, &d.time, &e.time, b_time, b_radius);
+    read_fours({&b.x, &c.x, &d.x, &e.x}, bx, by);
+    read_fours({&b.vx, &c.vx, &d.vx, &e.vx}, vx, vy);
+    read_fours({&b.time, &c.time, &d.time, &e.time}, b_time, b_radius);
     const __m256d time = _mm256_max_pd(a_time, b_time), ahead_a = _mm256_sub_pd(time, a_time),
                   ahead_b = _mm256_sub_pd(time, b_time);
     const __m256d x =

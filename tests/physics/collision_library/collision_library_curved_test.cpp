@@ -93,10 +93,10 @@ void judge_shapes(Errors& errors, Seeded& seeded, Difficulty difficulty, Shapes 
   const Curved flight{pair.a, pair.b};
   if (obstacle.holds(flight.at(start))) return;
   const auto answer = shapes == Shapes::discs
-                          ? time_disc_meets_disc(pair.a, ra, pair.b, rb, start, until)
+                          ? time_disc_meets_disc(pair.a, ra, pair.b, rb, {start, until})
                       : shapes == Shapes::disc_and_box
-                          ? time_disc_meets_rounded_box(pair.a, ra, pair.b, eb, start, until)
-                          : time_box_meets_box(pair.a, ea, pair.b, eb, start, until);
+                          ? time_disc_meets_rounded_box(pair.a, ra, pair.b, eb, {start, until})
+                          : time_box_meets_box(pair.a, ea, pair.b, eb, {start, until});
   const double time = answer ? answer->time : until;
   judge(errors, answer, obstacle.gap(flight.at(time)), pair.length(time, reach),
         [&](double t) { return obstacle.holds(flight.near(t)); });
@@ -112,7 +112,7 @@ void judge_driven_edge(Errors& errors, Seeded& seeded, Difficulty difficulty) {
   const Quad length = root(dot(along, along));
   const auto depth = [&](Quad time) { return dot(out, flight.at(time) - from) / length; };
   const auto answer =
-      time_point_meets_moving_edge(pair.a, pair.b, Edge<double>{half, -half}, start, until);
+      time_point_meets_moving_edge(pair.a, pair.b, Edge<double>{half, -half}, {start, until});
   const double time = answer ? answer->time : until;
   // Between two looks on either side of the line, the place where it was crossed.
   QuadPoint before = flight.at(start);
