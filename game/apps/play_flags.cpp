@@ -91,9 +91,12 @@ void add_options(game::Flags& flags, PlayOptions& options) {
       flags.flag("--two", options.is_two, "two players on this keyboard (W A S D and the arrows)");
   const auto bot = flags.option("--bot", options.bot, "one player against a bot of this strength")
                        .check(one_of({"beginner", "club", "expert"}));
-  const auto host = flags.option("--host", options.host, "host a match on PORT and play it")
-                        .value_name("PORT")
-                        .check(game::whole_number_from(1, 65535));
+  const auto host =
+      flags
+          .option("--host", options.host,
+                  "host a match on PORT of every address of this machine (0.0.0.0), and play it")
+          .value_name("PORT")
+          .check(game::whole_number_from(1, 65535));
   const auto join =
       flags.option("--join", options.join, "join the match at HOST:PORT").value_name("HOST:PORT");
   const auto watch = flags
