@@ -5,6 +5,7 @@
   sentences  no sentence is longer than a reader keeps in mind
   names      each name and path in the pages that walk through the code is one of the sources
   walks      a key press and an update are each walked in few hops, and a key moves its bat after few functions
+  links      each link within the tree leads to a file, and to a heading of it; so does each "heading" named behind a link
   samples    each C++ sample of the first pages is part of the compiled file that the comment above it names: <!-- from PATH -->
 """
 import argparse
@@ -25,6 +26,7 @@ FENCE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 MEASURED = re.compile(r"^<!-- measured by .*?^<!-- end of what is measured -->$", re.MULTILINE | re.DOTALL)
 BLOCK_BEGINS = re.compile(r"^\s*([-*]|\d+\.) |^\s*$|^#|^<!--|^\|")
 NOT_PROSE = re.compile(r"^(#|\||<!--|!\[| {4})")
+LINK = re.compile(r"\]\((?!https?:)([^()#\s]*)(?:#([^()\s]*))?\)(?:,\s+\"([^\"]+)\")?")
 SAMPLE = re.compile(r"((?:^[^\n]*\n)?)^```cpp\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -118,6 +120,28 @@ def check_walks(root):
     return complaints
 
 
+def headings(page):
+    return re.findall(r"^#+ (.*)$", FENCE.sub("", page.read_text()), re.MULTILINE)
+
+
+def anchor_of(heading):
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+def check_links(root):
+    complaints = []
+    for page in pages(root):
+        for path, anchor, heading in LINK.findall(FENCE.sub("", page.read_text())):
+            target = page.parent / path if path else page
+            if not target.exists():
+                complaints.append(f"{page.relative_to(root)}: there is no {path}")
+            elif anchor and anchor not in map(anchor_of, headings(target)):
+                complaints.append(f"{page.relative_to(root)}: {path} has no heading #{anchor}")
+            elif heading and not any(each.startswith(heading) for each in headings(target) + re.findall(r"\*\*?([^*]+?)\.?\*\*?", target.read_text())):
+                complaints.append(f"{page.relative_to(root)}: {path} has no part \"{heading}\"")
+    return complaints
+
+
 def check_samples(root):
     complaints = []
     for page in PAGES_OF_SAMPLES:
@@ -135,7 +159,7 @@ def check_samples(root):
     return complaints
 
 
-CHECKS = {"words": check_words, "sentences": check_sentences, "names": check_names, "walks": check_walks, "samples": check_samples}
+CHECKS = {"words": check_words, "sentences": check_sentences, "names": check_names, "walks": check_walks, "links": check_links, "samples": check_samples}
 
 
 def main():
