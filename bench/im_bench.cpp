@@ -47,10 +47,17 @@ std::size_t mismatches(const Crowd& crowd, const std::string& scheme, double cel
   return wrong;
 }
 
+struct Case {
+  std::string scheme;
+  std::uint32_t subscribers, objects;
+  double moved;  ///< part of the objects that move in a tick
+  double rate_hz;
+};
+
 /// One iteration is one tick as the RTI sees it: every region handed in, moved or not, then the
 /// match.
-void pass(benchmark::State& state, const std::string& scheme, std::uint32_t subscribers,
-          std::uint32_t objects, double moved, double rate_hz) {
+void pass(benchmark::State& state, const Case& of) {
+  const auto& [scheme, subscribers, objects, moved, rate_hz] = of;
   Crowd crowd(subscribers, objects, rate_hz);
   const double cell = crowd.side / 32.0;
   const auto filter =
@@ -85,8 +92,8 @@ const bool is_registered = [] {
                       const char* moved, double rate_hz) {
     const std::string name = "im/pass/" + scheme + "/subscribers:" + std::to_string(subscribers) +
                              "/objects:" + std::to_string(objects) + "/moved:" + moved;
-    benchmark::RegisterBenchmark(name.c_str(), pass, scheme, subscribers, objects, std::stod(moved),
-                                 rate_hz)
+    benchmark::RegisterBenchmark(name.c_str(), pass,
+                                 Case{scheme, subscribers, objects, std::stod(moved), rate_hz})
         ->UseRealTime()
         ->Unit(benchmark::kMicrosecond);
   };

@@ -95,13 +95,18 @@ PlayedPart play(const PeerOptions& options, SharedGame& shared, Meeting& meeting
   return shared.play(meeting.terms(), meeting.guests(), meeting.number(), mail, manner);
 }
 
-/// What a run leaves, of which what cannot be had again comes first should a file refuse.
-ExitStatus report(const PeerOptions& options, const SharedGame& shared, const Meeting& meeting,
-                  const Viewing& viewing, const PlayedPart& part, double playing_s) {
+Json whole_report(const PlayedPart& part, const Meeting& meeting, const Viewing& viewing,
+                  double playing_s) {
   Json report = report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s);
   if (viewing.viewer) report["view"] = report_of(*viewing.viewer);
   report[report::transport] = report_of(meeting.transported());
   if (!part.has_left) add_hash(report, part);
+  return report;
+}
+
+/// What a run leaves, of which what cannot be had again comes first should a file refuse.
+ExitStatus leave_behind(const PeerOptions& options, const SharedGame& shared,
+                        const PlayedPart& part, const Json& report) {
   if (!options.report.empty()) write_file(options.report, report.dump(2));
   else std::printf("%s\n", report.dump(2).c_str());
   const bool is_told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
@@ -134,7 +139,7 @@ ExitStatus share(const PeerOptions& options, const Terms& terms, SharedGame& sha
     if (part.has_left)
       warn("interrupted at ", std::setprecision(9), part.time, " s: ",
            part.was_last ? "nobody was left to go on" : "all that this peer had is with others");
-    return report(options, shared, meeting, viewing, part, playing_s);
+    return leave_behind(options, shared, part, whole_report(part, meeting, viewing, playing_s));
   } catch (const Parting& parting) {
     complain(parting.what());
     meeting.leave({parting.status() == ExitStatus::interrupted ? FarewellKind::interrupted

@@ -23,8 +23,15 @@ std::int64_t wait_us(RandomStream& random, double mean_s, double shortest_s) {
                       1e6);
 }
 
-void plan_axis(std::vector<InputEvent>& keys, std::uint64_t seed, std::uint32_t player,
-               std::size_t axis, double duration_s, const PressHabits& habits) {
+/// Of a player's two axes the one whose keys are planned.
+struct PlayerAxis {
+  std::uint32_t player;
+  std::size_t axis;
+};
+
+void plan_axis(std::vector<InputEvent>& keys, std::uint64_t seed, const PlayerAxis& of,
+               double duration_s, const PressHabits& habits) {
+  const auto [player, axis] = of;
   RandomStream random(seed, 2 * std::uint64_t{player} + axis);
   assert(axis < 2 && std::isfinite(duration_s));
   const auto end_us = static_cast<std::int64_t>(std::floor(duration_s * 1e6));
@@ -53,7 +60,7 @@ std::vector<InputEvent> random_player_plan(std::uint64_t seed, std::uint32_t pla
   assert(habits.shortest_s > 0.0 && habits.press_mean_s > habits.shortest_s &&
          habits.pause_mean_s > habits.shortest_s);
   std::vector<InputEvent> keys;
-  for (const std::size_t axis : {0u, 1u}) plan_axis(keys, seed, player, axis, duration_s, habits);
+  for (const std::size_t axis : {0u, 1u}) plan_axis(keys, seed, {player, axis}, duration_s, habits);
   sort_by_time(keys);
   assert(keys.empty() || keys.back().time < duration_s);
   return keys;

@@ -37,26 +37,34 @@ Pipe make_pipe() {
   return {ends[0], ends[1]};
 }
 
-/// The child's side of the fork. Reports why exec failed through `failure`, which closes by itself
-/// when it succeeds.
-[[noreturn]] void become(const char* path, char* const* arguments, const cpu_set_t* processors,
-                         int signal_when_orphaned, pid_t parent, int output, int errors,
-                         int failure) {
+/// What a child is to become.
+struct Program {
+  const char* path;
+  char* const* arguments;
+  const cpu_set_t* processors;  ///< null: any
+  int signal_when_orphaned;
+  pid_t parent;
+  int output, errors;  ///< descriptors that it writes to
+  int failure;         ///< a descriptor that says why exec failed; closes by itself if it does not
+};
+
+/// The child's side of the fork.
+[[noreturn]] void become(const Program& program) {
   setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, signal_when_orphaned);
-  if (getppid() != parent) _exit(127);  // the parent died before the line above
-  if (processors) sched_setaffinity(0, sizeof *processors, processors);
+  prctl(PR_SET_PDEATHSIG, program.signal_when_orphaned);
+  if (getppid() != program.parent) _exit(127);  // the parent died before the line above
+  if (program.processors) sched_setaffinity(0, sizeof *program.processors, program.processors);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(number, SIG_DFL);
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
-  dup2(output, STDOUT_FILENO);
-  dup2(errors, STDERR_FILENO);
-  execv(path, arguments);
+  dup2(program.output, STDOUT_FILENO);
+  dup2(program.errors, STDERR_FILENO);
+  execv(program.path, program.arguments);
   const int error = errno;
-  [[maybe_unused]] const ssize_t written = write(failure, &error, sizeof error);
+  [[maybe_unused]] const ssize_t written = write(program.failure, &error, sizeof error);
   _exit(127);
 }
 
@@ -91,9 +99,14 @@ Process::Process(const std::filesystem::path& executable, const std::vector<std:
   const pid_t parent = getpid();
   id_ = fork();
   if (id_ == 0) {
-    become(path.c_str(), pointers.data(), settings.processors.empty() ? nullptr : &set,
-           settings.signal_when_orphaned, parent, output.write_end,
-           settings.joins_errors ? output.write_end : errors.write_end, failure.write_end);
+    become({.path = path.c_str(),
+            .arguments = pointers.data(),
+            .processors = settings.processors.empty() ? nullptr : &set,
+            .signal_when_orphaned = settings.signal_when_orphaned,
+            .parent = parent,
+            .output = output.write_end,
+            .errors = settings.joins_errors ? output.write_end : errors.write_end,
+            .failure = failure.write_end});
   }
   const int fork_error = errno;
   close(output.write_end);
