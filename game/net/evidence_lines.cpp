@@ -4,6 +4,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "im/basics/hexadecimal.h"
+
 namespace rink::game {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rti/fom/fom_digest.h"
+#include "rti/wire/federation_messages.h"
 #include "rti/wire/fom_messages.h"
 #include "rti/wire/membership_messages.h"
 

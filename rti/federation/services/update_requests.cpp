@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "rti/wire/region_messages.h"
+
 namespace rink::rti {
 
 namespace {
