@@ -1,5 +1,5 @@
-// Disc impacts per second of the exact rink: alone, among bats, posts and goals, and among bodies
-// at rest; each with the error it makes.
+// Impacts per second of the exact rink among bats, posts and goals, and among bodies at rest; each
+// with the error it makes.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/gas.h"
 #include "game/physics/world.h"
-#include "tests/physics/collision_library/collision_library_cases.h"
 
 namespace rink::bench::physics_bench {
 namespace {
@@ -24,49 +24,7 @@ using rink::physics::PuckSpec;
 using rink::physics::Vector2;
 using rink::physics::World;
 using rink::physics::WorldSpec;
-
-/// The same scenes everywhere.
-struct Seeded : rink::physics::collision::reference::Seeded {
-  using rink::physics::collision::reference::Seeded::Seeded;
-  /// Isotropic, mean 1 m/s.
-  Vector2 velocity() {
-    const double angle = uniform(0.0, 2.0 * std::numbers::pi),
-                 speed = std::sqrt(-std::log1p(-uniform(0.0, 0.999))) * 2.0 /
-                         std::sqrt(std::numbers::pi);
-    return Vector2(std::cos(angle), std::sin(angle)) * speed;
-  }
-};
-
-constexpr double radius = 0.04;  // m
-
-double side_of(int count, double packing) {
-  return std::sqrt(count * std::numbers::pi * radius * radius / packing);
-}
-
-/// Collisions per disc and second at mean speed 1 by Enskog's theory, for choosing how long to run.
-double collision_rate(double packing) {
-  const double density = packing / (std::numbers::pi * radius * radius),
-               crowding = (1.0 - 7.0 / 16.0 * packing) / std::pow(1.0 - packing, 2);
-  return std::sqrt(2.0) * 2.0 * radius * density * crowding;
-}
-
-/// `count` pucks on a square lattice that fills a square field at `packing`, after four collisions
-/// each.
-World gas(int count, double packing) {
-  WorldSpec spec;
-  const double side = spec.field.length = spec.field.width = side_of(count, packing);
-  World world(spec);
-  Seeded seeded{1};
-  const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
-  for (int k = 0; k < count; ++k) {
-    PuckSpec puck;
-    puck.position = Vector2(k % columns + 0.5, k / columns + 0.5) * (side / columns);
-    puck.velocity = seeded.velocity();
-    world.add(puck);
-  }
-  world.advance(4.0 / collision_rate(packing));
-  return world;
-}
+using namespace gas_scene;
 
 /// The same gas with one bat and one post per hundred pucks, and two goals; no drag and no thrust,
 /// so that energy is kept. Pucks that score come back where there is room.
@@ -164,30 +122,6 @@ World resting(int count, int moving) {
   }
   world.advance(0.0);
   return world;
-}
-
-/// The last world that was asked for, kept between the runs in which a benchmark finds its number
-/// of iterations: to make one of a million bodies takes seconds.
-template <class Key, class Value, class Make>
-Value& kept(const Key& key, Make&& make) {
-  static std::unique_ptr<std::pair<Key, Value>> last;
-  if (!last || last->first != key) {
-    last.reset();
-    last = std::make_unique<std::pair<Key, Value>>(key, make());
-  }
-  return last->second;
-}
-
-/// Items are disc impacts, 2,000 or so per step.
-void events(benchmark::State& state, int count, double packing) {
-  World& world =
-      kept<std::pair<int, double>, World>({count, packing}, [&] { return gas(count, packing); });
-  const double energy = world.kinetic_energy(), step = 4000.0 / (count * collision_rate(packing));
-  const std::uint64_t before = world.counters().disc_impacts;
-  for (auto _ : state) world.advance(world.now() + step);
-  state.SetItemsProcessed(static_cast<std::int64_t>(world.counters().disc_impacts - before));
-  state.counters["energy_error"] = world.kinetic_energy() / energy - 1.0;
-  state.counters["max_overlap"] = world.max_overlap();
 }
 
 /// Items are impacts of any kind.
@@ -315,13 +249,6 @@ void crowd(benchmark::State& state) {
 
 const bool registered = [] {
   char name[96];
-  for (const int count : {1'000, 10'000, 100'000, 1'000'000})
-    for (const double packing : {0.05, 0.2, 0.5, 0.7}) {
-      std::snprintf(name, sizeof name, "physics/events/rink/n:%d/packing:%g", count, packing);
-      benchmark::RegisterBenchmark(name, [=](benchmark::State& state) {
-        events(state, count, packing);
-      })->UseRealTime();
-    }
   for (const int count : {1'000, 10'000, 100'000})
     for (const double packing : {0.05, 0.2}) {
       std::snprintf(name, sizeof name, "physics/match_events/rink/n:%d/packing:%g", count, packing);
