@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <initializer_list>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bench/clock.h"
 #include "bench/im_crowd.h"
 #include "im/stages/priority_order.h"
 
@@ -224,7 +224,7 @@ class Told {
   /// One tick: all that moved is handed in, the match, and what is sent filled into the budget.
   /// Returns its processor time [s].
   double pass(const Scene& scene) {
-    const double start = clock();
+    const double start = seconds_of();
     if (flies_) {
       filter_->set_time(scene.now());
       for (std::uint32_t e = 0; e < scene.flights.size(); ++e)
@@ -242,7 +242,7 @@ class Told {
       for (std::uint32_t s = 0; s < scene.subscriptions.size(); ++s)
         benchmark::DoNotOptimize(
             order->fill(s, budget, [](const auto&) { return std::size_t{item_bytes}; }).data());
-    const double taken = clock() - start;
+    const double taken = seconds_of() - start;
     wrong_ += replay(changes, scene.updates.size(), table_);
     return taken;
   }
@@ -269,12 +269,6 @@ class Told {
   }
 
  private:
-  static double clock() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
-
   std::unique_ptr<im::Filter> filter_;
   bool flies_, looks_;
   Table table_;

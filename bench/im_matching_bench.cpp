@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <optional>
 #include <random>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "bench/clock.h"
 #include "bench/peers/region_peers.h"
 #include "im/matching/batch_matcher.h"
 #include "im/schemes/overlap_filter.h"
@@ -166,19 +166,15 @@ struct Clock {
 
   template <class Work>
   auto time(benchmark::State& state, const Work& work) {
-    const double start = now(), start_on_the_wall = now(CLOCK_MONOTONIC);
+    const double start = seconds_of(), start_on_the_wall = seconds_of(CLOCK_MONOTONIC);
     const auto result = work();
-    const double taken = now() - start;
-    least_on_the_wall = std::min(least_on_the_wall, now(CLOCK_MONOTONIC) - start_on_the_wall);
+    const double taken = seconds_of() - start;
+    least_on_the_wall =
+        std::min(least_on_the_wall, seconds_of(CLOCK_MONOTONIC) - start_on_the_wall);
     state.SetIterationTime(taken);
     seconds += taken;
     least = std::min(least, taken);
     return result;
-  }
-  static double now(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
-    timespec time{};
-    clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
   }
 };
 
@@ -199,9 +195,9 @@ void run_static(benchmark::State& state, const Setting& setting, const Match& ma
   const Field field(setting);
   // Whoever matches at every tick keeps his memory; what the first one takes more, pages that were
   // never touched above all, is told apart, of everybody.
-  const double start = Clock::now();
+  const double start = seconds_of();
   std::uint64_t pairs = match(field.updates, field.subscriptions);
-  state.counters["first_ns_per_region"] = (Clock::now() - start) / (2.0 * setting.count) * 1e9;
+  state.counters["first_ns_per_region"] = (seconds_of() - start) / (2.0 * setting.count) * 1e9;
   Clock clock;
   for (auto _ : state)
     pairs = clock.time(state, [&] { return match(field.updates, field.subscriptions); });

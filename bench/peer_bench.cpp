@@ -5,11 +5,11 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <numbers>
 #include <thread>
 
+#include "bench/clock.h"
 #include "bench/trials/diagram_trials.h"
 #include "game/peer/protocol.h"
 #include "tests/peer/thread_mail.h"
@@ -39,15 +39,7 @@ physics::World gas(std::uint32_t count, double packing) {
   return world;
 }
 
-double thread_s() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-double real_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double real_s() { return seconds_of(CLOCK_MONOTONIC); }
 
 /// Looks again and again for a while before it sleeps, as who has a processor of its own may: to be
 /// woken takes longer than most waits.
@@ -60,10 +52,10 @@ class WatchfulMail final : public peer::Mail {
   }
   std::vector<std::uint8_t> receive(PeerNumber from) override {
     constexpr double patience_s = 3e-3;
-    const double begin = thread_s();
-    while (office_.between(from, number_).is_empty() && thread_s() < begin + patience_s) {
+    const double begin = seconds_of();
+    while (office_.between(from, number_).is_empty() && seconds_of() < begin + patience_s) {
     }
-    watched_s_ += thread_s() - begin;
+    watched_s_ += seconds_of() - begin;
     return mail_.receive(from);
   }
   /// Processor time spent on looking.
@@ -112,10 +104,10 @@ class Couple {
     Share& share = shares_[number];
     WatchfulMail mail(office_, number);
     share.before = share.peer->counters();
-    const double begin = thread_s();
+    const double begin = seconds_of();
     for (int k = 1; k <= count; ++k)
       peer::play_window(*share.peer, peer_count, mail, window_ * (played_ + k + 1));
-    share.processor_s = thread_s() - begin - mail.watched_s();
+    share.processor_s = seconds_of() - begin - mail.watched_s();
   }
 
   double window_;
@@ -135,9 +127,9 @@ void share(benchmark::State& state, std::uint32_t count, double packing) {
     whole.advance(window * warm_up);
     couple.play(warm_up);
     const std::uint64_t impacts_before = whole.counters().disc_impacts;
-    const double begin = real_s(), processor_begin = thread_s();
+    const double begin = real_s(), processor_begin = seconds_of();
     whole.advance(window * (warm_up + timed));
-    const double alone_processor_s = thread_s() - processor_begin, alone_s = real_s() - begin;
+    const double alone_processor_s = seconds_of() - processor_begin, alone_s = real_s() - begin;
     const double shared_s = couple.play(timed);
     state.SetIterationTime(shared_s);
     double busier_s = 0.0, repeats = 0.0, bytes = 0.0, border = 0.0, ghost_events = 0.0,

@@ -191,27 +191,19 @@ void tell(benchmark::State& state, Telling telling) {
   state.counters["heard"] = static_cast<double>(heard);
 }
 
+void to_one_and_to_many(benchmark::internal::Benchmark* timed) {
+  timed->ArgName("clients")->Arg(1)->Arg(100)->UseRealTime()->Unit(benchmark::kMicrosecond);
+}
+
 BENCHMARK_CAPTURE(tell, doubles, Telling::doubles)
     ->Name("rti/periodic/doubles")
-    ->ArgName("clients")
-    ->Arg(1)
-    ->Arg(100)
-    ->UseRealTime()
-    ->Unit(benchmark::kMicrosecond);
+    ->Apply(to_one_and_to_many);
 BENCHMARK_CAPTURE(tell, quantised, Telling::quantised)
     ->Name("rti/periodic/quantised")
-    ->ArgName("clients")
-    ->Arg(1)
-    ->Arg(100)
-    ->UseRealTime()
-    ->Unit(benchmark::kMicrosecond);
+    ->Apply(to_one_and_to_many);
 BENCHMARK_CAPTURE(tell, baselines, Telling::baselines)
     ->Name("rti/periodic/baselines")
-    ->ArgName("clients")
-    ->Arg(1)
-    ->Arg(100)
-    ->UseRealTime()
-    ->Unit(benchmark::kMicrosecond);
+    ->Apply(to_one_and_to_many);
 
 }  // namespace
 }  // namespace rink::bench::rti_baselines_bench

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "bench/rti/entity_federation.h"
 #include "rti/buffering/newest_state.h"
 
 namespace rink::bench::rti_buffering_bench {
@@ -11,14 +12,10 @@ namespace {
 
 using namespace rink::rti;
 
-constexpr const char* model_xml =
-    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
-<attribute><name>position</name><dataType>HLAfloat64LE</dataType></attribute></objectClass></objectClass></objects></objectModel>)";
-
 /// 5,500 updates of a tick taken in, sealed and forgotten.
 void collect(benchmark::State& state) {
   constexpr ObjectSlot object_count = 5500;
-  const Fom fom = Fom::parse(model_xml, "bench");
+  const Fom& fom = reliable_entities();
   const ObjectClassHandle entity = *fom.object_class("Entity");
   ObjectTable objects(fom);
   for (std::uint32_t i = 0; i < object_count; ++i)

@@ -4,7 +4,6 @@
 #include <benchmark/benchmark.h>
 #include <netinet/udp.h>
 #include <sys/socket.h>
-#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -16,11 +15,8 @@
 #include <thread>
 #include <vector>
 
-#include "rti/ambassador.h"
-#include "rti/federation_execution.h"
-#include "rti/transport/federate_link.h"
-#include "rti/transport/federation_host.h"
-#include "rti/transport/in_process.h"
+#include "bench/clock.h"
+#include "bench/rti/entity_federation.h"
 #include "rti/transport/udp/datagram_socket.h"
 #include "rti/transport/udp/udp.h"
 
@@ -31,34 +27,7 @@ using namespace rink::rti;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* model_xml =
-    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
-<attribute><name>position</name><dataType>HLAfloat64LE</dataType><transportation>HLAbestEffort</transportation></attribute>
-</objectClass></objectClass></objects></objectModel>)";
-
-const Fom& model() {
-  static const Fom fom = Fom::parse(model_xml, "bench");
-  return fom;
-}
-
-constexpr int seen_count = 275;  ///< entities that each client sees: 5 % of 5,500
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-double wall_seconds() {
-  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-}
-
-struct Federate : FederateAmbassador {
-  Ambassador ambassador{model(), *this};
-  std::uint64_t updates = 0;
-  void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes, const Stamp&) override {
-    ++updates;
-  }
-};
+double wall_seconds() { return seconds_of(CLOCK_MONOTONIC); }
 
 /// Runs `work(is_over)` in a thread of its own until the end of its scope.
 class Companion {
@@ -144,7 +113,7 @@ void raw_udp_tick_send(benchmark::State& state) {
   double busy_s = 0.0;
   std::uint64_t sent = 0;
   for (auto _ : state) {
-    const double start = thread_seconds();
+    const double start = seconds_of();
     for (std::size_t from = 0; from < headers.size();) {
       const int count =
           ::sendmmsg(sender.number(), headers.data() + from,
@@ -152,7 +121,7 @@ void raw_udp_tick_send(benchmark::State& state) {
       if (count <= 0) return state.SkipWithError("the kernel does not cut datagrams");
       from += static_cast<std::size_t>(count);
     }
-    busy_s += thread_seconds() - start;
+    busy_s += seconds_of() - start;
     sent += message.size() * headers.size();
     await(sent, [&] { return received.load(); });
   }
@@ -163,79 +132,53 @@ void raw_udp_tick_send(benchmark::State& state) {
 void rink_udp_tick_send(benchmark::State& state) {
   const int clients = static_cast<int>(state.range(0));
   ensure_file_limit(static_cast<std::size_t>(3 * clients) + 64);
-  FederationExecution execution(model(), {});
-  FederationHost host(execution);
-  InProcessNetwork network;
-  InProcessEndpoint near(network), own(network);
   UdpTransport udp;
-  near.listen("rti");
-  host.add(near);
-  host.add(udp);
-  Federate federate;
-  FederateLink link(federate.ambassador, own, own.connect("rti"));
-  FederateLinks links;
-  links.add(link);
-  const ObjectClassHandle entity = *model().object_class("Entity");
-  const AttributeSet position = model().attributes(entity);
-  federate.ambassador.join("rink", "server", "server");
-  federate.ambassador.publish_object_class_attributes(entity, position);
-  double now = 0.0;
-  const auto tick = [&] {
-    links.flush(now);
-    host.poll(0ms);
-    host.match();
-    host.flush();
-    own.poll(0ms, links);
-  };
-  while (!federate.ambassador.is_joined()) tick();
+  EntityFederation federation(best_effort_entities(), {}, udp);
+  const FederationExecution& execution = federation.execution;
   const std::uint16_t port = udp.listen("127.0.0.1", 0);
   std::atomic<std::uint64_t> received{0}, updates{0};
   Companion sinks([&](const std::atomic<bool>& is_over) {
     UdpTransport transport;
     FederateLinks ends_of_all;
-    std::deque<Federate> federates;
+    std::deque<CountingFederate> federates;
     std::deque<FederateLink> ends;
     for (int i = 0; i < clients; ++i) {
-      Federate& client = federates.emplace_back();
+      CountingFederate& client = federates.emplace_back(best_effort_entities());
       ends_of_all.add(
           ends.emplace_back(client.ambassador, transport, transport.connect("127.0.0.1", port)));
-      client.ambassador.join("rink", "client " + std::to_string(i), "client");
-      client.ambassador.subscribe_object_class_attributes(entity, position);
+      client.join("client " + std::to_string(i), "client");
+      client.subscribe(best_effort_entities());
     }
     const double origin = wall_seconds();
     while (!is_over) {
       ends_of_all.flush(wall_seconds() - origin);
       transport.poll(1ms, ends_of_all);
       std::uint64_t datagrams = 0, sum = 0;
-      for (const Federate& client : federates)
+      for (const CountingFederate& client : federates)
         datagrams += client.ambassador.counters().datagrams_received, sum += client.updates;
       received = datagrams;
       updates = sum;
     }
   });
   const double origin = wall_seconds();
-  while (execution.federate_count() < static_cast<std::size_t>(clients) + 1 ||
+  double now = 0.0;
+  while (!federation.has(clients) ||
          udp.udp_counters().ways_opened < static_cast<std::uint64_t>(clients)) {
     now = wall_seconds() - origin;
-    tick();
+    federation.tick(now);
     if (now > 20.0) return state.SkipWithError("not all ways opened");
   }
-  std::vector<ObjectHandle> objects;
-  for (int i = 0; i < seen_count; ++i)
-    objects.push_back(federate.ambassador.register_object_instance(entity));
-  const std::array<std::byte, 8> value{};
-  for (int i = 0; i < 10; ++i) tick();
+  federation.register_entities();
   double busy_s = 0.0;
   const FederationCounters before = execution.counters();
   const std::uint64_t datagrams_before = received, updates_before = updates;
   for (auto _ : state) {
     now = wall_seconds() - origin;
-    for (const ObjectHandle object : objects)
-      federate.ambassador.update_attribute_values(object, position, value, {busy_s, 1});
-    const double start = thread_seconds();
-    host.advance_clock(now);
-    tick();
-    busy_s += thread_seconds() - start;
+    federation.update_all({busy_s, 1});
+    const double start = seconds_of();
+    federation.host.advance_clock(now);
+    federation.tick(now);
+    busy_s += seconds_of() - start;
     await(datagrams_before + execution.counters().datagrams_sent - before.datagrams_sent,
           [&] { return received.load(); });
   }
@@ -252,22 +195,8 @@ void rink_udp_tick_send(benchmark::State& state) {
       static_cast<double>(execution.counters().updates_repaired - before.updates_repaired);
 }
 
-BENCHMARK(raw_udp_tick_send)
-    ->Name("rti/tick_send/raw_udp")
-    ->ArgName("clients")
-    ->Arg(100)
-    ->Arg(1000)
-    ->UseRealTime()
-    ->Iterations(60)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(rink_udp_tick_send)
-    ->Name("rti/tick_send/rink_udp")
-    ->ArgName("clients")
-    ->Arg(100)
-    ->Arg(1000)
-    ->UseRealTime()
-    ->Iterations(60)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(raw_udp_tick_send)->Name("rti/tick_send/raw_udp")->Apply(send_to_crowds);
+BENCHMARK(rink_udp_tick_send)->Name("rti/tick_send/rink_udp")->Apply(send_to_crowds);
 
 }  // namespace
 }  // namespace rink::bench::rti_datagram_bench

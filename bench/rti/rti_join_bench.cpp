@@ -13,10 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "rti/ambassador.h"
-#include "rti/federation_execution.h"
-#include "rti/transport/federate_link.h"
-#include "rti/transport/federation_host.h"
+#include "bench/clock.h"
+#include "bench/rti/entity_federation.h"
 #include "rti/transport/socket_transport.h"
 
 namespace rink::bench::rti_join_bench {
@@ -25,19 +23,7 @@ namespace {
 using namespace rink::rti;
 using namespace std::chrono_literals;
 
-constexpr const char* model_xml =
-    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
-<attribute><name>position</name><dataType>HLAfloat64LE</dataType><transportation>HLAbestEffort</transportation></attribute>
-</objectClass></objectClass></objects></objectModel>)";
-
-const Fom& model() {
-  static const Fom fom = Fom::parse(model_xml, "bench");
-  return fom;
-}
-
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double seconds() { return seconds_of(CLOCK_MONOTONIC); }
 
 /// Memory of this process that is not in files or shared [bytes].
 double own_bytes() {
@@ -52,21 +38,17 @@ double own_bytes() {
 /// `count` federates from number `first` on, that join, subscribe and do no more.
 [[noreturn]] void be_idle(const std::string& kind, std::uint16_t port, int first, int count) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  struct Federate : FederateAmbassador {
-    Ambassador ambassador{model(), *this};
-  };
   ensure_file_limit(static_cast<std::size_t>(2 * count) + 64);
   SocketTransport transport(kind);
   FederateLinks links;
-  std::deque<Federate> federates;
+  std::deque<CountingFederate> federates;
   std::deque<FederateLink> ends;
-  const ObjectClassHandle entity = *model().object_class("Entity");
   for (int i = 0; i < count; ++i) {
-    Federate& federate = federates.emplace_back();
+    CountingFederate& federate = federates.emplace_back(best_effort_entities());
     links.add(ends.emplace_back(federate.ambassador, transport.get(),
                                 transport.connect("127.0.0.1", port)));
     federate.ambassador.join("rink", "client " + std::to_string(first + i), "client");
-    federate.ambassador.subscribe_object_class_attributes(entity, model().attributes(entity));
+    federate.subscribe(best_effort_entities());
     if (i % 256 == 255) transport.get().poll(0ms, links), links.flush(seconds());
   }
   for (;;) {
@@ -85,7 +67,7 @@ void join(benchmark::State& state, const char* kind) {
     } catch (const TransportError& error) {
       return state.SkipWithError(error.what());
     }
-    FederationExecution execution(model(), {});
+    FederationExecution execution(best_effort_entities(), {});
     FederationHost host(execution);
     SocketTransport transport(kind);
     host.add(transport.get());
@@ -120,22 +102,17 @@ void join(benchmark::State& state, const char* kind) {
   state.counters["bytes_per_client"] = (after - before) / count;
 }
 
-BENCHMARK_CAPTURE(join, tcp, "tcp")
-    ->Name("rti/join")
-    ->ArgName("federates")
-    ->Arg(1000)
-    ->Arg(10'000)
-    ->UseRealTime()
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(join, udp, "udp")
-    ->Name("rti/join_udp")
-    ->ArgName("federates")
-    ->Arg(1000)
-    ->Arg(10'000)
-    ->UseRealTime()
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+void once_for_crowds(benchmark::internal::Benchmark* timed) {
+  timed->ArgName("federates")
+      ->Arg(1000)
+      ->Arg(10'000)
+      ->UseRealTime()
+      ->Iterations(1)
+      ->Unit(benchmark::kMillisecond);
+}
+
+BENCHMARK_CAPTURE(join, tcp, "tcp")->Name("rti/join")->Apply(once_for_crowds);
+BENCHMARK_CAPTURE(join, udp, "udp")->Name("rti/join_udp")->Apply(once_for_crowds);
 
 }  // namespace
 }  // namespace rink::bench::rti_join_bench

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "rti/ambassador.h"
-#include "rti/federation_execution.h"
+#include "bench/rti/entity_federation.h"
 
 namespace rink::bench::rti_tick_bench {
 namespace {
@@ -17,20 +16,6 @@ namespace {
 using namespace rink;
 using namespace rink::rti;
 using Clock = std::chrono::steady_clock;
-
-constexpr const char* model_xml =
-    R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
-<attribute><name>position</name><dataType>HLAfloat64LE</dataType></attribute>
-</objectClass></objectClass></objects></objectModel>)";
-
-const Fom& model() {
-  static const Fom fom = Fom::parse(model_xml, "bench");
-  return fom;
-}
-
-struct Federate : FederateAmbassador {
-  Ambassador ambassador{model(), *this};
-};
 
 /// Counts what would be sent.
 struct Scales final : Outlet {
@@ -50,11 +35,12 @@ void crowd_tick(benchmark::State& state, const char* filter) {
   FederationSettings settings;
   settings.filter = filter;
   settings.filter_settings.world = {0.0, 0.0, side, side};
-  FederationExecution execution(model(), settings);
+  const Fom& model = reliable_entities();
+  FederationExecution execution(model, settings);
   Scales scales;
-  const ObjectClassHandle entity = *model().object_class("Entity");
-  const AttributeSet position = model().attributes(entity);
-  std::deque<Federate> federates;
+  const ObjectClassHandle entity = *model.object_class("Entity");
+  const AttributeSet position = model.attributes(entity);
+  std::deque<CountingFederate> federates;
   const auto speak = [&](ConnectionId id) {
     execution.receive(id, federates[id].ambassador.outgoing());
     federates[id].ambassador.clear_outgoing();
@@ -69,7 +55,7 @@ void crowd_tick(benchmark::State& state, const char* filter) {
   } server_end;
   for (int i = 0; i <= clients; ++i) {
     execution.connect(static_cast<ConnectionId>(i));
-    federates.emplace_back().ambassador.join("rink", "federate " + std::to_string(i), "bench");
+    federates.emplace_back(model).join("federate " + std::to_string(i), "bench");
     speak(static_cast<ConnectionId>(i));
   }
   Ambassador& server = federates[0].ambassador;

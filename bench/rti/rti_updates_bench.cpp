@@ -1,7 +1,6 @@
 // Updates per second from one publisher over TCP through the RTI to its subscribers over TCP,
 // beside a raw batched sender; what counts is what arrived with the right content.
 #include <benchmark/benchmark.h>
-#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "bench/clock.h"
 #include "rti/ambassador.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
@@ -52,11 +52,7 @@ struct State {
 };
 static_assert(sizeof(State) == 24);
 
-double process_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+double process_seconds() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
 
 /// What has arrived at all subscribers of a thread; `least`: at the one that is furthest behind.
 struct Arrivals {
