@@ -203,16 +203,7 @@ Scene endless_shots(const std::string& rules) {
 }
 
 TEST(Match, IsOverAtTheFifthGoalAndGoalsCountNoMore) {
-  Scene scene = small_scene("[match]\ngoals_to_win = 5\nface_off_delay = 10.0\n");
-  for (int k = 0; k < 7; ++k) {
-    Puck puck;
-    puck.name = "puck-" + std::to_string(k);
-    puck.body.position = {0.5 + 0.3 * k, 1.0};
-    puck.body.velocity = {-2.0, 0.0};
-    scene.placed.pucks.push_back(puck);
-  }
-  populate(scene);
-  Game game(scene);
+  Game game(pucks_into_left_goal(7, "[match]\ngoals_to_win = 5\nface_off_delay = 10.0\n"));
   game.advance(0.25 + 0.15 * 3 + 0.01);
   EXPECT_EQ(game.score(), (Score{0, 4}));
   EXPECT_FALSE(game.is_over());

@@ -13,6 +13,20 @@ inline Scene small_scene(const std::string& more) {
   return parse_scene("[field]\nlength = 4.0\nwidth = 2.0\ngoal_width = 0.5\n" + more, "small.toml");
 }
 
+/// Pucks that go into the left goal at 2 m/s, the k-th after (0.5 + 0.3 k) m.
+inline Scene pucks_into_left_goal(int count, const std::string& rules) {
+  Scene scene = small_scene(rules);
+  for (int k = 0; k < count; ++k) {
+    Puck puck;
+    puck.name = "puck-" + std::to_string(k);
+    puck.body.position = {0.5 + 0.3 * k, 1.0};
+    puck.body.velocity = {-2.0, 0.0};
+    scene.placed.pucks.push_back(puck);
+  }
+  populate(scene);
+  return scene;
+}
+
 inline Scene preset(const std::string& name) {
   return load_scene(test::source_folder() + "/scenes/" + name + ".toml");
 }

@@ -16,20 +16,6 @@ std::ptrdiff_t pucks_in_play(const Game& game) {
   });
 }
 
-/// Pucks that go into the left goal at 2 m/s, the k-th after (0.5 + 0.3 k) m.
-Scene pucks_into_left_goal(int count, const std::string& rules) {
-  Scene scene = small_scene(rules);
-  for (int k = 0; k < count; ++k) {
-    Puck puck;
-    puck.name = "puck-" + std::to_string(k);
-    puck.body.position = {0.5 + 0.3 * k, 1.0};
-    puck.body.velocity = {-2.0, 0.0};
-    scene.placed.pucks.push_back(puck);
-  }
-  populate(scene);
-  return scene;
-}
-
 /// Of five pucks the third wins: neither the two before it nor the two after it come back.
 TEST(Match, HasNoFaceOffOnceItIsOver) {
   const std::string rules = "[match]\nface_off_delay = 0.5\n";

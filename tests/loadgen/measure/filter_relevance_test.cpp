@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -17,7 +16,7 @@
 #include "game/players/random_plan.h"
 #include "loadgen/measure/truth/replay.h"
 #include "loadgen/measure/truth/truth.h"
-#include "tests/temporary_folder.h"
+#include "tests/loadgen/run/judged_rink.h"
 
 namespace rink::loadgen {
 namespace {
@@ -145,70 +144,31 @@ TEST(FilterRelevance, WhoIsAlwaysRelevantIsOfTheKindsThatAreSaid) {
 
 /// Pushed to the right during the warm-up, then at rest to the last bit: after 2 s of a drag of
 /// 20/s some 1e-18 m are left to go. Two pucks lie as far to its right and to its left.
-class LookingBat : public testing::Test {
+class LookingBat : public JudgedRink {
  protected:
   static constexpr std::uint32_t bat = 0, right = 1, left = 2;
-  static constexpr double until_s = 4.2;
 
   void SetUp() override {
-    const std::string file = (folder_ / "looking.toml").string();
-    std::ofstream(file) << R"(
-[field]
-length = 20.0
-width = 20.0
-material = "ice"
-[materials]
-names = ["ice"]
-restitution = 1.0
-[drag]
-pucks = 0.0
-bats = 20.0
-[[bat]]
-position = [10.0, 10.0]
-half_extent = [0.1, 0.1]
-material = "ice"
-[[puck]]
-position = [10.8, 10.0]
-radius = 0.1
-material = "ice"
-[[puck]]
-position = [9.2, 10.0]
-radius = 0.1
-material = "ice"
-)";
-    server_.choice.scene = file;
-    server_.clients = 1;
-    server_.rate_hz = 10.0;
-    server_.from_s = 3.9, server_.until_s = server_.end_s = until_s;
-    for (std::uint32_t body = 0; body < 3; ++body) server_.objects.push_back({100 + body, body});
+    lay({.field = "length = 20.0\nwidth = 20.0\n",
+         .bat_drag = "20.0",
+         .bats = {"10.0, 10.0"},
+         .pucks = {{"10.8, 10.0"}, {"9.2, 10.0"}}});
+    server_.from_s = 3.9;
+    end_at(4.2);
     server_.keys = {
         {.time = 0.5, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right},
         {.time = 0.6, .player = 0, .kind = game::InputKind::key_up, .key = game::Key::right}};
-    bots_.clients = 1;
-    bots_.until_s = until_s;
-    bots_.bots.push_back({100 + bat, {{-1.0, 100 + bat, true}}});
+    know({bat});
   }
   TruthFigures judged() {
-    game::Game game(game::chosen_scene(server_.choice));
-    for (const game::InputEvent& key : server_.keys) game.submit(key);
-    game.advance(server_.end_s);
-    server_.state_hash = game.hash();
+    play();
     return truth_of(server_, bots_,
                     {.shape = RelevanceArea::Shape::filter, .reach = 1.5, .expression = "cone"});
   }
-  void decide(double instant_s) {
-    const std::size_t first = server_.in_scope.size();
-    server_.in_scope.insert(server_.in_scope.end(), {100 + bat, 100 + right});
-    server_.decisions.push_back({instant_s, 0, first, server_.in_scope.size()});
-  }
-
-  test::TemporaryFolder folder_{"looking"};
-  game::ServerEvidence server_;
-  BotsEvidence bots_;
 };
 
 TEST_F(LookingBat, SeesWhereItLastWentBeforeTheMeasuredSpanBegan) {
-  decide(4.0);
+  decide(4.0, {bat, right});
   const TruthFigures truth = judged();
   EXPECT_DOUBLE_EQ(truth.filter_precision.value_or(-1.0), 1.0) << "the puck on the right is seen";
   EXPECT_DOUBLE_EQ(truth.filter_recall.value_or(-1.0), 1.0) << "and nothing else";
@@ -217,7 +177,7 @@ TEST_F(LookingBat, SeesWhereItLastWentBeforeTheMeasuredSpanBegan) {
 TEST_F(LookingBat, SeesWhereItsKeysPushIt) {
   server_.keys.push_back(
       {.time = 3.95, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::left});
-  decide(3.94), decide(3.96);
+  for (const double instant_s : {3.94, 3.96}) decide(instant_s, {bat, right});
   const TruthFigures truth = judged();
   EXPECT_DOUBLE_EQ(truth.filter_precision.value_or(-1.0), 0.5);
   EXPECT_DOUBLE_EQ(truth.filter_recall.value_or(-1.0), 0.5);

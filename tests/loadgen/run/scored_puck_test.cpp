@@ -2,59 +2,26 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
-#include "game/net/evidence.h"
 #include "loadgen/measure/truth/replay.h"
 #include "loadgen/measure/truth/truth.h"
-#include "tests/temporary_folder.h"
+#include "tests/loadgen/run/judged_rink.h"
 
 namespace rink::loadgen {
 namespace {
 
 /// A puck slides into the left goal, lies there for the delay, and is put back between two ticks,
 /// far from where it was. Two bats watch at rest.
-class ScoredPuck : public testing::Test {
+class ScoredPuck : public JudgedRink {
  protected:
   static constexpr std::uint32_t first_bat = 0, second_bat = 1,
                                  puck = 2;  // bodies in the order of their making
 
   void SetUp() override {
-    server_.choice.scene = (folder_ / "goal.toml").string();
-    std::ofstream(server_.choice.scene) << R"(
-[field]
-length = 4.0
-width = 2.0
-goal_width = 1.0
-material = "ice"
-[materials]
-names = ["ice"]
-restitution = 1.0
-[drag]
-pucks = 0.0
-bats = 0.0
-[match]
-goals_to_win = 5
-face_off_delay = 1.03
-face_off_distance = 0.25
-[[bat]]
-position = [3.5, 1.0]
-half_extent = [0.1, 0.1]
-material = "ice"
-[[bat]]
-position = [3.5, 0.3]
-half_extent = [0.1, 0.1]
-material = "ice"
-[[puck]]
-position = [1.0, 1.0]
-velocity = [-1.0, 0.0]
-radius = 0.1
-material = "ice"
-)";
-    server_.clients = 1;
-    server_.rate_hz = 10.0;
-    for (std::uint32_t body = 0; body < 3; ++body) server_.objects.push_back({100 + body, body});
+    lay({.field = "length = 4.0\nwidth = 2.0\ngoal_width = 1.0\n",
+         .more = "[match]\ngoals_to_win = 5\nface_off_delay = 1.03\nface_off_distance = 0.25\n",
+         .bats = {"3.5, 1.0", "3.5, 0.3"},
+         .pucks = {{"1.0, 1.0", "-1.0, 0.0"}}});
     game::Game game(game::chosen_scene(server_.choice));
     for (int ms = 0; ms <= 4000 && back_s_ == 0.0; ++ms) {
       game.advance(1e-3 * ms);
@@ -64,18 +31,13 @@ material = "ice"
     }
     face_off_ = game.position({puck});
     first_tick_s_ = std::ceil(back_s_ * server_.rate_hz) / server_.rate_hz;
-    server_.until_s = server_.end_s = first_tick_s_ + 0.5;
+    end_at(first_tick_s_ + 0.5);
     game.advance(server_.end_s);
     server_.state_hash = game.hash();
     ASSERT_NEAR(back_s_ - scored_s_, 1.03, 2e-3);
     ASSERT_GT((face_off_ - left_play_).norm(), 0.9);
     ASSERT_GT(first_tick_s_ - back_s_, 0.01) << "it comes back between two ticks";
-    bots_.clients = 1;
-    bots_.until_s = server_.until_s;
-    bots_.bots.push_back({100 + first_bat,
-                          {{-1.0, 100 + first_bat, true},
-                           {-1.0, 100 + second_bat, true},
-                           {-1.0, 100 + puck, true}}});
+    know({first_bat, second_bat, puck});
   }
 
   /// The first player sees the other bat `aside` of where it is, and takes the puck to be at
@@ -110,9 +72,6 @@ material = "ice"
     return game.position({puck});
   }
 
-  test::TemporaryFolder folder_{"scored-puck"};
-  game::ServerEvidence server_;
-  BotsEvidence bots_;
   double scored_s_ = 0.0, back_s_ = 0.0, first_tick_s_ = 0.0;
   Vector2 left_play_{0.0, 0.0}, face_off_{0.0, 0.0};
 };

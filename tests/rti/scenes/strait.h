@@ -126,6 +126,14 @@ class Strait final : public Outlet {
     for (int i = 0; i < count; ++i) tick();
   }
   ObjectHandle place() { return publisher.register_object_instance(buoy); }
+  /// One whose updates go by datagram from the next one on; `value` has arrived.
+  ObjectHandle place(double value) {
+    const ObjectHandle object = place();
+    ticks(3);
+    set(object, value);
+    tick();
+    return object;
+  }
   void set(ObjectHandle object, double value) {
     publisher.update_attribute_values(object, height, values_of(value), {now, 0});
   }

@@ -202,9 +202,11 @@ class LimitedKit final : public StagedKit {
   }
 };
 
-class SampleKit final : public TransportKit {
+/// Transports whose servers have names; `Setting` is what one is made with.
+template <class Named, class Setting>
+class NamedKit : public TransportKit {
  public:
-  SampleKit() { restart_server(); }
+  explicit NamedKit(const Setting& setting) : setting_(setting) { restart_server(); }
   Transport& server() override { return *server_; }
   Transport& client() override { return client_; }
   ConnectionId connect() override {
@@ -212,51 +214,37 @@ class SampleKit final : public TransportKit {
     return client_.connect(name_);
   }
   ConnectionId connect_to_nobody() override { return client_.connect(name_ + "-nobody"); }
-  void restart_server() override {
+  void restart_server() final {
     server_.reset();
-    server_.emplace(queue_max_);
+    server_.emplace(setting_);
     server_->listen(name_);
   }
-  bool limit_queue(std::size_t queue_max) override {
-    queue_max_ = queue_max;
-    return true;
-  }
+
+ protected:
+  Setting setting_;
 
  private:
   const std::string name_ = test::unique_name("rink-kit");
-  std::size_t queue_max_ = 1u << 20;
-  sample::UnixTransport client_;
-  std::optional<sample::UnixTransport> server_;
+  Named client_;
+  std::optional<Named> server_;
 };
 
-class SharedMemoryKit final : public TransportKit {
+class SampleKit final : public NamedKit<sample::UnixTransport, std::size_t> {
  public:
-  SharedMemoryKit() {
-    connections = 200;
-    restart_server();
-  }
-  Transport& server() override { return *server_; }
-  Transport& client() override { return client_; }
-  ConnectionId connect() override {
-    ensure_file_limit(2 * connections + 64);
-    return client_.connect(name_);
-  }
-  ConnectionId connect_to_nobody() override { return client_.connect(name_ + "-nobody"); }
-  void restart_server() override {
-    server_.reset();
-    server_.emplace(settings_);
-    server_->listen(name_);
-  }
+  SampleKit() : NamedKit(1u << 20) {}
   bool limit_queue(std::size_t queue_max) override {
-    settings_.queue_max = queue_max;
+    setting_ = queue_max;
     return true;
   }
+};
 
- private:
-  const std::string name_ = test::unique_name("rink-kit");
-  SharedMemorySettings settings_;
-  SharedMemoryTransport client_;
-  std::optional<SharedMemoryTransport> server_;
+class SharedMemoryKit final : public NamedKit<SharedMemoryTransport, SharedMemorySettings> {
+ public:
+  SharedMemoryKit() : NamedKit(SharedMemorySettings{}) { connections = 200; }
+  bool limit_queue(std::size_t queue_max) override {
+    setting_.queue_max = queue_max;
+    return true;
+  }
 };
 
 template <class Kit>

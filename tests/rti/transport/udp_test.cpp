@@ -7,6 +7,7 @@
 #include <chrono>
 #include <random>
 
+#include "tests/rti/scenes/tides.h"
 #include "tests/rti/transport/udp_by_hand.h"
 
 namespace rink::rti::testing {
@@ -114,130 +115,75 @@ TEST(Udp, WhereItDoesNotGetThroughTheStreamCarriesOnAndItIsCounted) {
 }
 
 TEST(Udp, AFederationsBestEffortUpdatesTakeItAndAllElseTheStream) {
-  const ObjectClassHandle tide = *harbour().object_class("Tide");
-  const AttributeSet level = harbour().attributes(tide);
-  UdpTransport server, clients;
-  FederationExecution execution(harbour(), {});
-  FederationHost host(execution);
-  host.add(server);
-  const std::uint16_t port = server.listen("127.0.0.1", 0);
-  std::deque<Station> stations;
-  FederateLinks links;
-  double now = 0.0;
-  const auto round = [&] {
-    now += 0.001;
-    links.flush(now);
-    host.poll(200us);
-    host.advance_clock(now);
-    host.match();
-    host.flush();
-    clients.poll(200us, links);
+  Tides tides;
+  const auto rounds = [&](int count) {
+    for (int i = 0; i < count; ++i) tides.round(0.001);
   };
-  for (int i = 0; i < 5; ++i) {
-    Station& station = stations.emplace_back(harbour());
-    station.link = std::make_unique<FederateLink>(station.ambassador, clients,
-                                                  clients.connect("127.0.0.1", port));
-    links.add(*station.link);
-    station.ambassador.join("rink", "station " + std::to_string(i), "");
-    if (i == 0) station.ambassador.publish_object_class_attributes(tide, level);
-    else station.ambassador.subscribe_object_class_attributes(tide, level);
-  }
-  for (int i = 0;
-       i < 2000 && (execution.federate_count() < 5 || server.udp_counters().ways_opened < 5); ++i)
-    round();
-  ASSERT_EQ(server.udp_counters().ways_opened, 5u);
-  for (int i = 0; i < 20; ++i) round();
+  for (int i = 0; i < 5; ++i) tides.join(tides.port);
+  ASSERT_NO_FATAL_FAILURE(tides.open_ways([&] { rounds(1); }));
+  rounds(20);
   std::vector<ObjectHandle> gauges;
   for (int i = 0; i < 300; ++i)
-    gauges.push_back(stations[0].ambassador.register_object_instance(tide));
+    gauges.push_back(tides.stations[0].ambassador.register_object_instance(tides.tide));
   for (int tick = 0; tick < 50; ++tick) {
-    for (const ObjectHandle gauge : gauges)
-      stations[0].ambassador.update_attribute_values(
-          gauge, level, values_of(static_cast<double>(tick)), {now, 0});
-    round();
+    for (const ObjectHandle gauge : gauges) tides.set(gauge, tick, tides.now);
+    rounds(1);
   }
-  for (int i = 0; i < 300; ++i) round();
-  EXPECT_GE(execution.counters().datagrams_received, 50u) << "the owner's own go by datagram too";
+  rounds(300);
+  const FederationCounters& counters = tides.execution.counters();
+  EXPECT_GE(counters.datagrams_received, 50u) << "the owner's own go by datagram too";
   std::uint64_t received =
-      stations[0].ambassador.counters().datagrams_received;  // acknowledgements of its own
+      tides.stations[0].ambassador.counters().datagrams_received;  // acknowledgements of its own
   for (std::size_t i = 1; i < 5; ++i) {
-    received += stations[i].ambassador.counters().datagrams_received;
-    EXPECT_EQ(stations[i].heard.objects.size(), 300u);
-    for (const auto& [handle, object] : stations[i].heard.objects)
+    received += tides.stations[i].ambassador.counters().datagrams_received;
+    EXPECT_EQ(tides.stations[i].heard.objects.size(), 300u);
+    for (const auto& [handle, object] : tides.stations[i].heard.objects)
       EXPECT_EQ(object.values.at(0), values_of(49.0));
   }
-  EXPECT_GE(execution.counters().datagrams_sent, 4u * 40u * 2u);
-  EXPECT_EQ(received, execution.counters().datagrams_sent) << "loopback loses nothing";
-  EXPECT_EQ(execution.counters().updates_repaired, 0u);
-  EXPECT_EQ(execution.counters().datagram_fallbacks, 0u);
+  EXPECT_GE(counters.datagrams_sent, 4u * 40u * 2u);
+  EXPECT_EQ(received, counters.datagrams_sent) << "loopback loses nothing";
+  EXPECT_EQ(counters.updates_repaired, 0u);
+  EXPECT_EQ(counters.datagram_fallbacks, 0u);
 }
 
 /// An owner and a listener over real datagrams in either direction.
 TEST(Udp, AnAttributesTransportationMayChangeWhileItIsUpdated) {
-  const ObjectClassHandle tide = *harbour().object_class("Tide");
-  const AttributeSet level = harbour().attributes(tide);
-  UdpTransport server, clients;
-  FederationExecution execution(harbour(), {});
-  FederationHost host(execution);
-  host.add(server);
-  const std::uint16_t port = server.listen("127.0.0.1", 0);
-  std::deque<Station> stations;
-  FederateLinks links;
-  double now = 0.0, value = 0.0;
-  const auto round = [&] {
-    now += 0.005;
-    links.flush(now);
-    host.poll(200us);
-    host.advance_clock(now);
-    host.match();
-    host.flush();
-    clients.poll(200us, links);
+  Tides tides;
+  const auto rounds = [&](int count) {
+    for (int i = 0; i < count; ++i) tides.round(0.005);
   };
-  for (int i = 0; i < 2; ++i) {
-    Station& station = stations.emplace_back(harbour());
-    station.link = std::make_unique<FederateLink>(station.ambassador, clients,
-                                                  clients.connect("127.0.0.1", port));
-    links.add(*station.link);
-    station.ambassador.join("rink", "station " + std::to_string(i), "");
-    if (i == 0) station.ambassador.publish_object_class_attributes(tide, level);
-    else station.ambassador.subscribe_object_class_attributes(tide, level);
-  }
-  for (int i = 0;
-       i < 2000 && (execution.federate_count() < 2 || server.udp_counters().ways_opened < 2); ++i)
-    round();
-  ASSERT_EQ(server.udp_counters().ways_opened, 2u);
-  for (int i = 0; i < 20; ++i) round();
-  const ObjectHandle gauge = stations[0].ambassador.register_object_instance(tide);
+  for (int i = 0; i < 2; ++i) tides.join(tides.port);
+  ASSERT_NO_FATAL_FAILURE(tides.open_ways([&] { rounds(1); }));
+  rounds(20);
+  Ambassador &owner = tides.stations[0].ambassador, &listener = tides.stations[1].ambassador;
+  const ObjectHandle gauge = owner.register_object_instance(tides.tide);
+  double value = 0.0;
   const auto update = [&](int times) {
     for (int i = 0; i < times; ++i) {
-      stations[0].ambassador.update_attribute_values(gauge, level, values_of(value += 1.0),
-                                                     {now, 0});
-      for (int k = 0; k < 4; ++k) round();
+      tides.set(gauge, value += 1.0, tides.now);
+      rounds(4);
     }
-    for (int k = 0; k < 40; ++k) round();  // all acknowledged
-    EXPECT_EQ(stations[1].heard.objects.at(gauge.value).values.at(0), values_of(value));
+    rounds(40);  // all acknowledged
+    EXPECT_EQ(tides.stations[1].heard.objects.at(gauge.value).values.at(0), values_of(value));
   };
-  const auto up = [&] { return execution.counters().datagrams_received; };
-  const auto down = [&] { return stations[1].ambassador.counters().datagrams_received; };
+  const auto up = [&] { return tides.execution.counters().datagrams_received; };
+  const auto down = [&] { return listener.counters().datagrams_received; };
   update(20);
   const std::uint64_t up_first = up(), down_first = down();
   EXPECT_GE(up_first, 15u);
   EXPECT_GE(down_first, 15u);
-  stations[0].ambassador.request_attribute_transportation_type_change(gauge, level,
-                                                                      Transportation::reliable);
+  owner.request_attribute_transportation_type_change(gauge, tides.level, Transportation::reliable);
   update(20);
   EXPECT_EQ(up(), up_first) << "by the stream from the request on";
   EXPECT_LE(down(), down_first + 1);
   const std::uint64_t down_second = down();
-  stations[0].ambassador.request_attribute_transportation_type_change(gauge, level,
-                                                                      Transportation::best_effort);
-  for (int k = 0; k < 40; ++k) round();
+  owner.request_attribute_transportation_type_change(gauge, tides.level,
+                                                     Transportation::best_effort);
+  rounds(40);
   update(20);
   EXPECT_GE(up(), up_first + 15);
   EXPECT_GE(down(), down_second + 15);
-  EXPECT_EQ(
-      execution.counters().updates_outdated + stations[1].ambassador.counters().updates_outdated,
-      0u);
+  EXPECT_EQ(tides.execution.counters().updates_outdated + listener.counters().updates_outdated, 0u);
 }
 
 }  // namespace

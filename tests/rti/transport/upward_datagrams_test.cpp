@@ -77,10 +77,7 @@ TEST(UpwardDatagrams, ALostFinalStateIsRepaired) {
 
 TEST(UpwardDatagrams, AnOldOneChangesNothingAndADoubledOneCountsOnce) {
   Strait scene;
-  const ObjectHandle object = scene.place();
-  scene.ticks(3);
-  scene.set(object, 0.5);
-  scene.tick();
+  const ObjectHandle object = scene.place(0.5);
   scene.delivers = false;
   for (int i = 1; i <= 2; ++i) scene.set(object, i), scene.tick();
   ASSERT_EQ(scene.up.size(), 2u);
@@ -100,10 +97,7 @@ TEST(UpwardDatagrams, AnOldOneChangesNothingAndADoubledOneCountsOnce) {
 
 TEST(UpwardDatagrams, WhatIsMadeReliableIsNotOvertakenByWhatWasSaidBefore) {
   Strait scene;
-  const ObjectHandle object = scene.place();
-  scene.ticks(3);
-  scene.set(object, 1.0);
-  scene.tick();
+  const ObjectHandle object = scene.place(1.0);
   scene.delivers = false;
   scene.set(object, 2.0);
   scene.publisher.request_attribute_transportation_type_change(object, height,
@@ -182,10 +176,7 @@ TEST(UpwardDatagrams, WaitForTheFrameThatRegistersTheirObject) {
 
 TEST(UpwardDatagrams, TheirNewestValueGoesByTheStreamBeforeTheirObjectIsGivenAway) {
   Strait scene;
-  const ObjectHandle object = scene.place();
-  scene.ticks(3);
-  scene.set(object, 1.0);
-  scene.tick();
+  const ObjectHandle object = scene.place(1.0);
   scene.delivers = false;
   scene.set(object, 2.0);
   scene.publisher.unconditional_attribute_ownership_divestiture(object, height);
@@ -200,10 +191,7 @@ TEST(UpwardDatagrams, TheirNewestValueGoesByTheStreamBeforeTheirObjectIsGivenAwa
 
 TEST(UpwardDatagrams, WhatWasKeptBackMeanwhileIsNotMadeCurrentByALateOne) {
   Strait scene;
-  const ObjectHandle object = scene.place();
-  scene.ticks(3);
-  scene.set(object, 1.0);
-  scene.tick();
+  const ObjectHandle object = scene.place(1.0);
   scene.delivers = false;
   scene.set(object, 2.0);
   scene.tick();
@@ -223,10 +211,7 @@ TEST(UpwardDatagrams, WhatWasKeptBackMeanwhileIsNotMadeCurrentByALateOne) {
 
 TEST(UpwardDatagrams, AWayThatLosesEverythingFallsBackToTheStreamAndOpensAgain) {
   Strait scene;
-  const ObjectHandle object = scene.place();
-  scene.ticks(3);
-  scene.set(object, 1.0);
-  scene.tick();
+  const ObjectHandle object = scene.place(1.0);
   scene.delivers = false;
   for (int i = 2; i < 90; ++i)
     scene.set(object, i), scene.tick(), scene.up.clear(), scene.down.clear();
@@ -257,10 +242,7 @@ TEST(UpwardDatagrams, AreNotUsedByWhoKeepsTimeOrLeavesObjectsBehind) {
 
 TEST(UpwardDatagrams, NonsenseAndWhatIsNotOnesOwnIsIgnoredAndCostsNobodyTheConnection) {
   Strait scene;
-  const ObjectHandle object = scene.place();
-  scene.ticks(3);
-  scene.set(object, 4.0);
-  scene.tick();
+  const ObjectHandle object = scene.place(4.0);
   std::mt19937 random(3);
   for (int i = 0; i < 2000; ++i) {
     std::vector<std::byte> noise(random() % 60);

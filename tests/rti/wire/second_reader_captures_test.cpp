@@ -6,10 +6,10 @@
 #include <random>
 
 #include "rti/admission/handshake.h"
-#include "rti/transport/udp/udp.h"
 #include "tests/places.h"
 #include "tests/rti/python.h"
 #include "tests/rti/scenes/fjord_traffic.h"
+#include "tests/rti/scenes/tides.h"
 #include "tests/rti/seeded.h"
 #include "tests/rti/transport/udp_relay.h"
 #include "tests/rti/wire/second_reader_session.h"
@@ -186,13 +186,7 @@ TEST(SecondReaderCaptures, FollowsDifferencesToAcknowledgedBaselines) {
 /// A gauge's owner and who reads it, each behind a relay that loses every fifth datagram of values.
 TEST(SecondReaderCaptures, ReadsEveryDatagramAndItsAcknowledgement) {
   if (!has_python()) GTEST_SKIP() << "there is no python3";
-  const ObjectClassHandle tide = *harbour().object_class("Tide");
-  const AttributeSet level = harbour().attributes(tide);
-  UdpTransport server, clients;
-  FederationExecution execution(harbour(), {});
-  FederationHost host(execution);
-  host.add(server);
-  const std::uint16_t port = server.listen("127.0.0.1", 0);
+  Tides tides;
   std::string record;
   int data = 0, lost = 0;
   const auto is_lost = [&](bool, Bytes datagram) {
@@ -201,51 +195,33 @@ TEST(SecondReaderCaptures, ReadsEveryDatagramAndItsAcknowledgement) {
     lost += is_unlucky ? 1 : 0;
     return is_unlucky;
   };
-  UdpRelay relays[2] = {{port, 0, record, is_lost}, {port, 1, record, is_lost}};
-  std::deque<Station> stations;
-  FederateLinks links;
+  UdpRelay relays[2] = {{tides.port, 0, record, is_lost}, {tides.port, 1, record, is_lost}};
   const auto start = std::chrono::steady_clock::now();
   const auto pump = [&] {
     for (UdpRelay& relay : relays) relay.pump();
   };
   const auto round = [&] {
-    const double now =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    links.flush(now);
+    tides.now = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    tides.links.flush(tides.now);
     pump();
-    host.poll(200us);
-    host.advance_clock(now);
-    host.match();
-    host.flush();
+    tides.serve();
     pump();
-    clients.poll(200us, links);
+    tides.clients.poll(200us, tides.links);
   };
   const auto pass = [&](std::chrono::milliseconds time) {
     for (const auto from = std::chrono::steady_clock::now();
          std::chrono::steady_clock::now() - from < time;)
       round();
   };
-  for (int i = 0; i < 2; ++i) {
-    Station& station = stations.emplace_back(harbour());
-    station.link = std::make_unique<FederateLink>(station.ambassador, clients,
-                                                  clients.connect("127.0.0.1", relays[i].port()));
-    links.add(*station.link);
-    station.ambassador.join("rink", "station " + std::to_string(i), "");
-    if (i == 0) station.ambassador.publish_object_class_attributes(tide, level);
-    else station.ambassador.subscribe_object_class_attributes(tide, level);
-  }
-  for (int i = 0;
-       i < 5000 && (execution.federate_count() < 2 || server.udp_counters().ways_opened < 2); ++i)
-    round();
-  ASSERT_EQ(server.udp_counters().ways_opened, 2u);
+  for (const UdpRelay& relay : relays) tides.join(relay.port());
+  ASSERT_NO_FATAL_FAILURE(tides.open_ways(round));
   pass(20ms);
   std::vector<ObjectHandle> gauges;
   for (int i = 0; i < 12; ++i)
-    gauges.push_back(stations[0].ambassador.register_object_instance(tide));
+    gauges.push_back(tides.stations[0].ambassador.register_object_instance(tides.tide));
   for (int tick = 0; tick < 40; ++tick) {
     for (const ObjectHandle gauge : gauges)
-      stations[0].ambassador.update_attribute_values(
-          gauge, level, values_of(tick + 0.001 * gauge.value), {0.125 * tick, 0});
+      tides.set(gauge, tick + 0.001 * gauge.value, 0.125 * tick);
     pass(5ms);
   }
   pass(700ms);  // repaired and acknowledged
@@ -254,8 +230,8 @@ TEST(SecondReaderCaptures, ReadsEveryDatagramAndItsAcknowledgement) {
   ASSERT_FALSE(lines.empty());
   // Whatever was heard, the second reader has read too; and all have the last value in the end.
   for (const ObjectHandle gauge : gauges) {
-    ASSERT_TRUE(stations[1].heard.objects.contains(gauge.value));
-    EXPECT_EQ(stations[1].heard.objects.at(gauge.value).values.at(0),
+    ASSERT_TRUE(tides.stations[1].heard.objects.contains(gauge.value));
+    EXPECT_EQ(tides.stations[1].heard.objects.at(gauge.value).values.at(0),
               values_of(39 + 0.001 * gauge.value));
     const std::string last = line_of(gauge.value, "Tide", "level", stamp_text({0.125 * 39, 0}),
                                      hex(values_of(39 + 0.001 * gauge.value)));
