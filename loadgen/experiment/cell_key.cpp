@@ -6,6 +6,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "loadgen/experiment/csv_number.h"
+#include "loadgen/experiment/csv_text.h"
 #include "loadgen/experiment/parameter.h"
 
 namespace rink::loadgen {
@@ -51,6 +53,24 @@ const CellKey* key_called(const std::string& name) {
   const auto key = std::find_if(cell_keys().begin(), cell_keys().end(),
                                 [&name](const CellKey& k) { return name == k.name; });
   return key == cell_keys().end() ? nullptr : &*key;
+}
+
+std::string cell_csv(const Cell& cell) {
+  std::string csv;
+  for (const std::string& text : {cell.part, cell.mode, cell.scheme, cell.policy})
+    csv += csv_text(text) + ",";
+  for (const std::uint32_t count : {cell.clients, cell.pucks, cell.bats, cell.server_cores})
+    csv += std::to_string(count) + ",";
+  for (const ParameterKind& kind : parameter_kinds())
+    csv += csv_number(kind.of(cell.parameters)) + ",";
+  csv.pop_back();
+  return csv;
+}
+
+std::string cell_csv_heading() {
+  std::string csv = "part,mode,scheme,policy,clients,pucks,bats,server_cores";
+  for (const ParameterKind& kind : parameter_kinds()) csv += std::string(",") + kind.key;
+  return csv;
 }
 
 }  // namespace rink::loadgen

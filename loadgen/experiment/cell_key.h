@@ -20,4 +20,9 @@ const std::vector<CellKey>& cell_keys();
 /// The one called `name`, or null.
 const CellKey* key_called(const std::string& name);
 
+/// What names a cell in a line of a table (RFC 4180), its seed apart, and the heading of that; each
+/// ends without a comma.
+std::string cell_csv(const Cell& cell);
+std::string cell_csv_heading();
+
 }  // namespace rink::loadgen

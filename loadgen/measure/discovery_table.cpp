@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <fstream>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "game/model/report_schema.h"
+#include "loadgen/experiment/cell_key.h"
 #include "loadgen/experiment/csv_number.h"
-#include "loadgen/experiment/csv_text.h"
-#include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/results.h"
 
 namespace rink::loadgen {
@@ -28,17 +26,6 @@ std::optional<Discoveries> read(const std::filesystem::path& file) {
   const auto errors = SampleDistribution::from_json(written["displayed_error"]);
   if (!late || !missed || !errors) return std::nullopt;
   return Discoveries{*late, *missed, *errors};
-}
-
-std::string names_of(const Cell& cell) {
-  std::string names;
-  for (const std::string& text : {cell.part, cell.mode, cell.scheme, cell.policy})
-    names += csv_text(text) + ",";
-  for (const std::uint32_t count : {cell.clients, cell.pucks, cell.bats, cell.server_cores})
-    names += std::to_string(count) + ",";
-  for (const ParameterKind& kind : parameter_kinds())
-    names += csv_number(kind.of(cell.parameters)) + ",";
-  return names;
 }
 
 void append(std::string& csv, const std::string& names, const char* kind,
@@ -79,12 +66,10 @@ std::vector<CellDiscoveries> discoveries_in(const std::filesystem::path& cells,
 }
 
 std::string discovery_csv(std::span<const CellDiscoveries> cells) {
-  std::string csv = "part,mode,scheme,policy,clients,pucks,bats,server_cores";
-  for (const ParameterKind& kind : parameter_kinds()) csv += std::string(",") + kind.key;
-  csv += ",kind,delay_ms,fraction,samples,never\n";
+  std::string csv = cell_csv_heading() + ",kind,delay_ms,fraction,samples,never\n";
   for (const CellDiscoveries& each : cells) {
-    append(csv, names_of(each.cell), "late_discovery", each.discoveries.late_discovery);
-    append(csv, names_of(each.cell), "missed_contact", each.discoveries.missed_contact);
+    append(csv, cell_csv(each.cell) + ",", "late_discovery", each.discoveries.late_discovery);
+    append(csv, cell_csv(each.cell) + ",", "missed_contact", each.discoveries.missed_contact);
   }
   return csv;
 }

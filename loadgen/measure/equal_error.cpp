@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <tuple>
 
 #include "loadgen/experiment/csv_number.h"
+#include "loadgen/measure/formatted.h"
 #include "loadgen/measure/table_number.h"
 
 namespace rink::loadgen {
@@ -228,13 +228,6 @@ std::string note(const RivalRatio& rival) {
   if (!rival.has_few_points()) return "";
   return "  " + std::to_string(rival.points_below) + " points below, " +
          std::to_string(rival.points_above) + " above";
-}
-
-template <class... Arguments>
-std::string formatted(const char* format, Arguments... arguments) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, arguments...);
-  return text;
 }
 
 std::string trimmed(std::string line) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -13,6 +12,7 @@
 
 #include "game/model/listed.h"
 #include "loadgen/experiment/csv_number.h"
+#include "loadgen/measure/formatted.h"
 
 namespace rink::loadgen {
 namespace {
@@ -108,21 +108,16 @@ std::string locals_text(const PowerFit& fit) {
 
 std::string exponent_text(const PowerFit& fit) {
   assert(fit.exponent_low.has_value() == fit.exponent_high.has_value());
-  std::array<char, 48> text;
   const double half = fit.exponent_high ? *fit.exponent_high - fit.exponent : 0.0;
-  std::snprintf(text.data(), text.size(), "%5.2f +-%-4.2f%c", fit.exponent, half,
-                fit.is_rejected() ? '!' : ' ');
-  return text.data();
+  return formatted("%5.2f +-%-4.2f%c", fit.exponent, half, fit.is_rejected() ? '!' : ' ');
 }
 
 /// What the terminal's table has room for.
 std::span<const Quantity> tabled() { return std::span(quantities).first(quantities.size() - 2); }
 
 std::string row_title(const Growth& growth) {
-  std::array<char, 96> text;
-  std::snprintf(text.data(), text.size(), "%-8.8s %-8.8s %-14.14s", growth.factor.c_str(),
-                growth.scheme.c_str(), growth.policy.c_str());
-  return text.data();
+  return formatted("%-8.8s %-8.8s %-14.14s", growth.factor.c_str(), growth.scheme.c_str(),
+                   growth.policy.c_str());
 }
 
 bool is_same_row(const Growth& a, const Growth& b) {
@@ -197,19 +192,15 @@ std::vector<Capacity> capacities_of(std::span<const Growth> growths) {
 std::string capacity_text(std::span<const Growth> growths) {
   std::string text;
   for (const auto& [growth, fraction, clients] : capacities_of(growths)) {
-    std::array<char, 200> law, line;
-    if (growth.is_line_better)
-      std::snprintf(law.data(), law.size(), "%.4g + %.4g n us", growth.line.constant,
-                    growth.line.slope);
-    else
-      std::snprintf(law.data(), law.size(), "%.4g n^%.3g us", growth.fit.factor,
-                    growth.fit.exponent);
-    if (clients)
-      std::snprintf(line.data(), line.size(), "this server holds %.0f clients", *clients);
-    else std::snprintf(line.data(), line.size(), "no number of clients fills a tick");
+    const std::string law =
+        growth.is_line_better
+            ? formatted("%.4g + %.4g n us", growth.line.constant, growth.line.slope)
+            : formatted("%.4g n^%.3g us", growth.fit.factor, growth.fit.exponent);
+    const std::string holds = clients ? formatted("this server holds %.0f clients", *clients)
+                                      : "no number of clients fills a tick";
     text +=
         "  " + growth.scheme + ", " + growth.policy + ": " + (fraction == 0.99 ? "99" : "90") +
-        " % of the ticks end within " + law.data() + " of n clients: " + line.data() +
+        " % of the ticks end within " + law + " of n clients: " + holds +
         (clients && *clients > growth.most ? ", by extrapolation from " + six_digits(growth.most)
                                            : "") +
         "\n";

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
+#include "loadgen/measure/formatted.h"
 #include "loadgen/measure/statistics/distributions.h"
 #include "loadgen/measure/summary.h"
 #include "loadgen/measure/table_number.h"
@@ -73,17 +73,13 @@ std::string modes_table(std::span<const RunRecord> runs) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const SummaryRow& a, const SummaryRow& b) { return a.clients < b.clients; });
   for (const SummaryRow& row : rows) {
-    char head[256];
-    std::snprintf(head, sizeof head, "\n%7u %-*s %-9.9s %-13.13s", row.clients,
-                  static_cast<int>(width), row.scheme.c_str(), row.policy.c_str(),
-                  row.mode.c_str());
-    text += head;
+    text += formatted("\n%7u %-*s %-9.9s %-13.13s", row.clients, static_cast<int>(width),
+                      row.scheme.c_str(), row.policy.c_str(), row.mode.c_str());
     for (const Column& column : columns)
       text += " " + padded(table_number(row.of(column.figure).mean, column.scale), 7);
     if (row.valid_runs < 2) continue;
-    std::snprintf(head, sizeof head, "\n%7s %-*s %-9s %-13s", "", static_cast<int>(width), "", "",
-                  ("+- n=" + std::to_string(row.valid_runs)).c_str());
-    text += head;
+    text += formatted("\n%7s %-*s %-9s %-13s", "", static_cast<int>(width), "", "",
+                      ("+- n=" + std::to_string(row.valid_runs)).c_str());
     for (const Column& column : columns)
       text += " " +
               padded(table_number(margin(row.of(column.figure), row.valid_runs), column.scale), 7);

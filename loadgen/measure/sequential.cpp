@@ -4,9 +4,9 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "loadgen/measure/formatted.h"
 #include "loadgen/measure/statistics/distributions.h"
 
 namespace rink::loadgen {
@@ -33,10 +33,9 @@ std::vector<WideRow> wider_rows(std::span<const SummaryRow> rows, double width,
     const double half = student_t_quantile(0.5 + 0.5 * confidence_of_look(look), runs - 1.0) *
                         *payload.deviation / std::sqrt(runs) / *payload.mean;
     if (half <= width) continue;
-    char text[64];
-    std::snprintf(text, sizeof text, " is known to within %.3g %% only, not %.3g %%", 100.0 * half,
-                  100.0 * width);
-    wide.push_back({row.valid_runs, "the payload of " + name + text});
+    wide.push_back({row.valid_runs, "the payload of " + name +
+                                        formatted(" is known to within %.3g %% only, not %.3g %%",
+                                                  100.0 * half, 100.0 * width)});
   }
   return wide;
 }

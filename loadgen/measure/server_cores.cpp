@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdio>
 
 #include "loadgen/experiment/csv_number.h"
+#include "loadgen/measure/formatted.h"
 #include "loadgen/measure/summary.h"
 
 namespace rink::loadgen {
@@ -91,17 +91,13 @@ std::string cores_table(std::span<const CoresRatio> ratios) {
   std::string text =
       "server and bots on any processor / each on its own, with 95 % interval\nscheme  policy      "
       "  clients  figure                      ratio\n";
-  std::array<char, 160> line;
   for (const CoresRatio& ratio : ratios) {
-    std::snprintf(line.data(), line.size(), "%-7.7s %-13.13s %7u  %-24.24s %7.3f",
-                  ratio.cell.scheme.c_str(), ratio.cell.policy.c_str(), ratio.cell.clients,
-                  ratio.figure.c_str(), ratio.ratio.value);
-    text += line.data();
+    text += formatted("%-7.7s %-13.13s %7u  %-24.24s %7.3f", ratio.cell.scheme.c_str(),
+                      ratio.cell.policy.c_str(), ratio.cell.clients, ratio.figure.c_str(),
+                      ratio.ratio.value);
     const Difference difference = ratio.ratio.difference();
-    if (const auto& interval = ratio.ratio.interval) {
-      std::snprintf(line.data(), line.size(), "  %.3f to %.3f", interval->low, interval->high);
-      text += line.data();
-    }
+    if (const auto& interval = ratio.ratio.interval)
+      text += formatted("  %.3f to %.3f", interval->low, interval->high);
     if (difference == Difference::insignificant || difference == Difference::unknown)
       text += std::string("  ") + words_for(difference);
     text += "\n";

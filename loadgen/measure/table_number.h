@@ -1,9 +1,10 @@
 // Numbers as the tables for a terminal show them.
 #pragma once
 
-#include <cstdio>
 #include <optional>
 #include <string>
+
+#include "loadgen/measure/formatted.h"
 
 namespace rink::loadgen {
 
@@ -12,9 +13,7 @@ namespace rink::loadgen {
 inline std::string table_number(const std::optional<double>& value, double scale = 1.0) {
   if (!value) return "-";
   const double scaled = *value * scale;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", scaled >= 99.95 ? 0 : scaled >= 9.995 ? 1 : 2, scaled);
-  return text;
+  return formatted("%.*f", scaled >= 99.95 ? 0 : scaled >= 9.995 ? 1 : 2, scaled);
 }
 
 }  // namespace rink::loadgen

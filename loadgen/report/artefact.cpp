@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -15,6 +14,7 @@
 #include "im/basics/fnv_hash.h"
 #include "im/basics/hexadecimal.h"
 #include "loadgen/experiment/experiment_file.h"
+#include "loadgen/measure/formatted.h"
 #include "loadgen/measure/run_fields.h"
 
 namespace rink::loadgen {
@@ -217,12 +217,10 @@ std::string words_for(const Repetition& repetition, const std::filesystem::path&
   if (repetition.virtual_runs > 0)
     text += " " + count(repetition.virtual_same, repetition.virtual_runs) +
             " runs in virtual time say the same in every figure;";
-  if (repetition.games > 0) {
-    char apart[64];
-    std::snprintf(apart, sizeof apart, "%.2g %%", 100.0 * repetition.payload_apart);
+  if (repetition.games > 0)
     text += " " + count(repetition.games_same, repetition.games) +
-            " runs by the clock end in the same state, their payloads at most " + apart + " apart;";
-  }
+            " runs by the clock end in the same state, their payloads at most " +
+            formatted("%.2g %% apart;", 100.0 * repetition.payload_apart);
   if (repetition.virtual_runs + repetition.games == 0) text += " no run of both can be compared;";
   if (repetition.left_out > 0)
     text += " " + std::to_string(repetition.left_out) + " of its runs were not repeated;";

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +18,7 @@
 #include "game/model/report_schema.h"
 #include "game/process/process.h"
 #include "game/version/version.h"
+#include "loadgen/measure/formatted.h"
 #include "loadgen/run/machine.h"
 
 namespace rink::loadgen {
@@ -84,10 +84,8 @@ std::string command_text(const std::vector<std::string>& words) {
 
 std::string calibration_text(const Histogram& wake_ups) {
   const Percentiles lateness = wake_ups.percentiles_ms();
-  char text[128];
-  std::snprintf(text, sizeof text, "late by p50 %.3f ms, p99 %.3f ms, max %.3f ms",
-                lateness.p50.value_or(0.0), lateness.p99.value_or(0.0), lateness.max.value_or(0.0));
-  return text;
+  return formatted("late by p50 %.3f ms, p99 %.3f ms, max %.3f ms", lateness.p50.value_or(0.0),
+                   lateness.p99.value_or(0.0), lateness.max.value_or(0.0));
 }
 
 constexpr std::array packages_that_matter{"g++",

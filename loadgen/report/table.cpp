@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <string_view>
 #include <vector>
 
 #include "loadgen/experiment/parameter.h"
+#include "loadgen/measure/formatted.h"
 #include "loadgen/measure/table_number.h"
 
 namespace rink::loadgen {
@@ -16,13 +16,6 @@ namespace {
 
 constexpr const char* payload = "down_bytes_per_client_per_s";
 constexpr const char* error = "displayed_error_mm_rms";
-
-template <class... Arguments>
-std::string formatted(const char* format, Arguments... arguments) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, arguments...);
-  return text;
-}
 
 std::string percent(const std::optional<double>& fraction) {
   if (!fraction) return "-";

@@ -77,14 +77,10 @@ class CellRun {
   }
 
  private:
-  void heed_interrupt() const {
-    if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
-  }
-
   std::string address_of(game::Process& server) {
     const auto deadline = after(settings_.listen_limit_s);
     while (true) {
-      heed_interrupt();
+      settings_.heed_interrupt();
       server.attend(look_interval);
       if (const auto address = server.line_after("listening on ")) return *address;
       if (server.ending())
@@ -105,7 +101,7 @@ class CellRun {
     auto deadline = after(limit_s);
     bool has_failed = false;
     while (!server.ending() || !bots.ending()) {
-      heed_interrupt();
+      settings_.heed_interrupt();
       (server.ending() ? bots : server).attend(look_interval);
       if (!server.ending()) bots.attend(milliseconds(0));
       const bool fails_now = (server.ending() && !server.ending()->is_success()) ||

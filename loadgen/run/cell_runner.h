@@ -10,6 +10,7 @@
 
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/measure/run_record.h"
+#include "loadgen/run/run_ending.h"
 
 namespace rink::loadgen {
 
@@ -29,6 +30,10 @@ struct RunnerSettings {
   std::chrono::milliseconds stop_grace{1000};  ///< from SIGTERM to SIGKILL
   const std::atomic<bool>* is_interrupted =
       nullptr;  ///< looked at every 20 ms; ends the cell when true
+
+  void heed_interrupt() const {
+    if (is_interrupted && is_interrupted->load()) throw Interrupted{};
+  }
 };
 
 /// Pins the server to the first of `processors` and the bots to all others; with fewer than two

@@ -65,9 +65,6 @@ class VirtualRun {
     return experiment_.start_s +
            (start_ns_ == 0 ? 0.0 : 1e-9 * static_cast<double>(network_.now_ns() - start_ns_));
   }
-  void heed_interrupt() const {
-    if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
-  }
   std::int64_t next_instant_ns() const;
   void advance_until(std::int64_t until_ns);
   template <class Condition>
@@ -185,7 +182,7 @@ void VirtualRun::await(const std::string& what, Condition is_met) {
                                        (experiment_.network_is_modelled ? second_ns : 0));
   game::TickCosts uncounted;
   while (!is_met()) {
-    heed_interrupt();
+    settings_.heed_interrupt();
     if (!server_.trouble().empty()) throw Failure{"the server: " + server_.trouble()};
     if (crowd_.bots().lost_count() > 0) throw Failure{"the bots: " + crowd_.bots().first_trouble()};
     if (network_.now_ns() > limit_ns) throw Failure{"waited in vain for " + what};
@@ -217,7 +214,7 @@ void VirtualRun::play() {
                played_s = experiment_.warm_up_s + experiment_.duration_s;
   const auto last = static_cast<std::uint64_t>(std::floor(played_s * rate_hz + 1e-9));
   for (std::uint64_t number = 0; number <= last; ++number) {
-    heed_interrupt();
+    settings_.heed_interrupt();
     const double simulated_s = static_cast<double>(number) / rate_hz;
     advance_until(start_ns_ + nanoseconds(simulated_s));
     if (ticks_ == 0 && simulated_s >= experiment_.warm_up_s) {

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
+
+#include "loadgen/measure/formatted.h"
 
 namespace rink::loadgen {
 
@@ -25,20 +26,17 @@ bool is_relevant_anywhere(const RelevanceArea& area, game::Team own, physics::Bo
 }
 
 std::string text_of(const RelevanceArea& area) {
-  char text[96];
-  if (area.shape == RelevanceArea::Shape::disc)
-    std::snprintf(text, sizeof text,
-                  "disc of radius %.3g m around the bat, holding the entity's centre", area.reach);
-  else if (area.shape == RelevanceArea::Shape::contact)
-    std::snprintf(text, sizeof text, "whoever can touch the bat within %.3g s, or a puck that can",
-                  area.contact_s);
-  else
-    std::snprintf(text, sizeof text, "square of %.3g m around the bat, touched by the entity's box",
-                  2.0 * area.reach);
-  std::string words = area.shape == RelevanceArea::Shape::filter
-                          ? "whoever '" + area.expression + "' lets through, of a " +
-                                std::string(text).substr(0, std::string(text).find(','))
-                          : text;
+  using Shape = RelevanceArea::Shape;
+  const std::string square = formatted("square of %.3g m around the bat", 2.0 * area.reach);
+  std::string words =
+      area.shape == Shape::disc
+          ? formatted("disc of radius %.3g m around the bat, holding the entity's centre",
+                      area.reach)
+      : area.shape == Shape::contact
+          ? formatted("whoever can touch the bat within %.3g s, or a puck that can", area.contact_s)
+      : area.shape == Shape::filter
+          ? "whoever '" + area.expression + "' lets through, of a " + square
+          : square + ", touched by the entity's box";
   if (area.has_team) words += ", or a bat of the player's team";
   if (!area.always) return words;
   std::string kinds;

@@ -38,6 +38,11 @@ void Exhibit::add_absence(const std::string& sentence) {
   html += "<p class=\"faint\">" + escaped(sentence) + "</p>\n";
 }
 
+void Exhibit::add_absences(const std::string& titles) {
+  if (!titles.empty())
+    add_absence("Not measured in any cell's every run, so without a plot: " + titles + ".");
+}
+
 void Exhibit::add(Exhibit other) {
   html += other.html;
   std::move(other.tables.begin(), other.tables.end(), std::back_inserter(tables));
@@ -83,6 +88,29 @@ std::vector<CellLine> plotted_lines(const Findings& findings, const std::string&
   });
   name_and_style(lines);
   return lines;
+}
+
+std::string mean_cell(const CellGroup& group, FigureOf figure, double scale, int digits) {
+  const auto mean = group.mean(figure);
+  return "<td>" + plain_number(mean ? std::optional(scale * mean->mean) : std::nullopt, digits) +
+         "</td>";
+}
+
+void add_lines(Chart& plot, PlotTable& table, const std::vector<CellLine>& lines,
+               const PointOf& point_of) {
+  for (const CellLine& line : lines) {
+    PlotLine drawn{line.name, line.style, {}};
+    for (const CellGroup& group : line.groups) {
+      auto row = cell_values(line, group);
+      std::optional<PlotPoint> point = point_of(group, row);
+      if (!point) continue;
+      point->title =
+          line.name + ", " + std::to_string(group.cell.clients) + " clients: " + point->title;
+      drawn.points.push_back(std::move(*point));
+      table.rows.push_back(std::move(row));
+    }
+    if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
+  }
 }
 
 void append_interval(std::vector<std::string>& row, const std::optional<MeanInterval>& mean) {

@@ -1,6 +1,8 @@
 // The parts of the report: what each section needs, and what it gives.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,6 +14,7 @@
 #include "loadgen/measure/statistics/histogram.h"
 #include "loadgen/report/exhibits/cell_lines.h"
 #include "loadgen/report/plot_table.h"
+#include "loadgen/report/plots/chart.h"
 #include "loadgen/report/plots/picture.h"
 
 namespace rink::loadgen {
@@ -45,6 +48,8 @@ struct Exhibit {
   void add_panel(const std::string& table_name, const std::string& svg, const std::string& caption);
   /// Says in a sentence why something is not there.
   void add_absence(const std::string& sentence);
+  /// The same for figures that no cell has, `titles` in words; nothing if there are none.
+  void add_absences(const std::string& titles);
   void add(Exhibit other);
 };
 
@@ -56,8 +61,18 @@ std::vector<std::string> cell_values(const CellLine& line, const CellGroup& grou
 std::vector<CellLine> plotted_lines(const Findings& findings);
 /// The same of the part called `part`.
 std::vector<CellLine> plotted_lines(const Findings& findings, const std::string& part);
+/// A cell of a table in a page with the mean of a figure, times `scale`.
+std::string mean_cell(const CellGroup& group, FigureOf figure, double scale = 1.0, int digits = 3);
 /// Appends mean, low and high of `mean` to `row`, empty where absent.
 void append_interval(std::vector<std::string>& row, const std::optional<MeanInterval>& mean);
+
+/// A group's point, whose title says its figures; what it appends to `row` stands in the table
+/// behind cell_values(). Nothing if the group has no such figures.
+using PointOf =
+    std::function<std::optional<PlotPoint>(const CellGroup& group, std::vector<std::string>& row)>;
+/// Adds to a plot the points of each line, and to the table their rows.
+void add_lines(Chart& plot, PlotTable& table, const std::vector<CellLine>& lines,
+               const PointOf& point_of);
 
 /// Of `lines` the largest number of clients alone; and that this was done, in words, empty if there
 /// is but one number.

@@ -27,22 +27,16 @@ void add_scatter(Exhibit& exhibit, const Findings& findings) {
   table.columns.insert(table.columns.end(),
                        {"displayed_error_mm_rms", "error_low_95", "error_high_95",
                         "bytes_per_client_per_s", "bytes_low_95", "bytes_high_95"});
-  for (const CellLine& line : largest_crowds(plotted_lines(findings))) {
-    PlotLine drawn{line.name, line.style, {}};
-    for (const CellGroup& group : line.groups) {
-      const auto bytes = group.mean(payload), error = group.mean(displayed_rms);
-      if (!bytes || !error) continue;
-      drawn.points.push_back({error->mean, bytes->mean, bytes->interval, error->interval,
-                              line.name + ", " + std::to_string(group.cell.clients) +
-                                  " clients: " + plain_number(error->mean) + " mm, " +
-                                  short_bytes_per_s(bytes->mean)});
-      auto row = cell_values(line, group);
-      append_interval(row, error);
-      append_interval(row, bytes);
-      table.rows.push_back(std::move(row));
-    }
-    if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
-  }
+  const auto point_of = [](const CellGroup& group,
+                           std::vector<std::string>& row) -> std::optional<PlotPoint> {
+    const auto bytes = group.mean(payload), error = group.mean(displayed_rms);
+    if (!bytes || !error) return std::nullopt;
+    append_interval(row, error);
+    append_interval(row, bytes);
+    return PlotPoint{error->mean, bytes->mean, bytes->interval, error->interval,
+                     plain_number(error->mean) + " mm, " + short_bytes_per_s(bytes->mean)};
+  };
+  add_lines(plot, table, largest_crowds(plotted_lines(findings)), point_of);
   if (!has_points(plot))
     return exhibit.add_absence(
         "No run has a displayed error, so bytes cannot be drawn against it.");
@@ -80,11 +74,6 @@ std::string ratio_text(const Gain& gain) {
   return gain.bytes->difference() == Difference::insignificant
              ? text + ", " + words_for(Difference::insignificant)
              : text;
-}
-
-std::string mean_cell(const CellGroup& group, FigureOf figure, double scale = 1.0) {
-  const auto mean = group.mean(figure);
-  return "<td>" + plain_number(mean ? std::optional(mean->mean * scale) : std::nullopt) + "</td>";
 }
 
 std::string html_row(const Gain& gain, bool is_first) {

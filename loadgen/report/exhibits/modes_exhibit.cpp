@@ -61,23 +61,17 @@ bool add_plot(Exhibit& exhibit, const Findings& findings, const Shown& shown) {
                       ": mean over replications and its 95 % interval",
                   cell_columns()};
   table.columns.insert(table.columns.end(), {shown.name, "low_95", "high_95"});
-  for (const CellLine& line : findings.lines) {
-    PlotLine drawn{line.name, line.style, {}};
-    for (const CellGroup& group : line.groups) {
-      const auto mean = group.mean(shown.of);
-      if (!mean || mean->mean <= 0.0) continue;
-      drawn.points.push_back({static_cast<double>(group.cell.clients),
-                              mean->mean,
-                              mean->interval,
-                              {},
-                              line.name + ", " + std::to_string(group.cell.clients) +
-                                  " clients: " + short_number(mean->mean)});
-      auto row = cell_values(line, group);
-      append_interval(row, mean);
-      table.rows.push_back(std::move(row));
-    }
-    if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
-  }
+  add_lines(plot, table, findings.lines, [&](const CellGroup& group, auto& row) {
+    const auto mean = group.mean(shown.of);
+    append_interval(row, mean);
+    return mean && mean->mean > 0.0
+               ? std::optional(PlotPoint{static_cast<double>(group.cell.clients),
+                                         mean->mean,
+                                         mean->interval,
+                                         {},
+                                         short_number(mean->mean)})
+               : std::nullopt;
+  });
   if (!has_points(plot)) return false;
   plot.alternative = shown.reading;
   exhibit.add(to_svg(plot), shown.reading, std::move(table));
@@ -131,9 +125,7 @@ Exhibit modes_exhibit(const Findings& findings) {
   for (const Shown& shown : against_clients)
     if (!add_plot(exhibit, findings, shown)) game::add_to_list(absences, shown.title);
   exhibit.html += "</div>\n";
-  if (!absences.empty())
-    exhibit.add_absence("Not measured in any cell's every run, so without a plot: " + absences +
-                        ".");
+  exhibit.add_absences(absences);
   exhibit.html +=
       "<p class=\"faint\">What the bytes are about; each panel has its own scale.</p>\n<div "
       "class=\"plots small\">\n";

@@ -32,33 +32,27 @@ struct RelevancePlot {
 };
 
 void add_plot(Exhibit& exhibit, const Findings& findings, const RelevancePlot& of) {
-  const auto& [precision, recall, table_name, title] = of;
-  Chart plot{.title = title, .x = {"recall"}, .y = {"precision"}};
-  PlotTable table{table_name, title + ": means over replications with their 95 % intervals",
+  Chart plot{.title = of.title, .x = {"recall"}, .y = {"precision"}};
+  PlotTable table{of.table_name, of.title + ": means over replications with their 95 % intervals",
                   cell_columns()};
   table.columns.insert(table.columns.end(), {"recall", "recall_low_95", "recall_high_95",
                                              "precision", "precision_low_95", "precision_high_95"});
   double low_recall = 1.0, low_precision = 1.0;
-  for (const CellLine& line : largest_crowds(plotted_lines(findings))) {
-    PlotLine drawn{line.name, line.style, {}};
-    for (const CellGroup& group : line.groups) {
-      const auto p = group.mean(precision), r = group.mean(recall);
-      if (!p || !r) continue;
-      drawn.points.push_back({r->mean, p->mean, p->interval, r->interval,
-                              line.name + ", " + std::to_string(group.cell.clients) +
-                                  " clients: recall " + plain_number(r->mean, 4) + ", precision " +
-                                  plain_number(p->mean, 4)});
-      low_recall = std::min({low_recall, r->mean, r->interval ? r->interval->first : 1.0}),
-      low_precision = std::min({low_precision, p->mean, p->interval ? p->interval->first : 1.0});
-      auto row = cell_values(line, group);
-      append_interval(row, r);
-      append_interval(row, p);
-      table.rows.push_back(std::move(row));
-    }
-    if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
-  }
+  const auto point_of = [&](const CellGroup& group,
+                            std::vector<std::string>& row) -> std::optional<PlotPoint> {
+    const auto p = group.mean(of.precision), r = group.mean(of.recall);
+    if (!p || !r) return std::nullopt;
+    low_recall = std::min({low_recall, r->mean, r->interval ? r->interval->first : 1.0}),
+    low_precision = std::min({low_precision, p->mean, p->interval ? p->interval->first : 1.0});
+    append_interval(row, r);
+    append_interval(row, p);
+    return PlotPoint{
+        r->mean, p->mean, p->interval, r->interval,
+        "recall " + plain_number(r->mean, 4) + ", precision " + plain_number(p->mean, 4)};
+  };
+  add_lines(plot, table, largest_crowds(plotted_lines(findings)), point_of);
   if (!has_points(plot))
-    return exhibit.add_absence(title +
+    return exhibit.add_absence(of.title +
                                ": no run was held against truth in this, so there is no plot.");
   plot.x.range = zoomed(low_recall, 1.0), plot.y.range = zoomed(low_precision, 1.0);
   for (const double score : {0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.98})
@@ -117,7 +111,6 @@ void add_quality_table(Exhibit& exhibit, const Findings& findings) {
                   cell_columns()};
   for (const Quality& quality : qualities) table.columns.emplace_back(quality.name);
   std::string body;
-  std::vector<std::string> shown(std::size(qualities));
   for (const CellLine& line : findings.lines) {
     for (const CellGroup& group : line.groups) {
       auto row = cell_values(line, group);
@@ -127,10 +120,7 @@ void add_quality_table(Exhibit& exhibit, const Findings& findings) {
         const auto mean = group.mean(quality.of);
         has_any = has_any || mean.has_value();
         row.push_back(mean ? exact_number(mean->mean * quality.scale) : "");
-        cells += "<td>" +
-                 plain_number(mean ? std::optional(mean->mean * quality.scale) : std::nullopt,
-                              quality.digits) +
-                 "</td>";
+        cells += mean_cell(group, quality.of, quality.scale, quality.digits);
       }
       if (!has_any) continue;
       table.rows.push_back(std::move(row));

@@ -67,9 +67,7 @@ Exhibit replication_exhibit(const Findings& findings) {
     if (!add_box_plot(exhibit, findings, figure)) game::add_to_list(absences, figure.title);
   }
   exhibit.html += "</div>\n";
-  if (!absences.empty())
-    exhibit.add_absence("Not measured in any cell's every run, so without a plot: " + absences +
-                        ".");
+  exhibit.add_absences(absences);
   return exhibit;
 }
 

@@ -136,17 +136,13 @@ std::string html_of(const std::vector<Curve>& curves) {
       "of<br/>decisions</th><th>delivered<br/>recall</th></tr></thead><tbody>\n";
   for (const Curve& curve : curves)
     for (std::size_t i = 0; i < curve.line.groups.size(); ++i) {
-      const auto shown = [&](FigureOf figure, double scale, int digits) {
-        const auto mean = curve.line.groups[i].mean(figure);
-        return "<td>" +
-               plain_number(mean ? std::optional(scale * mean->mean) : std::nullopt, digits) +
-               "</td>";
-      };
+      const CellGroup& group = curve.line.groups[i];
       html += std::string("<tr") + (i == 0 ? " class=\"first\"" : "") + "><td class=\"text\">" +
               escaped(curve.line.name) + "</td><td class=\"text\">" + escaped(curve.labels[i]) +
-              "</td>" + shown(payload, 1e-3, 3) + shown(displayed_rms, 1.0, 3) +
-              shown(displayed_p99, 1.0, 3) + shown(filter_recall, 1.0, 4) +
-              shown(delivered_recall, 1.0, 4) + "</tr>\n";
+              "</td>" + mean_cell(group, payload, 1e-3, 3) +
+              mean_cell(group, displayed_rms, 1.0, 3) + mean_cell(group, displayed_p99, 1.0, 3) +
+              mean_cell(group, filter_recall, 1.0, 4) + mean_cell(group, delivered_recall, 1.0, 4) +
+              "</tr>\n";
     }
   return html + "</tbody></table></div>\n<p class=\"data\">Data: plots/stages.csv</p>\n";
 }

@@ -129,17 +129,11 @@ std::string html_of(const std::vector<CellLine>& curves, const ParameterKind& ki
   for (const CellLine& curve : curves)
     for (std::size_t i = 0; i < curve.groups.size(); ++i) {
       const CellGroup& group = curve.groups[i];
-      const auto shown = [&group](FigureOf figure, double scale, int digits) {
-        const auto mean = group.mean(figure);
-        return "<td>" +
-               plain_number(mean ? std::optional(scale * mean->mean) : std::nullopt, digits) +
-               "</td>";
-      };
       html += std::string("<tr") + (i == 0 ? " class=\"first\"" : "") + "><td class=\"text\">" +
               escaped(curve.name) + "</td><td>" +
               (kind.has(group.cell) ? value_text(kind, group.cell) : "\xE2\x80\x93") + "</td>" +
-              shown(filter_precision, 1.0, 3) + shown(filter_recall, 1.0, 4) +
-              shown(payload, 1e-3, 3) + shown(churn, 1.0, 3) + "</tr>\n";
+              mean_cell(group, filter_precision, 1.0, 3) + mean_cell(group, filter_recall, 1.0, 4) +
+              mean_cell(group, payload, 1e-3, 3) + mean_cell(group, churn, 1.0, 3) + "</tr>\n";
     }
   return html + "</tbody></table></div>\n";
 }

@@ -64,33 +64,25 @@ struct TrafficPlot {
 };
 
 void add_plot(Exhibit& exhibit, const Traffic& traffic, const TrafficPlot& of) {
-  const auto& [figure, table_name, title, reading] = of;
-  Chart plot{.title = title, .x = {"clients", true}, .y = {"bytes per second and client", true}};
+  Chart plot{.title = of.title, .x = {"clients", true}, .y = {"bytes per second and client", true}};
   PlotTable table{
-      table_name,
-      title + ": bytes per second and client, mean over replications and its 95 % interval",
+      of.table_name,
+      of.title + ": bytes per second and client, mean over replications and its 95 % interval",
       cell_columns()};
   table.columns.insert(table.columns.end(), {"bytes_per_client_per_s", "low_95", "high_95"});
-  for (const CellLine& line : traffic.lines) {
-    PlotLine drawn{line.name, line.style, {}};
-    for (const CellGroup& group : line.groups) {
-      const auto mean = group.mean(figure);
-      if (!mean) continue;
-      drawn.points.push_back({static_cast<double>(group.cell.clients),
-                              mean->mean,
-                              mean->interval,
-                              {},
-                              line.name + ", " + std::to_string(group.cell.clients) +
-                                  " clients: " + short_bytes_per_s(mean->mean)});
-      auto row = cell_values(line, group);
-      append_interval(row, mean);
-      table.rows.push_back(std::move(row));
-    }
-    if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
-  }
+  add_lines(plot, table, traffic.lines, [&](const CellGroup& group, auto& row) {
+    const auto mean = group.mean(of.figure);
+    append_interval(row, mean);
+    return mean ? std::optional(PlotPoint{static_cast<double>(group.cell.clients),
+                                          mean->mean,
+                                          mean->interval,
+                                          {},
+                                          short_bytes_per_s(mean->mean)})
+                : std::nullopt;
+  });
   if (!has_points(plot))
-    return exhibit.add_absence(title + ": no valid run has this figure, so there is no plot.");
-  plot.alternative = reading + extremes(traffic.lines, figure) + traffic.words;
+    return exhibit.add_absence(of.title + ": no valid run has this figure, so there is no plot.");
+  plot.alternative = of.reading + extremes(traffic.lines, of.figure) + traffic.words;
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 

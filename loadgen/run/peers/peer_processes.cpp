@@ -44,9 +44,6 @@ class PeerProcesses {
   std::filesystem::path file_of(std::size_t process, const char* ending) const {
     return settings_.directory / (name_of(cell_) + ".peer" + std::to_string(process) + ending);
   }
-  void heed_interrupt() const {
-    if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
-  }
   std::vector<std::string> arguments(const std::string& first, std::size_t number) const;
   void start(const std::string& first);
   std::string address_of_first();
@@ -121,7 +118,7 @@ void PeerProcesses::start(const std::string& first) {
 std::string PeerProcesses::address_of_first() {
   game::Process& first = processes_.front();
   for (const auto deadline = after(settings_.listen_limit_s);;) {
-    heed_interrupt();
+    settings_.heed_interrupt();
     first.attend(look_interval);
     if (const auto address = first.line_after("listening on ")) return *address;
     if (first.ending())
@@ -141,7 +138,7 @@ void PeerProcesses::await() {
   const auto runs = [](const game::Process& process) { return !process.ending(); };
   for (auto running = processes_.begin(); running != processes_.end();
        running = std::find_if(processes_.begin(), processes_.end(), runs)) {
-    heed_interrupt();
+    settings_.heed_interrupt();
     running->attend(look_interval);
     for (game::Process& process : processes_)
       if (!process.ending()) process.attend(milliseconds(0));

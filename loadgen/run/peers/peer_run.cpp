@@ -235,7 +235,7 @@ void PeerRun::act_when_due() {
 /// Lets everything happen that happens up to `until_ns`, itself included.
 void PeerRun::advance_until(std::int64_t until_ns) {
   for (;;) {
-    if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
+    settings_.heed_interrupt();
     std::int64_t next_ns = network_.next_arrival_ns().value_or(INT64_MAX);
     if (const double due_s = next_due_s(); due_s < 1e9)
       next_ns = std::min(next_ns, std::max(network_.now_ns(), not_before(due_s)));

@@ -2,12 +2,12 @@
 #include "loadgen/run/saturation/saturate_command.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <system_error>
 
 #include "game/control/key_log_file.h"
+#include "loadgen/measure/formatted.h"
 #include "loadgen/measure/growth.h"
 #include "loadgen/run/game_plan.h"
 
@@ -20,12 +20,10 @@ std::string title_of(const Cell& cell) {
 }
 
 std::string figures_text(const RunRecord& record) {
-  char text[96];
   const auto age = record.update_age_ms.p99 ? record.update_age_ms.p99 : record.update_age_ms.max;
-  std::snprintf(text, sizeof text, "%.4g %% of ticks on time, age %s %.3g ms",
-                100.0 * record.ticks_on_time_fraction.value_or(0.0),
-                record.update_age_ms.p99 ? "p99" : "max", age.value_or(0.0));
-  return text;
+  return formatted("%.4g %% of ticks on time, age %s %.3g ms",
+                   100.0 * record.ticks_on_time_fraction.value_or(0.0),
+                   record.update_age_ms.p99 ? "p99" : "max", age.value_or(0.0));
 }
 
 /// One search and what its probes left behind.

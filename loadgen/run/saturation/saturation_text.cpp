@@ -1,11 +1,11 @@
 // What searches for saturation found, as table, CSV and JSON.
 #include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "game/model/report_schema.h"
 #include "loadgen/experiment/csv_number.h"
 #include "loadgen/experiment/parameter.h"
+#include "loadgen/measure/formatted.h"
 #include "loadgen/measure/summary.h"
 #include "loadgen/run/saturation/saturate_command.h"
 
@@ -69,10 +69,7 @@ std::string shortened(const std::string& text) {
 }
 
 std::string thousand(std::optional<double> value) {
-  if (!value) return "-";
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.3g", *value / 1'000.0);
-  return text.data();
+  return value ? formatted("%.3g", *value / 1'000.0) : "-";
 }
 
 }  // namespace
@@ -94,11 +91,9 @@ std::string held_text(const Search& search) {
 }
 
 std::string foretold_text(const Saturation& saturation) {
-  if (!saturation.foretold) return "-";
-  std::array<char, 48> text;
-  std::snprintf(text.data(), text.size(), "%.0f (%u)", *saturation.foretold,
-                saturation.foretold_from);
-  return text.data();
+  return saturation.foretold
+             ? formatted("%.0f (%u)", *saturation.foretold, saturation.foretold_from)
+             : "-";
 }
 
 std::string to_csv(std::span<const Saturation> found) {
@@ -167,26 +162,20 @@ std::string to_json_text(std::span<const Saturation> found, const ServiceLevel& 
 }
 
 std::string table_of(std::span<const Saturation> found, const ServiceLevel& level) {
-  std::array<char, 256> line;
-  std::snprintf(
-      line.data(), line.size(),
+  std::string text = formatted(
       "largest number of clients with %g %% of ticks on time and p99 update age below %g ms\n",
       100.0 * level.on_time_fraction_min, level.age_p99_ms_max);
-  std::string text = line.data();
-  std::snprintf(line.data(), line.size(), "%-12s %-13s %5s %13s %6s %15s %7s %7s %7s %9s\n",
-                "scheme", "policy", "cores", "held", "failed", "foretold", "physics", "filter",
-                "send", "down kB/s");
-  text += line.data();
+  text += formatted("%-12s %-13s %5s %13s %6s %15s %7s %7s %7s %9s\n", "scheme", "policy", "cores",
+                    "held", "failed", "foretold", "physics", "filter", "send", "down kB/s");
   for (const Saturation& saturation : found) {
     const auto part = [&saturation](std::size_t figure) {
       return thousand(at_edge(saturation, edge_figures[figure]));
     };
-    std::snprintf(line.data(), line.size(), "%-12.12s %-13.13s %5u %13s %6s %15s %7s %7s %7s %9s\n",
-                  saturation.cell.scheme.c_str(), saturation.cell.policy.c_str(),
-                  saturation.cell.server_cores, held_text(saturation.search).c_str(),
-                  whole(saturation.search.failed).c_str(), foretold_text(saturation).c_str(),
-                  part(2).c_str(), part(3).c_str(), part(4).c_str(), part(5).c_str());
-    text += line.data();
+    text += formatted("%-12.12s %-13.13s %5u %13s %6s %15s %7s %7s %7s %9s\n",
+                      saturation.cell.scheme.c_str(), saturation.cell.policy.c_str(),
+                      saturation.cell.server_cores, held_text(saturation.search).c_str(),
+                      whole(saturation.search.failed).c_str(), foretold_text(saturation).c_str(),
+                      part(2).c_str(), part(3).c_str(), part(4).c_str(), part(5).c_str());
   }
   for (const Saturation& saturation : found)
     if (!saturation.why.empty())
