@@ -22,7 +22,7 @@
 #include "rti/federation/services/ownership_service.h"
 #include "rti/federation/services/region_service.h"
 #include "rti/federation/services/synchronization.h"
-#include "rti/federation/services/time_service.h"
+#include "rti/federation/time/time_service.h"
 
 namespace rink::rti {
 

@@ -8,7 +8,7 @@
 #include "rti/central_component.h"
 #include "rti/distribution/data_distribution.h"
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/services/time_service.h"
+#include "rti/federation/time/time_service.h"
 #include "rti/management/federation_report.h"
 #include "rti/ownership/ownership.h"
 

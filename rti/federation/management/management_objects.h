@@ -12,7 +12,7 @@
 #include "rti/federation/federation_basis.h"
 #include "rti/federation/services/declarations.h"
 #include "rti/federation/services/object_service.h"
-#include "rti/federation/services/time_service.h"
+#include "rti/federation/time/time_service.h"
 #include "rti/federation/services/update_requests.h"
 #include "rti/management/management_handles.h"
 #include "rti/management/management_values.h"

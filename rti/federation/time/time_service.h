@@ -1,0 +1,92 @@
+// The advance of logical time and what is sent in its order (IEEE 1516.1-2010, clause 8).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "rti/federation/expulsion.h"
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/outcome.h"
+#include "rti/federation/time/timed_content.h"
+#include "rti/federation/time/timed_delivery.h"
+#include "rti/federation/time/timed_messages.h"
+#include "rti/time/time_management.h"
+
+namespace rink::rti {
+
+/// Asks the time management for what federates request, and tells them what it decides. Nothing is
+/// kept, and nothing done, before the first message of that kind.
+class TimeService final : private TimeListener {
+ public:
+  using Maker = std::function<std::unique_ptr<TimeManagement>()>;
+  struct Uses {
+    const Publications& publications;
+    const Ownership& ownership;
+    KnownObjects& known;
+    TimedDelivery::Uses delivery;
+  };
+  /// `make` may be empty: then time is conservative.
+  TimeService(const FederationBasis& basis, const Uses& uses, Maker make, Expulsion expel)
+      : basis_(basis),
+        make_(std::move(make)),
+        expel_(std::move(expel)),
+        messages_(basis.settings),
+        contents_(basis, uses.publications, uses.ownership, uses.known),
+        delivery_(basis, messages_, uses.delivery) {}
+  TimeService(const TimeService&) = delete;
+  TimeService& operator=(const TimeService&) = delete;
+
+  Outcome handle_regulation(std::uint32_t slot, Reader& reader);
+  Outcome handle_lookahead(std::uint32_t slot, Reader& reader);
+  Outcome handle_switch(std::uint32_t slot, Reader& reader);
+  Outcome handle_advance(std::uint32_t slot, Reader& reader);
+  Outcome handle_send(std::uint32_t slot, Reader& reader);
+  Outcome handle_retract(std::uint32_t slot, Reader& reader);
+  Outcome handle_query(std::uint32_t slot);
+  /// Gives what was sent since the last time to its receivers, then tells grants. Once per flush,
+  /// after the match.
+  void settle();
+  void joined(std::uint32_t slot);
+  /// The federate is gone; its messages stay.
+  void left(std::uint32_t slot);
+
+  /// Null until somebody asked for it.
+  const TimeManagement* management() const { return management_.get(); }
+  /// As it last asked for [s].
+  double lookahead(std::uint32_t slot) const { return federates_[slot].lookahead; }
+  bool is_advancing(std::uint32_t slot) const { return federates_[slot].is_advancing; }
+
+ private:
+  struct Federate {
+    double lookahead = 0.0;
+    bool is_advancing = false;  ///< in logical time
+  };
+
+  TimeManagement& begin(std::uint32_t slot);
+  Outcome keep(std::uint32_t slot);
+  void make_room(std::uint32_t speaker);
+  std::uint32_t find_culprit() const;
+  std::uint32_t find_last_regulating() const;
+
+  void deliver(std::uint32_t federate, const TimedEntry& entry) override;
+  void discard(std::uint32_t federate, const TimedEntry& entry) override;
+  void regulation_enabled(std::uint32_t federate, double time, double earliest) override;
+  void constrained_enabled(std::uint32_t federate, double time) override;
+  void grant(std::uint32_t federate, double time) override;
+
+  FederationBasis basis_;
+  Maker make_;
+  Expulsion expel_;
+  TimedMessages messages_;
+  TimedContentReader contents_;
+  TimedDelivery delivery_;
+  std::unique_ptr<TimeManagement> management_;
+  std::vector<Federate> federates_;    ///< by slot
+  std::vector<std::uint32_t> asking_;  ///< slots that asked for their bounds
+  StampedMessage incoming_;            ///< that is being read
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,37 @@
+// What a federate may send in time-stamp order.
+#pragma once
+
+#include <cstdint>
+
+#include "rti/federation/federation_basis.h"
+#include "rti/federation/outcome.h"
+#include "rti/federation/services/known_objects.h"
+#include "rti/federation/services/publications.h"
+#include "rti/federation/time/timed_messages.h"
+#include "rti/ownership/ownership.h"
+
+namespace rink::rti {
+
+/// Reads the update, interaction or deletion that such a message holds, and checks that its sender
+/// may say it.
+class TimedContentReader {
+ public:
+  TimedContentReader(const FederationBasis& basis, const Publications& publications,
+                     const Ownership& ownership, KnownObjects& known)
+      : basis_(basis), publications_(publications), ownership_(ownership), known_(known) {}
+
+  /// An object of which a deletion was read is leaving from then on.
+  Outcome read(std::uint32_t slot, Bytes content, StampedMessage& message);
+
+ private:
+  Outcome read_update(std::uint32_t slot, Reader& content, StampedMessage& message);
+  Outcome read_interaction(std::uint32_t slot, Reader& content, StampedMessage& message);
+  Outcome read_deletion(std::uint32_t slot, Reader& content, StampedMessage& message);
+
+  FederationBasis basis_;
+  const Publications& publications_;
+  const Ownership& ownership_;
+  KnownObjects& known_;
+};
+
+}  // namespace rink::rti
