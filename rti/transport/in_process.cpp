@@ -26,23 +26,21 @@ ConnectionId InProcessEndpoint::connect(const std::string& name) {
   const auto found = network_.listeners_.find(name);
   if (found == network_.listeners_.end()) {
     const ConnectionId refused = add_line(nullptr);
-    events_.push_back({EventKind::close, refused, CloseReason::refused,
-                       "nobody listens at in-process address '" + name + "'"});
+    events_.add({EventKind::close, refused, CloseReason::refused,
+                 "nobody listens at in-process address '" + name + "'"});
     return refused;
   }
   InProcessEndpoint& peer = *found->second;
   const ConnectionId ours = add_line(&peer), theirs = peer.add_line(this);
   lines_[ours].peer_connection = theirs;
   peer.lines_[theirs].peer_connection = ours;
-  peer.events_.push_back({EventKind::open, theirs, {}, {}});
-  events_.push_back({EventKind::open, ours, {}, {}});
+  peer.events_.add({EventKind::open, theirs, {}, {}});
+  events_.add({EventKind::open, ours, {}, {}});
   return ours;
 }
 
 void InProcessEndpoint::poll(std::chrono::nanoseconds, TransportListener& listener) {
-  reporting_.swap(events_);
-  for (const Event& event : reporting_) report(event, listener);
-  reporting_.clear();
+  events_.report_all([&](const Event& event) { report(event, listener); });
 }
 
 void InProcessEndpoint::report(const Event& event, TransportListener& listener) {
@@ -50,10 +48,10 @@ void InProcessEndpoint::report(const Event& event, TransportListener& listener) 
   if (event.kind == EventKind::open) return listener.on_open(event.connection);
   if (event.kind == EventKind::close)
     return listener.on_close(event.connection, event.reason, event.detail);
+  delivering_.clear();  // a listener that threw may have left something
   delivering_.swap(lines_[event.connection].incoming);
   lines_[event.connection].counters.bytes_received += delivering_.size();
   if (!delivering_.empty()) listener.on_bytes(event.connection, delivering_);
-  delivering_.clear();
 }
 
 void InProcessEndpoint::send(ConnectionId connection, std::span<const Bytes> parts) {
@@ -69,7 +67,7 @@ void InProcessEndpoint::send(ConnectionId connection, std::span<const Bytes> par
                 "the peer did not read");
   for (const Bytes part : parts)
     there.incoming.insert(there.incoming.end(), part.begin(), part.end());
-  if (was_empty) line.peer->events_.push_back({EventKind::bytes, line.peer_connection, {}, {}});
+  if (was_empty) line.peer->events_.add({EventKind::bytes, line.peer_connection, {}, {}});
   line.counters.bytes_sent += size;
   line.counters.segments_sent += (size + 1447) / 1448;
   ++line.counters.writes;
@@ -86,8 +84,8 @@ void InProcessEndpoint::part(ConnectionId connection, CloseReason ours, CloseRea
   assert(line.peer != nullptr);
   Line& there = line.peer->lines_[line.peer_connection];
   assert(there.peer == this && there.peer_connection == connection);
-  line.peer->events_.push_back({EventKind::close, line.peer_connection, theirs, detail});
-  events_.push_back({EventKind::close, connection, ours, detail});
+  line.peer->events_.add({EventKind::close, line.peer_connection, theirs, detail});
+  events_.add({EventKind::close, connection, ours, detail});
   there.peer = line.peer = nullptr;
   line.incoming.clear();  // what the peer said before is of no interest to one who closes
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "rti/transport/report_queue.h"
 #include "rti/transport/transport.h"
 
 namespace rink::rti {
@@ -67,7 +68,7 @@ class InProcessEndpoint final : public Transport {
   InProcessNetwork& network_;
   std::string name_;
   std::vector<Line> lines_;  ///< by connection
-  std::vector<Event> events_, reporting_;
+  ReportQueue<Event> events_;
   std::vector<std::byte> delivering_;
 };
 

@@ -66,7 +66,7 @@ void VirtualNetwork::arrive(std::uint32_t parcel) {
   VirtualEndpoint* receiver = parcels_[parcel].receiver;
   if (receiver == nullptr) return return_parcel(parcel);
   const ConnectionId connection = parcels_[parcel].connection;
-  receiver->inbox_.push_back(parcel);
+  receiver->inbox_.add(parcel);
   if (parcels_[parcel].kind == Kind::request)
     receiver->post(receiver->lines_[connection], take_parcel(), Kind::open);
 }
@@ -84,7 +84,7 @@ VirtualEndpoint::~VirtualEndpoint() {
       lines_[id].peer->lines_[lines_[id].peer_connection].peer = nullptr;
   }
   network_.forget(this);
-  for (const std::uint32_t parcel : inbox_) network_.return_parcel(parcel);
+  inbox_.for_each([this](std::uint32_t parcel) { network_.return_parcel(parcel); });
   if (!name_.empty()) network_.listeners_.erase(name_);
 }
 
@@ -161,12 +161,15 @@ void VirtualEndpoint::give_up(Line& line, std::int64_t instant_ns) {
 }
 
 void VirtualEndpoint::poll(std::chrono::nanoseconds, TransportListener& listener) {
-  reporting_.swap(inbox_);
-  for (const std::uint32_t parcel : reporting_) {
+  struct Opened {
+    VirtualNetwork& network;
+    std::uint32_t parcel;
+    ~Opened() { network.return_parcel(parcel); }  // though the listener throws
+  };
+  inbox_.report_all([&](std::uint32_t parcel) {
+    const Opened opened{network_, parcel};
     report(parcel, listener);
-    network_.return_parcel(parcel);
-  }
-  reporting_.clear();
+  });
 }
 
 void VirtualEndpoint::report(std::uint32_t number, TransportListener& listener) {
@@ -274,7 +277,7 @@ void VirtualEndpoint::overflow(ConnectionId connection) {
   post(line, network_.take_parcel(), VirtualNetwork::Kind::close);
   const std::uint32_t parcel = closing(connection, CloseReason::queue_full);
   network_.parcels_[parcel].detail = "the line is too slow for what is sent";
-  inbox_.push_back(parcel);
+  inbox_.add(parcel);
 }
 
 void VirtualEndpoint::close(ConnectionId connection) {
@@ -282,7 +285,7 @@ void VirtualEndpoint::close(ConnectionId connection) {
   Line& line = lines_[connection];
   line.is_open = false;
   post(line, network_.take_parcel(), VirtualNetwork::Kind::close);
-  inbox_.push_back(closing(connection, CloseReason::closed_by_us));
+  inbox_.add(closing(connection, CloseReason::closed_by_us));
 }
 
 TransportCounters VirtualEndpoint::counters(ConnectionId connection) const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rti/transport/modelled/delayed_acknowledgements.h"
+#include "rti/transport/report_queue.h"
 #include "rti/transport/transport.h"
 
 namespace rink::rti {
@@ -178,7 +179,7 @@ class VirtualEndpoint final : public Transport {
   /// back; `on_close` with `refused` if nobody listens.
   ConnectionId connect(const std::string& name);
   /// True if something has arrived that `poll` would report.
-  bool has_arrivals() const { return !inbox_.empty(); }
+  bool has_arrivals() const { return !inbox_.is_empty(); }
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
@@ -218,8 +219,8 @@ class VirtualEndpoint final : public Transport {
 
   VirtualNetwork& network_;
   std::string name_;
-  std::vector<Line> lines_;                       ///< by connection
-  std::vector<std::uint32_t> inbox_, reporting_;  ///< parcels that have arrived
+  std::vector<Line> lines_;           ///< by connection
+  ReportQueue<std::uint32_t> inbox_;  ///< parcels that have arrived
   std::vector<std::byte> delivering_;
   TransportCounters totals_;
 };

@@ -202,21 +202,19 @@ void TcpTransport::end(Peer& peer, CloseReason reason, const std::string& detail
   peer.file.close();
   peer.queue = {};
   peer.queue_from = 0;
-  ended_.push_back({peer.id, reason, detail});
+  ended_.add({peer.id, reason, detail});
 }
 
 void TcpTransport::report_closed() {
-  while (!ended_.empty()) {
-    reporting_.swap(ended_);
-    for (const Closed& each : reporting_) {
+  while (!ended_.is_empty()) {
+    ended_.report_all([this](const Closed& each) {
       assert(find(each.connection) != nullptr);
       add_to(closed_, peers_[each.connection]->counters);
       last_counters_.emplace_back(each.connection, peers_[each.connection]->counters);
       if (last_counters_.size() > counters_kept) last_counters_.pop_front();
       peers_[each.connection].reset();
       listener_->on_close(each.connection, each.reason, each.detail);
-    }
-    reporting_.clear();
+    });
   }
 }
 
@@ -229,7 +227,7 @@ void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener
   }
   // One question per poll: each system call here is one more in every round trip. What comes while
   // we handle what had come is the next poll's.
-  readiness_.ask(ended_.empty() ? longest_wait : std::chrono::nanoseconds(0), settings_.spin);
+  readiness_.ask(ended_.is_empty() ? longest_wait : std::chrono::nanoseconds(0), settings_.spin);
   take_what_came();
   listener_ = nullptr;
 }
@@ -240,7 +238,7 @@ bool TcpTransport::read_only_peer(std::chrono::nanoseconds longest_wait) {
   using Clock = std::chrono::steady_clock;
   constexpr std::uint32_t reads_per_look = 32;  // so that who comes besides is let in
   const auto spin = std::min(settings_.spin, longest_wait);
-  if (open_count_ != 1 || !ended_.empty() || readiness_.has_left() ||
+  if (open_count_ != 1 || !ended_.is_empty() || readiness_.has_left() ||
       (longest_wait.count() > 0 && spin.count() <= 0))
     return false;
   Peer* peer = find(newest_open_);

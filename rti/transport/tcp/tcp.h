@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rti/transport/readiness.h"
+#include "rti/transport/report_queue.h"
 #include "rti/transport/transport.h"
 
 namespace rink::rti {
@@ -105,7 +106,7 @@ class TcpTransport final : public Transport {
   TransportCounters closed_{.kernel_bytes_sent = 0,
                             .kernel_bytes_received = 0,
                             .kernel_segments_sent = 0};  ///< sum over all closed ones
-  std::vector<Closed> ended_, reporting_;
+  ReportQueue<Closed> ended_;
   std::vector<std::byte> read_buffer_;
   TransportListener* listener_ = nullptr;  ///< while polling
   std::size_t open_count_ = 0;
