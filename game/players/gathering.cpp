@@ -2,7 +2,9 @@
 #include "game/players/gathering.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "game/players/waypoint.h"
 
@@ -23,6 +25,7 @@ GroupRoute::GroupRoute(const Reach& reach, double speed, std::uint64_t seed, std
       random_(seed, routes_stream + group),
       from_(anywhere(reach, random_)),
       to_(from_) {
+  assert(speed >= 0.0);
   start_leg();
 }
 
@@ -30,7 +33,9 @@ void GroupRoute::start_leg() {
   from_ = to_;
   to_ = anywhere(reach_, random_);
   begin_s_ = end_s_;
-  end_s_ = begin_s_ + std::max(std::sqrt((to_ - from_).squaredNorm()) / speed_, decision_period);
+  const double length = std::sqrt((to_ - from_).squaredNorm());
+  end_s_ = speed_ > 0.0 ? begin_s_ + std::max(length / speed_, decision_period)
+                        : std::numeric_limits<double>::infinity();
 }
 
 Vector2 GroupRoute::at(double instant) {

@@ -10,7 +10,7 @@ namespace rink::game {
 /// group and time alone, so that the members agree on it without a word.
 class GroupRoute {
  public:
-  /// `speed` [m/s], above 0, within `reach`.
+  /// At `speed` [m/s] within `reach`; where there is no speed, the centre stays where it is.
   GroupRoute(const Reach& reach, double speed, std::uint64_t seed, std::uint32_t group);
   /// Where the centre is at `instant` [s]; instants must not fall.
   Vector2 at(double instant);
@@ -21,7 +21,7 @@ class GroupRoute {
   double speed_;
   RandomStream random_;
   Vector2 from_, to_;
-  double begin_s_ = 0.0, end_s_ = 0.0;
+  double begin_s_ = 0.0, end_s_ = 0.0;  ///< infinite if it is never reached
 };
 
 /// One of a group of up to eight, who are numbered in a row: keeps to its own reference point about

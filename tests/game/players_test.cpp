@@ -348,6 +348,15 @@ TEST(Hotspot, PlayersAreSeveralTimesDenserInHotPlacesThanElsewhere) {
   }
 }
 
+TEST(GroupRoute, StaysWhereItIsWhereBatsHaveNoThrust) {
+  GroupRoute wide({Vector2(0.0, 0.0), Vector2(9.0, 5.0)}, 0.0, 21, 0);
+  const Vector2 start = wide.at(0.0);
+  EXPECT_EQ(wide.at(1e9), start);
+  const Vector2 only(0.1, 0.1);
+  GroupRoute narrow({only, only}, 0.0, 21, 0);  // where there is no way to go, 0 m at 0 m/s
+  EXPECT_EQ(narrow.at(1e9), only);
+}
+
 /// Reference points are uniform in a disc, whose mean distance from the centre is 2/3 of the
 /// radius; members stray from them by a fifth of the radius and lag behind.
 TEST(Gathering, MembersKeepWithinTheirGroupsDiscWhileTheGroupCrossesTheRink) {
