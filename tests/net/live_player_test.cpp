@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/net/lockstep_rink.h"
 #include "tests/net/scenes.h"
 
@@ -43,6 +45,25 @@ TEST(LivePlayer, TakesGoalsForAsWideInALargerFieldAsTheyAreThere) {
   EXPECT_EQ(larger.field.width, 6.0);
   EXPECT_NEAR(larger.field.goal_width, 2.0, 1e-12);
   EXPECT_EQ(larger.puck_mass, 0.25);
+}
+
+TEST(LivePlayer, SitsDownToNoFieldWhoseSizesAreNonsense) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinite = std::numeric_limits<float>::infinity();
+  const game::Shape bat{.half_length = 0.05f, .half_width = 0.1f};
+  EXPECT_TRUE(is_playable({.length = 2.4f, .width = 1.2f}, bat));
+  for (const float wrong : {nan, infinite, -infinite, -2.4f, 0.0f, 1e10f}) {
+    EXPECT_FALSE(is_playable({.length = wrong, .width = 1.2f}, bat)) << wrong;
+    EXPECT_FALSE(is_playable({.length = 2.4f, .width = wrong}, bat)) << wrong;
+  }
+  for (const float wrong : {nan, infinite, -0.1f, 0.7f}) {
+    EXPECT_FALSE(
+        is_playable({.length = 1.2f, .width = 1.2f}, {.half_length = wrong, .half_width = 0.1f}))
+        << wrong;
+    EXPECT_FALSE(
+        is_playable({.length = 1.2f, .width = 1.2f}, {.half_length = 0.1f, .half_width = wrong}))
+        << wrong;
+  }
 }
 
 TEST(LivePlayer, AChaserThatSeesOnlyItsMirrorOutscoresOneWhoDoesNotLook) {

@@ -23,9 +23,18 @@ game::PlayerRules rules_on(game::PlayerRules rules, const game::Extent& extent) 
   return rules;
 }
 
+bool is_playable(const game::Extent& extent, const game::Shape& bat) {
+  constexpr float field_max = 1e9f;                // as in scenes
+  const auto fits = [](float half, float whole) {  // false for what is no number
+    return whole > 0.0f && whole <= field_max && half >= 0.0f && 2.0f * half <= whole;
+  };
+  return fits(bat.half_length, extent.length) && fits(bat.half_width, extent.width);
+}
+
 game::KeysHeld LivePlayer::decide(const game::Client& client, double instant) {
   const game::MirroredEntity* bat = client.bat();
   if (bat == nullptr || !client.mirror().field()) return {};
+  if (!player_ && !is_playable(*client.mirror().field(), bat->shape)) return {};
   if (!player_) take_seat(client, *bat);
   const game::SeenEntity own = seen(*bat, own_, instant);
   if (decisions_++ % game::look_about_interval == 0) look_about(client.mirror(), own.position);

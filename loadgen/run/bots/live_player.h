@@ -25,6 +25,10 @@ struct LivePlayers {
 /// The rules of the same game on a field of `extent`, in whose width the goals take the same part.
 game::PlayerRules rules_on(game::PlayerRules rules, const game::Extent& extent);
 
+/// Whether a player can be sat down to what a stranger says of its field and of the player's bat:
+/// sizes that a scene could have [m], and a bat that fits.
+bool is_playable(const game::Extent& extent, const game::Shape& bat);
+
 /// Closed loop: what it does depends on what it was told, and when.
 class LivePlayer {
  public:
