@@ -1,11 +1,27 @@
 // Looks at the sight every decision_period.
 #include "loadgen/duel/match_bot.h"
 
-#include <vector>
-
+#include "game/players/attention.h"
 #include "game/players/player_kinds.h"
 
 namespace rink::loadgen {
+
+std::vector<game::SeenEntity> nearest_pucks(const game::MatchSight& sight,
+                                            const game::Vector2& from, std::size_t most) {
+  game::Nearest<const game::Thing*> nearest;
+  nearest.clear(most);
+  for (const game::Thing& thing : sight.things)
+    if (thing.kind == physics::BodyKind::puck)
+      nearest.show(&thing, (thing.position - from).squaredNorm());
+  std::vector<game::SeenEntity> pucks;
+  for (const auto& found : nearest.found())
+    pucks.push_back({.id = found.thing->id,
+                     .kind = found.thing->kind,
+                     .position = found.thing->position,
+                     .velocity = found.thing->velocity,
+                     .half_extent = found.thing->half_extent});
+  return pucks;
+}
 
 void MatchBot::act(game::NetworkMatch& match, double now_s) {
   if (now_s < next_s_ || match.sight().phase != game::MatchPhase::playing ||
@@ -24,18 +40,12 @@ void MatchBot::act(game::NetworkMatch& match, double now_s) {
 
 void MatchBot::decide(game::NetworkMatch& match) {
   const game::MatchSight& sight = match.sight();
-  std::vector<game::SeenEntity> pucks;
   const game::Thing* own = nullptr;
-  for (const game::Thing& thing : sight.things) {
+  for (const game::Thing& thing : sight.things)
     if (thing.kind == physics::BodyKind::bat && thing.team == sight.own_team) own = &thing;
-    if (thing.kind == physics::BodyKind::puck)
-      pucks.push_back({.id = thing.id,
-                       .kind = thing.kind,
-                       .position = thing.position,
-                       .velocity = thing.velocity,
-                       .half_extent = thing.half_extent});
-  }
   if (own == nullptr) return;
+  const std::vector<game::SeenEntity> pucks =
+      nearest_pucks(sight, own->position, player_->pucks_wanted());
   const game::KeysHeld wanted = player_->decide(
       {.position = own->position, .velocity = own->velocity, .pucks = pucks}, sight.time);
   for (const game::Key key : game::all_keys)

@@ -6,11 +6,16 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "game/net/client/network_match.h"
 #include "game/players/player.h"
 
 namespace rink::loadgen {
+
+/// The `most` pucks of `sight` that are nearest to `from` [m], the nearest first.
+std::vector<game::SeenEntity> nearest_pucks(const game::MatchSight& sight,
+                                            const game::Vector2& from, std::size_t most);
 
 class MatchBot {
  public:
