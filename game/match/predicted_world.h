@@ -1,0 +1,72 @@
+// A world that takes up what a server told of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "game/match/rink_track.h"
+#include "game/model/scene.h"
+#include "game/physics/world.h"
+
+namespace rink::game {
+
+/// A bat or a puck as the server told it.
+struct ToldBody {
+  Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
+  KeysHeld held;                                   ///< of bats
+  bool is_in_play = true;                          ///< of pucks: not in a goal
+  bool is_known = true;  ///< otherwise it is shown at `position` and stands in nobody's way: one of
+                         ///< a crowd that is too far away to matter
+};
+
+/// All that was true at the simulated instant `time` [s]: of every bat and puck of the scene, in
+/// their order there.
+struct ToldRink {
+  double time = 0.0;
+  std::vector<ToldBody> bats, pucks;
+  std::uint32_t own_felt = 0;  ///< how many of the own player's keys were felt until then
+};
+
+/// Built anew from each thing told, and played forward from there. Bodies are counted bats first,
+/// then pucks.
+class PredictedWorld {
+ public:
+  explicit PredictedWorld(const Scene& scene);
+
+  void set_up(const ToldRink& told);
+  /// To the instant that was told last. It must be set up.
+  void rewind();
+  /// From here on the bat's player holds that key or not. It must be set up.
+  void press(std::uint32_t bat, Key key, bool is_down);
+  /// To the instant `until` [s], not before the last.
+  void advance(double until);
+
+  bool is_set_up() const { return world_.has_value(); }
+  /// What it was set up from; the time is 0 before.
+  const ToldRink& told() const { return told_; }
+  bool is_known(std::size_t body) const;
+  /// Where all is at present, which is the instant `time`.
+  RinkSample sample(double time) const;
+  std::size_t bat_count() const { return held_.size(); }
+  std::size_t puck_count() const { return ids_.size() - held_.size(); }
+  std::size_t body_count() const { return ids_.size(); }
+  const Vector2& half_extent(std::uint32_t bat) const;
+
+ private:
+  void add_bat(std::uint32_t bat);
+  void add_puck(std::size_t puck);
+  Vector2 inside(const Vector2& position, const physics::BatSpec& bat) const;
+  Vector2 inside(const Vector2& position, double radius) const;
+  void set_thrust(std::uint32_t bat);
+
+  Scene scene_;
+  std::optional<physics::World> world_;
+  ToldRink told_;  ///< what the world was set up from; it counts its time from there
+  std::vector<std::optional<physics::BodyId>> ids_;  ///< nothing for a puck that was out of play
+  std::vector<KeysHeld> held_;                       ///< by bat
+  std::vector<Vector2> left_at_;  ///< where it was told to be while out of play, or not known
+};
+
+}  // namespace rink::game
