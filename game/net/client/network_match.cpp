@@ -3,43 +3,18 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
-#include "game/model/scene_file.h"
+#include "game/match/sight.h"
 #include "game/model/time_grid.h"
 
 namespace rink::game {
 namespace {
 
-constexpr double match_patience_s = 3.0;  ///< for a match to be told of, once joined
 constexpr double foretold_longest_s =
     60.0;  ///< without news, which come every few seconds while anything moves
 constexpr std::uint32_t caught_up_most =
     32;  ///< ticks heard of in one frame, each of which is worked out: half a second's; a host
          ///< could send any number
-constexpr double time_bend = 0.5;  ///< how much slower or faster than real time the other's time
-                                   ///< may run while its delay changes
-
-// What a match may say without being no match: beyond, an engine that takes its word would have no
-// end of impacts, or no next instant.
-constexpr double fastest_told = 100.0;  ///< m/s
-constexpr double latest_told = 1e9;     ///< s, as in scenes
-
-/// Where a body is and how it moves, as of `time`.
-ToldBody told_of(const MirroredEntity& entity, double time) {
-  ToldBody body{.position = entity.position_at(time), .held = {}};
-  if (entity.trajectory && !entity.trajectory->is_resting())
-    body.velocity = entity.motion.at(std::max(time, entity.motion.time)).velocity;
-  body.velocity = body.velocity.cwiseMax(-fastest_told).cwiseMin(fastest_told);
-  for (const Key key : all_keys)
-    body.held.set(key, (entity.input.held >> static_cast<unsigned>(key) & 1u) != 0);
-  return body;
-}
-
-bool is_kind(const MirroredEntity& entity, physics::BodyKind kind) {
-  return entity.in_scope && entity.is_placed &&
-         entity.shape.kind == static_cast<std::uint8_t>(kind);
-}
 
 }  // namespace
 
@@ -55,9 +30,7 @@ NetworkMatch::NetworkMatch(const rti::Fom& fom, const ObjectModel& model, rti::T
                            rti::ConnectionId connection, const NetworkMatchSettings& settings)
     : settings_(settings),
       client_(fom, model, client_settings(settings)),
-      transport_(transport),
-      link_(client_.ambassador(), transport, connection) {
-  links_.add(link_);
+      host_(client_, transport, connection, !settings.only_watches) {
   client_.before_next_stamp = [this] {  // what came in between is a past that is still to be shown
     if (caught_up_++ < caught_up_most) hear(now_s_);
   };
@@ -79,48 +52,20 @@ void NetworkMatch::rematch() {
 
 void NetworkMatch::leave(double now_s) {
   has_left_ = true;
-  if (client_.ambassador().is_joined()) client_.ambassador().resign();
-  link_.flush(now_s);
-  link_.close();
+  host_.leave(now_s);
 }
 
 void NetworkMatch::advance(double now_s) {
   assert(!has_left_);
-  if (trouble_.empty()) {
+  if (!host_.is_lost()) {
     caught_up_ = 0;
-    converse(now_s);
+    host_.converse(now_s);
     hear(now_s);
     predict(now_s);
-    link_.flush(now_s);
+    host_.flush(now_s);
   }
   show(now_s);
   now_s_ = now_s;
-}
-
-void NetworkMatch::converse(double now_s) {
-  transport_.poll({}, links_);
-  if (!joined_s_ && client_.ambassador().is_joined()) joined_s_ = now_s;
-  const std::string beginning = joined_s_ ? ""
-                                : client_.state() == Client::State::refused
-                                    ? "the host refuses: "
-                                    : "no answer from the host: ";
-  if (client_.state() == Client::State::refused || client_.state() == Client::State::lost)
-    lose(beginning + client_.joining().trouble());
-  else if (link_.is_finished())
-    lose(beginning + "the connection is closed: " + rti::to_string(link_.close_reason()));
-  else if (!settings_.only_watches && joined_s_ && now_s > *joined_s_ + match_patience_s &&
-           !client_.mirror().has_match())
-    lose("no match is hosted there; what goes on can be watched");
-  if (!trouble_.empty()) return;
-  if (const auto pong = client_.remote()->take_pong())
-    clock_.answered(pong->number, pong->server_s, now_s);
-  clock_.advance(now_s);
-  if (!client_.ambassador().is_joined() || !client_.mirror().has_match()) return;
-  if (const auto question = clock_.ask(now_s)) client_.remote()->ping(*question);
-}
-
-void NetworkMatch::lose(const std::string& why) {
-  trouble_ = why.empty() ? "the connection is lost" : why;
 }
 
 void NetworkMatch::hear(double now_s) {
@@ -131,70 +76,33 @@ void NetworkMatch::hear(double now_s) {
   const double told_s = mirror.newest().time;
   const bool did_run = state_.phase == MatchPhase::playing && told_s > state_.clock_simulated_s;
   if (did_run && rink_ && rink_->has_heard() && match_number_ == mirror.match().number)
-    news_.heard(rink_->now(), told_s - mirror.match_tick() - tick_grid);
+    delay_.heard(rink_->now(), told_s - mirror.match_tick() - tick_grid);
   state_ = mirror.match();
   if (!read_scene()) return;
-  const std::optional<ToldRink> news = told();
+  const std::optional<ToldRink> news = scene_.told(mirror, client_.bat());
   if (!news) return;
   if (!rink_ || match_number_ != state_.number) {
-    rink_.emplace(*scene_, player());
+    rink_.emplace(*scene_.scene(), player());
     rink_->count_from(client_.keys_sent());
     match_number_ = state_.number;
-    delay_ = 0.0;
+    delay_.begin();
   }
   rink_->hear(*news);
 }
 
-/// Checked before it is read: a population of a stranger's could be of any size.
 bool NetworkMatch::read_scene() {
-  if (scene_ || !trouble_.empty()) return scene_.has_value();
+  if (scene() != nullptr || host_.is_lost()) return scene() != nullptr;
   const std::string& text = client_.mirror().match_scene();
   if (text.empty()) return false;
-  try {
-    if (text.find("population") != std::string::npos)
-      throw SceneError("a match has no populations");
-    Scene scene = parse_scene(text, "match.toml");
-    if (const auto objection = match_objection(scene)) throw SceneError(*objection);
-    sight_ = sight_of(scene);
-    all_things_ = sight_.things;
-    scene_ = std::move(scene);
-  } catch (const SceneError& error) {
-    lose(std::string("the server's scene cannot be played: ") + error.what());
-  }
-  return scene_.has_value();
-}
-
-/// All that is known as of the newest stamp; nothing while a body is still missing, or of an
-/// instant that no match reaches.
-std::optional<ToldRink> NetworkMatch::told() const {
-  const Mirror& mirror = client_.mirror();
-  const std::size_t bats = scene_->bodies.bats.size(), pucks = scene_->bodies.pucks.size();
-  ToldRink told{.time = mirror.newest().time, .bats = std::vector<ToldBody>(bats), .pucks = {}};
-  std::size_t bat_count = 0;
-  std::vector<const MirroredEntity*> found;
-  for (const MirroredEntity& entity : mirror.entities()) {
-    if (is_kind(entity, physics::BodyKind::puck)) found.push_back(&entity);
-    if (!is_kind(entity, physics::BodyKind::bat) || entity.shape.team >= bats) continue;
-    told.bats[entity.shape.team] = told_of(entity, told.time);
-    ++bat_count;
-  }
-  if (bat_count != bats || found.size() != pucks || std::abs(told.time) > latest_told)
-    return std::nullopt;
-  std::sort(found.begin(), found.end(),
-            [](const MirroredEntity* a, const MirroredEntity* b) { return a->object < b->object; });
-  for (const MirroredEntity* puck : found) {
-    told.pucks.push_back(told_of(*puck, told.time));
-    const double x = told.pucks.back().position.x();
-    told.pucks.back().is_in_play = x > 0.0 && x < scene_->world.field.length;
-  }
-  const MirroredEntity* own = client_.bat();
-  told.own_felt = own != nullptr ? own->input.count : 0;
-  return told;
+  if (const auto objection = scene_.read(text))
+    host_.lose("the server's scene cannot be played: " + *objection);
+  else sight_ = sight_of(*scene());
+  return scene() != nullptr;
 }
 
 void NetworkMatch::predict(double now_s) {
-  if (!rink_ || !clock_.is_set()) return;
-  const double instant = simulated_at(state_, clock_.arrival(now_s));
+  if (!rink_ || !host_.clock().is_set()) return;
+  const double instant = simulated_at(state_, host_.clock().arrival(now_s));
   const bool does_run =
       state_.phase == MatchPhase::playing || state_.phase == MatchPhase::countdown;
   if (!does_run && instant < rink_->now()) rink_->rewind(instant);
@@ -202,7 +110,7 @@ void NetworkMatch::predict(double now_s) {
                                 std::max(rink_->now(), rink_->told_time() + foretold_longest_s));
   press_keys(now);
   move_delay(now_s - now_s_);
-  rink_->advance(now, delay_);
+  rink_->advance(now, delay_.seconds());
 }
 
 void NetworkMatch::press_keys(double instant) {
@@ -218,11 +126,9 @@ void NetworkMatch::press_keys(double instant) {
 
 /// Where time stands everything is known, and the other need not be shown late.
 void NetworkMatch::move_delay(double dt) {
-  const double wanted =
-      state_.phase == MatchPhase::playing
-          ? news_.delay().value_or(clock_.delay(client_.mirror().match_tick() + tick_grid))
-          : 0.0;
-  delay_ = std::clamp(wanted, std::max(0.0, delay_ - time_bend * dt), delay_ + time_bend * dt);
+  if (state_.phase != MatchPhase::playing) return delay_.move(0.0, dt);
+  const double estimate = host_.clock().delay(client_.mirror().match_tick() + tick_grid);
+  delay_.move(delay_.measured_or(estimate), dt);
 }
 
 }  // namespace rink::game

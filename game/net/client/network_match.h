@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "game/match/match_source.h"
-#include "game/match/news_delay.h"
 #include "game/match/noises.h"
 #include "game/match/predicted_rink.h"
-#include "game/match/server_clock.h"
+#include "game/match/shown_delay.h"
 #include "game/match/sight.h"
+#include "game/match/traffic_rate.h"
 #include "game/net/client/client.h"
-#include "rti/transport/federate_link.h"
+#include "game/net/client/host_link.h"
+#include "game/net/client/hosted_scene.h"
+#include "game/net/client/inspected_interest.h"
 
 namespace rink::game {
 
@@ -41,7 +43,7 @@ class NetworkMatch final : public MatchSource {
   void pause(bool is_wanted) override;
   void rematch() override;
   /// A crowd only; the server is asked ten times a second.
-  void inspect(std::uint32_t thing) override { inspected_ = thing; }
+  void inspect(std::uint32_t thing) override { inspected_.inspect(thing); }
   /// Takes leave of the server; nothing may follow.
   void leave(double now_s);
 
@@ -49,7 +51,7 @@ class NetworkMatch final : public MatchSource {
   /// Null while no match is known.
   const PredictedRink* prediction() const { return rink_ ? &*rink_ : nullptr; }
   /// The scene that is played; null before it is known.
-  const Scene* scene() const { return scene_ ? &*scene_ : nullptr; }
+  const Scene* scene() const { return scene_.scene(); }
   /// The player whose bat this is, once it is known.
   std::optional<std::uint32_t> player() const {
     const std::optional<SeatOffer>& seat = client_.joining().seat();
@@ -63,11 +65,9 @@ class NetworkMatch final : public MatchSource {
   };
 
   static ClientSettings client_settings(const NetworkMatchSettings& settings);
-  void converse(double now_s);
   void hear(double now_s);
   bool read_scene();
   void follow_state(double instant);
-  std::optional<ToldRink> told() const;
   void press_keys(double instant);
   void predict(double now_s);
   void move_delay(double dt);
@@ -77,34 +77,25 @@ class NetworkMatch final : public MatchSource {
   void show_state(double now_s);
   void show_interest(double now_s);
   void show_link(double now_s);
-  void lose(const std::string& why);
 
   NetworkMatchSettings settings_;
   Client client_;
-  rti::Transport& transport_;
-  rti::FederateLink link_;
-  rti::FederateLinks links_;
-  ServerClock clock_;
-  NewsDelay news_;
-  std::optional<Scene> scene_;
+  HostLink host_;
+  HostedScene scene_;
   std::optional<PredictedRink> rink_;
   MatchState state_;                ///< as last heard
   std::uint32_t match_number_ = 0;  ///< that rink_ foretells
   std::uint64_t heard_updates_ = 0;
   std::uint32_t caught_up_ = 0;  ///< stamps, in this frame
   std::vector<PressedKey> pressed_;
-  std::vector<Thing> all_things_;  ///< of the scene
+  ShownDelay delay_;
   MatchSight sight_;
   NoiseDetector noises_;
   GoalWatch goals_;
-  double now_s_ = 0.0, delay_ = 0.0;
+  InspectedInterest inspected_;
+  TrafficRate traffic_;
+  double now_s_ = 0.0;
   double heard_s_ = 0.0;  ///< real time of the newest stamp
-  double counted_s_ = 0.0, bytes_per_s_ = 0.0;
-  std::uint64_t counted_bytes_ = 0;
-  std::optional<std::uint32_t> inspected_;  ///< wanted since the last advance
-  double inspected_s_ = 0.0;                ///< when the server was last asked
-  std::string trouble_;
-  std::optional<double> joined_s_;  ///< real time
   bool has_left_ = false;
 };
 

@@ -1,7 +1,6 @@
 // What a network match shows, made of what is foretold, what is mirrored, and how the connection
 // does.
 #include <algorithm>
-#include <utility>
 
 #include "game/net/client/network_match.h"
 
@@ -12,16 +11,16 @@ void NetworkMatch::show(double now_s) {
   else if (settings_.only_watches) show_mirror(now_s);
   show_state(now_s);
   show_interest(now_s);
-  sight_.notice = trouble_.empty() && !joined_s_ ? "connecting ..." : trouble_;
-  if (trouble_.empty() && state_.is_unrecorded && sight_.phase != MatchPhase::playing)
+  sight_.notice = !host_.is_lost() && !host_.has_joined() ? "connecting ..." : host_.error();
+  if (!host_.is_lost() && state_.is_unrecorded && sight_.phase != MatchPhase::playing)
     sight_.notice = "The host could not record the last match";
   show_link(now_s);
-  goals_.look(sight_, now_s, scene_ ? scene_->rules.face_off_delay : 0.0);
+  goals_.look(sight_, now_s, scene() != nullptr ? scene()->rules.face_off_delay : 0.0);
   noises_.listen(sight_);
 }
 
 void NetworkMatch::show_bodies() {
-  sight_.things = all_things_;
+  sight_.things = scene_.things();
   std::size_t thing = 0;
   for (const auto* bodies : {&rink_->bats(), &rink_->pucks()})
     for (const ShownBody& body : *bodies) {
@@ -61,15 +60,16 @@ void NetworkMatch::show_state(double now_s) {
   sight_.score = {goals.left, goals.right};
   sight_.winner = state_.winner;
   sight_.phase = state_.phase;
-  if (!trouble_.empty()) sight_.phase = MatchPhase::lost;
+  if (host_.is_lost()) sight_.phase = MatchPhase::lost;
   else if (client_.state() != Client::State::playing) sight_.phase = MatchPhase::waiting;
   else if (!client_.mirror().has_match()) sight_.phase = MatchPhase::playing;
   else if (state_.phase == MatchPhase::countdown && rink_ &&
            rink_->now() > state_.clock_simulated_s)
     sight_.phase = MatchPhase::playing;  // it is foreseen
   const bool is_counted = sight_.phase == MatchPhase::countdown || sight_.phase == MatchPhase::away;
-  sight_.remaining_s =
-      is_counted && clock_.is_set() ? std::max(0.0, state_.until_s - clock_.arrival(now_s)) : 0.0;
+  sight_.remaining_s = is_counted && host_.clock().is_set()
+                           ? std::max(0.0, state_.until_s - host_.clock().arrival(now_s))
+                           : 0.0;
   const std::optional<std::uint32_t> own = player();
   if (!own || *own > 1) return;
   sight_.own_team = *own == 0 ? Team::left : Team::right;
@@ -81,33 +81,19 @@ void NetworkMatch::show_state(double now_s) {
 void NetworkMatch::show_interest(double now_s) {
   InterestQuestions* const questions = client_.questions();
   if (questions == nullptr) return;
-  if (auto told = questions->take(); told && inspected_) sight_.interest = std::move(told);
-  const std::optional<std::uint32_t> wanted = std::exchange(inspected_, std::nullopt);
-  if (!wanted) sight_.interest.reset();
-  if (!wanted || sight_.phase != MatchPhase::playing || client_.mirror().has_match() ||
-      now_s < inspected_s_ + 0.1)
-    return;
-  questions->ask(rti::ObjectHandle{*wanted});
-  inspected_s_ = now_s;
+  const bool may_be_asked = sight_.phase == MatchPhase::playing && !client_.mirror().has_match();
+  inspected_.show(*questions, may_be_asked, now_s, sight_.interest);
 }
 
 void NetworkMatch::show_link(double now_s) {
   const rti::AmbassadorCounters& counters = client_.ambassador().counters();
-  if (now_s - counted_s_ >= 1.0) {
-    bytes_per_s_ =
-        counted_s_ == 0.0
-            ? 0.0
-            : static_cast<double>(counters.bytes_received - counted_bytes_) / (now_s - counted_s_);
-    counted_s_ = now_s;
-    counted_bytes_ = counters.bytes_received;
-  }
-  LinkFigures figures{.ping_ms = 1e3 * clock_.ping_s(),
-                      .jitter_ms = 1e3 * clock_.jitter_s(),
-                      .loss = clock_.loss(),
+  LinkFigures figures{.ping_ms = 1e3 * host_.clock().ping_s(),
+                      .jitter_ms = 1e3 * host_.clock().jitter_s(),
+                      .loss = host_.clock().loss(),
                       .tick = counters.frames_received,
-                      .payload_bytes_per_s = bytes_per_s_};
+                      .payload_bytes_per_s = traffic_.measure(counters.bytes_received, now_s)};
   if (rink_) {
-    figures.lead_ms = 1e3 * delay_;
+    figures.lead_ms = 1e3 * delay_.seconds();
     figures.corrections = rink_->own_corrections().visible_count;
     figures.last_correction_mm = 1e3 * rink_->own_corrections().last_visible;
   }

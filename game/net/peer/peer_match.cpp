@@ -12,9 +12,7 @@ namespace rink::game {
 namespace {
 
 constexpr double foretold_longest_s =
-    0.5;                           ///< without news, after which the picture stands and says so
-constexpr double time_bend = 0.5;  ///< how much slower or faster than real time the others' time
-                                   ///< may run while its delay changes
+    0.5;  ///< without news, after which the picture stands and says so
 constexpr double notice_s = 8.0;
 /// m from the own bat: beyond, nothing can come near it before there is news. More than
 /// PredictedRink::crowd_reach, so that a body is in the others' time before it is lost sight of.
@@ -80,7 +78,7 @@ void PeerMatch::advance(double now_s) {
 }
 
 void PeerMatch::hear(PeerSight news) {
-  if (rink_) news_delay_.heard(rink_->now(), news.since);
+  if (rink_) delay_.heard(rink_->now(), news.since);
   news_ = std::move(news);
   const ToldRink all = told();
   if (!rink_) rink_.emplace(game_.scene(), stage_.player);
@@ -132,7 +130,7 @@ void PeerMatch::predict(double now_s) {
                                 std::max(rink_->now(), rink_->told_time() + foretold_longest_s));
   if (does_run) press_keys(now);
   move_delay(now_s - now_s_);
-  rink_->advance(now, delay_);
+  rink_->advance(now, delay_.seconds());
 }
 
 void PeerMatch::press_keys(double instant) {
@@ -144,9 +142,8 @@ void PeerMatch::press_keys(double instant) {
 }
 
 void PeerMatch::move_delay(double dt) {
-  const double wanted =
-      is_playing() ? news_delay_.delay().value_or(3.0 * (news_->time - news_->since)) : 0.0;
-  delay_ = std::clamp(wanted, std::max(0.0, delay_ - time_bend * dt), delay_ + time_bend * dt);
+  const double estimate = 3.0 * (news_->time - news_->since);
+  delay_.move(is_playing() ? delay_.measured_or(estimate) : 0.0, dt);
 }
 
 void PeerMatch::show(double now_s) {
@@ -177,7 +174,7 @@ void PeerMatch::show_things() {
 /// are known.
 void PeerMatch::show_thing(std::uint32_t body) {
   const Known& known = known_[body];
-  const double others = rink_->now() - delay_;
+  const double others = rink_->now() - delay_.seconds();
   const bool is_own = body == news_->own_bat;
   if (!is_own && !known.is_in_play) return;
   Thing thing = all_things_[body];
@@ -234,18 +231,12 @@ void PeerMatch::show_stage(double now_s) {
 
 void PeerMatch::show_link(double now_s) {
   if (!news_) return;
-  if (now_s - counted_s_ >= 1.0) {
-    bytes_per_s_ = counted_s_ == 0.0 ? 0.0
-                                     : static_cast<double>(news_->bytes_sent - counted_bytes_) /
-                                           (now_s - counted_s_);
-    counted_s_ = now_s, counted_bytes_ = news_->bytes_sent;
-  }
   LinkFigures figures{.ping_ms = 1e3 * clock_.ping_s(),
                       .jitter_ms = 1e3 * clock_.jitter_s(),
                       .loss = 0.0,
                       .tick = news_->window,
-                      .payload_bytes_per_s = bytes_per_s_,
-                      .lead_ms = 1e3 * delay_};
+                      .payload_bytes_per_s = traffic_.measure(news_->bytes_sent, now_s),
+                      .lead_ms = 1e3 * delay_.seconds()};
   figures.corrections = rink_->own_corrections().visible_count;
   figures.last_correction_mm = 1e3 * rink_->own_corrections().last_visible;
   sight_.link = figures;

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "game/match/match_source.h"
-#include "game/match/news_delay.h"
 #include "game/match/noises.h"
 #include "game/match/predicted_rink.h"
 #include "game/match/server_clock.h"
+#include "game/match/shown_delay.h"
 #include "game/match/sight.h"
+#include "game/match/traffic_rate.h"
 #include "game/net/peer/hand.h"
 #include "game/net/peer/shared_game.h"
 
@@ -69,7 +70,7 @@ class PeerMatch final : public MatchSource {
   Hand& hand_;
   PeerStage stage_;
   ServerClock clock_;
-  NewsDelay news_delay_;
+  ShownDelay delay_;
   std::optional<PredictedRink> rink_;
   std::optional<PeerSight> news_;
   std::vector<Known> known_;       ///< by body
@@ -78,12 +79,11 @@ class PeerMatch final : public MatchSource {
   MatchSight sight_;
   NoiseDetector noises_;
   GoalWatch goals_;
-  double now_s_ = 0.0, delay_ = 0.0;
+  TrafficRate traffic_;
+  double now_s_ = 0.0;
   double heard_s_ = 0.0;  ///< real time of the newest news
   double stage_s_ = 0.0, notice_s_ = -1e9;
   std::uint32_t notice_count_ = 0;
-  double counted_s_ = 0.0, bytes_per_s_ = 0.0;
-  std::uint64_t counted_bytes_ = 0;
 };
 
 }  // namespace rink::game

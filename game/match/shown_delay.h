@@ -1,0 +1,36 @@
+// How far behind the own bat everything else is shown.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+
+#include "game/match/news_delay.h"
+
+namespace rink::game {
+
+/// Goes to the delay that news is measured to have, without a jump in the time that is shown.
+class ShownDelay {
+ public:
+  /// How much slower or faster than real time the others' time may run while the delay changes.
+  static constexpr double time_bend = 0.5;
+
+  /// As NewsDelay::heard.
+  void heard(double shown_s, double since_s) { news_.heard(shown_s, since_s); }
+  /// What is shown begins anew, without delay.
+  void begin() { seconds_ = 0.0; }
+  /// The delay of news [s], or `estimate` until enough was heard.
+  double measured_or(double estimate) const { return news_.delay().value_or(estimate); }
+  /// Towards `wanted` [s], as far as `dt` [s] of real time allow.
+  void move(double wanted, double dt) {
+    assert(dt >= 0.0);
+    seconds_ =
+        std::clamp(wanted, std::max(0.0, seconds_ - time_bend * dt), seconds_ + time_bend * dt);
+  }
+  double seconds() const { return seconds_; }
+
+ private:
+  NewsDelay news_;
+  double seconds_ = 0.0;
+};
+
+}  // namespace rink::game

@@ -1,0 +1,56 @@
+// What a host says of its clock, and the ways in which it is lost.
+#include "game/net/client/host_link.h"
+
+namespace rink::game {
+namespace {
+
+constexpr double match_patience_s = 3.0;  ///< for a match to be told of, once joined
+
+}  // namespace
+
+HostLink::HostLink(Client& client, rti::Transport& transport, rti::ConnectionId connection,
+                   bool is_player)
+    : client_(client),
+      transport_(transport),
+      link_(client.ambassador(), transport, connection),
+      is_player_(is_player) {
+  links_.add(link_);
+}
+
+void HostLink::leave(double now_s) {
+  if (client_.ambassador().is_joined()) client_.ambassador().resign();
+  link_.flush(now_s);
+  link_.close();
+}
+
+void HostLink::lose(const std::string& why) {
+  error_ = why.empty() ? "the connection is lost" : why;
+}
+
+void HostLink::converse(double now_s) {
+  transport_.poll({}, links_);
+  if (!joined_s_ && client_.ambassador().is_joined()) joined_s_ = now_s;
+  look_for_errors(now_s);
+  if (is_lost()) return;
+  if (const auto pong = client_.remote()->take_pong())
+    clock_.answered(pong->number, pong->server_s, now_s);
+  clock_.advance(now_s);
+  if (!client_.ambassador().is_joined() || !client_.mirror().has_match()) return;
+  if (const auto question = clock_.ask(now_s)) client_.remote()->ping(*question);
+}
+
+void HostLink::look_for_errors(double now_s) {
+  const bool is_refused = client_.state() == Client::State::refused;
+  const std::string beginning = joined_s_    ? ""
+                                : is_refused ? "the host refuses: "
+                                             : "no answer from the host: ";
+  if (is_refused || client_.state() == Client::State::lost)
+    lose(beginning + client_.joining().trouble());
+  else if (link_.is_finished())
+    lose(beginning + "the connection is closed: " + rti::to_string(link_.close_reason()));
+  else if (is_player_ && joined_s_ && now_s > *joined_s_ + match_patience_s &&
+           !client_.mirror().has_match())
+    lose("no match is hosted there; what goes on can be watched");
+}
+
+}  // namespace rink::game
