@@ -33,28 +33,15 @@ bool FrameSimulator::is_free(const Vector2& centre, const Vector2& half_extent,
       centre.y() + extent.y() > spec_.field.width)
     return false;
   return std::none_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
-    return body.is_in_play && gap(centre - phase_at(body, now_).position,
+    return body.is_in_play && gap(centre - steps_.phase_at(body, now_).position,
                                   half_extent + body.half_extent, radius + body.radius) < 0.0;
   });
-}
-
-/// Of its motion at `velocity` and of its spin [J]; a puck is a uniform disc.
-double FrameSimulator::energy_of(const Body& body, const Vector2& velocity) const {
-  if (body.inverse_mass == 0.0) return 0.0;
-  return body.mass *
-         (0.5 * velocity.squaredNorm() + 0.25 * body.radius * body.radius * body.spin * body.spin);
-}
-
-/// Of its thrust along the way from its last state to where it is at `time` [J].
-double FrameSimulator::work_until(const Body& body, double time) const {
-  if (body.force.thrust == Vector2(0.0, 0.0)) return 0.0;
-  return body.mass * body.force.thrust.dot(phase_at(body, time).position - body.start.position);
 }
 
 double FrameSimulator::kinetic_energy() const {
   double sum = 0.0;
   for (const Body& body : bodies_)
-    if (body.is_in_play) sum += energy_of(body, phase_at(body, now_).velocity);
+    if (body.is_in_play) sum += body.energy(steps_.phase_at(body, now_).velocity);
   return sum;
 }
 
@@ -62,7 +49,7 @@ double FrameSimulator::work_of_thrust() const {
   if (!spec_.accounts_energy) return 0.0;
   double sum = work_;
   for (const Body& body : bodies_)
-    if (body.is_in_play) sum += work_until(body, now_);
+    if (body.is_in_play) sum += steps_.work_until(body, now_);
   return sum;
 }
 
@@ -70,7 +57,7 @@ Vector2 FrameSimulator::momentum() const {
   Vector2 sum(0.0, 0.0);
   for (const Body& body : bodies_)
     if (body.is_in_play && body.inverse_mass > 0.0)
-      sum += body.mass * phase_at(body, now_).velocity;
+      sum += body.mass * steps_.phase_at(body, now_).velocity;
   return sum;
 }
 
@@ -81,10 +68,10 @@ double FrameSimulator::max_overlap() const {
   for (std::uint32_t index = 0; index < bodies_.size(); ++index) {
     const Body& body = bodies_[index];
     if (!body.is_in_play) continue;
-    const Vector2 position = phase_at(body, now_).position, extent = extent_of(body);
+    const Vector2 position = steps_.phase_at(body, now_).position, extent = body.extent();
     const Extent box{position - extent, position + extent};
     grid.around(box, [&](std::uint32_t other) {
-      deepest = std::max(deepest, -gap(position - phase_at(bodies_[other], now_).position,
+      deepest = std::max(deepest, -gap(position - steps_.phase_at(bodies_[other], now_).position,
                                        body.half_extent + bodies_[other].half_extent,
                                        body.radius + bodies_[other].radius));
     });

@@ -5,8 +5,10 @@
 #include <limits>
 #include <vector>
 
+#include "game/physics/bodies/event_record.h"
 #include "game/physics/paper/frame_grid.h"
-#include "game/physics/paper/integrator.h"
+#include "game/physics/paper/frame_impact.h"
+#include "game/physics/paper/frame_steps.h"
 #include "game/physics/simulator.h"
 
 namespace rink::physics::paper {
@@ -25,28 +27,28 @@ class FrameSimulator : public Simulator {
   void place(BodyId puck, const Vector2& position, const Vector2& velocity) override;
   std::optional<Goal> advance(double until) override;
 
-  void record_events(bool is_wanted) override { records_events_ = is_wanted; }
-  std::span<const Event> events() const override { return events_; }
-  void forget_events() override { events_.clear(); }
+  void record_events(bool is_wanted) override { record_.keep(is_wanted); }
+  std::span<const Event> events() const override { return record_.events(); }
+  void forget_events() override { record_.forget(); }
 
   const WorldSpec& spec() const override { return spec_; }
   double now() const override { return now_; }
   std::uint32_t body_count() const override { return static_cast<std::uint32_t>(bodies_.size()); }
   BodyKind kind(BodyId body) const override { return bodies_[body.index].kind; }
   double radius(BodyId body) const override { return bodies_[body.index].radius; }
-  Vector2 half_extent(BodyId body) const override { return extent_of(bodies_[body.index]); }
+  Vector2 half_extent(BodyId body) const override { return bodies_[body.index].extent(); }
   double mass(BodyId body) const override { return bodies_[body.index].mass; }
   bool is_in_play(BodyId body) const override { return bodies_[body.index].is_in_play; }
   Vector2 position(BodyId body) const override {
-    return phase_at(bodies_[body.index], now_).position;
+    return steps_.phase_at(bodies_[body.index], now_).position;
   }
   Vector2 velocity(BodyId body) const override {
-    return phase_at(bodies_[body.index], now_).velocity;
+    return steps_.phase_at(bodies_[body.index], now_).velocity;
   }
   bool is_free(const Vector2& centre, double radius) const override;
   bool is_free(const Vector2& centre, const Vector2& half_extent) const override;
 
-  const Counters& counters() const override { return counters_; }
+  const Counters& counters() const override { return record_.counters(); }
   double spin(BodyId body) const override { return bodies_[body.index].spin; }
   double kinetic_energy() const override;
   double energy_introduced() const override { return spec_.accounts_energy ? introduced_ : 0.0; }
@@ -63,29 +65,9 @@ class FrameSimulator : public Simulator {
  protected:
   FrameSimulator(const WorldSpec& spec, Integrator integrator, double dt);
 
-  /// A body at its last state within the frame, and where the frame will leave it if nothing comes
-  /// in between.
-  struct Body {
-    Phase start, end;
-    double start_time = 0.0;
-    Vector2 chord{0.0, 0.0};  ///< velocity on the straight path from start to end
-    Force force;
-    Vector2 half_extent{0.0, 0.0};  ///< of a rectangle; 0 for discs
-    double radius = 0.0;
-    double mass = 1.0, inverse_mass = 1.0;
-    double spin = 0.0;          ///< of a puck [rad/s]
-    std::uint32_t version = 0;  ///< of the path
-    std::uint32_t impacts = 0;  ///< within this frame
-    BodyKind kind = BodyKind::puck;
-    MaterialId material = 0;
-    Half half = Half::both;
-    bool is_in_play = true, is_removed = false;
-    bool is_stopped = false;  ///< stays where it is until the next frame
-  };
-  /// A body, or a part of the field.
-  using Partner = std::uint32_t;
-  static constexpr Partner wall = 0xffffffff, goal_edge = 0xfffffffe, goal_line = 0xfffffffd,
-                           field_parts = goal_line;
+  using Body = FrameBody;
+  /// Parts of the field, as partners.
+  static constexpr Partner wall = 0xffffffff, goal_edge = 0xfffffffe, goal_line = 0xfffffffd;
 
   /// All bodies were stepped; within a frame the following two keep up with them.
   virtual void begin() = 0;
@@ -95,16 +77,6 @@ class FrameSimulator : public Simulator {
   /// goal.
   virtual std::optional<Goal> play(double until) = 0;
 
-  static bool is_body(Partner partner) { return partner < field_parts; }
-  static Vector2 extent_of(const Body& body) {
-    return body.half_extent + Vector2::Constant(body.radius);
-  }
-  double frame_end() const { return static_cast<double>(frame_ + 1) * dt_; }
-  bool can_move(const Body& body) const {
-    return body.inverse_mass > 0.0 &&
-           (body.start.velocity != Vector2(0.0, 0.0) || body.force.thrust != Vector2(0.0, 0.0));
-  }
-  Phase phase_at(const Body& body, double time) const;
   /// Steps `body` from its last state to the end of the frame.
   void plan(Body& body);
   /// The state at `time` becomes the last one.
@@ -120,28 +92,19 @@ class FrameSimulator : public Simulator {
   }
 
   WorldSpec spec_;
-  Integrator integrator_;
-  double dt_;
+  FrameSteps steps_;
   double now_ = 0.0;
   std::vector<Body> bodies_;
-  Counters counters_;
+  EventRecord record_;
 
  private:
   BodyId add(Body body);
   void begin_frame();
   void finish_frame();
-  void rub(Body& body, Body& other, const Vector2& normal, double normal_impulse);
-  double energy_of(const Body& body, const Vector2& velocity) const;
-  double work_until(const Body& body, double time) const;
-  void note(EventKind kind, double time, std::uint32_t body, Partner other = wall);
-  void count_impact(std::uint32_t body, Partner partner, double time);
+  EventKind kind_of_impact(std::uint32_t body, Partner partner) const;
   bool is_free(const Vector2& centre, const Vector2& half_extent, double radius) const;
 
   double introduced_ = 0.0, work_ = 0.0;  ///< J
-  std::uint64_t frame_ = 0;
-  bool is_begun_ = false;
-  bool records_events_ = false;
-  std::vector<Event> events_;
 };
 
 }  // namespace rink::physics::paper

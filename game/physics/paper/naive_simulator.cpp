@@ -23,7 +23,7 @@ Vector2 least_axis(const Vector2& offset, const Vector2& reach) {
 }  // namespace
 
 std::optional<Goal> NaiveSimulator::play(double until) {
-  if (until < frame_end()) return std::nullopt;
+  if (until < steps_.frame_end()) return std::nullopt;
   now_ = until;
   if (!is_judged_) judge();
   if (goals_.empty()) return std::nullopt;
@@ -40,7 +40,7 @@ void NaiveSimulator::judge() {
     Body& body = bodies_[index];
     if (!body.is_in_play) continue;
     rebase(body, now_);
-    const Extent box{body.start.position - extent_of(body), body.start.position + extent_of(body)};
+    const Extent box{body.start.position - body.extent(), body.start.position + body.extent()};
     grid_.around(box, [&](std::uint32_t other) { pairs_.emplace_back(other, index); });
     grid_.insert(index, box);
   }
@@ -53,7 +53,7 @@ void NaiveSimulator::judge() {
 void NaiveSimulator::judge_pair(std::uint32_t low, std::uint32_t high) {
   const Body &a = bodies_[low], &b = bodies_[high];
   if (a.inverse_mass + b.inverse_mass == 0.0) return;
-  ++counters_.predictions;
+  ++record_.counters().predictions;
   const Vector2 offset = a.start.position - b.start.position;
   const bool is_bat_a = a.kind == BodyKind::bat, is_bat_b = b.kind == BodyKind::bat;
   if (!is_bat_a && !is_bat_b) {
@@ -70,7 +70,7 @@ void NaiveSimulator::judge_pair(std::uint32_t low, std::uint32_t high) {
           : collision::does_disc_overlap_box(
                 is_bat_a ? Disc{b.start.position, b.radius} : Disc{a.start.position, a.radius},
                 box);
-  if (is_overlap) bounce(low, high, least_axis(offset, extent_of(a) + extent_of(b)));
+  if (is_overlap) bounce(low, high, least_axis(offset, a.extent() + b.extent()));
 }
 
 bool NaiveSimulator::is_in_goal(const Body& body) const {
@@ -83,7 +83,7 @@ void NaiveSimulator::judge_field(std::uint32_t index) {
   const Body& body = bodies_[index];
   const Field& field = spec_.field;
   if (is_in_goal(body)) return goals_.push_back(index);
-  const Vector2 extent = extent_of(body), far = Vector2(field.length, field.width) - extent;
+  const Vector2 extent = body.extent(), far = Vector2(field.length, field.width) - extent;
   judge_wall(index, extent, {0.0, 1.0});
   judge_wall(index, far, {0.0, -1.0});
   if (body.kind == BodyKind::puck && is_in_opening(body.start.position.y())) {

@@ -23,7 +23,7 @@ bool PaperSimulator::is_later(const Meeting& a, const Meeting& b) {
 }
 
 Extent PaperSimulator::swept_box(const Body& body) const {
-  const Vector2 extent = extent_of(body);
+  const Vector2 extent = body.extent();
   return {body.start.position.cwiseMin(body.end.position) - extent,
           body.start.position.cwiseMax(body.end.position) + extent};
 }
@@ -39,10 +39,10 @@ void PaperSimulator::begin() {
   grid_.clear(spec_.field, body_count());
   meetings_.clear();
   for (std::uint32_t index = 0; index < bodies_.size(); ++index)
-    if (bodies_[index].is_in_play && !can_move(bodies_[index]))
+    if (bodies_[index].is_in_play && !bodies_[index].can_move())
       grid_.insert(index, swept_box(bodies_[index]));
   for (std::uint32_t index = 0; index < bodies_.size(); ++index)
-    if (bodies_[index].is_in_play && can_move(bodies_[index]))
+    if (bodies_[index].is_in_play && bodies_[index].can_move())
       turned(index);  // each meets those before it
 }
 
@@ -69,7 +69,7 @@ bool PaperSimulator::may_meet(const Body& a, const Body& b) const {
 void PaperSimulator::test_pair(std::uint32_t low, std::uint32_t high) {
   const Body &a = bodies_[low], &b = bodies_[high];
   if (a.inverse_mass + b.inverse_mass == 0.0 || !may_meet(a, b)) return;
-  ++counters_.predictions;
+  ++record_.counters().predictions;
   const double start = std::max(a.start_time, b.start_time);
   if (const auto contact = first_touch(a, b, start)) expect(low, high, start, *contact);
 }
@@ -78,7 +78,7 @@ void PaperSimulator::test_pair(std::uint32_t low, std::uint32_t high) {
 /// points from `b` to `a`.
 collision::MaybeContact<double> PaperSimulator::first_touch(const Body& a, const Body& b,
                                                             double start) const {
-  const double limit = frame_end() - start;
+  const double limit = steps_.frame_end() - start;
   const Vector2 place_a = a.start.position + a.chord * (start - a.start_time),
                 place_b = b.start.position + b.chord * (start - b.start_time);
   const bool is_bat_a = a.kind == BodyKind::bat, is_bat_b = b.kind == BodyKind::bat;
@@ -104,7 +104,7 @@ void PaperSimulator::test_field(std::uint32_t index) {
   const Body& body = bodies_[index];
   if (body.kind == BodyKind::post) return;
   const Field& field = spec_.field;
-  const Vector2 extent = extent_of(body), far = Vector2(field.length, field.width) - extent;
+  const Vector2 extent = body.extent(), far = Vector2(field.length, field.width) - extent;
   test_plane(index, {extent, {0.0, 1.0}});
   test_plane(index, {far, {0.0, -1.0}});
   test_end(index, {extent, {1.0, 0.0}}, 0.0);
@@ -121,7 +121,7 @@ void PaperSimulator::test_end(std::uint32_t index, const Plane& wall, double goa
   const Body& body = bodies_[index];
   if (body.kind != BodyKind::puck || spec_.field.goal_width == 0.0) return test_plane(index, wall);
   if (collision::point_plane_distance<double>(body.end.position, wall) > 0.0) return;
-  const double limit = frame_end() - body.start_time;
+  const double limit = steps_.frame_end() - body.start_time;
   const auto crossing =
       collision::time_point_meets_plane<double>(body.start.position, body.chord, wall, limit);
   if (!crossing) return;
@@ -137,7 +137,7 @@ void PaperSimulator::test_plane(std::uint32_t index, const Plane& plane) {
   const Body& body = bodies_[index];
   if (collision::point_plane_distance<double>(body.end.position, plane) > 0.0) return;
   const auto contact = collision::time_point_meets_plane<double>(
-      body.start.position, body.chord, plane, frame_end() - body.start_time);
+      body.start.position, body.chord, plane, steps_.frame_end() - body.start_time);
   if (contact) expect(index, wall, body.start_time, *contact);
 }
 
@@ -150,14 +150,15 @@ void PaperSimulator::test_goal_edges(std::uint32_t index) {
       const Disc edge{{x, 0.5 * field.width + side * field.goal_width}, 0.0};
       if (!collision::do_bounding_circles_overlap(path, edge)) continue;
       const auto contact = collision::time_disc_meets_disc<double>(
-          Disc{body.start.position, body.radius}, body.chord, edge, frame_end() - body.start_time);
+          Disc{body.start.position, body.radius}, body.chord, edge,
+          steps_.frame_end() - body.start_time);
       if (contact) expect(index, goal_edge, body.start_time, *contact);
     }
 }
 
 void PaperSimulator::expect(std::uint32_t body, Partner partner, double start,
                             const collision::Contact<double>& contact) {
-  const double time = std::min(start + contact.time, frame_end());
+  const double time = std::min(start + contact.time, steps_.frame_end());
   meetings_.push_back({time, body, partner, bodies_[body].version,
                        is_body(partner) ? bodies_[partner].version : 0, contact.normal});
   std::push_heap(meetings_.begin(), meetings_.end(), is_later);
@@ -174,7 +175,7 @@ std::optional<Goal> PaperSimulator::play(double until) {
     std::pop_heap(meetings_.begin(), meetings_.end(), is_later);
     meetings_.pop_back();
     if (is_stale(meeting)) {
-      ++counters_.stale_events;
+      ++record_.counters().stale_events;
       continue;
     }
     now_ = std::max(now_, meeting.time);
