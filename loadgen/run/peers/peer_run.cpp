@@ -16,6 +16,7 @@
 #include "im/basics/hexadecimal.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/peers/peer_judgement.h"
+#include "loadgen/run/peers/peer_schedule.h"
 #include "loadgen/run/peers/peer_station.h"
 #include "loadgen/run/virtual_parts.h"
 #include "rti/transport/modelled/virtual_network.h"
@@ -135,12 +136,9 @@ class PeerRun {
   Measurements measurements_;
   std::deque<PeerStation> stations_;
   std::deque<NetworkedStation> ends_;
-  std::vector<game::InputEvent> keys_;
-  std::size_t next_key_ = 0;
+  PeerSchedule schedule_;
   std::vector<peer::PeerNumber> node_of_player_;
   std::vector<std::uint32_t> players_;  ///< that are watched
-  std::vector<double> sample_instants_, decision_instants_;
-  std::size_t next_sample_ = 0, next_decision_ = 0;
   game::ServerEvidence evidence_;
   TrafficTotals begin_, measured_;
   double measured_s_ = 0.0;
@@ -171,8 +169,7 @@ PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, c
       game_(scene, keys),
       seats_(game::seated_division(game_.start(), cell.clients)),
       model_(network_conditions(experiment, cell)),
-      network_(model_),
-      keys_(keys) {
+      network_(model_) {
   const game::InterestSettings interest = interest_settings(experiment, cell, scene, seats_.bats);
   const PeerMeasuring measuring{.clock = clock_, .measurements = measurements_};
   measurements_.from_s = experiment.warm_up_s, measurements_.until_s = played_s();
@@ -185,9 +182,11 @@ PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, c
   for (peer::PeerNumber number = 0; number < cell.clients; ++number)
     for (const game::Entity& entity : game_.start().entities())
       if (entity.id.index == seats_.bats[number]) node_of_player_[*entity.player] = number;
-  std::erase_if(keys_, [&](const game::InputEvent& key) {
+  std::vector<game::InputEvent> played = keys;
+  std::erase_if(played, [&](const game::InputEvent& key) {
     return node_of_player_[key.player] == cell.clients || key.time >= played_s();
   });
+  schedule_.plan_keys(std::move(played));
   evidence_.keys = keys;
   if (!settings.wants_truth) return;
   const game::SamplingSettings sampling{.seed = cell.seed,
@@ -195,8 +194,7 @@ PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, c
                                         .from_s = experiment.warm_up_s,
                                         .until_s = played_s()};
   players_ = game::sampled_players(sampling);
-  decision_instants_ = game::sampled_instants(sampling, 1),
-  sample_instants_ = game::sampled_instants(sampling, 2);
+  schedule_.plan_samples(game::sampled_instants(sampling, 1), game::sampled_instants(sampling, 2));
   for (const std::uint32_t player : players_) stations_[node_of_player_[player]].watch();
 }
 
@@ -209,26 +207,16 @@ void PeerRun::flush() {
 
 double PeerRun::next_due_s() const {
   constexpr double never = std::numeric_limits<double>::infinity();
-  if (!has_started_) return never;
-  const double key_s = next_key_ < keys_.size() ? keys_[next_key_].time : never;
-  const double sample_s =
-      next_sample_ < sample_instants_.size() ? sample_instants_[next_sample_] : never;
-  const double decision_s =
-      next_decision_ < decision_instants_.size() ? decision_instants_[next_decision_] : never;
-  return clock_.start_s + std::min({key_s, sample_s, decision_s});
+  return has_started_ ? clock_.start_s + schedule_.next_s() : never;
 }
 
 void PeerRun::act_when_due() {
   if (!has_started_) return;
   const double now_s = clock_.simulated_s();
-  for (; next_key_ < keys_.size() && clock_.start_s + keys_[next_key_].time <= clock_.now_s;
-       ++next_key_)
-    stations_[node_of_player_[keys_[next_key_].player]].press(keys_[next_key_].time);
-  for (; next_decision_ < decision_instants_.size() && decision_instants_[next_decision_] <= now_s;
-       ++next_decision_)
-    note_decisions(decision_instants_[next_decision_]);
-  for (; next_sample_ < sample_instants_.size() && sample_instants_[next_sample_] <= now_s;
-       ++next_sample_)
+  while (const game::InputEvent* key = schedule_.take_key(clock_.start_s, clock_.now_s))
+    stations_[node_of_player_[key->player]].press(key->time);
+  while (const auto instant_s = schedule_.take_decision(now_s)) note_decisions(*instant_s);
+  while (schedule_.take_sample(now_s))
     for (const std::uint32_t player : players_) stations_[node_of_player_[player]].sample();
 }
 
