@@ -94,8 +94,7 @@ void SharedInterest::set_members(std::span<const peer::PeerNumber> members,
   settings_.bats = std::move(bats);
   settings_.bats.resize(count, no_bat);
   is_told_.resize(count, false);
-  for (std::vector<std::uint32_t>* const counts : {&heard_, &playing_, &felt_, &told_felt_})
-    counts->resize(count, 0);
+  keys_.set_player_count(count);
   handed_to_.resize(count, peer_.number());
   for (const peer::PeerNumber peer : before)
     if (!is_member(peer)) forget(peer);
@@ -173,7 +172,7 @@ std::optional<physics::Vector2> SharedInterest::bat_place() {
 }
 
 void SharedInterest::finish(std::uint32_t window) {
-  felt_ = playing_;
+  keys_.finish_window();
   interest_.match(peer_);
   tell(window);
   hand_keys_over();
@@ -200,9 +199,7 @@ void SharedInterest::tell(std::uint32_t window) {
   for (const peer::PeerNumber player : members_) {
     if (player == peer_.number() || settings_.bats[player] == no_bat) continue;
     const auto newly_felt = [&](std::uint32_t body) -> std::optional<std::uint32_t> {
-      if (body != settings_.bats[player] || felt_[player] <= told_felt_[player])
-        return std::nullopt;
-      return told_felt_[player] = felt_[player];
+      return body == settings_.bats[player] ? keys_.take_newly_felt(player) : std::nullopt;
     };
     const std::vector<std::byte> updates = interest_.updates_for(peer_, player, window, newly_felt);
     if (!updates.empty()) say(player, Traffic::updates, updates);
@@ -217,7 +214,7 @@ void SharedInterest::hand_keys_over() {
     const peer::PeerNumber owner = division_.owner_of(peer_.world().position({bat}));
     if (owner == peer_.number()) continue;
     handed_to_[player] = owner;
-    say_keys(owner, KeyWord::heard, player, heard_[player]);
+    say_keys(owner, KeyWord::heard, player, keys_.heard(player));
   }
 }
 
@@ -260,10 +257,9 @@ peer::PeerNumber SharedInterest::owner_of_bat(peer::PeerNumber player) const {
 }
 
 void SharedInterest::press() {
-  ++pressed_;
   const peer::PeerNumber owner = owner_of_bat(peer_.number());
-  heard_[peer_.number()] = pressed_;
-  if (owner != peer_.number()) say_keys(owner, KeyWord::pressed, peer_.number(), pressed_);
+  const std::uint32_t pressed = keys_.press(peer_.number());
+  if (owner != peer_.number()) say_keys(owner, KeyWord::pressed, peer_.number(), pressed);
 }
 
 void SharedInterest::say_keys(peer::PeerNumber to, KeyWord word, peer::PeerNumber player,
@@ -284,8 +280,7 @@ bool SharedInterest::hear_keys(rti::Bytes content) {
   if (!reader.range(word, 1) || !reader.varint(player) || player >= settings_.bats.size() ||
       !reader.varint(count) || !reader.is_at_end())
     return false;
-  const bool is_news = count > heard_[player];
-  heard_[player] = std::max(heard_[player], count);
+  const bool is_news = keys_.hear(player, count);
   const peer::PeerNumber owner = owner_of_bat(player);
   if (is_news && player != peer_.number() && owner != peer_.number() &&
       static_cast<KeyWord>(word) == KeyWord::pressed)
@@ -316,7 +311,7 @@ bool SharedInterest::hear(peer::PeerNumber from, Traffic about, rti::Bytes conte
 
 std::uint32_t SharedInterest::felt() const {
   if (bat() == no_bat) return 0;
-  return places_[bat()] == Place::own ? std::max(felt_[peer_.number()], picture_.felt())
+  return places_[bat()] == Place::own ? std::max(keys_.felt(peer_.number()), picture_.felt())
                                       : picture_.felt();
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "game/control/game.h"
+#include "game/net/peer/interest/key_counts.h"
 #include "game/net/peer/interest/player_picture.h"
 #include "game/net/peer/interest/sender_interest.h"
 #include "game/net/peer/traffic.h"
@@ -49,7 +50,7 @@ class SharedInterest {
   SharedInterest& operator=(const SharedInterest&) = delete;
 
   /// The steps of a window. Before it is played:
-  void begin_window() { playing_ = heard_; }
+  void begin_window() { keys_.begin_window(); }
   /// After the run, before it is agreed upon: so that others know where the player looks when they
   /// tell of this window. A view need not be exact.
   void look_around();
@@ -121,11 +122,8 @@ class SharedInterest {
   bool is_undone_ = false;                    ///< what was said before counts no more
   std::vector<bool> is_told_;  ///< by peer: it knows the present gaze, or an earlier one, and must
                                ///< be told of its end
-  std::vector<std::uint32_t> heard_, playing_, felt_,
-      told_felt_;  ///< by peer, keys of its player: that came here; and, as the bat's owner, in the
-                   ///< window that is played, in final ones, told to it
+  KeyCounts keys_;             ///< by peer, of its player
   std::vector<peer::PeerNumber> handed_to_;  ///< by peer: who got its bat from us
-  std::uint32_t pressed_ = 0;
 };
 
 }  // namespace rink::game
