@@ -45,6 +45,7 @@ class Bodies {
   const Body& operator[](std::uint32_t body) const { return table_.bodies[body]; }
   const Build& build(std::uint32_t body) const { return table_.builds[body]; }
   const Law& law(std::uint32_t body) const { return table_.laws[body]; }
+  bool has_spins() const { return is_rough_; }
   /// Of worlds with surface friction.
   Real spin(std::uint32_t body) const { return table_.spins[body]; }
   /// Of worlds with friction.

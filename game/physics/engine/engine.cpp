@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "game/physics/bodies/change_entries.h"
+
 namespace rink::physics::inline RINK_PRECISION {
 
 Engine::Engine(const WorldSpec& spec)
@@ -268,7 +270,7 @@ void Engine::count_event(Real time) {
 void Engine::settle() {
   if (ledger_.is_kept()) bodies_.close_books();
   if (bodies_.is_slowed()) rests_.push_again();
-  if (observers_.journal != nullptr) enter_changes();
+  if (observers_.journal != nullptr) enter_changes(*observers_.journal, bodies_);
   for (const std::uint32_t body : bodies_.touched())
     if (!bodies_[body].is(Body::gone | Body::pending)) prediction_.predict(body);
   bodies_.forget_touched();

@@ -75,10 +75,6 @@ class Engine {
   void score(std::uint32_t body, Real time);
   void stop(std::uint32_t body, Real time);
 
-  // engine_journal.cpp: what a portion of a world is told (portion.h)
-  void enter_changes();
-  std::uint64_t conditions_of(std::uint32_t body) const;
-
   void rebuild_from_state();
 
   WorldSpec spec_;
