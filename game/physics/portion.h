@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "game/physics/bodies/before_images.h"
-#include "game/physics/bodies/clock.h"
 #include "game/physics/bodies/journal.h"
+#include "game/physics/bodies/world_mark.h"
 #include "game/physics/real.h"
 #include "game/physics/world.h"
 
@@ -74,7 +74,7 @@ class Portion {
   }
   /// All rest contacts; those that are set need no order, and whoever is in one must be there.
   const std::vector<Hold>& holds() const;
-  const std::vector<Hold>& holds_before() const { return holds_before_; }
+  const std::vector<Hold>& holds_before() const { return mark_.holds; }
   void set_holds(std::vector<Hold> holds);
   /// All bodies in rest contact or in one jam with `body`, directly or through others, itself
   /// first.
@@ -106,17 +106,12 @@ class Portion {
 
  private:
   Engine& engine() const { return *world_.engine_; }
-  void write(std::uint32_t body, const BodyState& state);
 
   World world_;
   BeforeImages before_;
   Journal journal_;
   std::vector<std::uint8_t> is_there_;
-  std::vector<Hold> holds_before_;
-  std::vector<std::uint32_t> frozen_before_;
-  Clock clock_before_;
-  std::uint32_t jam_count_before_ = 0;
-  Counters counters_before_;
+  WorldMark mark_;  ///< when the window began
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

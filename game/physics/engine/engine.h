@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "game/physics/bodies/before_images.h"
 #include "game/physics/bodies/bodies.h"
 #include "game/physics/bodies/body_records.h"
 #include "game/physics/bodies/clock.h"
@@ -18,6 +19,7 @@
 #include "game/physics/bodies/observers.h"
 #include "game/physics/bodies/partner.h"
 #include "game/physics/bodies/tolerances.h"
+#include "game/physics/bodies/world_mark.h"
 #include "game/physics/bodies/world_state.h"
 #include "game/physics/engine/contact_detection.h"
 #include "game/physics/engine/free_impact.h"
@@ -58,9 +60,27 @@ class Engine {
   EventRecord& record() { return record_; }
   ChangeLog& changes() { return bodies_.changes(); }
 
- private:
-  friend class Portion;
+  // engine_slots.cpp: for a portion of a world (portion.h), between its windows
+  /// These are told from now on, and must outlive the engine or be replaced.
+  void observe(const Observers& observers) { observers_ = observers; }
+  BeforeImages images(std::uint32_t body_count) const {
+    return {bodies_, history_, jams_, body_count};
+  }
+  BodyState body_state(std::uint32_t body) const;
+  /// Another state, or another body, in the slot of that number. Holds are set apart.
+  void put(std::uint32_t body, const BodyState& state);
+  /// The slot is blank from now on.
+  void drop(std::uint32_t body);
+  const std::vector<Hold>& holds() const { return rests_.holds(); }
+  /// In any order; whoever is in one must be there.
+  void set_holds(std::vector<Hold> holds);
+  /// All in rest contact or in one jam with `body`, directly or through others, itself first.
+  std::vector<std::uint32_t> group_of(std::uint32_t body) const;
+  WorldMark mark() const;
+  /// Back to `mark`; `before` holds what bodies were then.
+  void undo(const WorldMark& mark, const BeforeImages& before);
 
+ private:
   // engine.cpp: bodies and the loop
   Real reach_of(std::uint32_t body) const;
   void rebuild_grid();
@@ -76,6 +96,7 @@ class Engine {
   void stop(std::uint32_t body, Real time);
 
   void rebuild_from_state();
+  void write(std::uint32_t body, const BodyState& state);
 
   WorldSpec spec_;
   Clock clock_;

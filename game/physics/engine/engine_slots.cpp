@@ -1,0 +1,112 @@
+// What a portion of a world asks of its engine: bodies put into their slots and taken from them,
+// and the way back to an earlier instant.
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "game/physics/engine/engine.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+BodyState Engine::body_state(std::uint32_t body) const {
+  return state_of(body, bodies_, history_, jams_);
+}
+
+/// All of the body's state, but not where it is listed.
+void Engine::write(std::uint32_t body, const BodyState& state) {
+  bodies_.write(body, state);
+  history_.write(body, state);
+  jams_.write(body, state);
+}
+
+void Engine::put(std::uint32_t body, const BodyState& state) {
+  assert(body < bodies_.count());
+  write(body, state);
+  places_.remove(body);
+  events_.drop(body);
+  if (bodies_[body].is(Body::gone)) return;
+  if (reach_of(body) > places_.reach()) {
+    places_.fit(bodies_.count(), reach_of(body));
+    return rebuild_grid();
+  }
+  places_.insert(body, motion_at(bodies_, body, clock_.now).position);
+  if (!bodies_.is_fixed(body)) return require_prediction(body);
+  // Posts look at nobody: those who are there must look at it.
+  for (std::uint32_t other = 0; other < bodies_.count(); ++other)
+    if (!bodies_.is_fixed(other) && !bodies_[other].is(Body::gone)) require_prediction(other);
+}
+
+void Engine::drop(std::uint32_t body) {
+  assert(body < bodies_.count());
+  BodyState blank;
+  blank.inverse_mass = 0.0, blank.flags = Body::removed,
+  blank.drag = RealVector::Constant(spec_.puck_drag);
+  write(body, blank);
+  places_.remove(body);
+  events_.drop(body);
+}
+
+/// When a contact ends follows from both sides' states and from itself, and no version tells of
+/// that: whoever has a new one, or one with a body that was put, is predicted anew.
+void Engine::set_holds(std::vector<Hold> holds) {
+  std::stable_sort(holds.begin(), holds.end(),
+                   [](const Hold& a, const Hold& b) { return a.age < b.age; });
+  const auto is_pending = [&](Partner p) {
+    return p < bodies_.count() && (bodies_[p].flags & Body::pending) != 0;
+  };
+  const auto are_same = [](const Hold& a, const Hold& b) {
+    return a.low == b.low && a.high == b.high && a.axis == b.axis && a.pull_time == b.pull_time &&
+           a.turn_time == b.turn_time;
+  };
+  const auto is_in = [&](const std::vector<Hold>& list, const Hold& hold) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const Hold& other) { return are_same(hold, other); });
+  };
+  std::vector<Partner> concerned;
+  const auto concern = [&](const Hold& hold) {
+    concerned.insert(concerned.end(), {hold.low, hold.high});
+  };
+  for (const Hold& hold : holds)
+    if (is_pending(hold.low) || is_pending(hold.high) || !is_in(rests_.holds(), hold))
+      concern(hold);
+  for (const Hold& hold : rests_.holds())
+    if (!is_in(holds, hold)) concern(hold);
+  for (const Partner p : concerned)
+    if (p < bodies_.count() && !bodies_[p].is(Body::removed)) require_prediction(p);
+  rests_.restore(std::move(holds));
+}
+
+std::vector<std::uint32_t> Engine::group_of(std::uint32_t body) const {
+  if ((bodies_[body].flags & (Body::held | Body::frozen)) == 0) return {body};
+  std::vector<std::uint32_t> group = rests_.group(body, Body::held);
+  jams_.for_each_other(body, [&](std::uint32_t other) { group.push_back(other); });
+  return group;
+}
+
+WorldMark Engine::mark() const {
+  return {rests_.holds(), jams_.table().frozen, clock_, jams_.table().count, record_.counters()};
+}
+
+void Engine::undo(const WorldMark& mark, const BeforeImages& before) {
+  for (const BeforeImages::KeptState& kept : before.states()) {
+    BodyState state = kept.state;
+    state.flight = bodies_[kept.body];
+    write(kept.body, state);
+  }
+  for (const BeforeImages::KeptFlight& kept : before.flights()) {
+    const Flight& f = kept.flight;
+    bodies_.put(kept.body, {f.x, f.y}, {f.vx, f.vy}, f.time);
+  }
+  rests_.restore(mark.holds);
+  jams_.restore(mark.frozen, mark.jam_count);
+  clock_ = mark.clock;
+  record_.counters() = mark.counters;
+  for (const std::uint32_t body : pending_) bodies_.clear_flags(body, Body::pending);
+  pending_.clear();
+  bodies_.forget_touched();
+  for (std::uint32_t body = 0; body < bodies_.count(); ++body) bodies_.changes().note(body);
+  goal_.reset();
+  rebuild_from_state();
+}
+
+}  // namespace rink::physics::inline RINK_PRECISION
