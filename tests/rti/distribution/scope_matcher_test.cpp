@@ -4,65 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/rti/distribution/told_filter.h"
+#include "tests/rti/distribution/parts.h"
 
 namespace rink::rti {
 namespace {
-
-/// Federate 0 owns a body and a puck, each with a region of its own; federate 1 subscribes.
-struct Parts {
-  explicit Parts(const im::Traits& traits = {}) : filter(traits) {
-    for (const std::uint32_t federate : {0u, 1u}) {
-      facts.add_federate(federate);
-      regions.add_federate(federate);
-      subscriptions.add_federate(federate);
-      FederateInterest& interest = scopes.add(federate);
-      interest.by_class.resize(plain_fom().object_classes().size());
-      if (turns.is_needed()) interest.turns = std::make_unique<Turns>();
-    }
-    for (const std::uint16_t object_class : {body_class, puck_class}) {
-      const ObjectSlot slot = objects.insert({objects.slot_count()}, 0, object_class, "");
-      regions.add_object(slot);
-      changed.push_back(slot);
-      regions.create(0, {slot}, {});
-      regions.modify(0, {slot}, im::Region{0, 0, 1, 1});
-      regions.associate(slot, regions.slot_of(0, {slot}));
-    }
-  }
-  RegionSlot view() {
-    regions.create(1, {0}, {});
-    regions.modify(1, {0}, im::Region{0, 0, 9, 9});
-    return regions.slot_of(1, {0});
-  }
-  void match(std::vector<im::Change> changes = {}) { matcher.match(changes, changed); }
-  const FederateInterest& told() { return scopes.of(1); }
-  im::Change change(im::Transition transition, ObjectSlot slot, std::uint8_t tier = 0) {
-    return {.subscriber = subscriptions.of(1).regionals.at(0).subscriber,
-            .entity = regions.use_of(slot).entity,
-            .transition = transition,
-            .tier = tier};
-  }
-
-  ObjectTable objects{plain_fom()};
-  Ownership ownership{plain_fom(), objects};
-  ToldFilter filter;
-  FilterFacts facts{filter};
-  DistributionCounters counters;
-  RegionTable regions{plain_fom(), objects, filter, facts, counters};
-  Subscriptions subscriptions{plain_fom(), regions, filter, facts};
-  TurnPlanner turns{filter, objects, regions, subscriptions, facts};
-  Scopes scopes;
-  ScopeMatcher matcher{{.objects = objects,
-                        .ownership = ownership,
-                        .regions = regions,
-                        .subscriptions = subscriptions,
-                        .facts = facts,
-                        .turns = turns,
-                        .scopes = scopes,
-                        .counters = counters}};
-  std::vector<ObjectSlot> changed;
-  const AttributeSet both = plain_fom().attributes({body_class}), one{AttributeHandle{0}};
-};
 
 TEST(Subscriptions, ToAClassAreToItsSubclassesToo) {
   Parts parts;
@@ -176,38 +121,6 @@ TEST(AScopeMatcher, KnowsWhatIsHeardActively) {
   parts.match();
   EXPECT_EQ(parts.told().told(0, body_class), parts.both);
   EXPECT_EQ(parts.matcher.told_actively(1, 0), parts.one);
-}
-
-TEST(ATurnPlanner, LetsThoseOfAFartherTierWaitForTheirTurn) {
-  Parts parts({.says_tiers = true});
-  parts.subscriptions.subscribe(1, body_class, {parts.both, parts.both}, parts.view());
-  parts.turns.begin_match();
-  parts.match(
-      {parts.change(im::Transition::entered, 0, 0), parts.change(im::Transition::entered, 1, 1)});
-  FederateInterest& interest = parts.scopes.of(1);
-  interest.fresh.clear();
-  std::size_t waited = 0;
-  for (int match = 0; match < 4; ++match) {
-    parts.turns.begin_match();
-    parts.turns.take_turns(interest);
-    EXPECT_FALSE(interest.turns->waiting.contains(0)) << "it is in the nearest";
-    waited += interest.turns->waiting.contains(1) ? 1u : 0u;
-  }
-  EXPECT_EQ(waited, 2u) << "tier 1 is told of every other match";
-}
-
-TEST(ATurnPlanner, LetsNobodyWaitWhoIsHeardOfWithoutTheFilter) {
-  Parts parts({.says_tiers = true});
-  parts.subscriptions.subscribe(1, body_class, {parts.one, parts.one}, no_region);
-  parts.subscriptions.subscribe(1, body_class, {parts.both, parts.both}, parts.view());
-  parts.match({parts.change(im::Transition::entered, 1, 3)});
-  FederateInterest& interest = parts.scopes.of(1);
-  interest.fresh.clear();
-  for (int match = 0; match < 8; ++match) {
-    parts.turns.begin_match();
-    parts.turns.take_turns(interest);
-    EXPECT_FALSE(interest.turns->waiting.contains(1));
-  }
 }
 
 }  // namespace

@@ -1,31 +1,41 @@
-// A filter that notes what it is told and lets through what a test says.
+// A filter that notes what it is told and lets through what a test says; with a budget, if one is
+// given.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "im/filter.h"
+#include "im/stages/priority_order.h"
 #include "rti/fom/fom.h"
 
 namespace rink::rti {
 
 class ToldFilter final : public im::Filter {
  public:
-  explicit ToldFilter(const im::Traits& traits = {}) : traits_(traits) {}
+  explicit ToldFilter(const im::Traits& traits = {}, std::size_t budget = 0)
+      : order_(budget), traits_(traits) {}
 
   void set_update_region(im::Entity entity, const im::Region& region) override {
     entities[entity] = region;
+    order_.place_entity(entity, region);
   }
   void remove_entity(im::Entity entity) override {
     entities.erase(entity);
     roles.erase(entity);
+    order_.remove_entity(entity);
   }
   void set_subscription_region(im::Subscriber subscriber, const im::Region& region) override {
     subscribers[subscriber] = region;
+    order_.place_subscriber(subscriber, region);
   }
-  void remove_subscriber(im::Subscriber subscriber) override { subscribers.erase(subscriber); }
+  void remove_subscriber(im::Subscriber subscriber) override {
+    subscribers.erase(subscriber);
+    order_.remove_subscriber(subscriber);
+  }
   void set_heading(im::Subscriber subscriber, const im::Heading& heading) override {
     headings[subscriber] = heading;
   }
@@ -36,7 +46,11 @@ class ToldFilter final : public im::Filter {
   void set_flight(im::Entity entity, const im::Flight& flight) override {
     flights[entity] = flight;
   }
-  std::span<const im::Change> match() override { return changes; }
+  std::span<const im::Change> match() override {
+    if (order_.budget() > 0) order_.take(changes);
+    return changes;
+  }
+  im::PriorityOrder* priority() override { return order_.budget() > 0 ? &order_ : nullptr; }
   im::Traits traits() const override { return traits_; }
   const im::FilterCounters& counters() const override { return counters_; }
 
@@ -49,6 +63,7 @@ class ToldFilter final : public im::Filter {
   std::vector<im::Change> changes;
 
  private:
+  im::PriorityOrder order_;
   im::Traits traits_;
   im::FilterCounters counters_;
 };
