@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 #include <set>
@@ -129,6 +130,22 @@ TEST(EventQueue, KeepsTheOrderOfASortedSetWhileBodiesComeRestAndGo) {
       put(static_cast<std::uint32_t>(random() % 5'000), now + test::uniform(random, 0.0, 1.0));
   }
   EXPECT_LE(queue.looked_at(), 8u * 100'000u);
+}
+
+/// By roundings of the clock that is possible. The buckets are made anew when most bodies get their
+/// first event, and what lies before the last that was taken must not fall behind the horizon.
+TEST(EventQueue, LosesNoEventThatLiesBeforeTheLastWhereItIsMadeAnew) {
+  constexpr std::uint32_t count = 1'000;
+  EventQueue queue;
+  queue.resize(count);
+  queue.set(0, 1.0, 0, 0);
+  ASSERT_EQ(queue.first(2.0), 0u);
+  queue.set(1, std::nextafter(1.0, 0.0), 1, 1);
+  for (std::uint32_t body = 2; body < count; ++body) queue.set(body, 1.0 + 1e-3 * body, body, body);
+  for (const std::uint32_t body : {1u, 0u, 2u, 3u}) {
+    EXPECT_EQ(queue.first(2.0), body);
+    queue.set(body, std::numeric_limits<double>::infinity(), body, body);
+  }
 }
 
 TEST(EventQueue, DoesNoMoreWorkForBodiesWithoutAnEvent) {

@@ -125,7 +125,10 @@ void EventQueue::rebuild(Real width, std::size_t bucket_count) {
   full_.clear(), free_.clear(), later_.clear(), due_.clear();
   later_begin_ = std::numeric_limits<Real>::infinity();
   inverse_width_ = 1.0 / width;
-  current_ = bucket_number(last_time_) - 1;
+  // An event that was overlooked may lie some roundings before the last one that was taken.
+  Real earliest = last_time_;
+  for (const Note& pended : pending) earliest = std::min(earliest, pended.time);
+  current_ = bucket_number(earliest) - 1;
   buckets_.assign(bucket_count, Bucket{});
   counts_.assign(bucket_count, 0);
   horizon_ = current_ + 1 + static_cast<std::int64_t>(bucket_count);
