@@ -15,30 +15,28 @@ constexpr float shadow_reach = 0.09f;  // m; where the contact shadow has faded
 
 /// Lengths in metres.
 struct Mark {
-  float low_x, low_y, high_x, high_y;  ///< how far it may reach
-  float x, y, half_x, half_y;          ///< what it belongs to
+  struct {
+    float low_x, low_y, high_x, high_y;
+  } reach;
+  struct {
+    float x, y, half_x, half_y;
+  } of;  ///< what it belongs to
   Kind kind;
   float a = 0.0f, b = 0.0f;  ///< what the shader makes of them depends on the kind
   Colour colour;
 };
 
 void add(std::vector<float>& rows, const Mark& mark) {
-  rows.insert(rows.end(),
-              {mark.low_x, mark.low_y, mark.high_x, mark.high_y, mark.x, mark.y, mark.half_x,
-               mark.half_y, static_cast<float>(mark.kind), mark.a, mark.b, 0.0f, mark.colour.red,
-               mark.colour.green, mark.colour.blue, mark.colour.alpha});
+  rows.insert(rows.end(), {mark.reach.low_x, mark.reach.low_y, mark.reach.high_x, mark.reach.high_y,
+                           mark.of.x, mark.of.y, mark.of.half_x, mark.of.half_y,
+                           static_cast<float>(mark.kind), mark.a, mark.b, 0.0f, mark.colour.red,
+                           mark.colour.green, mark.colour.blue, mark.colour.alpha});
 }
 
 void add_shadow(const Piece& piece, std::vector<float>& rows) {
   const float x = piece.half_x + shadow_reach, y = piece.half_y + shadow_reach;
-  add(rows, {.low_x = piece.x - x,
-             .low_y = piece.y - y,
-             .high_x = piece.x + x,
-             .high_y = piece.y + y,
-             .x = piece.x,
-             .y = piece.y,
-             .half_x = piece.half_x,
-             .half_y = piece.half_y,
+  add(rows, {.reach = {piece.x - x, piece.y - y, piece.x + x, piece.y + y},
+             .of = {piece.x, piece.y, piece.half_x, piece.half_y},
              .kind = piece.shape == Piece::Shape::bat ? Kind::box_shadow : Kind::disc_shadow,
              .a = piece.height,
              .colour = {0.02f, 0.03f, 0.07f, 1.0f}});
@@ -51,14 +49,9 @@ void add_streak(const Piece& piece, std::vector<float>& rows) {
   const float x = 0.07f * piece.velocity_x, y = 0.07f * piece.velocity_y, r = piece.half_x;
   Colour colour = piece.accent;
   colour.alpha = std::min(0.55f, 0.16f * (speed - 0.6f));
-  add(rows, {.low_x = std::min(piece.x, piece.x - x) - r,
-             .low_y = std::min(piece.y, piece.y - y) - r,
-             .high_x = std::max(piece.x, piece.x - x) + r,
-             .high_y = std::max(piece.y, piece.y - y) + r,
-             .x = piece.x,
-             .y = piece.y,
-             .half_x = r,
-             .half_y = r,
+  add(rows, {.reach = {std::min(piece.x, piece.x - x) - r, std::min(piece.y, piece.y - y) - r,
+                       std::max(piece.x, piece.x - x) + r, std::max(piece.y, piece.y - y) + r},
+             .of = {piece.x, piece.y, r, r},
              .kind = Kind::streak,
              .a = x,
              .b = y,
@@ -72,14 +65,9 @@ void add_glow(const Table& table, bool is_left, float part, std::vector<float>& 
   colour.alpha = 0.85f * part;
   const float reach = 0.45f * table.length, side = 0.62f * table.width,
               x = is_left ? 0.0f : table.length, y = 0.5f * table.width;
-  add(rows, {.low_x = is_left ? 0.0f : table.length - reach,
-             .low_y = 0.0f,
-             .high_x = is_left ? reach : table.length,
-             .high_y = table.width,
-             .x = x,
-             .y = y,
-             .half_x = reach,
-             .half_y = side,
+  add(rows, {.reach = {is_left ? 0.0f : table.length - reach, 0.0f, is_left ? reach : table.length,
+                       table.width},
+             .of = {x, y, reach, side},
              .kind = Kind::glow,
              .colour = colour});
 }
