@@ -1,5 +1,5 @@
-// A federation whose federates do by chance all that they may, and a hash of every byte that each
-// of them is sent.
+// A federation whose federates do by chance all that they may, a hash of every byte that each of
+// them is sent, and one of what each ambassador sends and calls back.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,6 +19,7 @@
 #include "rti/federation_execution.h"
 #include "rti/hla_error.h"
 #include "tests/rti/rig.h"
+#include "tests/rti/scenes/callback_hash.h"
 
 namespace rink::rti::testing::at_the_regatta {
 
@@ -69,24 +70,12 @@ inline const Fom& regatta() {
   return fom;
 }
 
-/// FNV-1a.
-class ByteHash {
- public:
-  void add(Bytes bytes) {
-    for (const std::byte each : bytes)
-      value_ = (value_ ^ std::to_integer<std::uint64_t>(each)) * 0x100000001b3u;
-  }
-  void add(std::string_view text) { add(std::as_bytes(std::span(text))); }
-  void add(std::uint64_t number) { add(std::as_bytes(std::span(&number, 1))); }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
-
 /// A federate that knows what it may name: what it made, and what it was told of.
-struct Sailor final : FederateAmbassador {
-  Ambassador ambassador{regatta(), *this};
+struct Sailor final : CallbackHash {
+  explicit Sailor(ByteHash& hash, CallbackModel model)
+      : CallbackHash(hash), ambassador(regatta(), *this, {}, model) {}
+
+  Ambassador ambassador;
   ConnectionId connection = 0;
   bool is_lost = false;
   std::map<std::uint32_t, std::uint32_t> objects;  ///< their classes
@@ -94,14 +83,29 @@ struct Sailor final : FederateAmbassador {
   std::vector<RetractionHandle> sent;
   std::vector<std::string> labels, names;
   double lookahead = 0.5;
+  std::function<void()> meanwhile;  ///< what it does within each callback that tells it values
 
-  void connection_lost(std::string_view) override { is_lost = true; }
+  void connection_lost(std::string_view why) override {
+    CallbackHash::connection_lost(why);
+    is_lost = true;
+  }
   void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class,
-                                std::string_view) override {
+                                std::string_view name) override {
+    CallbackHash::discover_object_instance(object, object_class, name);
     objects[object.value] = object_class.value;
   }
-  void remove_object_instance(ObjectHandle object) override { objects.erase(object.value); }
-  void announce_synchronization_point(std::string_view label, Bytes) override {
+  /// The values are noted last: what is done meanwhile must leave them as they are.
+  void reflect_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values,
+                                const Stamp& stamp) override {
+    if (meanwhile) meanwhile();
+    CallbackHash::reflect_attribute_values(object, attributes, values, stamp);
+  }
+  void remove_object_instance(ObjectHandle object) override {
+    CallbackHash::remove_object_instance(object);
+    objects.erase(object.value);
+  }
+  void announce_synchronization_point(std::string_view label, Bytes tag) override {
+    CallbackHash::announce_synchronization_point(label, tag);
     labels.emplace_back(label);
   }
 };
@@ -109,8 +113,13 @@ struct Sailor final : FederateAmbassador {
 /// Seats are filled anew when whoever has one leaves. The tap notes per seat what it is sent.
 class Regatta final : public Outlet {
  public:
-  explicit Regatta(std::uint64_t seed, std::size_t seats, const FederationSettings& settings = {})
-      : execution(regatta(), settings), hashes_(seats), random_(seed) {
+  explicit Regatta(std::uint64_t seed, std::size_t seats, const FederationSettings& settings = {},
+                   CallbackModel model = CallbackModel::immediate)
+      : execution(regatta(), settings),
+        model_(model),
+        hashes_(seats),
+        ambassador_hashes_(seats),
+        random_(seed) {
     for (std::size_t i = 0; i < seats; ++i) {
       sailors_.emplace_back();
       enter(i);
@@ -137,7 +146,8 @@ class Regatta final : public Outlet {
     }
   }
   void enter(std::size_t seat) {
-    sailors_[seat] = std::make_unique<Sailor>();
+    if (sailors_[seat]) note_counts(seat);
+    sailors_[seat] = std::make_unique<Sailor>(ambassador_hashes_[seat], model_);
     sailors_[seat]->connection = next_connection_++;
     seats_.push_back(seat);
     execution.connect(sailors_[seat]->connection);
@@ -159,6 +169,8 @@ class Regatta final : public Outlet {
       datagrams.push_back(copy_of(each.head));
       datagrams.back().insert(datagrams.back().end(), each.body.begin(), each.body.end());
     }
+    ambassador_hashes_[seat].add(Bytes(bytes));
+    for (const std::vector<std::byte>& each : datagrams) ambassador_hashes_[seat].add(Bytes(each));
     from.ambassador.clear_outgoing();
     from.ambassador.clear_outgoing_datagrams();
     const bool is_datagram_first = one_in(2);
@@ -193,8 +205,34 @@ class Regatta final : public Outlet {
     all.push_back(count_hash());
     return all;
   }
+  /// Of what the ambassadors of all seats sent, called back and counted.
+  std::uint64_t ambassador_hash() {
+    ByteHash all;
+    for (std::size_t seat = 0; seat < sailors_.size(); ++seat) {
+      note_counts(seat);
+      all.add(ambassador_hashes_[seat].value());
+    }
+    return all.value();
+  }
 
  private:
+  void note_counts(std::size_t seat) {
+    const AmbassadorCounters& counted = sailors_[seat]->ambassador.counters();
+    for (const std::uint64_t each : {counted.bytes_received,      counted.bytes_sent,
+                                     counted.frames_received,     counted.frames_sent,
+                                     counted.updates_sent,        counted.updates_reflected,
+                                     counted.interactions_sent,   counted.interactions_received,
+                                     counted.updates_spared,      counted.interactions_spared,
+                                     counted.objects_discovered,  counted.objects_removed,
+                                     counted.scope_changes,       counted.keyframes_acknowledged,
+                                     counted.differences_refused, counted.timed_sent,
+                                     counted.timed_received,      counted.time_advance_grants,
+                                     counted.datagrams_received,  counted.datagrams_ignored,
+                                     counted.updates_outdated,    counted.datagrams_sent,
+                                     counted.updates_repaired,    counted.datagram_fallbacks,
+                                     counted.datagram_recoveries})
+      ambassador_hashes_[seat].add(each);
+  }
   static std::vector<std::byte> copy_of(Bytes bytes) { return {bytes.begin(), bytes.end()}; }
   std::uint64_t count_hash() const {
     const FederationCounters& counted = execution.counters();
@@ -268,7 +306,8 @@ class Regatta final : public Outlet {
 
   std::vector<std::unique_ptr<Sailor>> sailors_;  ///< by seat
   std::vector<std::size_t> seats_;                ///< by connection
-  std::vector<ByteHash> hashes_;                  ///< by seat
+  CallbackModel model_;
+  std::vector<ByteHash> hashes_, ambassador_hashes_;  ///< by seat: what is sent to it, and by it
   std::mt19937_64 random_;
   ConnectionId next_connection_ = 0;
   double now_ = 0.0;

@@ -1,0 +1,138 @@
+// Whole conversations as ambassadors hold them, as hashes of every byte that they send, every
+// callback and its arguments, and their counters: who changes how an ambassador works finds out
+// here that the wire, or the order of callbacks, has changed as well.
+#include <gtest/gtest.h>
+
+#include "tests/rti/scenes/regatta_courses.h"
+
+namespace rink::rti::testing::at_the_regatta {
+namespace {
+
+std::uint64_t hash_of(const Course& course, std::uint64_t seed = 1,
+                      CallbackModel model = CallbackModel::immediate) {
+  Regatta all(seed, seat_count, course.settings, model);
+  sail(all, course);
+  return all.ambassador_hash();
+}
+
+void hush(Regatta& all, Sailor& sailor) {
+  if (all.one_in(2)) sailor.ambassador.disable_callbacks();
+  else sailor.ambassador.enable_callbacks();
+}
+void evoke(Regatta& all, Sailor& sailor) {
+  sailor.ambassador.evoke_multiple_callbacks(all.below(8));
+}
+void switch_advisories(Regatta& all, Sailor& sailor) {
+  Ambassador& to = sailor.ambassador;
+  switch (all.below(6)) {
+    case 0:
+      return to.enable_object_class_relevance_advisory_switch();
+    case 1:
+      return to.disable_object_class_relevance_advisory_switch();
+    case 2:
+      return to.enable_attribute_scope_advisory_switch();
+    case 3:
+      return to.disable_attribute_scope_advisory_switch();
+    case 4:
+      return to.enable_interaction_relevance_advisory_switch();
+    default:
+      return to.disable_interaction_relevance_advisory_switch();
+  }
+}
+/// From now on it updates a boat, if it may, at one in six updates of others, before it looks at
+/// what it was told.
+void answer(Regatta& all, Sailor& sailor) {
+  sailor.meanwhile = [&all, &sailor] {
+    if (all.one_in(6)) Regatta::attempt([&] { update(all, sailor); });
+  };
+}
+
+const std::vector<Service> everything{declare,     register_one, update,     update,    say,
+                                      delete_one,  ask,          name,       transport, trade,
+                                      trade,       make_region,  use_region, keep_time, say_in_time,
+                                      synchronize, manage,       watch};
+
+TEST(AmbassadorHashes, OfDeclarations) {
+  EXPECT_EQ(hash_of({{declare, declare, declare, register_one, update, say}, stand_by}),
+            0xa4df5f6edf5d348cu);
+  EXPECT_EQ(hash_of({{declare, declare, switch_advisories, register_one, update, say}}),
+            0x1753de8c9babe32fu);
+}
+TEST(AmbassadorHashes, OfObjects) {
+  EXPECT_EQ(hash_of({{register_one, update, update, delete_one, name, ask}}), 0x4b57001396cc8320u);
+}
+TEST(AmbassadorHashes, OfInteractions) {
+  EXPECT_EQ(hash_of({{say, say, say, declare}, prepare, 200}), 0x035e7fc5dd49a9d4u);
+}
+TEST(AmbassadorHashes, OfOwnership) {
+  EXPECT_EQ(hash_of({{trade, trade, trade, trade, register_one, update, declare}}),
+            0xbc90afcde7f70d7cu);
+}
+TEST(AmbassadorHashes, OfLeaving) {
+  EXPECT_EQ(hash_of({{register_one, trade, trade, update, synchronize, name, watch}, prepare, 12}),
+            0x6fe3527437785b9eu);
+}
+TEST(AmbassadorHashes, OfRegions) {
+  EXPECT_EQ(hash_of({{make_region, use_region, use_region, register_one, update, declare, trade},
+                     prepare,
+                     40,
+                     0,
+                     false,
+                     filtered("region")}),
+            0xcce9eade3a94368bu);
+}
+TEST(AmbassadorHashes, OfTimeManagement) {
+  const std::vector<Service> services{keep_time,   keep_time,    keep_time,  say_in_time,
+                                      say_in_time, register_one, delete_one, update};
+  EXPECT_EQ(hash_of({services}), 0x46bbcc1474952d2cu);
+  EXPECT_EQ(hash_of({services, prepare, 40}), 0x9da0d058da5a4cb4u);
+  EXPECT_EQ(
+      hash_of(
+          {{keep_time, say_in_time, register_one, trade, trade, declare, say, hush}, prepare, 60}),
+      0xff672721040eb2c5u);
+}
+TEST(AmbassadorHashes, OfBestEffort) {
+  const std::vector<Service> services{register_one, update,    update,     update,
+                                      update,       transport, delete_one, say};
+  EXPECT_EQ(hash_of({services, prepare, 0, 400}), 0xba081ecca2d6f0aau);
+  EXPECT_EQ(hash_of({services, prepare, 30, 300}), 0xea380b2ee318a1f5u);
+  EXPECT_EQ(
+      hash_of({{register_one, update, update, trade, declare, keep_time, hush}, prepare, 0, 400}),
+      0x0c034e20086bb0e8u);
+}
+TEST(AmbassadorHashes, OfUpdatesWithinCallbacks) {
+  EXPECT_EQ(hash_of({{register_one, update, update, say, answer}}), 0x7c7758447723c157u);
+  EXPECT_EQ(hash_of({{register_one, update, update, transport, answer}, prepare, 0, 400}),
+            0xc491fb4b798fb73au);
+}
+TEST(AmbassadorHashes, OfManagement) {
+  EXPECT_EQ(hash_of({{manage, manage, declare, register_one, update, say, synchronize}}),
+            0xd451a1a442a33673u);
+  EXPECT_EQ(hash_of({{manage, manage, manage, register_one, keep_time, trade, watch}, prepare, 25}),
+            0x8b2ca82779afbc59u);
+}
+TEST(AmbassadorHashes, OfLittleRoom) {
+  EXPECT_EQ(hash_of({{register_one, update, keep_time, keep_time, say_in_time, say_in_time},
+                     prepare,
+                     80,
+                     0,
+                     false,
+                     cramped()}),
+            0x3cb7ec20b6e2c21du);
+}
+TEST(AmbassadorHashes, OfHeldAndEvokedCallbacks) {
+  std::vector<Service> services = everything;
+  services.insert(services.end(), {hush, evoke, evoke, evoke});
+  const Course course{services, prepare, 60, 350, false, filtered("region")};
+  EXPECT_EQ(hash_of(course, 1), 0x0da216783f2a7889u);
+  EXPECT_EQ(hash_of(course, 1, CallbackModel::evoked), 0xe114de258a3299d2u);
+}
+TEST(AmbassadorHashes, OfEverythingAtOnce) {
+  const Course course{everything, prepare, 60, 350, true, filtered("region")};
+  EXPECT_EQ(hash_of(course, 1), 0xdb1b16f04e44eb06u);
+  EXPECT_EQ(hash_of(course, 2), 0x3ca8b47c3bbdbe8bu);
+  EXPECT_EQ(hash_of(course, 3), 0xeaddfb3bcf09197du);
+}
+
+}  // namespace
+}  // namespace rink::rti::testing::at_the_regatta
