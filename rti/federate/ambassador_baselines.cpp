@@ -1,7 +1,6 @@
 // Periodic state as a federate hears it: differences to keyframes that it keeps and has
 // acknowledged.
 #include "rti/baselines/delta_bits.h"
-#include "rti/federate/ambassador_say.h"
 #include "rti/federate/ambassador_services.h"
 #include "rti/wire/baseline_messages.h"
 
@@ -17,14 +16,14 @@ bool AmbassadorParts::take_keyframe(Reader& reader) {
 void AmbassadorParts::end_keyframe() {
   if (!keyframes_.is_open()) return;
   const std::optional<std::uint16_t> number = keyframes_.seal();
-  if (phase_ != Phase::joined) return;
-  say(AcknowledgeKeyframeMessage{*number});
+  if (!phase_.is_joined()) return;
+  frames_.enqueue(AcknowledgeKeyframeMessage{*number});
   ++counters_.keyframes_acknowledged;
 }
 
-bool AmbassadorParts::take_deltas(Reader& reader) {
+bool AmbassadorParts::take_deltas(Reader& reader, const ReadContext& context) {
   DeltasMessage message;
-  if (!exchange(reader, message) || !heard_stamp_ ||
+  if (!exchange(reader, message) || !context.stamp ||
       message.object_class >= fom_.object_classes().size())
     return false;
   const std::optional<AttributeHandle> attribute = fom_.periodic_attribute({message.object_class});
@@ -35,7 +34,7 @@ bool AmbassadorParts::take_deltas(Reader& reader) {
   DeltaHeader header;
   if (!exchange(bits, header, codec.fields().size())) return false;
   if (header.has_baseline) keyframes_.drop_before(header.baseline);
-  const Stamp stamp = *heard_stamp_;
+  const Stamp stamp = *context.stamp;
   bool lacks_baseline = false;
   for (std::uint32_t object = 0;;) {
     const HandleReader::Next next = read_handle(bits, object);
@@ -58,9 +57,9 @@ bool AmbassadorParts::take_deltas(Reader& reader) {
       arrivals_.accept({object}, message.object_class, AttributeSet{*attribute},
                        order_of_frame(frames_heard_));
     callbacks_.reflect_attribute_values({object}, AttributeSet{*attribute}, decoded_, stamp);
-    if (phase_ != Phase::joined) return true;
+    if (!phase_.is_joined()) return true;
   }
-  if (lacks_baseline) say(RefuseKeyframeMessage{header.baseline});
+  if (lacks_baseline) frames_.enqueue(RefuseKeyframeMessage{header.baseline});
   Bytes read;
   return bits.finish() && reader.rest(read, bits.bytes_read());
 }

@@ -1,7 +1,6 @@
 // Best-effort updates of a federate's own on their way to the RTI: by datagram where there is a
 // way, and never out of order with what goes by the stream.
 #include "rti/buffering/best_effort_outbox.h"
-#include "rti/federate/ambassador_say.h"
 #include "rti/federate/ambassador_services.h"
 #include "rti/fom/coded_values.h"
 #include "rti/wire/datagram.h"
@@ -55,20 +54,14 @@ AttributeSet AmbassadorParts::say_best_effort(ObjectHandle object, ObjectClassHa
   return rest;
 }
 
-std::uint32_t AmbassadorParts::frames_said() const {
-  return static_cast<std::uint32_t>(outgoing_.frame_count() - frames_to_join_);
-}
-
 /// Something about these attributes goes by the stream. What was said of any by datagram was said
 /// before: in a frame that is over.
 void AmbassadorParts::before_stream(ObjectHandle object, ObjectClassHandle object_class,
                                     AttributeSet attributes) {
   if (!outbox_ || (attributes & outbox_->best_effort(object_class)).is_empty()) return;
   if (outbox_->is_pending()) {
-    outbox_->seal(frames_said(), now_);
-    outgoing_.close_frame();
-    object_block_writer_.close();
-    open_.is_open = false;
+    outbox_->seal(frames_.frames_since_join(), now_);
+    frames_.close_frame();
   }
   outbox_->forget(object, attributes);
 }
@@ -76,7 +69,7 @@ void AmbassadorParts::before_stream(ObjectHandle object, ObjectClassHandle objec
 /// Sends by the stream what went by datagram, for it may outlive its owner or go to another.
 void AmbassadorParts::release_best_effort(ObjectHandle object, AttributeSet attributes) {
   const BestEffortOutbox::Kept* kept = outbox_ ? outbox_->find(object) : nullptr;
-  if (kept == nullptr || phase_ != Phase::joined) return;
+  if (kept == nullptr || !phase_.is_joined()) return;
   const BestEffortOutbox::Kept newest = *kept;
   (newest.attributes & attributes).for_each([&](AttributeHandle each) {
     const BestEffortOutbox::Value& value = newest.values[each.value];
@@ -99,7 +92,7 @@ void AmbassadorParts::release_best_effort(ObjectClassHandle object_class) {
 /// What was lost is said again as it is now: by datagram or, if there is no way any more, by the
 /// stream.
 void AmbassadorParts::repair_best_effort() {
-  outbox_->advance_clock(now_, frames_said());
+  outbox_->advance_clock(now_, frames_.frames_since_join());
   std::vector<DatagramLedger::Lost> due;
   due.swap(outbox_->due());
   for (const DatagramLedger::Lost& each : due) {
@@ -124,7 +117,7 @@ std::span<const Datagram> AmbassadorServices::outgoing_datagrams() {
   datagrams_.clear();
   if (!acknowledgement_.empty()) datagrams_.push_back({acknowledgement_, {}});
   if (!outbox_) return datagrams_;
-  outbox_->seal(frames_said(), now_);
+  outbox_->seal(frames_.frames_since_join(), now_);
   for (const Datagram& each : outbox_->datagrams()) datagrams_.push_back(each);
   return datagrams_;
 }

@@ -17,7 +17,7 @@ constexpr std::size_t held_max =
 }
 
 void AmbassadorServices::receive_datagram(Bytes datagram) {
-  if (phase_ != Phase::joined) return;
+  if (!phase_.is_joined()) return;
   has_heard_ = has_datagrams_ = true;
   counters_.bytes_received += datagram.size();
   DatagramHead head;
@@ -51,7 +51,7 @@ void AmbassadorParts::apply_datagram(Bytes datagram) {
 }
 
 void AmbassadorParts::apply_held_datagrams() {
-  for (std::size_t i = 0; i < held_datagrams_.size() && phase_ == Phase::joined;) {
+  for (std::size_t i = 0; i < held_datagrams_.size() && phase_.is_joined();) {
     DatagramHead head;
     Reader reader(held_datagrams_[i]);
     exchange(reader, head);
@@ -66,33 +66,34 @@ void AmbassadorParts::apply_held_datagrams() {
 }
 
 bool AmbassadorParts::take_datagram(const DatagramHead& head, Reader& reader) {
-  const std::optional<Stamp> stamp_of_frame = std::exchange(heard_stamp_, std::nullopt);
+  ReadContext context;
   bool is_understood = true;
-  while (is_understood && !reader.is_at_end() && phase_ == Phase::joined) {
+  while (is_understood && !reader.is_at_end() && phase_.is_joined()) {
     std::uint8_t kind = 0;
     reader.number(kind);
     if (kind == datagram_end) break;
     AcknowledgeDatagramsMessage ours;
-    if (static_cast<MessageKind>(kind) == MessageKind::stamp) is_understood = take_stamp(reader);
+    if (static_cast<MessageKind>(kind) == MessageKind::stamp)
+      is_understood = take_stamp(reader, context);
     else if (static_cast<MessageKind>(kind) == MessageKind::acknowledge_datagrams)
       is_understood = exchange(reader, ours) && outbox_ && outbox_->acknowledge(ours, now_);
     else
       is_understood = static_cast<MessageKind>(kind) == MessageKind::updates &&
-                      take_datagram_updates(head, reader);
+                      take_datagram_updates(head, reader, context);
   }
-  heard_stamp_ = stamp_of_frame;
   return is_understood;
 }
 
-bool AmbassadorParts::take_datagram_updates(const DatagramHead& head, Reader& reader) {
+bool AmbassadorParts::take_datagram_updates(const DatagramHead& head, Reader& reader,
+                                            const ReadContext& context) {
   UpdatesMessage message;
-  if (!exchange(reader, message) || !heard_stamp_ ||
+  if (!exchange(reader, message) || !context.stamp ||
       message.object_class >= fom_.object_classes().size())
     return false;
   const AttributeSet attributes{message.attributes};
   if (!arrivals_.best_effort(message.object_class).includes(attributes)) return false;
   const ObjectClass& object_class = fom_.at(ObjectClassHandle{message.object_class});
-  const Stamp stamp = *heard_stamp_;
+  const Stamp stamp = *context.stamp;
   const bool is_read =
       read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
         const KnownObject* known = find({object});
@@ -121,9 +122,9 @@ bool AmbassadorParts::take_datagram_updates(const DatagramHead& head, Reader& re
         }
         ++counters_.updates_reflected;
         callbacks_.reflect_attribute_values({object}, accepted, values, stamp);
-        return phase_ == Phase::joined;
+        return phase_.is_joined();
       });
-  return is_read || phase_ != Phase::joined;
+  return is_read || !phase_.is_joined();
 }
 
 void AmbassadorParts::acknowledge_datagrams() {

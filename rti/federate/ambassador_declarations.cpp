@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "rti/federate/ambassador_say.h"
 #include "rti/federate/ambassador_services.h"
 #include "rti/fom/coded_values.h"
 #include "rti/wire/declaration_messages.h"
@@ -28,7 +27,8 @@ void AmbassadorServices::publish_object_class_attributes(ObjectClassHandle objec
                          ? AttributeSet(~0u)
                          : AttributeSet(declared.others.heard.bits | ~attributes.bits),
                      declared.others.active & attributes};
-  say(PublishObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits});
+  frames_.enqueue(
+      PublishObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits});
 }
 
 void AmbassadorServices::unpublish_object_class(ObjectClassHandle object_class) {
@@ -41,8 +41,9 @@ void AmbassadorServices::subscribe_object_class_attributes(ObjectClassHandle obj
   require_class(object_class, attributes);
   const std::uint32_t number = region ? regions_.check(region) : RegionHandle::none;
   if (region) regions_.replace_subscription(object_class, attributes, region);
-  say(SubscribeObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits,
-                                  number, static_cast<std::uint8_t>(!is_active)});
+  frames_.enqueue(SubscribeObjectClassMessage{static_cast<std::uint16_t>(object_class.value),
+                                              attributes.bits, number,
+                                              static_cast<std::uint8_t>(!is_active)});
 }
 
 void AmbassadorServices::unsubscribe_object_class(ObjectClassHandle object_class,
@@ -66,7 +67,8 @@ void AmbassadorParts::declare_publication(InteractionClassHandle interaction_cla
   DeclaredState::Class& declared = declared_.interactions[interaction_class.value];
   if (!is_published) declared = {};
   declared.published = AttributeSet(is_published);
-  say(PublishInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value),
+  frames_.enqueue(
+      PublishInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value),
                                      static_cast<std::uint8_t>(is_published)});
 }
 
@@ -81,8 +83,8 @@ void AmbassadorServices::unsubscribe_interaction_class(InteractionClassHandle in
 void AmbassadorParts::declare_subscription(InteractionClassHandle interaction_class,
                                            Listening listening) {
   require_class(interaction_class);
-  say(SubscribeInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value),
-                                       static_cast<std::uint8_t>(listening)});
+  frames_.enqueue(SubscribeInteractionClassMessage{
+      static_cast<std::uint16_t>(interaction_class.value), static_cast<std::uint8_t>(listening)});
 }
 
 void AmbassadorParts::require_class(ObjectClassHandle object_class, AttributeSet attributes) const {
@@ -100,7 +102,7 @@ void AmbassadorParts::require_class(InteractionClassHandle interaction_class) co
 }
 
 void AmbassadorParts::require_published(InteractionClassHandle interaction_class) const {
-  if (phase_ != Phase::joined) refuse_stranger();
+  phase_.require_joined();
   require_class(interaction_class);
   if (declared_.interactions[interaction_class.value].published.is_empty())
     throw RtiException(HlaError::interaction_class_not_published,
@@ -108,7 +110,7 @@ void AmbassadorParts::require_published(InteractionClassHandle interaction_class
 }
 
 void AmbassadorParts::switch_advisory(Advisory advisory, bool is_on) {
-  if (phase_ != Phase::joined) refuse_stranger();
+  phase_.require_joined();
   if (declared_.is_on(advisory) == is_on) {
     constexpr HlaError is_on_errors[] = {HlaError::object_class_relevance_advisory_switch_is_on,
                                          HlaError::attribute_relevance_advisory_switch_is_on,
@@ -121,7 +123,7 @@ void AmbassadorParts::switch_advisory(Advisory advisory, bool is_on) {
   declared_.switches ^= 1u << static_cast<unsigned>(advisory);
   if (advisory == Advisory::attribute_relevance) {
     declared_.relevant_objects = {};
-    say(AdvisorySwitchMessage{is_on});
+    frames_.enqueue(AdvisorySwitchMessage{is_on});
   }
   if (advisory == Advisory::object_class_relevance)
     for (std::uint32_t i = 0; i < declared_.objects.size(); ++i) advise(ObjectClassHandle{i});
@@ -231,7 +233,7 @@ bool AmbassadorParts::spare(ObjectHandle object, const KnownObject& known, Attri
   const AttributeSet outdated = (attributes & declared.sent).without(spared.announced);
   spared.announced = spared.announced | outdated;
   before_stream(object, object_class, attributes);
-  if (!outdated.is_empty()) say(SpareUpdateMessage{object.value, outdated.bits});
+  if (!outdated.is_empty()) frames_.enqueue(SpareUpdateMessage{object.value, outdated.bits});
   ++counters_.updates_spared;
   return true;
 }
@@ -246,7 +248,7 @@ void AmbassadorParts::release_spared(ObjectClassHandle object_class, AttributeSe
 
 void AmbassadorParts::release_spared(ObjectHandle object) {
   const SparedValues::Spared* spared = declared_.spared.find(object);
-  if (spared == nullptr || phase_ != Phase::joined) return;
+  if (spared == nullptr || !phase_.is_joined()) return;
   const SparedValues::Spared kept = *spared;
   declared_.spared.forget(object);
   const ObjectClass& object_class = fom_.at(kept.object_class);

@@ -2,7 +2,6 @@
 // points.
 #include <algorithm>
 
-#include "rti/federate/ambassador_say.h"
 #include "rti/federate/ambassador_services.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
@@ -21,23 +20,13 @@ void require_text(std::string_view text, std::size_t max, const char* what) {
 
 }  // namespace
 
-void AmbassadorParts::refuse_stranger() const {
-  throw RtiException(
-      HlaError::federate_not_execution_member,
-      phase_ == Phase::idle ? "join first" : "this federate has left its federation execution");
-}
-
-/// A message in a frame of its own: a host reads the first message of a frame to know whom it
-/// concerns, and short frames only.
 template <class Message>
 void AmbassadorParts::ask(Message message) {
-  if (phase_ != Phase::idle)
+  if (!phase_.is_idle())
     throw RtiException(HlaError::federate_already_execution_member,
                        "a host is asked before the join, or by another ambassador");
   has_asked_ = true;
-  outgoing_.close_frame();
-  append(message);
-  outgoing_.close_frame();
+  frames_.enqueue_alone(message);
 }
 
 void AmbassadorServices::create_federation_execution(std::string_view federation,
@@ -56,18 +45,18 @@ void AmbassadorServices::destroy_federation_execution(std::string_view federatio
 void AmbassadorServices::list_federation_executions() { ask(ListFederationExecutionsMessage{}); }
 
 void AmbassadorServices::query_management() {
-  if (phase_ == Phase::idle) ask(QueryManagementMessage{});
-  else say(QueryManagementMessage{});
+  if (phase_.is_idle()) ask(QueryManagementMessage{});
+  else frames_.enqueue(QueryManagementMessage{});
 }
 
 void AmbassadorServices::join(std::string_view federation, std::string_view federate_name,
                               std::string_view federate_type) {
-  if (phase_ != Phase::idle)
+  if (!phase_.is_idle())
     throw RtiException(HlaError::federate_already_execution_member, "an ambassador joins once");
   require_text(federation, text_max, "the federation execution's name");
   require_text(federate_name, text_max, "the federate's name");
   require_text(federate_type, text_max, "the federate's type");
-  phase_ = Phase::joining;
+  phase_.begin_joining();
   regions_.sign(federate_name);
   federates_ = {{FederateHandle{}, std::string(federate_name)}};
   JoinMessage message;
@@ -75,18 +64,16 @@ void AmbassadorServices::join(std::string_view federation, std::string_view fede
   message.federation = federation;
   message.name = federate_name;
   message.type = federate_type;
-  outgoing_.close_frame();
-  say(message);
-  outgoing_.close_frame();  // before it is let in, a federate may only send short frames
-  frames_to_join_ = outgoing_.frame_count();
+  frames_.enqueue_alone(message);
+  frames_.count_from_here();
 }
 
 void AmbassadorServices::resign() {
-  if (phase_ == Phase::joining || phase_ == Phase::joined) say(ResignMessage{});
-  phase_ = Phase::ended;
+  if (phase_.may_send()) frames_.enqueue(ResignMessage{});
+  phase_.end();
 }
 
-void AmbassadorServices::watch_federates() { say(WatchFederatesMessage{}); }
+void AmbassadorServices::watch_federates() { frames_.enqueue(WatchFederatesMessage{}); }
 
 void AmbassadorServices::register_synchronization_point(std::string_view label, Bytes tag,
                                                         std::span<const FederateHandle> members) {
@@ -97,16 +84,17 @@ void AmbassadorServices::register_synchronization_point(std::string_view label, 
   if (members.size() > HandleList::count_max)
     throw RtiException(HlaError::rti_internal_error,
                        "a synchronisation point's set names at most 16000 federates");
-  say(RegisterSynchronizationPointMessage{label, tag, list_of(members)});
+  frames_.enqueue(RegisterSynchronizationPointMessage{label, tag, list_of(members)});
 }
 
 void AmbassadorServices::synchronization_point_achieved(std::string_view label, bool is_success) {
-  if (phase_ != Phase::joined) refuse_stranger();
+  phase_.require_joined();
   if (std::erase(announced_points_, label) == 0)
     throw RtiException(
         HlaError::synchronization_point_label_not_announced,
         "'" + std::string(label) + "' is not announced to this federate, or it has achieved it");
-  say(SynchronizationPointAchievedMessage{label, static_cast<std::uint8_t>(is_success)});
+  frames_.enqueue(
+      SynchronizationPointAchievedMessage{label, static_cast<std::uint8_t>(is_success)});
 }
 
 bool AmbassadorParts::take_synchronization(Reader& reader, MessageKind kind) {

@@ -1,7 +1,7 @@
 // Object management at the federate's side beyond updates (IEEE 1516.1-2010, clause 6): names,
 // local deletion, requests for updates, transportation.
-#include "rti/federate/ambassador_say.h"
 #include "rti/federate/ambassador_services.h"
+#include "rti/federate/services/require.h"
 #include "rti/wire/object_messages.h"
 
 namespace rink::rti {
@@ -23,7 +23,7 @@ void AmbassadorParts::require_name(std::string_view name) {
 }
 
 void AmbassadorParts::ask_names(std::uint8_t word, std::span<const std::string_view> names) {
-  if (phase_ != Phase::joined) refuse_stranger();
+  phase_.require_joined();
   if (names.empty())
     throw RtiException(HlaError::name_set_was_empty, "a set of names has one at least");
   std::vector<std::byte> texts;
@@ -34,7 +34,7 @@ void AmbassadorParts::ask_names(std::uint8_t word, std::span<const std::string_v
   }
   if (texts.size() > names_size_max)
     throw RtiException(HlaError::rti_internal_error, "a set of names takes at most 32,768 bytes");
-  say(InstanceNamesMessage{word, texts});
+  frames_.enqueue(InstanceNamesMessage{word, texts});
 }
 
 void AmbassadorServices::reserve_object_instance_name(std::string_view name) {
@@ -111,21 +111,21 @@ void AmbassadorServices::local_delete_object_instance(ObjectHandle object) {
   arrivals_.leave(object);
   forget(object);
   if (!is_ours(object) && !was_ours(object)) gone_.push_back({object});
-  say(LocalDeleteMessage{object.value});
+  frames_.enqueue(LocalDeleteMessage{object.value});
 }
 
 void AmbassadorServices::request_attribute_value_update(ObjectClassHandle object_class,
                                                         AttributeSet attributes, Bytes tag) {
   require_class(object_class, attributes);
   require_tag(tag);
-  say(RequestUpdateMessage{1, object_class.value, attributes.bits, tag});
+  frames_.enqueue(RequestUpdateMessage{1, object_class.value, attributes.bits, tag});
 }
 
 void AmbassadorServices::request_attribute_value_update(ObjectHandle object,
                                                         AttributeSet attributes, Bytes tag) {
   known_or_throw(object, attributes);
   require_tag(tag);
-  say(RequestUpdateMessage{0, object.value, attributes.bits, tag});
+  frames_.enqueue(RequestUpdateMessage{0, object.value, attributes.bits, tag});
 }
 
 void AmbassadorServices::request_attribute_transportation_type_change(
@@ -135,29 +135,29 @@ void AmbassadorServices::request_attribute_transportation_type_change(
     release_best_effort(object, attributes);
     made_reliable_[object] = made_reliable_[object] | attributes;
   }
-  say(ChangeTransportationMessage{0, object.value,
-                                  attributes.without(AttributeSet{privilege_to_delete_object}).bits,
-                                  static_cast<std::uint8_t>(transportation)});
+  frames_.enqueue(ChangeTransportationMessage{
+      0, object.value, attributes.without(AttributeSet{privilege_to_delete_object}).bits,
+      static_cast<std::uint8_t>(transportation)});
 }
 
 void AmbassadorServices::query_attribute_transportation_type(ObjectHandle object,
                                                              AttributeHandle attribute) {
   const KnownObject& known = known_or_throw(object, AttributeSet{attribute});
   require_class(ObjectClassHandle{known.object_class}, AttributeSet{attribute});
-  say(QueryTransportationMessage{0, object.value, attribute.value});
+  frames_.enqueue(QueryTransportationMessage{0, object.value, attribute.value});
 }
 
 void AmbassadorServices::request_interaction_transportation_type_change(
     InteractionClassHandle interaction_class, Transportation transportation) {
   require_published(interaction_class);
-  say(ChangeTransportationMessage{1, interaction_class.value, 0,
-                                  static_cast<std::uint8_t>(transportation)});
+  frames_.enqueue(ChangeTransportationMessage{1, interaction_class.value, 0,
+                                              static_cast<std::uint8_t>(transportation)});
 }
 
 void AmbassadorServices::query_interaction_transportation_type(
     FederateHandle federate, InteractionClassHandle interaction_class) {
   require_class(interaction_class);
-  say(QueryTransportationMessage{1, interaction_class.value, federate.value});
+  frames_.enqueue(QueryTransportationMessage{1, interaction_class.value, federate.value});
 }
 
 bool AmbassadorParts::take_transportation(Reader& reader) {

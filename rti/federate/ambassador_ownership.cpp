@@ -1,19 +1,11 @@
 // Ownership management at the federate's side: its own part of each object's ownership, judged
 // before anything is sent.
-#include "rti/federate/ambassador_say.h"
 #include "rti/federate/ambassador_services.h"
+#include "rti/federate/services/require.h"
 #include "rti/wire/object_block.h"
 #include "rti/wire/ownership_messages.h"
 
 namespace rink::rti {
-
-namespace {
-
-void require(bool is_met, HlaError error, ObjectHandle object, std::string_view expected) {
-  if (!is_met) throw RtiException(error, name_of(object) + ": " + std::string(expected));
-}
-
-}  // namespace
 
 AttributeSet AmbassadorParts::all_of(const KnownObject& known) const {
   return fom_.attributes(ObjectClassHandle{known.object_class}) |
@@ -21,8 +13,7 @@ AttributeSet AmbassadorParts::all_of(const KnownObject& known) const {
 }
 
 KnownObject& AmbassadorParts::known_or_throw(ObjectHandle object, AttributeSet attributes) {
-  if (phase_ != Phase::joined)
-    throw RtiException(HlaError::federate_not_execution_member, "join first");
+  phase_.require_joined();
   KnownObject* known = find(object);
   require(known != nullptr, HlaError::object_instance_not_known, object,
           "it must have been registered or discovered");
@@ -105,7 +96,8 @@ void AmbassadorParts::ask_ownership(OwnershipRequest request, ObjectHandle objec
   release_best_effort(object, AttributeSet(~0u));
   require(tag.size() <= ownership_tag_max, HlaError::rti_internal_error, object,
           "a tag of an ownership service has at most 1,024 bytes");
-  say_of(OwnershipRequestMessage{static_cast<std::uint8_t>(request), attributes.bits, tag}, object);
+  frames_.enqueue_in_block(
+      OwnershipRequestMessage{static_cast<std::uint8_t>(request), attributes.bits, tag}, object);
 }
 
 void AmbassadorParts::give_up(OwnershipRequest request, ObjectHandle object,
@@ -222,7 +214,7 @@ void AmbassadorServices::cancel_attribute_ownership_acquisition(ObjectHandle obj
 
 void AmbassadorServices::query_attribute_ownership(ObjectHandle object, AttributeHandle attribute) {
   known_or_throw(object, AttributeSet{attribute});
-  say(QueryOwnershipMessage{object.value, static_cast<std::uint8_t>(attribute.value)});
+  frames_.enqueue(QueryOwnershipMessage{object.value, static_cast<std::uint8_t>(attribute.value)});
 }
 
 bool AmbassadorServices::is_attribute_owned_by_federate(ObjectHandle object,
@@ -231,8 +223,7 @@ bool AmbassadorServices::is_attribute_owned_by_federate(ObjectHandle object,
 }
 
 void AmbassadorServices::set_automatic_resign_directive(ResignAction action) {
-  if (phase_ != Phase::joined)
-    throw RtiException(HlaError::federate_not_execution_member, "join first");
+  phase_.require_joined();
   say_directive(action);
 }
 
@@ -241,12 +232,11 @@ void AmbassadorParts::say_directive(ResignAction action) {
   declared_.is_deleting = deletes(action);
   if (!declared_.is_deleting)
     release_spared(ObjectClassHandle{}, AttributeSet(~0u)), release_best_effort();
-  say(ResignDirectiveMessage{static_cast<std::uint8_t>(action)});
+  frames_.enqueue(ResignDirectiveMessage{static_cast<std::uint8_t>(action)});
 }
 
 void AmbassadorServices::resign(ResignAction action) {
-  if (phase_ != Phase::joined)
-    throw RtiException(HlaError::federate_not_execution_member, "join first");
+  phase_.require_joined();
   const bool cancels = action == ResignAction::cancel_pending_ownership_acquisitions ||
                        action == ResignAction::cancel_then_delete_then_divest;
   const bool deletes = action == ResignAction::delete_objects;
@@ -287,9 +277,9 @@ bool AmbassadorParts::take_ownership(Reader& reader, std::uint8_t kind) {
     if (!all_of(*known).includes(AttributeSet(message.attributes))) return false;
     take_notice(object, *known, static_cast<OwnershipNotice>(message.word),
                 AttributeSet(message.attributes), message.tag);
-    return phase_ == Phase::joined;
+    return phase_.is_joined();
   });
-  return is_read || phase_ != Phase::joined;
+  return is_read || !phase_.is_joined();
 }
 
 /// What crossed a word of ours on its way is about what we no longer own or want, and passes in

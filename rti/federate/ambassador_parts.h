@@ -15,6 +15,9 @@
 #include "rti/callbacks/callback_queue.h"
 #include "rti/distribution/region_book.h"
 #include "rti/federate/advisory_switches.h"
+#include "rti/federate/delivery/frame_outbox.h"
+#include "rti/federate/join_phase.h"
+#include "rti/federate/read_context.h"
 #include "rti/federate_ambassador.h"
 #include "rti/fom/fom_lookup.h"
 #include "rti/fom/quantised_codec.h"
@@ -29,7 +32,6 @@
 #include "rti/wire/bit_stream.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/message.h"
-#include "rti/wire/object_block.h"
 #include "rti/wire/ownership_messages.h"
 #include "rti/wire/stream.h"
 
@@ -49,14 +51,6 @@ class AmbassadorParts : public FomLookup {
                   CallbackModel model);
   ~AmbassadorParts();
 
-  enum class Phase : std::uint8_t { idle, joining, joined, ended };
-  /// Appends a message; the block of updates that grows at the end is over. Throws
-  /// FederateNotExecutionMember.
-  template <class Message>
-  void say(Message message);
-  template <class Message>
-  void append(Message& message);
-  [[noreturn]] void refuse_stranger() const;
   bool is_ours(ObjectHandle object) const { return object.value / object_block == object_block_; }
   /// In a block of ours that is used up: what is left of it is among `known_`, as what was acquired
   /// from others.
@@ -69,7 +63,7 @@ class AmbassadorParts : public FomLookup {
   bool settle_gone(ObjectHandle object);
   void withdraw_publication(ObjectClassHandle object_class, AttributeSet attributes, bool is_all);
   bool take_frame(Bytes frame);
-  bool take_message(Reader& reader);
+  bool take_message(Reader& reader, ReadContext& context);
   bool take_membership(Reader& reader, std::uint8_t kind);
   // Federation management (ambassador_management.cpp).
   template <class Message>
@@ -86,11 +80,11 @@ class AmbassadorParts : public FomLookup {
   void ask_names(std::uint8_t word, std::span<const std::string_view> names);
   bool take_names(Reader& reader);
   bool take_transportation(Reader& reader);
-  bool take_object(Reader& reader, std::uint8_t kind);
+  bool take_object(Reader& reader, std::uint8_t kind, const ReadContext& context);
   bool take_scope(Reader& reader, std::uint8_t kind);
-  bool take_stamp(Reader& reader);
-  bool take_updates(Reader& reader);
-  bool take_interaction(Reader& reader);
+  bool take_stamp(Reader& reader, ReadContext& context);
+  bool take_updates(Reader& reader, const ReadContext& context);
+  bool take_interaction(Reader& reader, const ReadContext& context);
   void associate_regions(ObjectHandle object, std::span<const AttributeRegions> pairs,
                          bool is_added);
   void subscribe_with_regions(ObjectClassHandle object_class,
@@ -110,7 +104,7 @@ class AmbassadorParts : public FomLookup {
   enum class DeltaOutcome : std::uint8_t { decoded, no_baseline, malformed };
   bool take_keyframe(Reader& reader);
   void end_keyframe();
-  bool take_deltas(Reader& reader);
+  bool take_deltas(Reader& reader, const ReadContext& context);
   DeltaOutcome take_periodic(BitReader& bits, const QuantisedCodec& codec,
                              const DeltaHeader& header, std::uint32_t object, const Stamp& stamp);
   // Ownership (ambassador_ownership.cpp).
@@ -137,16 +131,13 @@ class AmbassadorParts : public FomLookup {
   void take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice,
                    AttributeSet attributes, Bytes tag);
   void call_back(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes, Bytes tag);
-  /// Says the header of `object`, in one block with those before it if they had the same.
-  template <class Header>
-  void say_of(Header header, ObjectHandle object);
   void lose(std::string_view why);
   bool hold(Bytes bytes);
   bool take_bytes(Bytes bytes);
 
   // Datagrams (ambassador_datagrams.cpp).
   bool take_datagram(const DatagramHead& head, Reader& reader);
-  bool take_datagram_updates(const DatagramHead& head, Reader& reader);
+  bool take_datagram_updates(const DatagramHead& head, Reader& reader, const ReadContext& context);
   void apply_datagram(Bytes datagram);
   void apply_held_datagrams();
   void acknowledge_datagrams();
@@ -154,7 +145,6 @@ class AmbassadorParts : public FomLookup {
   AttributeSet by_datagram(ObjectHandle object, ObjectClassHandle object_class) const;
   AttributeSet say_best_effort(ObjectHandle object, ObjectClassHandle object_class,
                                AttributeSet attributes, Bytes& values, const Stamp& stamp);
-  std::uint32_t frames_said() const;
   void before_stream(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes);
   void release_best_effort();
   void release_best_effort(ObjectClassHandle object_class);
@@ -181,15 +171,14 @@ class AmbassadorParts : public FomLookup {
   void release_spared(ObjectHandle object);
   void say_update(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes,
                   Bytes values, const Stamp& stamp);
-  void begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp);
 
   // Time management (ambassador_time.cpp).
   void request_advance(AdvanceKind kind, LogicalTime time);
   AttributeSet timestamped(ObjectHandle object, ObjectClassHandle object_class) const;
   RetractionHandle say_timed(LogicalTime time, std::uint64_t tag, Bytes content);
-  bool take_time(Reader& reader, std::uint8_t kind);
-  bool take_timed(Reader& reader);
-  bool postpone(Reader& reader, MessageKind kind);
+  bool take_time(Reader& reader, std::uint8_t kind, const ReadContext& context);
+  bool take_timed(Reader& reader, const ReadContext& context);
+  bool postpone(Reader& reader, MessageKind kind, const ReadContext& context);
   bool release_postponed();
 
   std::unique_ptr<CallbackQueue>
@@ -199,8 +188,8 @@ class AmbassadorParts : public FomLookup {
   std::vector<std::byte> held_;  ///< what came while callbacks were disabled in the immediate model
   std::string held_loss_;        ///< and why the connection was lost
   Patience patience_;
-  Phase phase_ = Phase::idle;
-  FederateHandle federate_;
+  JoinPhase phase_;
+  FrameOutbox frames_{phase_};
   std::uint32_t object_block_ = 0, objects_registered_ = 0;  ///< in that block
   std::optional<std::uint32_t> further_block_;               ///< for when it is used up
   std::vector<std::uint32_t> former_blocks_;
@@ -221,15 +210,7 @@ class AmbassadorParts : public FomLookup {
   bool has_asked_ = false;                                  ///< the host, before the join
   ObjectMap<Holding> holdings_;  ///< of objects owned in part or negotiated about
   DeclaredState declared_;
-  ObjectBlockWriter
-      object_block_writer_;  ///< the block of objects at the end of `outgoing_`, if any
-  FrameWriter outgoing_;
   FrameReader incoming_;
-  OpenUpdates open_;  ///< that still grow at the end of `outgoing_`, if any
-  Stamp said_stamp_;  ///< the last one said
-  std::uint64_t stamped_frame_ =
-      0;  ///< the frame in which it was said: a stamp is good for its frame
-  std::optional<Stamp> heard_stamp_;  ///< of the frame being read
   std::vector<std::byte> coded_, decoded_;
   KeyframeMemory keyframes_;
 
@@ -244,7 +225,6 @@ class AmbassadorParts : public FomLookup {
   std::unique_ptr<BestEffortOutbox>
       outbox_;  ///< null until there is a way and something to send by it
   ObjectMap<AttributeSet> made_reliable_;  ///< of objects of ours
-  std::uint64_t frames_to_join_ = 0;       ///< said up to the one that asks to join
   bool is_timed_ = false;                  ///< it has used time management
   std::uint32_t frames_heard_ = 0;         ///< from the one that let us in
   bool has_datagrams_ = false;             ///< one may come
@@ -255,8 +235,6 @@ class AmbassadorParts : public FomLookup {
   AmbassadorCounters counters_;
 
   FederateClock clock_;
-  const TimedStamp* timed_ =
-      nullptr;  ///< of the message being read, if it was sent in time-stamp order
   std::vector<std::byte> postponed_,
       content_;  ///< messages in receive order that wait for the next request; the message inside
                  ///< one that goes in time-stamp order

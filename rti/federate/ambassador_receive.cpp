@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "rti/federate/ambassador_say.h"
 #include "rti/federate/ambassador_services.h"
 #include "rti/fom/coded_values.h"
 #include "rti/fom/fom_digest.h"
@@ -16,7 +15,7 @@
 namespace rink::rti {
 
 bool AmbassadorServices::receive(Bytes bytes) {
-  if (phase_ == Phase::ended) return true;
+  if (phase_.has_ended()) return true;
   has_heard_ = true;
   counters_.bytes_received += bytes.size();
   return are_callbacks_enabled_ || queue_ ? take_bytes(bytes) : hold(bytes);
@@ -36,23 +35,23 @@ bool AmbassadorParts::take_bytes(Bytes bytes) {
 void AmbassadorServices::disconnected(std::string_view why) { lose(why); }
 
 void AmbassadorParts::lose(std::string_view why) {
-  if (phase_ == Phase::ended || (phase_ == Phase::idle && !has_asked_)) return;
+  if (phase_.has_ended() || (phase_.is_idle() && !has_asked_)) return;
   if (!are_callbacks_enabled_ && !queue_) {
     held_loss_ = why;  // after what was heard before
     return;
   }
-  phase_ = Phase::ended;
+  phase_.end();
   callbacks_.connection_lost(why);
 }
 
 bool AmbassadorParts::take_frame(Bytes frame) {
   ++counters_.frames_received;
-  if (phase_ == Phase::joined) ++frames_heard_;
+  if (phase_.is_joined()) ++frames_heard_;
   if (!postponed_.empty() && !release_postponed()) return false;
-  heard_stamp_.reset();
+  ReadContext context;
   Reader reader(frame);
-  while (!reader.is_at_end() && phase_ != Phase::ended)
-    if (!take_message(reader)) return false;
+  while (!reader.is_at_end() && !phase_.has_ended())
+    if (!take_message(reader, context)) return false;
   end_keyframe();
   if (!gone_.empty()) std::erase_if(gone_, [](const GoneObject& each) { return each.is_settled; });
   return true;
@@ -73,12 +72,12 @@ bool AmbassadorParts::settle_gone(ObjectHandle object) {
   return true;
 }
 
-bool AmbassadorParts::take_message(Reader& reader) {
+bool AmbassadorParts::take_message(Reader& reader, ReadContext& context) {
   std::uint8_t kind = 0;
   reader.number(kind);
   const auto name = static_cast<MessageKind>(kind);
-  if (clock_.holds_receive_order() && timed_ == nullptr && is_receive_ordered(name))
-    return postpone(reader, name);
+  if (clock_.holds_receive_order() && context.timed == nullptr && is_receive_ordered(name))
+    return postpone(reader, name, context);
   if (name == MessageKind::expelled) return take_expulsion(reader);
   if (name == MessageKind::joined || name == MessageKind::refused ||
       name == MessageKind::fom_digest)
@@ -88,7 +87,7 @@ bool AmbassadorParts::take_message(Reader& reader) {
     return take_host_answer(reader, name);
   if (name >= MessageKind::federation_report && name <= MessageKind::report_end)
     return take_report(reader, name);
-  if (phase_ != Phase::joined) return false;
+  if (!phase_.is_joined()) return false;
   switch (name) {
     case MessageKind::heartbeat:
       return true;
@@ -103,7 +102,7 @@ bool AmbassadorParts::take_message(Reader& reader) {
       return take_federate(reader, kind);
     case MessageKind::discover_object:
     case MessageKind::remove_object:
-      return take_object(reader, kind);
+      return take_object(reader, kind, context);
     case MessageKind::in_scope:
     case MessageKind::out_of_scope:
       return take_scope(reader, kind);
@@ -121,34 +120,34 @@ bool AmbassadorParts::take_message(Reader& reader) {
     case MessageKind::inform_ownership:
       return take_ownership(reader, kind);
     case MessageKind::stamp:
-      return take_stamp(reader);
+      return take_stamp(reader, context);
     case MessageKind::updates:
-      return take_updates(reader);
+      return take_updates(reader, context);
     case MessageKind::begin_keyframe:
       return take_keyframe(reader);
     case MessageKind::deltas:
-      return take_deltas(reader);
+      return take_deltas(reader, context);
     case MessageKind::interaction:
-      return take_interaction(reader);
+      return take_interaction(reader, context);
     case MessageKind::time_regulation_enabled:
     case MessageKind::time_constrained_enabled:
     case MessageKind::time_advance_grant:
     case MessageKind::timed_delivery:
     case MessageKind::request_retraction:
     case MessageKind::time_bounds:
-      return take_time(reader, kind);
+      return take_time(reader, kind, context);
     default:
       return false;
   }
 }
 
 bool AmbassadorParts::take_membership(Reader& reader, std::uint8_t kind) {
-  if (phase_ != Phase::joining) return false;
+  if (!phase_.is_joining()) return false;
   if (static_cast<MessageKind>(kind) == MessageKind::fom_digest) return take_digest(reader);
   if (static_cast<MessageKind>(kind) == MessageKind::refused) {
     RefusedMessage message;
     if (!exchange(reader, message)) return false;
-    phase_ = Phase::ended;
+    phase_.end();
     const std::string why =
         std::string(message.why) + (fom_difference_.empty() ? "" : ": " + fom_difference_);
     callbacks_.join_refused(static_cast<Refusal>(message.refusal), why);
@@ -156,13 +155,12 @@ bool AmbassadorParts::take_membership(Reader& reader, std::uint8_t kind) {
   }
   JoinedMessage message;
   if (!exchange(reader, message)) return false;
-  phase_ = Phase::joined;
-  federate_ = {message.federate};
-  federates_.front().first = federate_;
+  phase_.joined({message.federate});
+  federates_.front().first = phase_.federate();
   object_block_ = message.object_block;
   frames_heard_ = 1;
-  if (declared_.is_on(Advisory::attribute_relevance)) say(AdvisorySwitchMessage{true});
-  callbacks_.joined(federate_);
+  if (declared_.is_on(Advisory::attribute_relevance)) frames_.enqueue(AdvisorySwitchMessage{true});
+  callbacks_.joined(phase_.federate());
   return true;
 }
 
@@ -188,7 +186,7 @@ bool AmbassadorParts::take_federate(Reader& reader, std::uint8_t kind) {
   if (static_cast<MessageKind>(kind) == MessageKind::federate_joined) {
     FederateJoinedMessage message;
     if (!exchange(reader, message)) return false;
-    if (FederateHandle{message.federate} != federate_)
+    if (FederateHandle{message.federate} != phase_.federate())
       federates_.emplace_back(FederateHandle{message.federate}, message.name);
     callbacks_.federate_joined({message.federate}, message.name, message.type);
     return true;
@@ -201,7 +199,7 @@ bool AmbassadorParts::take_federate(Reader& reader, std::uint8_t kind) {
   return true;
 }
 
-bool AmbassadorParts::take_object(Reader& reader, std::uint8_t kind) {
+bool AmbassadorParts::take_object(Reader& reader, std::uint8_t kind, const ReadContext& context) {
   if (static_cast<MessageKind>(kind) == MessageKind::remove_object) {
     RemoveObjectMessage message;
     if (!exchange(reader, message)) return false;
@@ -210,7 +208,8 @@ bool AmbassadorParts::take_object(Reader& reader, std::uint8_t kind) {
     arrivals_.leave({message.object});
     forget({message.object});
     ++counters_.objects_removed;
-    if (timed_ != nullptr) callbacks_.remove_object_instance_with_time({message.object}, *timed_);
+    if (context.timed != nullptr)
+      callbacks_.remove_object_instance_with_time({message.object}, *context.timed);
     else callbacks_.remove_object_instance({message.object});
     return true;
   }
@@ -247,23 +246,23 @@ bool AmbassadorParts::take_scope(Reader& reader, std::uint8_t kind) {
   return true;
 }
 
-bool AmbassadorParts::take_stamp(Reader& reader) {
+bool AmbassadorParts::take_stamp(Reader& reader, ReadContext& context) {
   StampMessage message;
   if (!exchange(reader, message)) return false;
-  heard_stamp_ = message.stamp;
+  context.stamp = message.stamp;
   return true;
 }
 
-bool AmbassadorParts::take_updates(Reader& reader) {
+bool AmbassadorParts::take_updates(Reader& reader, const ReadContext& context) {
   UpdatesMessage message;
-  if (!exchange(reader, message) || !heard_stamp_ ||
+  if (!exchange(reader, message) || !context.stamp ||
       message.object_class >= fom_.object_classes().size())
     return false;
   const AttributeSet attributes{message.attributes};
   if (!fom_.attributes(ObjectClassHandle{message.object_class}).includes(attributes)) return false;
   const ObjectClass& object_class = fom_.at(ObjectClassHandle{message.object_class});
   const bool has_codec = is_coded(object_class, attributes);
-  const Stamp stamp = *heard_stamp_;
+  const Stamp stamp = *context.stamp;
   const bool is_read =
       read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
         const KnownObject* known = find({object});
@@ -278,22 +277,23 @@ bool AmbassadorParts::take_updates(Reader& reader) {
         if (has_datagrams_)
           arrivals_.accept({object}, message.object_class, attributes,
                            order_of_frame(frames_heard_));
-        if (timed_ != nullptr)
-          callbacks_.reflect_attribute_values_with_time({object}, attributes, values, *timed_);
+        if (context.timed != nullptr)
+          callbacks_.reflect_attribute_values_with_time({object}, attributes, values,
+                                                        *context.timed);
         else callbacks_.reflect_attribute_values({object}, attributes, values, stamp);
-        return phase_ == Phase::joined;
+        return phase_.is_joined();
       });
-  return is_read || phase_ != Phase::joined;
+  return is_read || !phase_.is_joined();
 }
 
-bool AmbassadorParts::take_interaction(Reader& reader) {
+bool AmbassadorParts::take_interaction(Reader& reader, const ReadContext& context) {
   InteractionMessage message;
   if (!exchange(reader, message) || message.interaction_class >= fom_.interaction_classes().size())
     return false;
   ++counters_.interactions_received;
-  if (timed_ != nullptr)
+  if (context.timed != nullptr)
     callbacks_.receive_interaction_with_time({message.interaction_class}, message.parameters,
-                                             {message.federate}, *timed_);
+                                             {message.federate}, *context.timed);
   else
     callbacks_.receive_interaction({message.interaction_class}, message.parameters,
                                    {message.federate}, message.stamp);

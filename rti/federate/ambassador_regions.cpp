@@ -1,7 +1,6 @@
 // The services of data distribution management at the federate's side (IEEE 1516.1-2010, clause 9).
 #include <algorithm>
 
-#include "rti/federate/ambassador_say.h"
 #include "rti/federate/ambassador_services.h"
 #include "rti/wire/region_messages.h"
 
@@ -28,7 +27,7 @@ void AmbassadorParts::for_each_message(std::span<const AttributeRegions> pairs, 
 
 RegionHandle AmbassadorServices::create_region() {
   const RegionHandle region = regions_.create({});
-  if (region) say(CreateRegionMessage{regions_.number(region)});
+  if (region) frames_.enqueue(CreateRegionMessage{regions_.number(region)});
   return region;
 }
 
@@ -37,7 +36,7 @@ RegionHandle AmbassadorServices::create_region(DimensionSet dimensions) {
     throw RtiException(HlaError::invalid_dimension_handle, "a region needs a dimension");
   dimensions.for_each([this](DimensionHandle each) { check(each); });
   const RegionHandle region = regions_.create(dimensions);
-  if (region) say(CreateRegionOverMessage{regions_.number(region), dimensions.bits});
+  if (region) frames_.enqueue(CreateRegionOverMessage{regions_.number(region), dimensions.bits});
   return region;
 }
 
@@ -73,8 +72,8 @@ void AmbassadorServices::commit_region_modifications(std::span<const RegionHandl
     region_records_.clear();
     Writer writer(region_records_);
     for (Range& each : ranges_) exchange(writer, each);
-    say(ModifyRangesMessage{regions_.number(region), static_cast<std::uint8_t>(ranges_.size()),
-                            region_records_});
+    frames_.enqueue(ModifyRangesMessage{
+        regions_.number(region), static_cast<std::uint8_t>(ranges_.size()), region_records_});
   }
 }
 
@@ -90,7 +89,8 @@ void AmbassadorServices::commit_region_modifications(std::span<const RegionBound
       regions_.set_plane_unchecked(each.region.value, each.bounds);
       exchange(writer, each);
     }
-    say(ModifyRegionsMessage{static_cast<std::uint16_t>(chunk.size()), region_records_});
+    frames_.enqueue(
+        ModifyRegionsMessage{static_cast<std::uint16_t>(chunk.size()), region_records_});
   }
 }
 
@@ -99,14 +99,14 @@ void AmbassadorServices::delete_region(RegionHandle region) {
   regions_.remove(region, [this](ObjectHandle object) {
     return find(object) != nullptr && !owned_of(object, *find(object)).is_empty();
   });
-  say(DeleteRegionMessage{number});
+  frames_.enqueue(DeleteRegionMessage{number});
 }
 
 void AmbassadorServices::associate_regions_for_updates(ObjectHandle object, RegionHandle region) {
   own_class(object);
   const std::uint32_t number = region ? regions_.check(region) : RegionHandle::none;
   regions_.associate(object, region);
-  say(AssociateRegionMessage{object.value, number});
+  frames_.enqueue(AssociateRegionMessage{object.value, number});
 }
 
 void AmbassadorServices::associate_regions_for_updates(ObjectHandle object,
@@ -126,7 +126,7 @@ void AmbassadorParts::associate_regions(ObjectHandle object,
     for (const RegionHandle region : each.regions)
       regions_.associate(object, fom_.attributes(object_class), each.attributes, region, is_added);
   for_each_message(pairs, [&](std::uint16_t count) {
-    say(AssociateRegionsMessage{object.value, is_added, count, region_records_});
+    frames_.enqueue(AssociateRegionsMessage{object.value, is_added, count, region_records_});
   });
 }
 
@@ -180,8 +180,9 @@ void AmbassadorParts::say_regional_class(ObjectClassHandle object_class,
                                          std::span<const AttributeRegions> pairs,
                                          RegionAction action) {
   for_each_message(pairs, [&](std::uint16_t count) {
-    say(RegionalClassMessage{static_cast<std::uint16_t>(object_class.value),
-                             static_cast<std::uint8_t>(action), count, region_records_});
+    frames_.enqueue(RegionalClassMessage{static_cast<std::uint16_t>(object_class.value),
+                                         static_cast<std::uint8_t>(action), count,
+                                         region_records_});
   });
 }
 
@@ -203,9 +204,9 @@ void AmbassadorParts::subscribe_with_regions(InteractionClassHandle interaction_
   for (const RegionHandle region : regions)
     regions_.subscribe(interaction_class, region, listening != Listening::none);
   write_numbers(regions);
-  say(RegionalInteractionMessage{static_cast<std::uint16_t>(interaction_class.value),
-                                 static_cast<std::uint8_t>(listening),
-                                 static_cast<std::uint16_t>(regions.size()), region_records_});
+  frames_.enqueue(RegionalInteractionMessage{
+      static_cast<std::uint16_t>(interaction_class.value), static_cast<std::uint8_t>(listening),
+      static_cast<std::uint16_t>(regions.size()), region_records_});
 }
 
 void AmbassadorServices::send_interaction_with_regions(InteractionClassHandle interaction_class,
@@ -218,9 +219,9 @@ void AmbassadorServices::send_interaction_with_regions(InteractionClassHandle in
   require_stamp(stamp);
   if (spares_interaction(interaction_class)) return;
   write_numbers(regions);
-  say(InteractionWithinMessage{static_cast<std::uint16_t>(interaction_class.value), stamp,
-                               static_cast<std::uint16_t>(regions.size()), region_records_,
-                               parameters});
+  frames_.enqueue(InteractionWithinMessage{static_cast<std::uint16_t>(interaction_class.value),
+                                           stamp, static_cast<std::uint16_t>(regions.size()),
+                                           region_records_, parameters});
   ++counters_.interactions_sent;
 }
 

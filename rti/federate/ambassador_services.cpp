@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "rti/buffering/best_effort_outbox.h"
-#include "rti/federate/ambassador_say.h"
 #include "rti/fom/coded_values.h"
 #include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
@@ -38,7 +37,6 @@ AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
       patience_(patience),
       regions_(fom),
       declared_(fom),
-      outgoing_(frame_max_to_rti),
       arrivals_(fom) {}
 
 AmbassadorServices::AmbassadorServices(const Fom& fom, FederateAmbassador& callbacks,
@@ -47,8 +45,7 @@ AmbassadorServices::AmbassadorServices(const Fom& fom, FederateAmbassador& callb
 
 ObjectHandle AmbassadorServices::register_object_instance(ObjectClassHandle object_class,
                                                           std::string_view name) {
-  if (phase_ != Phase::joined)
-    throw RtiException(HlaError::federate_not_execution_member, "join first");
+  phase_.require_joined();
   if (object_class.value >= declared_.objects.size())
     throw RtiException(HlaError::object_class_not_defined,
                        "class " + std::to_string(object_class.value));
@@ -65,7 +62,8 @@ ObjectHandle AmbassadorServices::register_object_instance(ObjectClassHandle obje
   own_.push_back({static_cast<std::uint16_t>(object_class.value), true});
   names_.end_reservation(name);
   names_.give(object, name);
-  say(RegisterObjectMessage{object.value, static_cast<std::uint16_t>(object_class.value), name});
+  frames_.enqueue(
+      RegisterObjectMessage{object.value, static_cast<std::uint16_t>(object_class.value), name});
   return object;
 }
 
@@ -99,20 +97,7 @@ void AmbassadorServices::delete_object_instance(ObjectHandle object) {
                        "object " + std::to_string(object.value));
   forget(object);
   if (!is_ours(object) && !was_ours(object)) gone_.push_back({object});
-  say(DeleteObjectMessage{object.value});
-}
-
-void AmbassadorParts::begin_updates(ObjectClassHandle object_class, AttributeSet attributes,
-                                    const Stamp& stamp) {
-  declared_.note_sent(object_class, attributes, stamp);
-  if (!outgoing_.is_open() || stamped_frame_ != outgoing_.frame_count() || said_stamp_ != stamp)
-    say(StampMessage{stamp});
-  said_stamp_ = stamp;
-  stamped_frame_ = outgoing_.frame_count();
-  const UpdatesMessage header{static_cast<std::uint16_t>(object_class.value), attributes.bits};
-  say(header);
-  outgoing_.buffer().push_back(std::byte{0});
-  open_ = {true, object_class, attributes, stamp, 0};
+  frames_.enqueue(DeleteObjectMessage{object.value});
 }
 
 void AmbassadorParts::require_values(ObjectClassHandle object_class, AttributeSet attributes,
@@ -137,8 +122,7 @@ void AmbassadorParts::require_values(ObjectClassHandle object_class, AttributeSe
 void AmbassadorServices::update_attribute_values(ObjectHandle object, AttributeSet attributes,
                                                  Bytes values, const Stamp& stamp) {
   const KnownObject* known = find(object);
-  if (phase_ != Phase::joined || known == nullptr || !known->is_own)
-    check_update(object, attributes);
+  if (!phase_.is_joined() || known == nullptr || !known->is_own) check_update(object, attributes);
   const ObjectClassHandle object_class{known->object_class};
   require_values(object_class, attributes, values);
   require_stamp(stamp);
@@ -161,22 +145,9 @@ void AmbassadorServices::update_attribute_values(ObjectHandle object, AttributeS
 
 void AmbassadorParts::say_update(ObjectHandle object, ObjectClassHandle object_class,
                                  AttributeSet attributes, Bytes values, const Stamp& stamp) {
-  assert(values.size() <= values_max);
   if (outbox_) before_stream(object, object_class, attributes);
-  // Stamp, header with two numbers of at most 5 bytes, step to the handle, end.
-  constexpr std::size_t header_size_max = StampMessage::size_max + 1 + 5 + 5, rest_max = 5 + 1;
-  if (!open_.is_open || open_.object_class != object_class || open_.attributes != attributes ||
-      open_.stamp != stamp || !outgoing_.has_room(rest_max + values.size())) {
-    if (!outgoing_.has_room(header_size_max + rest_max + values.size())) outgoing_.close_frame();
-    begin_updates(object_class, attributes, stamp);
-  }
-  std::vector<std::byte>& bytes = outgoing_.buffer();
-  bytes.pop_back();  // the zero that ends the block
-  write_handle(bytes, open_.last_object, object.value);
-  open_.last_object = object.value;
-  bytes.insert(bytes.end(), values.begin(), values.end());
-  bytes.push_back(std::byte{0});
-  outgoing_.appended();
+  if (frames_.enqueue_update({object_class, attributes, stamp}, object, values))
+    declared_.note_sent(object_class, attributes, stamp);
   ++counters_.updates_sent;
 }
 
@@ -192,18 +163,16 @@ void AmbassadorServices::send_directed_interaction(InteractionClassHandle intera
   require_parameters(parameters);
   require_stamp(stamp);
   if (spares_interaction(interaction_class)) return;
-  say(InteractionMessage{static_cast<std::uint16_t>(interaction_class.value), receiver.value, stamp,
-                         parameters});
+  frames_.enqueue(InteractionMessage{static_cast<std::uint16_t>(interaction_class.value),
+                                     receiver.value, stamp, parameters});
   ++counters_.interactions_sent;
 }
 
 void AmbassadorServices::clear_outgoing() {
-  if (!outgoing_.bytes().empty()) has_said_ = true;
-  counters_.bytes_sent += outgoing_.bytes().size();
-  counters_.frames_sent = outgoing_.frame_count();
-  outgoing_.clear();
-  object_block_writer_.close();
-  open_.is_open = false;
+  if (!frames_.is_empty()) has_said_ = true;
+  counters_.bytes_sent += frames_.bytes().size();
+  counters_.frames_sent = frames_.frame_count();
+  frames_.clear();
 }
 
 void AmbassadorServices::advance_clock(double now) {
@@ -211,17 +180,17 @@ void AmbassadorServices::advance_clock(double now) {
   if (!has_clock_) last_heard_ = last_said_ = now;
   has_clock_ = true;
   if (has_heard_) last_heard_ = now;
-  if (has_said_ || !outgoing_.bytes().empty()) last_said_ = now;
+  if (has_said_ || !frames_.is_empty()) last_said_ = now;
   has_heard_ = has_said_ = false;
-  if (outbox_ && phase_ == Phase::joined) repair_best_effort();
+  if (outbox_ && phase_.is_joined()) repair_best_effort();
   if (!postponed_.empty()) release_postponed();
-  if (phase_ != Phase::joined && phase_ != Phase::joining) return;
+  if (!phase_.is_joined() && !phase_.is_joining()) return;
   if (receipts_.is_due() && now - receipts_due_since_ >= DatagramReceipts::longest_delay_s)
     acknowledge_datagrams();
   if (now - last_heard_ > patience_.lost_after_s)
     return lose("the RTI has been silent for too long");
-  if (phase_ == Phase::joined && now - last_said_ >= patience_.heartbeat_s) {
-    say(HeartbeatMessage{});
+  if (phase_.is_joined() && now - last_said_ >= patience_.heartbeat_s) {
+    frames_.enqueue(HeartbeatMessage{});
     last_said_ = now;
   }
 }
@@ -254,7 +223,7 @@ std::size_t AmbassadorServices::memory_bytes() const {
                               (queue_ ? queue_->memory_bytes() : 0);
   return waiting + holdings_.memory_bytes() + own_.capacity() * sizeof own_[0] +
          known_.memory_bytes() + names_.memory_bytes() + regions_.memory_bytes() +
-         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() +
+         region_records_.capacity() + frames_.memory_bytes() + incoming_.memory_bytes() +
          keyframes_.memory_bytes() + arrivals_.memory_bytes() + declared_.memory_bytes() +
          (outbox_ ? outbox_->memory_bytes() : 0);
 }

@@ -27,8 +27,8 @@ class AmbassadorServices final : public AmbassadorParts,
   void join(std::string_view federation, std::string_view federate_name,
             std::string_view federate_type);
   void resign();
-  bool is_joined() const { return phase_ == Phase::joined; }
-  FederateHandle federate() const { return federate_; }
+  bool is_joined() const { return phase_.is_joined(); }
+  FederateHandle federate() const { return phase_.federate(); }
   void register_synchronization_point(std::string_view label, Bytes tag = {},
                                       std::span<const FederateHandle> members = {});
   void synchronization_point_achieved(std::string_view label, bool is_success = true);
@@ -160,7 +160,7 @@ class AmbassadorServices final : public AmbassadorParts,
   void expect_datagrams(std::size_t size_max);
   std::span<const Datagram> outgoing_datagrams();
   void clear_outgoing_datagrams();
-  Bytes outgoing() const { return outgoing_.bytes(); }
+  Bytes outgoing() const { return frames_.bytes(); }
   void clear_outgoing();
   void advance_clock(double now);
   void disconnected(std::string_view why);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "rti/federate/ambassador_say.h"
 #include "rti/federate/ambassador_services.h"
 #include "rti/fom/coded_values.h"
 #include "rti/hla_error.h"
@@ -23,38 +22,38 @@ void AmbassadorServices::enable_time_regulation(double lookahead) {
   clock_.ask_regulation(lookahead);
   release_best_effort();
   is_timed_ = true;
-  say(EnableTimeRegulationMessage{lookahead});
+  frames_.enqueue(EnableTimeRegulationMessage{lookahead});
 }
 
 void AmbassadorServices::disable_time_regulation() {
   clock_.ask_no_regulation();
   deletions_.clear();
-  say(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::disable_regulation)});
+  frames_.enqueue(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::disable_regulation)});
 }
 
 void AmbassadorServices::enable_time_constrained() {
   clock_.ask_constrained();
   release_best_effort();
   is_timed_ = true;
-  say(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::enable_constrained)});
+  frames_.enqueue(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::enable_constrained)});
 }
 
 void AmbassadorServices::disable_time_constrained() {
   clock_.ask_no_constrained();
-  say(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::disable_constrained)});
+  frames_.enqueue(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::disable_constrained)});
 }
 
 void AmbassadorParts::request_advance(AdvanceKind kind, LogicalTime time) {
   clock_.ask_advance(kind, time.value);
-  say(AdvanceRequestMessage{static_cast<std::uint8_t>(kind), time.value});
+  frames_.enqueue(AdvanceRequestMessage{static_cast<std::uint8_t>(kind), time.value});
 }
 
 void AmbassadorServices::modify_lookahead(double lookahead) {
   clock_.ask_lookahead(lookahead);
-  say(ModifyLookaheadMessage{lookahead});
+  frames_.enqueue(ModifyLookaheadMessage{lookahead});
 }
 
-void AmbassadorServices::query_time_bounds() { say(QueryTimeBoundsMessage{}); }
+void AmbassadorServices::query_time_bounds() { frames_.enqueue(QueryTimeBoundsMessage{}); }
 
 AttributeSet AmbassadorParts::timestamped(ObjectHandle object,
                                           ObjectClassHandle object_class) const {
@@ -72,9 +71,9 @@ RetractionHandle AmbassadorParts::say_timed(LogicalTime time, std::uint64_t tag,
   message.number = clock_.ask_send(time.value);
   message.stamp = {time.value, tag};
   message.content = content;
-  say(message);
+  frames_.enqueue(message);
   ++counters_.timed_sent;
-  return {federate_, message.number, time.value};
+  return {phase_.federate(), message.number, time.value};
 }
 
 RetractionHandle AmbassadorServices::update_attribute_values(ObjectHandle object,
@@ -171,8 +170,8 @@ RetractionHandle AmbassadorServices::delete_object_instance(ObjectHandle object,
 }
 
 void AmbassadorServices::retract(const RetractionHandle& handle) {
-  clock_.ask_retraction(handle, federate_);
-  say(RetractMessage{handle.number});
+  clock_.ask_retraction(handle, phase_.federate());
+  frames_.enqueue(RetractMessage{handle.number});
   const auto deletion = std::ranges::find(deletions_, handle.number, &TimedDeletion::number);
   if (deletion == deletions_.end()) return;
   if (is_ours({deletion->object})) own_[deletion->object % object_block] = deletion->known;
@@ -209,9 +208,9 @@ void AmbassadorServices::change_interaction_order_type(InteractionClassHandle in
   interaction_orders_[interaction_class.value] = order;
 }
 
-bool AmbassadorParts::take_time(Reader& reader, std::uint8_t number) {
+bool AmbassadorParts::take_time(Reader& reader, std::uint8_t number, const ReadContext& context) {
   const auto kind = static_cast<MessageKind>(number);
-  if (kind == MessageKind::timed_delivery) return take_timed(reader);
+  if (kind == MessageKind::timed_delivery) return take_timed(reader, context);
   if (kind == MessageKind::time_advance_grant) {
     TimeAdvanceGrantMessage message;
     if (!exchange(reader, message) || !clock_.granted(message.seconds)) return false;
@@ -238,35 +237,32 @@ bool AmbassadorParts::take_time(Reader& reader, std::uint8_t number) {
   return true;
 }
 
-bool AmbassadorParts::take_timed(Reader& reader) {
+bool AmbassadorParts::take_timed(Reader& reader, const ReadContext& context) {
   TimedDeliveryMessage message;
-  if (!exchange(reader, message) || timed_ != nullptr) return false;
+  if (!exchange(reader, message) || context.timed != nullptr) return false;
   ++counters_.timed_received;
   const TimedStamp timed{message.stamp,
                          message.is_in_order != 0,
                          {{message.sender}, message.number, message.stamp.time}};
-  const std::optional<Stamp> outer = std::exchange(heard_stamp_, message.stamp);
-  timed_ = &timed;
+  ReadContext inner{message.stamp, &timed};
   Reader content(message.content);
   const bool is_content =
       !message.content.empty() && is_receive_ordered(static_cast<MessageKind>(message.content[0]));
   const bool is_read =
-      is_content && take_message(content) && (content.is_at_end() || phase_ != Phase::joined);
-  timed_ = nullptr;
-  heard_stamp_ = outer;
+      is_content && take_message(content, inner) && (content.is_at_end() || !phase_.is_joined());
   return is_read;
 }
 
 /// Keeps one message, with its stamp if it needs one, for `release_postponed`.
-bool AmbassadorParts::postpone(Reader& reader, MessageKind kind) {
+bool AmbassadorParts::postpone(Reader& reader, MessageKind kind, const ReadContext& context) {
   const Bytes body = reader.rest();
   bool is_read = false;
   if (kind == MessageKind::updates) {
     UpdatesMessage message;
-    if (!heard_stamp_ || !exchange(reader, message) ||
+    if (!context.stamp || !exchange(reader, message) ||
         message.object_class >= fom_.object_classes().size())
       return false;
-    StampMessage stamp{*heard_stamp_};
+    StampMessage stamp{*context.stamp};
     write(postponed_, stamp);
     is_read =
         read_records(reader, fom_.object_classes()[message.object_class],
@@ -290,8 +286,9 @@ bool AmbassadorParts::release_postponed() {
   if (clock_.holds_receive_order()) return true;
   const std::vector<std::byte> messages = std::exchange(postponed_, {});
   Reader reader(messages);
-  while (!reader.is_at_end() && phase_ == Phase::joined)
-    if (!take_message(reader)) return false;
+  ReadContext context;
+  while (!reader.is_at_end() && phase_.is_joined())
+    if (!take_message(reader, context)) return false;
   return true;
 }
 

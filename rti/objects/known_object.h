@@ -28,13 +28,4 @@ struct TimedDeletion {
   double time = 0.0;
 };
 
-/// A block of updates that may take more.
-struct OpenUpdates {
-  bool is_open = false;
-  ObjectClassHandle object_class;
-  AttributeSet attributes;
-  Stamp stamp;
-  std::uint32_t last_object = 0;
-};
-
 }  // namespace rink::rti

@@ -1,0 +1,93 @@
+// What waits to go to the RTI by the stream: messages in frames, and the blocks that still grow.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+
+#include "rti/federate/join_phase.h"
+#include "rti/types.h"
+#include "rti/wire/frame.h"
+#include "rti/wire/message.h"
+#include "rti/wire/object_block.h"
+
+namespace rink::rti {
+
+/// What updates that go in one block have in common.
+struct UpdateHeader {
+  ObjectClassHandle object_class;
+  AttributeSet attributes;
+  Stamp stamp;
+  friend bool operator==(const UpdateHeader&, const UpdateHeader&) = default;
+};
+
+/// The only writer of a federate's stream.
+class FrameOutbox {
+ public:
+  /// Must outlive it.
+  explicit FrameOutbox(const JoinPhase& phase) : phase_(phase), frames_(frame_max_to_rti) {}
+
+  /// The block of updates that grows at the end is over. Throws FederateNotExecutionMember.
+  template <class Message>
+  void enqueue(Message message) {
+    phase_.require_sending();
+    append(message);
+  }
+  /// In a frame of its own: a host reads the first message of a frame to know whom it concerns, and
+  /// before a federate is let in it may only send short frames.
+  template <class Message>
+  void enqueue_alone(Message message) {
+    frames_.close_frame();
+    append(message);
+    frames_.close_frame();
+  }
+  /// The header of `object`, in one block with those before it if they had an equal one. Must be
+  /// joined.
+  template <class Header>
+  void enqueue_in_block(Header header, ObjectHandle object) {
+    assert(phase_.is_joined());
+    const std::size_t size = measure(header) + object_record_max;
+    if (!frames_.has_room(size)) object_block_.close();
+    object_block_.append(frames_.begin_message(size), header, object.value);
+    frames_.appended();
+    has_open_updates_ = false;
+  }
+  /// `values` are coded, at most `values_max` bytes. True if the update began a block.
+  bool enqueue_update(const UpdateHeader& header, ObjectHandle object, Bytes values);
+
+  /// What follows stands in another frame and another block.
+  void close_frame();
+  /// The frames to come are counted by `frames_since_join`.
+  void count_from_here() { frames_to_join_ = frames_.frame_count(); }
+  std::uint32_t frames_since_join() const {
+    return static_cast<std::uint32_t>(frames_.frame_count() - frames_to_join_);
+  }
+  std::uint64_t frame_count() const { return frames_.frame_count(); }
+
+  Bytes bytes() const { return frames_.bytes(); }
+  bool is_empty() const { return frames_.bytes().empty(); }
+  /// All of it is on its way.
+  void clear();
+  std::size_t memory_bytes() const { return frames_.memory_bytes(); }
+
+ private:
+  template <class Message>
+  void append(Message& message) {
+    write(frames_.begin_message(measure(message)), message);
+    frames_.appended();
+    has_open_updates_ = false;
+  }
+  void begin_updates(const UpdateHeader& header);
+
+  const JoinPhase& phase_;
+  FrameWriter frames_;
+  ObjectBlockWriter object_block_;  ///< the block of objects at the end, if any
+  UpdateHeader open_;               ///< of the updates that still grow at the end
+  bool has_open_updates_ = false;
+  std::uint32_t last_object_ = 0;     ///< in that block
+  Stamp stamp_;                       ///< the last one sent
+  std::uint64_t stamped_frame_ = 0;   ///< the frame that it is in: a stamp is good for its frame
+  std::uint64_t frames_to_join_ = 0;  ///< up to the one that asks to join
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,19 @@
+// How services refuse what may not be asked of them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "rti/handles.h"
+#include "rti/hla_error.h"
+
+namespace rink::rti {
+
+/// As exceptions call it.
+inline std::string name_of(ObjectHandle object) { return "object " + std::to_string(object.value); }
+
+inline void require(bool is_met, HlaError error, ObjectHandle object, std::string_view expected) {
+  if (!is_met) throw RtiException(error, name_of(object) + ": " + std::string(expected));
+}
+
+}  // namespace rink::rti
