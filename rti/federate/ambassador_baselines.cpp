@@ -40,8 +40,8 @@ bool AmbassadorParts::take_deltas(Reader& reader, const ReadContext& context) {
     const HandleReader::Next next = read_handle(bits, object);
     if (next == HandleReader::Next::end) break;
     if (next != HandleReader::Next::handle) return false;
-    const KnownObject* known = find({object});
-    const bool is_object_gone = known == nullptr && is_gone({object});
+    const KnownObject* known = objects_.find({object});
+    const bool is_object_gone = known == nullptr && objects_.is_gone({object});
     if (!is_object_gone && (known == nullptr || known->object_class != message.object_class))
       return false;
     const DeltaOutcome outcome = take_periodic(bits, codec, header, object, stamp);

@@ -60,7 +60,7 @@ void AmbassadorParts::before_stream(ObjectHandle object, ObjectClassHandle objec
                                     AttributeSet attributes) {
   if (!outbox_ || (attributes & outbox_->best_effort(object_class)).is_empty()) return;
   if (outbox_->is_pending()) {
-    outbox_->seal(frames_.frames_since_join(), now_);
+    outbox_->seal(frames_.frames_since_join(), watch_.now());
     frames_.close_frame();
   }
   outbox_->forget(object, attributes);
@@ -92,13 +92,13 @@ void AmbassadorParts::release_best_effort(ObjectClassHandle object_class) {
 /// What was lost is said again as it is now: by datagram or, if there is no way any more, by the
 /// stream.
 void AmbassadorParts::repair_best_effort() {
-  outbox_->advance_clock(now_, frames_.frames_since_join());
+  outbox_->advance_clock(watch_.now(), frames_.frames_since_join());
   std::vector<DatagramLedger::Lost> due;
   due.swap(outbox_->due());
   for (const DatagramLedger::Lost& each : due) {
     const ObjectHandle object{each.handle};
     const BestEffortOutbox::Kept* kept = outbox_->find(object);
-    if (kept == nullptr || find(object) == nullptr) continue;
+    if (kept == nullptr || objects_.find(object) == nullptr) continue;
     const BestEffortOutbox::Kept newest = *kept;
     (newest.attributes & each.attributes).for_each([&](AttributeHandle one) {
       const BestEffortOutbox::Value& value = newest.values[one.value];
@@ -117,7 +117,7 @@ std::span<const Datagram> AmbassadorServices::outgoing_datagrams() {
   datagrams_.clear();
   if (!acknowledgement_.empty()) datagrams_.push_back({acknowledgement_, {}});
   if (!outbox_) return datagrams_;
-  outbox_->seal(frames_.frames_since_join(), now_);
+  outbox_->seal(frames_.frames_since_join(), watch_.now());
   for (const Datagram& each : outbox_->datagrams()) datagrams_.push_back(each);
   return datagrams_;
 }

@@ -18,7 +18,8 @@ constexpr std::size_t held_max =
 
 void AmbassadorServices::receive_datagram(Bytes datagram) {
   if (!phase_.is_joined()) return;
-  has_heard_ = has_datagrams_ = true;
+  watch_.heard();
+  has_datagrams_ = true;
   counters_.bytes_received += datagram.size();
   DatagramHead head;
   Reader reader(datagram);
@@ -28,8 +29,7 @@ void AmbassadorServices::receive_datagram(Bytes datagram) {
   }
   // It may speak of objects that a frame on its way tells of; and while callbacks are disabled
   // frames are held back too.
-  const bool may_tell = are_callbacks_enabled_ || queue_;
-  if (may_tell && head.frames <= frames_heard_) apply_datagram(datagram);
+  if (gate_.is_open() && head.frames <= frames_heard_) apply_datagram(datagram);
   else if (held_datagrams_.size() < held_max)
     held_datagrams_.emplace_back(datagram.begin(), datagram.end());
   else ++counters_.datagrams_ignored;
@@ -40,7 +40,7 @@ void AmbassadorParts::apply_datagram(Bytes datagram) {
   Reader reader(datagram);
   exchange(reader, head);
   if (head.number != 0) {
-    if (!receipts_.is_due()) receipts_due_since_ = now_;
+    if (!receipts_.is_due()) receipts_due_since_ = watch_.now();
     if (!receipts_.note(head.number)) {
       ++counters_.datagrams_ignored;
       return;
@@ -76,7 +76,7 @@ bool AmbassadorParts::take_datagram(const DatagramHead& head, Reader& reader) {
     if (static_cast<MessageKind>(kind) == MessageKind::stamp)
       is_understood = take_stamp(reader, context);
     else if (static_cast<MessageKind>(kind) == MessageKind::acknowledge_datagrams)
-      is_understood = exchange(reader, ours) && outbox_ && outbox_->acknowledge(ours, now_);
+      is_understood = exchange(reader, ours) && outbox_ && outbox_->acknowledge(ours, watch_.now());
     else
       is_understood = static_cast<MessageKind>(kind) == MessageKind::updates &&
                       take_datagram_updates(head, reader, context);
@@ -96,7 +96,7 @@ bool AmbassadorParts::take_datagram_updates(const DatagramHead& head, Reader& re
   const Stamp stamp = *context.stamp;
   const bool is_read =
       read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
-        const KnownObject* known = find({object});
+        const KnownObject* known = objects_.find({object});
         // One that is unknown or out of scope by now has been told of since this was said, or will
         // be, with its whole state.
         const bool is_known = known != nullptr && known->object_class == message.object_class;

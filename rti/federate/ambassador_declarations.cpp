@@ -189,8 +189,8 @@ bool AmbassadorParts::take_object_relevance(Reader& reader) {
   ObjectRelevanceMessage message;
   if (!exchange(reader, message)) return false;
   const ObjectHandle object{message.object};
-  const KnownObject* known = find(object);
-  if (known == nullptr) return is_gone(object);
+  const KnownObject* known = objects_.find(object);
+  if (known == nullptr) return objects_.is_gone(object);
   const AttributeSet now{message.attributes};
   if (!fom_.attributes(ObjectClassHandle{known->object_class}).includes(now)) return false;
   const AttributeSet* told = declared_.relevant_objects.find(object);
@@ -207,9 +207,7 @@ bool AmbassadorParts::take_object_relevance(Reader& reader) {
 
 /// Only what ends with its federate may be kept back, and only while it would hear at once that
 /// somebody listens.
-bool AmbassadorParts::may_spare() const {
-  return declared_.is_deleting && (are_callbacks_enabled_ || queue_);
-}
+bool AmbassadorParts::may_spare() const { return declared_.is_deleting && gate_.is_open(); }
 
 bool AmbassadorParts::spares_interaction(InteractionClassHandle interaction_class) {
   if (!declared_.interactions[interaction_class.value].others.heard.is_empty() || !may_spare())

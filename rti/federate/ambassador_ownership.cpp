@@ -12,9 +12,9 @@ AttributeSet AmbassadorParts::all_of(const KnownObject& known) const {
          AttributeSet{privilege_to_delete_object};
 }
 
-KnownObject& AmbassadorParts::known_or_throw(ObjectHandle object, AttributeSet attributes) {
+const KnownObject& AmbassadorParts::known_or_throw(ObjectHandle object, AttributeSet attributes) {
   phase_.require_joined();
-  KnownObject* known = find(object);
+  const KnownObject* known = objects_.find(object);
   require(known != nullptr, HlaError::object_instance_not_known, object,
           "it must have been registered or discovered");
   require(all_of(*known).includes(attributes), HlaError::attribute_not_defined, object,
@@ -36,9 +36,9 @@ Holding& AmbassadorParts::holding_of(ObjectHandle object, const KnownObject& kno
 }
 
 /// All or nothing, and nothing under way, is said by `is_own` alone.
-void AmbassadorParts::settle_holding(ObjectHandle object, KnownObject& known) {
+void AmbassadorParts::settle_holding(ObjectHandle object, const KnownObject& known) {
   const Holding* holding = holdings_.find(object);
-  known.is_own = holding->owned == all_of(known);
+  objects_.set_own(object, holding->owned == all_of(known));
   if (holding->owned.is_empty())
     regions_.forget(object);  // its regions are the new owner's to associate
   if ((known.is_own || holding->owned.is_empty()) && holding->offered.is_empty() &&
@@ -52,21 +52,13 @@ void AmbassadorParts::check_update(ObjectHandle object, AttributeSet attributes)
           "an attribute that is updated must be owned");
 }
 
-template <class Visit>
-void AmbassadorParts::for_each_known(Visit visit) {
-  for (std::uint32_t i = 0; i < own_.size(); ++i)
-    if (own_[i].object_class != KnownObject::unknown)
-      visit(ObjectHandle{object_block_ * object_block + i}, own_[i]);
-  known_.for_each(visit);
-}
-
 /// What of the class is owned is given up with its publication, at the RTI too.
 void AmbassadorParts::withdraw_publication(ObjectClassHandle object_class, AttributeSet attributes,
                                            bool is_all) {
   if (attributes.is_empty()) return;
   if (is_all) attributes.insert(privilege_to_delete_object);
   std::vector<ObjectHandle> owned;
-  for_each_known([&](ObjectHandle object, const KnownObject& known) {
+  objects_.for_each([&](ObjectHandle object, const KnownObject& known) {
     if (known.object_class != object_class.value) return;
     const Holding* holding = holdings_.find(object);
     require(!holding || (holding->pending() & attributes).is_empty(),
@@ -75,7 +67,7 @@ void AmbassadorParts::withdraw_publication(ObjectClassHandle object_class, Attri
     if (!(owned_of(object, known) & attributes).is_empty()) owned.push_back(object);
   });
   for (const ObjectHandle object : owned) {
-    KnownObject& known = *find(object);
+    const KnownObject& known = *objects_.find(object);
     holding_of(object, known).lose(attributes);
     settle_holding(object, known);
   }
@@ -103,7 +95,7 @@ void AmbassadorParts::ask_ownership(OwnershipRequest request, ObjectHandle objec
 void AmbassadorParts::give_up(OwnershipRequest request, ObjectHandle object,
                               AttributeSet attributes, Bytes tag) {
   ask_ownership(request, object, attributes, tag);
-  KnownObject& known = *find(object);
+  const KnownObject& known = *objects_.find(object);
   holding_of(object, known).lose(attributes);
   settle_holding(object, known);
 }
@@ -121,7 +113,7 @@ void AmbassadorServices::negotiated_attribute_ownership_divestiture(ObjectHandle
   require((offered & attributes).is_empty(), HlaError::attribute_already_being_divested, object,
           "an attribute is offered once");
   ask_ownership(OwnershipRequest::offer, object, attributes, tag);
-  KnownObject& known = *find(object);
+  const KnownObject& known = *objects_.find(object);
   Holding& holding = holding_of(object, known);
   holding.offered = holding.offered | attributes;
   settle_holding(object, known);
@@ -157,7 +149,7 @@ void AmbassadorServices::cancel_negotiated_attribute_ownership_divestiture(
           "only an offer can be withdrawn");
   ask_ownership(OwnershipRequest::withdraw_offer, object, attributes, {});
   if (attributes.is_empty()) return;
-  KnownObject& known = *find(object);
+  const KnownObject& known = *objects_.find(object);
   Holding& holding = holding_of(object, known);
   holding.offered = holding.offered.without(attributes);
   holding.confirmable = holding.confirmable.without(attributes);
@@ -185,7 +177,7 @@ void AmbassadorServices::attribute_ownership_acquisition(ObjectHandle object,
       before ? attributes.without(before->acquiring) : attributes;  // asking twice is asking once
   ask_ownership(OwnershipRequest::acquire, object, asked, tag);
   if (asked.is_empty()) return;
-  Holding& holding = holding_of(object, *find(object));
+  Holding& holding = holding_of(object, *objects_.find(object));
   holding.acquiring = holding.acquiring | asked;
   holding.acquiring_if_available = holding.acquiring_if_available.without(asked);
 }
@@ -197,7 +189,7 @@ void AmbassadorServices::attribute_ownership_acquisition_if_available(ObjectHand
           "its acquisition is under way");
   ask_ownership(OwnershipRequest::acquire_if_available, object, attributes, {});
   if (attributes.is_empty()) return;
-  Holding& holding = holding_of(object, *find(object));
+  Holding& holding = holding_of(object, *objects_.find(object));
   holding.acquiring_if_available = holding.acquiring_if_available | attributes;
 }
 
@@ -252,16 +244,16 @@ void AmbassadorServices::resign(ResignAction action) {
             HlaError::federate_owns_attributes, object,
             "the action must divest or delete what is owned");
   };
-  for_each_known(check);
+  objects_.for_each(check);
   say_directive(action);
-  resign();
+  session_.resign();
 }
 
 bool AmbassadorParts::take_ownership(Reader& reader, std::uint8_t kind) {
   if (static_cast<MessageKind>(kind) == MessageKind::inform_ownership) {
     InformOwnershipMessage message;
     if (!exchange(reader, message)) return false;
-    if (!find({message.object})) return is_gone({message.object});
+    if (!objects_.find({message.object})) return objects_.is_gone({message.object});
     if (message.federate == FederateHandle::none)
       callbacks_.attribute_is_not_owned({message.object}, {message.attribute});
     else
@@ -272,8 +264,8 @@ bool AmbassadorParts::take_ownership(Reader& reader, std::uint8_t kind) {
   OwnershipNoticeMessage message;
   if (!exchange(reader, message)) return false;
   const bool is_read = read_objects(reader, [&](ObjectHandle object) {
-    KnownObject* known = find(object);
-    if (known == nullptr) return is_gone(object);
+    const KnownObject* known = objects_.find(object);
+    if (known == nullptr) return objects_.is_gone(object);
     if (!all_of(*known).includes(AttributeSet(message.attributes))) return false;
     take_notice(object, *known, static_cast<OwnershipNotice>(message.word),
                 AttributeSet(message.attributes), message.tag);
@@ -284,8 +276,8 @@ bool AmbassadorParts::take_ownership(Reader& reader, std::uint8_t kind) {
 
 /// What crossed a word of ours on its way is about what we no longer own or want, and passes in
 /// silence.
-void AmbassadorParts::take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice,
-                                  AttributeSet attributes, Bytes tag) {
+void AmbassadorParts::take_notice(ObjectHandle object, const KnownObject& known,
+                                  OwnershipNotice notice, AttributeSet attributes, Bytes tag) {
   Holding& holding = holding_of(object, known);
   const AttributeSet pending = attributes & holding.pending();
   AttributeSet told = attributes;

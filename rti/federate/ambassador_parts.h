@@ -12,12 +12,17 @@
 
 #include "rti/ambassador_counters.h"
 #include "rti/baselines/keyframe_memory.h"
-#include "rti/callbacks/callback_queue.h"
 #include "rti/distribution/region_book.h"
 #include "rti/federate/advisory_switches.h"
-#include "rti/federate/delivery/frame_outbox.h"
-#include "rti/federate/join_phase.h"
+#include "rti/federate/ambassador_basis.h"
+#include "rti/federate/delivery/callback_gate.h"
+#include "rti/federate/delivery/link_watch.h"
 #include "rti/federate/read_context.h"
+#include "rti/federate/services/federate_synchronization.h"
+#include "rti/federate/services/host_questions.h"
+#include "rti/federate/services/instance_names.h"
+#include "rti/federate/services/join_session.h"
+#include "rti/federate/services/object_book.h"
 #include "rti/federate_ambassador.h"
 #include "rti/fom/fom_lookup.h"
 #include "rti/fom/quantised_codec.h"
@@ -25,7 +30,6 @@
 #include "rti/objects/arrival_order.h"
 #include "rti/objects/declared_state.h"
 #include "rti/objects/known_object.h"
-#include "rti/objects/name_book.h"
 #include "rti/objects/object_map.h"
 #include "rti/time/federate_clock.h"
 #include "rti/types.h"
@@ -43,42 +47,23 @@ struct DeltaHeader;
 /// The data of an ambassador, and all of its functions that are no services.
 class AmbassadorParts : public FomLookup {
  public:
-  static constexpr std::size_t waiting_callbacks_max =
-      64u << 20;  ///< of callbacks that wait to be evoked, or of what they would be made of [bytes]
+  static constexpr std::size_t waiting_callbacks_max = CallbackGate::waiting_max;
 
  protected:
   AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience,
                   CallbackModel model);
   ~AmbassadorParts();
 
-  bool is_ours(ObjectHandle object) const { return object.value / object_block == object_block_; }
-  /// In a block of ours that is used up: what is left of it is among `known_`, as what was acquired
-  /// from others.
-  bool was_ours(ObjectHandle object) const;
-  void begin_further_block();
   bool take_further_block(Reader& reader);
-  KnownObject* find(ObjectHandle object);
   void forget(ObjectHandle object);
-  bool is_gone(ObjectHandle object) const;
-  bool settle_gone(ObjectHandle object);
   void withdraw_publication(ObjectClassHandle object_class, AttributeSet attributes, bool is_all);
   bool take_frame(Bytes frame);
   bool take_message(Reader& reader, ReadContext& context);
-  bool take_membership(Reader& reader, std::uint8_t kind);
-  // Federation management (ambassador_management.cpp).
-  template <class Message>
-  void ask(Message message);
-  bool take_synchronization(Reader& reader, MessageKind kind);
-  bool take_host_answer(Reader& reader, MessageKind kind);
-  bool take_execution(Reader& reader);
-  bool take_report(Reader& reader, MessageKind kind);
-  bool take_federate(Reader& reader, std::uint8_t kind);
+  bool take_joined_message(Reader& reader, MessageKind name, ReadContext& context);
+  bool take_joined(Reader& reader);
   bool take_expulsion(Reader& reader);
-  bool take_digest(Reader& reader);
   bool take_provide_update(Reader& reader);
   // Objects beyond updates (ambassador_objects.cpp).
-  void ask_names(std::uint8_t word, std::span<const std::string_view> names);
-  bool take_names(Reader& reader);
   bool take_transportation(Reader& reader);
   bool take_object(Reader& reader, std::uint8_t kind, const ReadContext& context);
   bool take_scope(Reader& reader, std::uint8_t kind);
@@ -109,12 +94,10 @@ class AmbassadorParts : public FomLookup {
                              const DeltaHeader& header, std::uint32_t object, const Stamp& stamp);
   // Ownership (ambassador_ownership.cpp).
   AttributeSet all_of(const KnownObject& known) const;
-  template <class Visit>
-  void for_each_known(Visit visit);
-  KnownObject& known_or_throw(ObjectHandle object, AttributeSet attributes);
+  const KnownObject& known_or_throw(ObjectHandle object, AttributeSet attributes);
   AttributeSet owned_of(ObjectHandle object, const KnownObject& known) const;
   Holding& holding_of(ObjectHandle object, const KnownObject& known);
-  void settle_holding(ObjectHandle object, KnownObject& known);
+  void settle_holding(ObjectHandle object, const KnownObject& known);
   void check_update(ObjectHandle object, AttributeSet attributes);
   static void require_parameters(Bytes parameters);
   static void require_stamp(const Stamp& stamp);
@@ -128,11 +111,10 @@ class AmbassadorParts : public FomLookup {
   void give_up(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag);
   void say_directive(ResignAction action);
   bool take_ownership(Reader& reader, std::uint8_t kind);
-  void take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice,
+  void take_notice(ObjectHandle object, const KnownObject& known, OwnershipNotice notice,
                    AttributeSet attributes, Bytes tag);
   void call_back(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes, Bytes tag);
   void lose(std::string_view why);
-  bool hold(Bytes bytes);
   bool take_bytes(Bytes bytes);
 
   // Datagrams (ambassador_datagrams.cpp).
@@ -155,7 +137,6 @@ class AmbassadorParts : public FomLookup {
   void require_class(ObjectClassHandle object_class, AttributeSet attributes) const;
   void require_class(InteractionClassHandle interaction_class) const;
   void require_published(InteractionClassHandle interaction_class) const;
-  static void require_name(std::string_view name);
   void declare_publication(InteractionClassHandle interaction_class, bool is_published);
   void declare_subscription(InteractionClassHandle interaction_class, Listening listening);
   void switch_advisory(Advisory advisory, bool is_on);
@@ -181,33 +162,21 @@ class AmbassadorParts : public FomLookup {
   bool postpone(Reader& reader, MessageKind kind, const ReadContext& context);
   bool release_postponed();
 
-  std::unique_ptr<CallbackQueue>
-      queue_;                      ///< null in the immediate model, which pays nothing for it
+  CallbackGate gate_;
   FederateAmbassador& callbacks_;  ///< the federate, or the queue before it
-  bool are_callbacks_enabled_ = true;
-  std::vector<std::byte> held_;  ///< what came while callbacks were disabled in the immediate model
-  std::string held_loss_;        ///< and why the connection was lost
-  Patience patience_;
   JoinPhase phase_;
   FrameOutbox frames_{phase_};
-  std::uint32_t object_block_ = 0, objects_registered_ = 0;  ///< in that block
-  std::optional<std::uint32_t> further_block_;               ///< for when it is used up
-  std::vector<std::uint32_t> former_blocks_;
-  std::vector<KnownObject> own_;  ///< registered here, by number within our block
-  ObjectMap<KnownObject> known_;  ///< of others: few of many, so memory follows what is in sight
-  std::vector<GoneObject> gone_;  ///< of others, that the RTI may still tell of
-  NameBook names_;
+  AmbassadorCounters counters_;
+  AmbassadorBasis basis_;
+  LinkWatch watch_;
+  ObjectBook objects_;
+  InstanceNames names_;
+  FederateSynchronization synchronization_;
+  HostQuestions questions_;
+  JoinSession session_;
   RegionBook regions_;
   std::vector<Range> ranges_;
-  std::string fom_difference_;  ///< from the federation's model, if the RTI told
   std::vector<std::byte> region_records_;
-  std::vector<std::pair<FederateHandle, std::string>>
-      federates_;  ///< that we were told of, and ourselves first
-  std::vector<std::string>
-      announced_points_;  ///< synchronisation points that we have not achieved yet
-  std::vector<FederationExecutionInformation> executions_;  ///< of the list that is being told
-  std::vector<FederationReport> reports_;                   ///< likewise
-  bool has_asked_ = false;                                  ///< the host, before the join
   ObjectMap<Holding> holdings_;  ///< of objects owned in part or negotiated about
   DeclaredState declared_;
   FrameReader incoming_;
@@ -229,10 +198,6 @@ class AmbassadorParts : public FomLookup {
   std::uint32_t frames_heard_ = 0;         ///< from the one that let us in
   bool has_datagrams_ = false;             ///< one may come
   double receipts_due_since_ = 0.0;
-
-  double now_ = 0.0, last_heard_ = 0.0, last_said_ = 0.0;
-  bool has_clock_ = false, has_said_ = false, has_heard_ = false;
-  AmbassadorCounters counters_;
 
   FederateClock clock_;
   std::vector<std::byte> postponed_,

@@ -4,9 +4,7 @@
 
 #include "rti/federate/ambassador_services.h"
 #include "rti/fom/coded_values.h"
-#include "rti/fom/fom_digest.h"
 #include "rti/wire/declaration_messages.h"
-#include "rti/wire/fom_messages.h"
 #include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/time_messages.h"
@@ -16,9 +14,12 @@ namespace rink::rti {
 
 bool AmbassadorServices::receive(Bytes bytes) {
   if (phase_.has_ended()) return true;
-  has_heard_ = true;
+  watch_.heard();
   counters_.bytes_received += bytes.size();
-  return are_callbacks_enabled_ || queue_ ? take_bytes(bytes) : hold(bytes);
+  if (gate_.is_open()) return take_bytes(bytes);
+  if (gate_.hold(bytes)) return true;
+  lose("callbacks were disabled for too long");
+  return false;
 }
 
 bool AmbassadorParts::take_bytes(Bytes bytes) {
@@ -28,18 +29,13 @@ bool AmbassadorParts::take_bytes(Bytes bytes) {
           [this](Bytes frame) { return take_frame(frame); }) == Framing::sound;
   if (!is_understood) lose("the RTI sent what this version does not understand");
   if (!held_datagrams_.empty()) apply_held_datagrams();
-  return is_understood && (!queue_ || queue_->waiting_bytes() <= waiting_callbacks_max ||
-                           (lose("too many callbacks wait to be evoked"), false));
+  return is_understood &&
+         (!gate_.is_overfull() || (lose("too many callbacks wait to be evoked"), false));
 }
 
-void AmbassadorServices::disconnected(std::string_view why) { lose(why); }
-
 void AmbassadorParts::lose(std::string_view why) {
-  if (phase_.has_ended() || (phase_.is_idle() && !has_asked_)) return;
-  if (!are_callbacks_enabled_ && !queue_) {
-    held_loss_ = why;  // after what was heard before
-    return;
-  }
+  if (phase_.has_ended() || (phase_.is_idle() && !questions_.has_asked())) return;
+  if (!gate_.is_open()) return gate_.hold_loss(why);
   phase_.end();
   callbacks_.connection_lost(why);
 }
@@ -53,22 +49,7 @@ bool AmbassadorParts::take_frame(Bytes frame) {
   while (!reader.is_at_end() && !phase_.has_ended())
     if (!take_message(reader, context)) return false;
   end_keyframe();
-  if (!gone_.empty()) std::erase_if(gone_, [](const GoneObject& each) { return each.is_settled; });
-  return true;
-}
-
-/// True of an object that was deleted or forgotten here: what the RTI still says of it, it said
-/// before it heard so.
-bool AmbassadorParts::is_gone(ObjectHandle object) const {
-  if (is_ours(object)) return object.value % object_block < objects_registered_;
-  return was_ours(object) || known_.find(object) != nullptr ||
-         std::ranges::find(gone_, object, &GoneObject::object) != gone_.end();
-}
-
-/// The RTI has heard so: it says nothing more of it, unless it is discovered anew.
-bool AmbassadorParts::settle_gone(ObjectHandle object) {
-  for (GoneObject& each : gone_)
-    if (each.object == object) each.is_settled = true;
+  objects_.sweep();
   return true;
 }
 
@@ -79,37 +60,57 @@ bool AmbassadorParts::take_message(Reader& reader, ReadContext& context) {
   if (clock_.holds_receive_order() && context.timed == nullptr && is_receive_ordered(name))
     return postpone(reader, name, context);
   if (name == MessageKind::expelled) return take_expulsion(reader);
-  if (name == MessageKind::joined || name == MessageKind::refused ||
-      name == MessageKind::fom_digest)
-    return take_membership(reader, kind);
-  if (name >= MessageKind::federation_execution_created &&
-      name <= MessageKind::federation_execution)
-    return take_host_answer(reader, name);
-  if (name >= MessageKind::federation_report && name <= MessageKind::report_end)
-    return take_report(reader, name);
-  if (!phase_.is_joined()) return false;
+  switch (name) {
+    case MessageKind::joined:
+      return take_joined(reader);
+    case MessageKind::refused:
+      return phase_.is_joining() && session_.handle_refused(reader);
+    case MessageKind::fom_digest:
+      return phase_.is_joining() && session_.handle_fom_digest(reader);
+    case MessageKind::federation_execution_created:
+      return questions_.handle_created(reader);
+    case MessageKind::federation_execution_destroyed:
+      return questions_.handle_destroyed(reader);
+    case MessageKind::federation_execution:
+      return questions_.handle_execution(reader);
+    case MessageKind::federation_report:
+      return questions_.handle_federation_report(reader);
+    case MessageKind::federate_report:
+      return questions_.handle_federate_report(reader);
+    case MessageKind::report_end:
+      return questions_.handle_report_end();
+    default:
+      return phase_.is_joined() && take_joined_message(reader, name, context);
+  }
+}
+
+/// What only a federate that has joined is told.
+bool AmbassadorParts::take_joined_message(Reader& reader, MessageKind name, ReadContext& context) {
   switch (name) {
     case MessageKind::heartbeat:
       return true;
     case MessageKind::further_block:
       return take_further_block(reader);
     case MessageKind::synchronization_point_registered:
+      return synchronization_.handle_registered(reader);
     case MessageKind::announce_synchronization_point:
+      return synchronization_.handle_announced(reader);
     case MessageKind::federation_synchronized:
-      return take_synchronization(reader, name);
+      return synchronization_.handle_synchronized(reader);
     case MessageKind::federate_joined:
+      return session_.handle_federate_joined(reader);
     case MessageKind::federate_resigned:
-      return take_federate(reader, kind);
+      return session_.handle_federate_resigned(reader);
     case MessageKind::discover_object:
     case MessageKind::remove_object:
-      return take_object(reader, kind, context);
+      return take_object(reader, static_cast<std::uint8_t>(name), context);
     case MessageKind::in_scope:
     case MessageKind::out_of_scope:
-      return take_scope(reader, kind);
+      return take_scope(reader, static_cast<std::uint8_t>(name));
     case MessageKind::provide_update:
       return take_provide_update(reader);
     case MessageKind::instance_names_answer:
-      return take_names(reader);
+      return names_.handle_answer(reader);
     case MessageKind::transportation:
       return take_transportation(reader);
     case MessageKind::class_relevance:
@@ -118,7 +119,7 @@ bool AmbassadorParts::take_message(Reader& reader, ReadContext& context) {
       return take_object_relevance(reader);
     case MessageKind::ownership_notice:
     case MessageKind::inform_ownership:
-      return take_ownership(reader, kind);
+      return take_ownership(reader, static_cast<std::uint8_t>(name));
     case MessageKind::stamp:
       return take_stamp(reader, context);
     case MessageKind::updates:
@@ -135,29 +136,17 @@ bool AmbassadorParts::take_message(Reader& reader, ReadContext& context) {
     case MessageKind::timed_delivery:
     case MessageKind::request_retraction:
     case MessageKind::time_bounds:
-      return take_time(reader, kind, context);
+      return take_time(reader, static_cast<std::uint8_t>(name), context);
     default:
       return false;
   }
 }
 
-bool AmbassadorParts::take_membership(Reader& reader, std::uint8_t kind) {
-  if (!phase_.is_joining()) return false;
-  if (static_cast<MessageKind>(kind) == MessageKind::fom_digest) return take_digest(reader);
-  if (static_cast<MessageKind>(kind) == MessageKind::refused) {
-    RefusedMessage message;
-    if (!exchange(reader, message)) return false;
-    phase_.end();
-    const std::string why =
-        std::string(message.why) + (fom_difference_.empty() ? "" : ": " + fom_difference_);
-    callbacks_.join_refused(static_cast<Refusal>(message.refusal), why);
-    return true;
-  }
+bool AmbassadorParts::take_joined(Reader& reader) {
   JoinedMessage message;
-  if (!exchange(reader, message)) return false;
-  phase_.joined({message.federate});
-  federates_.front().first = phase_.federate();
-  object_block_ = message.object_block;
+  if (!phase_.is_joining() || !exchange(reader, message)) return false;
+  session_.joined({message.federate});
+  objects_.begin(message.object_block);
   frames_heard_ = 1;
   if (declared_.is_on(Advisory::attribute_relevance)) frames_.enqueue(AdvisorySwitchMessage{true});
   callbacks_.joined(phase_.federate());
@@ -172,41 +161,18 @@ bool AmbassadorParts::take_expulsion(Reader& reader) {
   return true;
 }
 
-/// What follows is the refusal.
-bool AmbassadorParts::take_digest(Reader& reader) {
-  FomDigestMessage message;
-  if (!exchange(reader, message)) return false;
-  std::vector<FomDigestEntry> entries(message.count);
-  std::ranges::copy(message.entries, std::as_writable_bytes(std::span(entries)).begin());
-  fom_difference_ = difference(fom_, entries);
-  return true;
-}
-
-bool AmbassadorParts::take_federate(Reader& reader, std::uint8_t kind) {
-  if (static_cast<MessageKind>(kind) == MessageKind::federate_joined) {
-    FederateJoinedMessage message;
-    if (!exchange(reader, message)) return false;
-    if (FederateHandle{message.federate} != phase_.federate())
-      federates_.emplace_back(FederateHandle{message.federate}, message.name);
-    callbacks_.federate_joined({message.federate}, message.name, message.type);
-    return true;
-  }
-  FederateResignedMessage message;
-  if (!exchange(reader, message)) return false;
-  std::erase_if(federates_, [&](const auto& each) { return each.first.value == message.federate; });
-  callbacks_.federate_resigned({message.federate}, message.name, message.type,
-                               static_cast<ResignReason>(message.reason));
-  return true;
-}
-
 bool AmbassadorParts::take_object(Reader& reader, std::uint8_t kind, const ReadContext& context) {
   if (static_cast<MessageKind>(kind) == MessageKind::remove_object) {
     RemoveObjectMessage message;
     if (!exchange(reader, message)) return false;
-    const KnownObject* known = find({message.object});
-    if (known == nullptr) return is_gone({message.object}) && settle_gone({message.object});
-    arrivals_.leave({message.object});
-    forget({message.object});
+    const ObjectHandle object{message.object};
+    if (objects_.find(object) == nullptr) {
+      objects_.settle_gone(object);
+      return objects_.is_gone(object);
+    }
+    arrivals_.leave(object);
+    forget(object);
+    objects_.remove(object);
     ++counters_.objects_removed;
     if (context.timed != nullptr)
       callbacks_.remove_object_instance_with_time({message.object}, *context.timed);
@@ -216,11 +182,9 @@ bool AmbassadorParts::take_object(Reader& reader, std::uint8_t kind, const ReadC
   DiscoverObjectMessage message;
   if (!exchange(reader, message)) return false;
   const ObjectHandle object{message.object};
-  if (message.object_class >= fom_.object_classes().size() || !object || is_ours(object) ||
-      was_ours(object) || known_.find(object) != nullptr)
+  if (message.object_class >= fom_.object_classes().size() ||
+      !objects_.discover(object, {message.object_class}))
     return false;
-  std::erase_if(gone_, [object](const GoneObject& each) { return each.object == object; });
-  known_[object] = {message.object_class, false};
   ++counters_.objects_discovered;
   names_.give(object, message.name);
   if (!message.name.empty())
@@ -234,8 +198,8 @@ bool AmbassadorParts::take_object(Reader& reader, std::uint8_t kind, const ReadC
 bool AmbassadorParts::take_scope(Reader& reader, std::uint8_t kind) {
   InScopeMessage message;
   if (!exchange(reader, message)) return false;
-  const KnownObject* known = find({message.object});
-  if (known == nullptr) return is_gone({message.object});
+  const KnownObject* known = objects_.find({message.object});
+  if (known == nullptr) return objects_.is_gone({message.object});
   ++counters_.scope_changes;
   const bool is_in = static_cast<MessageKind>(kind) == MessageKind::in_scope;
   if (is_in) arrivals_.enter({message.object}, known->object_class, order_of_frame(frames_heard_));
@@ -265,8 +229,8 @@ bool AmbassadorParts::take_updates(Reader& reader, const ReadContext& context) {
   const Stamp stamp = *context.stamp;
   const bool is_read =
       read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
-        const KnownObject* known = find({object});
-        if (known == nullptr) return is_gone({object});
+        const KnownObject* known = objects_.find({object});
+        if (known == nullptr) return objects_.is_gone({object});
         if (known->object_class != message.object_class) return false;
         if (has_codec) {
           decoded_.clear();

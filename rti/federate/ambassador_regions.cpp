@@ -97,7 +97,7 @@ void AmbassadorServices::commit_region_modifications(std::span<const RegionBound
 void AmbassadorServices::delete_region(RegionHandle region) {
   const std::uint32_t number = regions_.check(region);
   regions_.remove(region, [this](ObjectHandle object) {
-    return find(object) != nullptr && !owned_of(object, *find(object)).is_empty();
+    return objects_.find(object) != nullptr && !owned_of(object, *objects_.find(object)).is_empty();
   });
   frames_.enqueue(DeleteRegionMessage{number});
 }
@@ -168,9 +168,9 @@ void AmbassadorServices::request_attribute_value_update_with_regions(
 bool AmbassadorParts::take_provide_update(Reader& reader) {
   ProvideUpdateMessage message;
   if (!exchange(reader, message)) return false;
-  const KnownObject* known = find({message.object});
+  const KnownObject* known = objects_.find({message.object});
   const AttributeSet attributes{message.attributes};
-  if (known == nullptr) return is_gone({message.object});
+  if (known == nullptr) return objects_.is_gone({message.object});
   if (!fom_.attributes(ObjectClassHandle{known->object_class}).includes(attributes)) return false;
   callbacks_.provide_attribute_value_update({message.object}, attributes, message.tag);
   return true;
@@ -235,7 +235,7 @@ void AmbassadorParts::write_numbers(std::span<const RegionHandle> regions) {
 }
 
 ObjectClassHandle AmbassadorParts::own_class(ObjectHandle object) {
-  const KnownObject* known = find(object);
+  const KnownObject* known = objects_.find(object);
   if (known == nullptr)
     throw RtiException(HlaError::object_instance_not_known,
                        "object " + std::to_string(object.value));

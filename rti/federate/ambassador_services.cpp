@@ -32,9 +32,14 @@ void AmbassadorParts::require_stamp(const Stamp& stamp) {
 AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
                                  const Patience& patience, CallbackModel model)
     : FomLookup(fom),
-      queue_(model == CallbackModel::evoked ? std::make_unique<CallbackQueue>(callbacks) : nullptr),
-      callbacks_(queue_ ? *queue_ : callbacks),
-      patience_(patience),
+      gate_(callbacks, model),
+      callbacks_(gate_.callbacks()),
+      basis_{fom, callbacks_, phase_, frames_, counters_},
+      watch_(patience),
+      names_(basis_, objects_),
+      synchronization_(basis_),
+      questions_(basis_),
+      session_(basis_, phase_),
       regions_(fom),
       declared_(fom),
       arrivals_(fom) {}
@@ -51,43 +56,18 @@ ObjectHandle AmbassadorServices::register_object_instance(ObjectClassHandle obje
                        "class " + std::to_string(object_class.value));
   if (declared_.objects[object_class.value].published.is_empty())
     throw RtiException(HlaError::object_class_not_published, "class " + fom_.at(object_class).name);
-  if (!name.empty()) {
-    require_name(name);
-    if (names_.find(name))
-      throw RtiException(HlaError::object_instance_name_in_use, "'" + std::string(name) + "'");
-  }
-  if (objects_registered_ == object_block && !further_block_) return {};
-  if (objects_registered_ == object_block) begin_further_block();
-  const ObjectHandle object{object_block_ * object_block + objects_registered_++};
-  own_.push_back({static_cast<std::uint16_t>(object_class.value), true});
-  names_.end_reservation(name);
-  names_.give(object, name);
+  names_.require_free(name);
+  if (!objects_.has_handle()) return {};
+  const ObjectHandle object = objects_.add(object_class);
+  names_.give_own(object, name);
   frames_.enqueue(
       RegisterObjectMessage{object.value, static_cast<std::uint16_t>(object_class.value), name});
   return object;
 }
 
-bool AmbassadorParts::was_ours(ObjectHandle object) const {
-  return std::ranges::find(former_blocks_, object.value / object_block) != former_blocks_.end();
-}
-
-/// Memory follows what is left of the used block, not what it held.
-void AmbassadorParts::begin_further_block() {
-  for (std::uint32_t number = 0; number < own_.size(); ++number)
-    if (own_[number].object_class != KnownObject::unknown)
-      known_[ObjectHandle{object_block_ * object_block + number}] = own_[number];
-  own_.clear();
-  former_blocks_.push_back(object_block_);
-  object_block_ = *std::exchange(further_block_, std::nullopt);
-  objects_registered_ = 0;
-}
-
 bool AmbassadorParts::take_further_block(Reader& reader) {
   FurtherBlockMessage message;
-  if (!exchange(reader, message) || further_block_ || message.object_block == object_block_)
-    return false;
-  further_block_ = message.object_block;
-  return true;
+  return exchange(reader, message) && objects_.add_block(message.object_block);
 }
 
 void AmbassadorServices::delete_object_instance(ObjectHandle object) {
@@ -96,7 +76,7 @@ void AmbassadorServices::delete_object_instance(ObjectHandle object) {
     throw RtiException(HlaError::delete_privilege_not_held,
                        "object " + std::to_string(object.value));
   forget(object);
-  if (!is_ours(object) && !was_ours(object)) gone_.push_back({object});
+  objects_.leave(object);
   frames_.enqueue(DeleteObjectMessage{object.value});
 }
 
@@ -121,7 +101,7 @@ void AmbassadorParts::require_values(ObjectClassHandle object_class, AttributeSe
 
 void AmbassadorServices::update_attribute_values(ObjectHandle object, AttributeSet attributes,
                                                  Bytes values, const Stamp& stamp) {
-  const KnownObject* known = find(object);
+  const KnownObject* known = objects_.find(object);
   if (!phase_.is_joined() || known == nullptr || !known->is_own) check_update(object, attributes);
   const ObjectClassHandle object_class{known->object_class};
   require_values(object_class, attributes, values);
@@ -169,32 +149,27 @@ void AmbassadorServices::send_directed_interaction(InteractionClassHandle intera
 }
 
 void AmbassadorServices::clear_outgoing() {
-  if (!frames_.is_empty()) has_said_ = true;
+  if (!frames_.is_empty()) watch_.sent();
   counters_.bytes_sent += frames_.bytes().size();
   counters_.frames_sent = frames_.frame_count();
   frames_.clear();
 }
 
 void AmbassadorServices::advance_clock(double now) {
-  now_ = now;
-  if (!has_clock_) last_heard_ = last_said_ = now;
-  has_clock_ = true;
-  if (has_heard_) last_heard_ = now;
-  if (has_said_ || !frames_.is_empty()) last_said_ = now;
-  has_heard_ = has_said_ = false;
+  watch_.advance(now, !frames_.is_empty());
   if (outbox_ && phase_.is_joined()) repair_best_effort();
   if (!postponed_.empty()) release_postponed();
-  if (!phase_.is_joined() && !phase_.is_joining()) return;
+  if (!phase_.may_send()) return;
   if (receipts_.is_due() && now - receipts_due_since_ >= DatagramReceipts::longest_delay_s)
     acknowledge_datagrams();
-  if (now - last_heard_ > patience_.lost_after_s)
-    return lose("the RTI has been silent for too long");
-  if (phase_.is_joined() && now - last_said_ >= patience_.heartbeat_s) {
+  if (watch_.is_rti_lost()) return lose("the RTI has been silent for too long");
+  if (phase_.is_joined() && watch_.is_heartbeat_due()) {
     frames_.enqueue(HeartbeatMessage{});
-    last_said_ = now;
+    watch_.beat();
   }
 }
 
+/// What is kept of an object beside its entry in the book.
 void AmbassadorParts::forget(ObjectHandle object) {
   holdings_.erase(object);
   regions_.forget(object);
@@ -202,30 +177,22 @@ void AmbassadorParts::forget(ObjectHandle object) {
   names_.forget(object);
   made_reliable_.erase(object);
   if (outbox_) outbox_->forget(object, AttributeSet(~0u));
-  if (is_ours(object)) own_[object.value % object_block] = {};
-  else known_.erase(object);
-}
-
-KnownObject* AmbassadorParts::find(ObjectHandle object) {
-  if (!is_ours(object)) {
-    KnownObject* known = known_.find(object);
-    return known != nullptr && known->object_class != KnownObject::unknown
-               ? known
-               : nullptr;  // else it is being deleted by us
-  }
-  const std::uint32_t number = object.value % object_block;
-  const bool is_known = number < own_.size() && own_[number].object_class != KnownObject::unknown;
-  return is_known ? &own_[number] : nullptr;
 }
 
 std::size_t AmbassadorServices::memory_bytes() const {
-  const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() +
-                              (queue_ ? queue_->memory_bytes() : 0);
-  return waiting + holdings_.memory_bytes() + own_.capacity() * sizeof own_[0] +
-         known_.memory_bytes() + names_.memory_bytes() + regions_.memory_bytes() +
-         region_records_.capacity() + frames_.memory_bytes() + incoming_.memory_bytes() +
-         keyframes_.memory_bytes() + arrivals_.memory_bytes() + declared_.memory_bytes() +
-         (outbox_ ? outbox_->memory_bytes() : 0);
+  return gate_.memory_bytes() + postponed_.capacity() + content_.capacity() +
+         holdings_.memory_bytes() + objects_.memory_bytes() + names_.memory_bytes() +
+         regions_.memory_bytes() + region_records_.capacity() + frames_.memory_bytes() +
+         incoming_.memory_bytes() + keyframes_.memory_bytes() + arrivals_.memory_bytes() +
+         declared_.memory_bytes() + (outbox_ ? outbox_->memory_bytes() : 0);
+}
+
+ObjectClassHandle AmbassadorServices::get_known_object_class_handle(ObjectHandle object) const {
+  const KnownObject* known = objects_.find(object);
+  if (known == nullptr)
+    throw RtiException(HlaError::object_instance_not_known,
+                       "object " + std::to_string(object.value));
+  return {known->object_class};
 }
 
 }  // namespace rink::rti

@@ -18,21 +18,32 @@ class AmbassadorServices final : public AmbassadorParts,
   AmbassadorServices(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {},
                      CallbackModel model = CallbackModel::immediate);
   void create_federation_execution(std::string_view federation) {
-    create_federation_execution(federation, fom_);
+    questions_.create_federation_execution(federation, fom_);
   }
-  void create_federation_execution(std::string_view federation, const Fom& model);
-  void destroy_federation_execution(std::string_view federation);
-  void list_federation_executions();
-  void query_management();
+  void create_federation_execution(std::string_view federation, const Fom& model) {
+    questions_.create_federation_execution(federation, model);
+  }
+  void destroy_federation_execution(std::string_view federation) {
+    questions_.destroy_federation_execution(federation);
+  }
+  void list_federation_executions() { questions_.list_federation_executions(); }
+  void query_management() { questions_.query_management(); }
   void join(std::string_view federation, std::string_view federate_name,
-            std::string_view federate_type);
-  void resign();
+            std::string_view federate_type) {
+    session_.join(federation, federate_name, federate_type);
+    regions_.sign(federate_name);
+  }
+  void resign() { session_.resign(); }
   bool is_joined() const { return phase_.is_joined(); }
   FederateHandle federate() const { return phase_.federate(); }
   void register_synchronization_point(std::string_view label, Bytes tag = {},
-                                      std::span<const FederateHandle> members = {});
-  void synchronization_point_achieved(std::string_view label, bool is_success = true);
-  void watch_federates();
+                                      std::span<const FederateHandle> members = {}) {
+    synchronization_.register_point(label, tag, members);
+  }
+  void synchronization_point_achieved(std::string_view label, bool is_success = true) {
+    synchronization_.achieve(label, is_success);
+  }
+  void watch_federates() { session_.watch_federates(); }
   void publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes);
   void unpublish_object_class(ObjectClassHandle object_class);
   void subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes,
@@ -61,12 +72,16 @@ class AmbassadorServices final : public AmbassadorParts,
   ObjectHandle register_object_instance(ObjectClassHandle object_class, std::string_view name = {});
   void delete_object_instance(ObjectHandle object);
   void local_delete_object_instance(ObjectHandle object);
-  void reserve_object_instance_name(std::string_view name);
-  void reserve_multiple_object_instance_names(std::span<const std::string_view> names);
-  void release_object_instance_name(std::string_view name) {
-    release_multiple_object_instance_names(std::span(&name, 1));
+  void reserve_object_instance_name(std::string_view name) { names_.reserve(name); }
+  void reserve_multiple_object_instance_names(std::span<const std::string_view> names) {
+    names_.reserve_set(names);
   }
-  void release_multiple_object_instance_names(std::span<const std::string_view> names);
+  void release_object_instance_name(std::string_view name) {
+    names_.release_set(std::span(&name, 1));
+  }
+  void release_multiple_object_instance_names(std::span<const std::string_view> names) {
+    names_.release_set(names);
+  }
   void request_attribute_value_update(ObjectClassHandle object_class, AttributeSet attributes,
                                       Bytes tag = {});
   void request_attribute_value_update(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
@@ -114,13 +129,21 @@ class AmbassadorServices final : public AmbassadorParts,
                                      std::span<const RegionHandle> regions, const Stamp& stamp);
   void request_attribute_value_update_with_regions(ObjectClassHandle object_class,
                                                    std::span<const AttributeRegions> pairs);
-  FederateHandle get_federate_handle(std::string_view name) const;
-  const std::string& get_federate_name(FederateHandle federate) const;
-  ObjectHandle get_object_instance_handle(std::string_view name) const;
-  std::string get_object_instance_name(ObjectHandle object) const;
+  FederateHandle get_federate_handle(std::string_view name) const {
+    return session_.handle_of(name);
+  }
+  const std::string& get_federate_name(FederateHandle federate) const {
+    return session_.name_of(federate);
+  }
+  ObjectHandle get_object_instance_handle(std::string_view name) const {
+    return names_.handle_of(name);
+  }
+  std::string get_object_instance_name(ObjectHandle object) const { return names_.name_of(object); }
   ObjectClassHandle get_known_object_class_handle(ObjectHandle object) const;
-  bool evoke_callback();
-  bool evoke_multiple_callbacks(std::size_t count_max = ~std::size_t{0});
+  bool evoke_callback() { return gate_.evoke(1); }
+  bool evoke_multiple_callbacks(std::size_t count_max = ~std::size_t{0}) {
+    return gate_.evoke(count_max);
+  }
   void disable_callbacks();
   void enable_callbacks();
   void enable_time_regulation(double lookahead);
@@ -163,7 +186,7 @@ class AmbassadorServices final : public AmbassadorParts,
   Bytes outgoing() const { return frames_.bytes(); }
   void clear_outgoing();
   void advance_clock(double now);
-  void disconnected(std::string_view why);
+  void disconnected(std::string_view why) { lose(why); }
   const AmbassadorCounters& counters() const { return counters_; }
   std::size_t memory_bytes() const;
 

@@ -79,7 +79,7 @@ RetractionHandle AmbassadorParts::say_timed(LogicalTime time, std::uint64_t tag,
 RetractionHandle AmbassadorServices::update_attribute_values(ObjectHandle object,
                                                              AttributeSet attributes, Bytes values,
                                                              LogicalTime time, std::uint64_t tag) {
-  const KnownObject* known = find(object);
+  const KnownObject* known = objects_.find(object);
   if (known == nullptr)
     throw RtiException(HlaError::object_instance_not_known,
                        "object " + std::to_string(object.value));
@@ -151,7 +151,7 @@ RetractionHandle AmbassadorServices::delete_object_instance(ObjectHandle object,
     delete_object_instance(object);
     return {};
   }
-  KnownObject* known = find(object);
+  const KnownObject* known = objects_.find(object);
   if (known == nullptr)
     throw RtiException(HlaError::object_instance_not_known,
                        "object " + std::to_string(object.value));
@@ -164,8 +164,7 @@ RetractionHandle AmbassadorServices::delete_object_instance(ObjectHandle object,
   const RetractionHandle handle = say_timed(time, tag, content_);
   std::erase_if(deletions_,
                 [this](const TimedDeletion& each) { return each.time < clock_.earliest_ever(); });
-  deletions_.push_back({handle.number, object.value, *known, time.value});
-  *known = {};
+  deletions_.push_back({handle.number, object.value, objects_.hide(object), time.value});
   return handle;
 }
 
@@ -174,14 +173,13 @@ void AmbassadorServices::retract(const RetractionHandle& handle) {
   frames_.enqueue(RetractMessage{handle.number});
   const auto deletion = std::ranges::find(deletions_, handle.number, &TimedDeletion::number);
   if (deletion == deletions_.end()) return;
-  if (is_ours({deletion->object})) own_[deletion->object % object_block] = deletion->known;
-  else known_[{deletion->object}] = deletion->known;
+  objects_.restore({deletion->object}, deletion->known);
   deletions_.erase(deletion);
 }
 
 void AmbassadorServices::change_attribute_order_type(ObjectHandle object, AttributeSet attributes,
                                                      Order order) {
-  const KnownObject* known = find(object);
+  const KnownObject* known = objects_.find(object);
   if (known == nullptr)
     throw RtiException(HlaError::object_instance_not_known,
                        "object " + std::to_string(object.value));

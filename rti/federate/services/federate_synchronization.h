@@ -1,0 +1,32 @@
+// Synchronisation points as a federate registers and achieves them (IEEE 1516.1-2010, 4.11 to
+// 4.15).
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rti/federate/ambassador_basis.h"
+#include "rti/wire/stream.h"
+
+namespace rink::rti {
+
+class FederateSynchronization {
+ public:
+  explicit FederateSynchronization(const AmbassadorBasis& basis) : basis_(basis) {}
+
+  void register_point(std::string_view label, Bytes tag, std::span<const FederateHandle> members);
+  /// Throws SynchronizationPointLabelNotAnnounced.
+  void achieve(std::string_view label, bool is_success);
+
+  bool handle_registered(Reader& reader);
+  bool handle_announced(Reader& reader);
+  bool handle_synchronized(Reader& reader);
+
+ private:
+  AmbassadorBasis basis_;
+  std::vector<std::string> announced_;  ///< that we have not achieved yet
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,50 @@
+// The names of object instances as their federate reserves, gives and hears them (IEEE 1516.1-2010,
+// 6.2 to 6.7).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "rti/federate/ambassador_basis.h"
+#include "rti/federate/services/object_book.h"
+#include "rti/objects/name_book.h"
+#include "rti/wire/object_messages.h"
+
+namespace rink::rti {
+
+class InstanceNames {
+ public:
+  InstanceNames(const AmbassadorBasis& basis, const ObjectBook& objects)
+      : basis_(basis), objects_(objects) {}
+
+  /// These throw IllegalName, NameSetWasEmpty, ObjectInstanceNameNotReserved.
+  void reserve(std::string_view name);
+  void reserve_set(std::span<const std::string_view> names);
+  void release_set(std::span<const std::string_view> names);
+  /// Throw ObjectInstanceNotKnown.
+  ObjectHandle handle_of(std::string_view name) const;
+  std::string name_of(ObjectHandle object) const;
+
+  /// That an object may be registered by it. Throws IllegalName, ObjectInstanceNameInUse.
+  void require_free(std::string_view name) const;
+  /// An object has it now; its reservation, if any, is used.
+  void give_own(ObjectHandle object, std::string_view name);
+  /// One that was discovered; an empty name is the default one.
+  void give(ObjectHandle object, std::string_view name) { names_.give(object, name); }
+  void forget(ObjectHandle object) { names_.forget(object); }
+
+  bool handle_answer(Reader& reader);
+  std::size_t memory_bytes() const { return names_.memory_bytes(); }
+
+ private:
+  void ask(NameRequest request, std::span<const std::string_view> names);
+  void call_back(NameAnswer answer, const std::vector<std::string>& names);
+
+  AmbassadorBasis basis_;
+  const ObjectBook& objects_;
+  NameBook names_;
+};
+
+}  // namespace rink::rti

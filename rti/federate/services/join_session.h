@@ -1,0 +1,43 @@
+// How a federate joins its federation execution and resigns, and who else is in it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rti/federate/ambassador_basis.h"
+#include "rti/wire/membership_messages.h"
+
+namespace rink::rti {
+
+/// Moves the phase on; the others only look at it.
+class JoinSession {
+ public:
+  JoinSession(const AmbassadorBasis& basis, JoinPhase& phase) : basis_(basis), phase_(phase) {}
+
+  /// Throws FederateAlreadyExecutionMember.
+  void join(std::string_view federation, std::string_view federate_name,
+            std::string_view federate_type);
+  void resign();
+  void watch_federates();
+  /// Throw NameNotFound.
+  FederateHandle handle_of(std::string_view federate_name) const;
+  const std::string& name_of(FederateHandle federate) const;
+
+  /// The RTI let us in.
+  void joined(FederateHandle federate);
+  bool handle_refused(Reader& reader);
+  /// What follows is the refusal.
+  bool handle_fom_digest(Reader& reader);
+  bool handle_federate_joined(Reader& reader);
+  bool handle_federate_resigned(Reader& reader);
+
+ private:
+  AmbassadorBasis basis_;
+  JoinPhase& phase_;
+  std::string fom_difference_;  ///< from the federation's model, if the RTI told
+  std::vector<std::pair<FederateHandle, std::string>> federates_;  ///< ourselves first
+};
+
+}  // namespace rink::rti

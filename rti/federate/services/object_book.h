@@ -1,0 +1,90 @@
+// The objects that a federate registered or discovered, and what it forgot while the RTI may still
+// speak of it.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "rti/objects/known_object.h"
+#include "rti/objects/object_map.h"
+
+namespace rink::rti {
+
+/// Own objects lie in an array by their number within the block of handles that the RTI gave; those
+/// of others, few of many, in a map, so memory follows what is in sight.
+class ObjectBook {
+ public:
+  /// The federate has joined and was given this block.
+  void begin(std::uint32_t block) { block_ = block; }
+  /// Another, for when the first is used up. False if one waits already, or it is the same.
+  bool add_block(std::uint32_t block);
+
+  /// Of the block at hand.
+  bool is_ours(ObjectHandle object) const { return object.value / object_block == block_; }
+  /// Registered here, be it in a block that is used up: what is left of such a block is kept as
+  /// what was acquired from others.
+  bool was_registered_here(ObjectHandle object) const {
+    return is_ours(object) || is_in_former_block(object);
+  }
+  /// Null if it is not known, or its deletion is under way. Valid until one is added or forgotten.
+  const KnownObject* find(ObjectHandle object) const {
+    if (!is_ours(object)) {
+      const KnownObject* known = others_.find(object);
+      return known != nullptr && known->object_class != KnownObject::unknown ? known : nullptr;
+    }
+    const std::uint32_t number = object.value % object_block;
+    const bool is_known = number < own_.size() && own_[number].object_class != KnownObject::unknown;
+    return is_known ? &own_[number] : nullptr;
+  }
+  /// True of an object that was deleted or forgotten here: what the RTI still says of it, it said
+  /// before it heard so.
+  bool is_gone(ObjectHandle object) const;
+  /// Calls `visit(ObjectHandle, const KnownObject&)` for each.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (std::uint32_t i = 0; i < own_.size(); ++i)
+      if (own_[i].object_class != KnownObject::unknown) visit(handle(i), own_[i]);
+    others_.for_each(visit);
+  }
+
+  /// False if every handle that we were given is in use.
+  bool has_handle() const { return registered_count_ < object_block || further_block_; }
+  /// Registers one, owned whole. There must be a handle for it.
+  ObjectHandle add(ObjectClassHandle object_class);
+  /// One of others; false if its handle is ours, or is known already.
+  bool discover(ObjectHandle object, ObjectClassHandle object_class);
+  /// Whether all of a known object is owned here.
+  void set_own(ObjectHandle object, bool is_own) { place_of(object).is_own = is_own; }
+
+  /// The RTI has taken it away.
+  void remove(ObjectHandle object);
+  /// The federate deleted or forgot it, and the RTI may not have heard so yet.
+  void leave(ObjectHandle object);
+  /// The RTI has heard so: it says nothing more of it, unless it is discovered anew.
+  void settle_gone(ObjectHandle object);
+  /// What was settled is forgotten at the end of its frame.
+  void sweep();
+  /// It is deleted at a time to come; until then `restore` gives it back as it was.
+  KnownObject hide(ObjectHandle object);
+  void restore(ObjectHandle object, const KnownObject& known);
+
+  std::size_t memory_bytes() const;
+
+ private:
+  ObjectHandle handle(std::uint32_t number) const { return {block_ * object_block + number}; }
+  bool is_in_former_block(ObjectHandle object) const;
+  KnownObject& place_of(ObjectHandle object);
+  void begin_further_block();
+
+  std::uint32_t block_ = 0, registered_count_ = 0;  ///< in that block
+  std::optional<std::uint32_t> further_block_;
+  std::vector<std::uint32_t> former_blocks_;
+  std::vector<KnownObject> own_;  ///< by number within the block
+  ObjectMap<KnownObject> others_;
+  std::vector<GoneObject> gone_;  ///< of others
+};
+
+}  // namespace rink::rti
