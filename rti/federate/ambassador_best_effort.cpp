@@ -10,11 +10,11 @@ namespace rink::rti {
 AmbassadorParts::~AmbassadorParts() = default;
 
 void AmbassadorServices::expect_datagrams(std::size_t size_max) {
-  has_datagrams_ |= size_max > 0;
-  if (!outbox_ && size_max >= BestEffortOutbox::size_min && arrivals_.has_best_effort()) {
+  if (size_max > 0) arrivals_.expect_datagrams();
+  if (!outbox_ && size_max >= BestEffortOutbox::size_min && arrivals_.order().has_best_effort()) {
     // Who publishes no such attribute, as most of a crowd, needs none.
     for (std::uint16_t i = 0; i < declared_.objects.size() && !outbox_; ++i)
-      if (!(declared_.objects[i].published & arrivals_.best_effort(i)).is_empty())
+      if (!(declared_.objects[i].published & arrivals_.order().best_effort(i)).is_empty())
         outbox_ = std::make_unique<BestEffortOutbox>(fom_);
   }
   if (outbox_) outbox_->set_size(size_max);

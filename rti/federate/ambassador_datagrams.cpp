@@ -19,7 +19,7 @@ constexpr std::size_t held_max =
 void AmbassadorServices::receive_datagram(Bytes datagram) {
   if (!phase_.is_joined()) return;
   watch_.heard();
-  has_datagrams_ = true;
+  arrivals_.expect_datagrams();
   counters_.bytes_received += datagram.size();
   DatagramHead head;
   Reader reader(datagram);
@@ -29,7 +29,7 @@ void AmbassadorServices::receive_datagram(Bytes datagram) {
   }
   // It may speak of objects that a frame on its way tells of; and while callbacks are disabled
   // frames are held back too.
-  if (gate_.is_open() && head.frames <= frames_heard_) apply_datagram(datagram);
+  if (gate_.is_open() && head.frames <= arrivals_.frames_heard()) apply_datagram(datagram);
   else if (held_datagrams_.size() < held_max)
     held_datagrams_.emplace_back(datagram.begin(), datagram.end());
   else ++counters_.datagrams_ignored;
@@ -55,7 +55,7 @@ void AmbassadorParts::apply_held_datagrams() {
     DatagramHead head;
     Reader reader(held_datagrams_[i]);
     exchange(reader, head);
-    if (head.frames > frames_heard_) {
+    if (head.frames > arrivals_.frames_heard()) {
       ++i;
       continue;
     }
@@ -74,57 +74,14 @@ bool AmbassadorParts::take_datagram(const DatagramHead& head, Reader& reader) {
     if (kind == datagram_end) break;
     AcknowledgeDatagramsMessage ours;
     if (static_cast<MessageKind>(kind) == MessageKind::stamp)
-      is_understood = take_stamp(reader, context);
+      is_understood = UpdateReceiver::handle_stamp(reader, context);
     else if (static_cast<MessageKind>(kind) == MessageKind::acknowledge_datagrams)
       is_understood = exchange(reader, ours) && outbox_ && outbox_->acknowledge(ours, watch_.now());
     else
       is_understood = static_cast<MessageKind>(kind) == MessageKind::updates &&
-                      take_datagram_updates(head, reader, context);
+                      update_receiver_.handle_datagram_updates(reader, head, context);
   }
   return is_understood;
-}
-
-bool AmbassadorParts::take_datagram_updates(const DatagramHead& head, Reader& reader,
-                                            const ReadContext& context) {
-  UpdatesMessage message;
-  if (!exchange(reader, message) || !context.stamp ||
-      message.object_class >= fom_.object_classes().size())
-    return false;
-  const AttributeSet attributes{message.attributes};
-  if (!arrivals_.best_effort(message.object_class).includes(attributes)) return false;
-  const ObjectClass& object_class = fom_.at(ObjectClassHandle{message.object_class});
-  const Stamp stamp = *context.stamp;
-  const bool is_read =
-      read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
-        const KnownObject* known = objects_.find({object});
-        // One that is unknown or out of scope by now has been told of since this was said, or will
-        // be, with its whole state.
-        const bool is_known = known != nullptr && known->object_class == message.object_class;
-        const AttributeSet accepted = is_known
-                                          ? arrivals_.accept({object}, message.object_class,
-                                                             attributes, order_of_datagram(head))
-                                          : AttributeSet();
-        if (accepted.is_empty()) return ++counters_.updates_outdated, true;
-        if (accepted != attributes) {
-          heard_values_.clear();
-          for (std::uint32_t bits = accepted.bits; bits != 0; bits &= bits - 1) {
-            const Bytes value =
-                coded_value(object_class, attributes,
-                            {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
-            heard_values_.insert(heard_values_.end(), value.begin(), value.end());
-          }
-          values = heard_values_;
-        }
-        if (is_coded(object_class, accepted)) {
-          decoded_.clear();
-          if (!decode(object_class, accepted, values, stamp.time, decoded_)) return false;
-          values = decoded_;
-        }
-        ++counters_.updates_reflected;
-        callbacks_.reflect_attribute_values({object}, accepted, values, stamp);
-        return phase_.is_joined();
-      });
-  return is_read || !phase_.is_joined();
 }
 
 void AmbassadorParts::acknowledge_datagrams() {

@@ -11,12 +11,13 @@
 #include <vector>
 
 #include "rti/ambassador_counters.h"
-#include "rti/baselines/keyframe_memory.h"
 #include "rti/distribution/region_book.h"
 #include "rti/federate/advisory_switches.h"
 #include "rti/federate/ambassador_basis.h"
 #include "rti/federate/delivery/callback_gate.h"
+#include "rti/federate/delivery/keyframe_reader.h"
 #include "rti/federate/delivery/link_watch.h"
+#include "rti/federate/delivery/update_receiver.h"
 #include "rti/federate/read_context.h"
 #include "rti/federate/services/federate_synchronization.h"
 #include "rti/federate/services/host_questions.h"
@@ -25,15 +26,12 @@
 #include "rti/federate/services/object_book.h"
 #include "rti/federate_ambassador.h"
 #include "rti/fom/fom_lookup.h"
-#include "rti/fom/quantised_codec.h"
 #include "rti/hla_error.h"
-#include "rti/objects/arrival_order.h"
 #include "rti/objects/declared_state.h"
 #include "rti/objects/known_object.h"
 #include "rti/objects/object_map.h"
 #include "rti/time/federate_clock.h"
 #include "rti/types.h"
-#include "rti/wire/bit_stream.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/message.h"
 #include "rti/wire/ownership_messages.h"
@@ -42,7 +40,6 @@
 namespace rink::rti {
 
 class BestEffortOutbox;
-struct DeltaHeader;
 
 /// The data of an ambassador, and all of its functions that are no services.
 class AmbassadorParts : public FomLookup {
@@ -67,8 +64,6 @@ class AmbassadorParts : public FomLookup {
   bool take_transportation(Reader& reader);
   bool take_object(Reader& reader, std::uint8_t kind, const ReadContext& context);
   bool take_scope(Reader& reader, std::uint8_t kind);
-  bool take_stamp(Reader& reader, ReadContext& context);
-  bool take_updates(Reader& reader, const ReadContext& context);
   bool take_interaction(Reader& reader, const ReadContext& context);
   void associate_regions(ObjectHandle object, std::span<const AttributeRegions> pairs,
                          bool is_added);
@@ -85,13 +80,6 @@ class AmbassadorParts : public FomLookup {
   using FomLookup::check;
   void check(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) const;
   void check(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) const;
-  // Periodic state (ambassador_baselines.cpp).
-  enum class DeltaOutcome : std::uint8_t { decoded, no_baseline, malformed };
-  bool take_keyframe(Reader& reader);
-  void end_keyframe();
-  bool take_deltas(Reader& reader, const ReadContext& context);
-  DeltaOutcome take_periodic(BitReader& bits, const QuantisedCodec& codec,
-                             const DeltaHeader& header, std::uint32_t object, const Stamp& stamp);
   // Ownership (ambassador_ownership.cpp).
   AttributeSet all_of(const KnownObject& known) const;
   const KnownObject& known_or_throw(ObjectHandle object, AttributeSet attributes);
@@ -119,7 +107,6 @@ class AmbassadorParts : public FomLookup {
 
   // Datagrams (ambassador_datagrams.cpp).
   bool take_datagram(const DatagramHead& head, Reader& reader);
-  bool take_datagram_updates(const DatagramHead& head, Reader& reader, const ReadContext& context);
   void apply_datagram(Bytes datagram);
   void apply_held_datagrams();
   void acknowledge_datagrams();
@@ -180,23 +167,20 @@ class AmbassadorParts : public FomLookup {
   ObjectMap<Holding> holdings_;  ///< of objects owned in part or negotiated about
   DeclaredState declared_;
   FrameReader incoming_;
-  std::vector<std::byte> coded_, decoded_;
-  KeyframeMemory keyframes_;
+  std::vector<std::byte> coded_;
 
   // Datagrams.
-  ArrivalOrder arrivals_;
+  Arrivals arrivals_;
+  UpdateReceiver update_receiver_;
+  KeyframeReader keyframe_reader_;
   DatagramReceipts receipts_;
   std::vector<std::vector<std::byte>> held_datagrams_;  ///< came before the frames that they follow
   std::vector<std::byte> acknowledgement_, cut_values_, best_effort_values_;
-  std::vector<std::byte> heard_values_;  ///< of the datagram whose callback runs: apart from those
-                                         ///< above, for a callback may send
-  std::vector<Datagram> datagrams_;      ///< that go out
+  std::vector<Datagram> datagrams_;  ///< that go out
   std::unique_ptr<BestEffortOutbox>
       outbox_;  ///< null until there is a way and something to send by it
   ObjectMap<AttributeSet> made_reliable_;  ///< of objects of ours
   bool is_timed_ = false;                  ///< it has used time management
-  std::uint32_t frames_heard_ = 0;         ///< from the one that let us in
-  bool has_datagrams_ = false;             ///< one may come
   double receipts_due_since_ = 0.0;
 
   FederateClock clock_;

@@ -42,13 +42,13 @@ void AmbassadorParts::lose(std::string_view why) {
 
 bool AmbassadorParts::take_frame(Bytes frame) {
   ++counters_.frames_received;
-  if (phase_.is_joined()) ++frames_heard_;
+  if (phase_.is_joined()) arrivals_.count_frame();
   if (!postponed_.empty() && !release_postponed()) return false;
   ReadContext context;
   Reader reader(frame);
   while (!reader.is_at_end() && !phase_.has_ended())
     if (!take_message(reader, context)) return false;
-  end_keyframe();
+  keyframe_reader_.end_frame();
   objects_.sweep();
   return true;
 }
@@ -121,13 +121,13 @@ bool AmbassadorParts::take_joined_message(Reader& reader, MessageKind name, Read
     case MessageKind::inform_ownership:
       return take_ownership(reader, static_cast<std::uint8_t>(name));
     case MessageKind::stamp:
-      return take_stamp(reader, context);
+      return UpdateReceiver::handle_stamp(reader, context);
     case MessageKind::updates:
-      return take_updates(reader, context);
+      return update_receiver_.handle_updates(reader, context);
     case MessageKind::begin_keyframe:
-      return take_keyframe(reader);
+      return keyframe_reader_.handle_begin(reader);
     case MessageKind::deltas:
-      return take_deltas(reader, context);
+      return keyframe_reader_.handle_deltas(reader, context);
     case MessageKind::interaction:
       return take_interaction(reader, context);
     case MessageKind::time_regulation_enabled:
@@ -147,7 +147,7 @@ bool AmbassadorParts::take_joined(Reader& reader) {
   if (!phase_.is_joining() || !exchange(reader, message)) return false;
   session_.joined({message.federate});
   objects_.begin(message.object_block);
-  frames_heard_ = 1;
+  arrivals_.begin();
   if (declared_.is_on(Advisory::attribute_relevance)) frames_.enqueue(AdvisorySwitchMessage{true});
   callbacks_.joined(phase_.federate());
   return true;
@@ -202,52 +202,12 @@ bool AmbassadorParts::take_scope(Reader& reader, std::uint8_t kind) {
   if (known == nullptr) return objects_.is_gone({message.object});
   ++counters_.scope_changes;
   const bool is_in = static_cast<MessageKind>(kind) == MessageKind::in_scope;
-  if (is_in) arrivals_.enter({message.object}, known->object_class, order_of_frame(frames_heard_));
+  if (is_in) arrivals_.enter({message.object}, known->object_class);
   else arrivals_.leave({message.object});
   if (!declared_.is_on(Advisory::attribute_scope)) return true;
   if (is_in) callbacks_.attributes_in_scope({message.object});
   else callbacks_.attributes_out_of_scope({message.object});
   return true;
-}
-
-bool AmbassadorParts::take_stamp(Reader& reader, ReadContext& context) {
-  StampMessage message;
-  if (!exchange(reader, message)) return false;
-  context.stamp = message.stamp;
-  return true;
-}
-
-bool AmbassadorParts::take_updates(Reader& reader, const ReadContext& context) {
-  UpdatesMessage message;
-  if (!exchange(reader, message) || !context.stamp ||
-      message.object_class >= fom_.object_classes().size())
-    return false;
-  const AttributeSet attributes{message.attributes};
-  if (!fom_.attributes(ObjectClassHandle{message.object_class}).includes(attributes)) return false;
-  const ObjectClass& object_class = fom_.at(ObjectClassHandle{message.object_class});
-  const bool has_codec = is_coded(object_class, attributes);
-  const Stamp stamp = *context.stamp;
-  const bool is_read =
-      read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
-        const KnownObject* known = objects_.find({object});
-        if (known == nullptr) return objects_.is_gone({object});
-        if (known->object_class != message.object_class) return false;
-        if (has_codec) {
-          decoded_.clear();
-          if (!decode(object_class, attributes, values, stamp.time, decoded_)) return false;
-          values = decoded_;
-        }
-        ++counters_.updates_reflected;
-        if (has_datagrams_)
-          arrivals_.accept({object}, message.object_class, attributes,
-                           order_of_frame(frames_heard_));
-        if (context.timed != nullptr)
-          callbacks_.reflect_attribute_values_with_time({object}, attributes, values,
-                                                        *context.timed);
-        else callbacks_.reflect_attribute_values({object}, attributes, values, stamp);
-        return phase_.is_joined();
-      });
-  return is_read || !phase_.is_joined();
 }
 
 bool AmbassadorParts::take_interaction(Reader& reader, const ReadContext& context) {

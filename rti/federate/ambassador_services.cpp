@@ -42,7 +42,9 @@ AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
       session_(basis_, phase_),
       regions_(fom),
       declared_(fom),
-      arrivals_(fom) {}
+      arrivals_(fom),
+      update_receiver_(basis_, objects_, arrivals_),
+      keyframe_reader_(basis_, objects_, arrivals_) {}
 
 AmbassadorServices::AmbassadorServices(const Fom& fom, FederateAmbassador& callbacks,
                                        const Patience& patience, CallbackModel model)
@@ -183,8 +185,9 @@ std::size_t AmbassadorServices::memory_bytes() const {
   return gate_.memory_bytes() + postponed_.capacity() + content_.capacity() +
          holdings_.memory_bytes() + objects_.memory_bytes() + names_.memory_bytes() +
          regions_.memory_bytes() + region_records_.capacity() + frames_.memory_bytes() +
-         incoming_.memory_bytes() + keyframes_.memory_bytes() + arrivals_.memory_bytes() +
-         declared_.memory_bytes() + (outbox_ ? outbox_->memory_bytes() : 0);
+         incoming_.memory_bytes() + keyframe_reader_.memory_bytes() +
+         update_receiver_.memory_bytes() + arrivals_.memory_bytes() + declared_.memory_bytes() +
+         (outbox_ ? outbox_->memory_bytes() : 0);
 }
 
 ObjectClassHandle AmbassadorServices::get_known_object_class_handle(ObjectHandle object) const {

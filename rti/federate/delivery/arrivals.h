@@ -1,0 +1,48 @@
+// Which of two values of an object is newer, when one came in a frame and one in a datagram.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "rti/objects/arrival_order.h"
+#include "rti/wire/datagram.h"
+
+namespace rink::rti {
+
+/// Counts the frames of the RTI, by which datagrams say where they belong.
+class Arrivals {
+ public:
+  explicit Arrivals(const Fom& fom) : order_(fom) {}
+
+  const ArrivalOrder& order() const { return order_; }
+  /// From the one that let us in, which is the first.
+  std::uint32_t frames_heard() const { return frames_heard_; }
+  void count_frame() { ++frames_heard_; }
+  /// The federate has joined, by this frame.
+  void begin() { frames_heard_ = 1; }
+  /// A datagram may come: from now on the order of frames matters too.
+  void expect_datagrams() { has_datagrams_ = true; }
+
+  void enter(ObjectHandle object, std::uint16_t object_class) {
+    order_.enter(object, object_class, order_of_frame(frames_heard_));
+  }
+  void leave(ObjectHandle object) { order_.leave(object); }
+  /// Values that came in the frame at hand, which are newer than any before.
+  void note_from_frame(ObjectHandle object, std::uint16_t object_class, AttributeSet attributes) {
+    if (has_datagrams_)
+      order_.accept(object, object_class, attributes, order_of_frame(frames_heard_));
+  }
+  /// Those of the attributes that are not older than what is known.
+  AttributeSet accept(ObjectHandle object, std::uint16_t object_class, AttributeSet attributes,
+                      const DatagramHead& head) {
+    return order_.accept(object, object_class, attributes, order_of_datagram(head));
+  }
+  std::size_t memory_bytes() const { return order_.memory_bytes(); }
+
+ private:
+  ArrivalOrder order_;
+  std::uint32_t frames_heard_ = 0;
+  bool has_datagrams_ = false;
+};
+
+}  // namespace rink::rti

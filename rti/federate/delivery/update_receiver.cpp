@@ -1,0 +1,100 @@
+// Blocks of updates, object by object.
+#include "rti/federate/delivery/update_receiver.h"
+
+#include <bit>
+#include <cassert>
+
+#include "rti/fom/coded_values.h"
+#include "rti/wire/update_block.h"
+
+namespace rink::rti {
+
+bool UpdateReceiver::handle_stamp(Reader& reader, ReadContext& context) {
+  StampMessage message;
+  if (!exchange(reader, message)) return false;
+  context.stamp = message.stamp;
+  return true;
+}
+
+bool UpdateReceiver::handle_updates(Reader& reader, const ReadContext& context) {
+  UpdatesMessage message;
+  if (!exchange(reader, message) || !context.stamp ||
+      message.object_class >= basis_.fom.object_classes().size())
+    return false;
+  const AttributeSet attributes{message.attributes};
+  const ObjectClassHandle handle{message.object_class};
+  if (!basis_.fom.attributes(handle).includes(attributes)) return false;
+  const ObjectClass& object_class = basis_.fom.at(handle);
+  const bool has_codec = is_coded(object_class, attributes);
+  const Stamp stamp = *context.stamp;
+  const bool is_read =
+      read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
+        const KnownObject* known = objects_.find({object});
+        if (known == nullptr) return objects_.is_gone({object});
+        if (known->object_class != message.object_class) return false;
+        if (has_codec) {
+          decoded_.clear();
+          if (!decode(object_class, attributes, values, stamp.time, decoded_)) return false;
+          values = decoded_;
+        }
+        ++basis_.counters.updates_reflected;
+        arrivals_.note_from_frame({object}, message.object_class, attributes);
+        if (context.timed != nullptr)
+          basis_.callbacks.reflect_attribute_values_with_time({object}, attributes, values,
+                                                              *context.timed);
+        else basis_.callbacks.reflect_attribute_values({object}, attributes, values, stamp);
+        return basis_.phase.is_joined();
+      });
+  return is_read || !basis_.phase.is_joined();
+}
+
+bool UpdateReceiver::handle_datagram_updates(Reader& reader, const DatagramHead& head,
+                                             const ReadContext& context) {
+  UpdatesMessage message;
+  if (!exchange(reader, message) || !context.stamp ||
+      message.object_class >= basis_.fom.object_classes().size())
+    return false;
+  const Block block{basis_.fom.at(ObjectClassHandle{message.object_class}),
+                    AttributeSet{message.attributes}, *context.stamp};
+  if (!arrivals_.order().best_effort(message.object_class).includes(block.attributes)) return false;
+  const bool is_read = read_records(
+      reader, block.object_class, block.attributes, [&](std::uint32_t object, Bytes values) {
+        const KnownObject* known = objects_.find({object});
+        // One that is unknown or out of scope by now has been told of since this was said, or will
+        // be, with its whole state.
+        const bool is_known = known != nullptr && known->object_class == message.object_class;
+        const AttributeSet accepted =
+            is_known ? arrivals_.accept({object}, message.object_class, block.attributes, head)
+                     : AttributeSet();
+        if (accepted.is_empty()) return ++basis_.counters.updates_outdated, true;
+        return reflect_datagram(block, {object}, accepted, values);
+      });
+  return is_read || !basis_.phase.is_joined();
+}
+
+bool UpdateReceiver::reflect_datagram(const Block& block, ObjectHandle object,
+                                      AttributeSet accepted, Bytes values) {
+  assert(!accepted.is_empty() && block.attributes.includes(accepted));
+  if (accepted != block.attributes) values = choose(block, accepted, values);
+  if (is_coded(block.object_class, accepted)) {
+    decoded_.clear();
+    if (!decode(block.object_class, accepted, values, block.stamp.time, decoded_)) return false;
+    values = decoded_;
+  }
+  ++basis_.counters.updates_reflected;
+  basis_.callbacks.reflect_attribute_values(object, accepted, values, block.stamp);
+  return basis_.phase.is_joined();
+}
+
+/// The values of `accepted` alone.
+Bytes UpdateReceiver::choose(const Block& block, AttributeSet accepted, Bytes values) {
+  chosen_.clear();
+  for (std::uint32_t bits = accepted.bits; bits != 0; bits &= bits - 1) {
+    const Bytes value = coded_value(block.object_class, block.attributes,
+                                    {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
+    chosen_.insert(chosen_.end(), value.begin(), value.end());
+  }
+  return chosen_;
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,46 @@
+// Updates of others on their way to callbacks: read, decoded, and told.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "rti/federate/ambassador_basis.h"
+#include "rti/federate/delivery/arrivals.h"
+#include "rti/federate/read_context.h"
+#include "rti/federate/services/object_book.h"
+
+namespace rink::rti {
+
+/// Its buffers are not those of what is sent: a callback may send updates while it reads values.
+class UpdateReceiver {
+ public:
+  UpdateReceiver(const AmbassadorBasis& basis, const ObjectBook& objects, Arrivals& arrivals)
+      : basis_(basis), objects_(objects), arrivals_(arrivals) {}
+
+  static bool handle_stamp(Reader& reader, ReadContext& context);
+  /// From a frame: whatever is in it is newer than what came before.
+  bool handle_updates(Reader& reader, const ReadContext& context);
+  /// From a datagram: only best-effort values, and of them only those that are no older than what
+  /// is known.
+  bool handle_datagram_updates(Reader& reader, const DatagramHead& head,
+                               const ReadContext& context);
+  std::size_t memory_bytes() const { return decoded_.capacity() + chosen_.capacity(); }
+
+ private:
+  struct Block {
+    const ObjectClass& object_class;
+    AttributeSet attributes;
+    Stamp stamp;
+  };
+  bool reflect_datagram(const Block& block, ObjectHandle object, AttributeSet accepted,
+                        Bytes values);
+  Bytes choose(const Block& block, AttributeSet accepted, Bytes values);
+
+  AmbassadorBasis basis_;
+  const ObjectBook& objects_;
+  Arrivals& arrivals_;
+  std::vector<std::byte> decoded_;
+  std::vector<std::byte> chosen_;  ///< of the values of a datagram
+};
+
+}  // namespace rink::rti
