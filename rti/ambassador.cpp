@@ -5,7 +5,7 @@
 
 namespace rink::rti {
 
-static_assert(Ambassador::waiting_callbacks_max == AmbassadorParts::waiting_callbacks_max);
+static_assert(Ambassador::waiting_callbacks_max == CallbackGate::waiting_max);
 
 Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience,
                        CallbackModel model)

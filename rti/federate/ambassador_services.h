@@ -9,189 +9,313 @@
 #include "im/region.h"
 #include "rti/federate/advisory_switches.h"
 #include "rti/federate/ambassador_parts.h"
+#include "rti/fom/fom_lookup.h"
 
 namespace rink::rti {
 
-class AmbassadorServices final : public AmbassadorParts,
-                                 public AdvisorySwitches<AmbassadorServices> {
+class AmbassadorServices final : public FomLookup, public AdvisorySwitches<AmbassadorServices> {
  public:
   AmbassadorServices(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {},
-                     CallbackModel model = CallbackModel::immediate);
+                     CallbackModel model = CallbackModel::immediate)
+      : FomLookup(fom), parts_(fom, callbacks, patience, model) {}
   void create_federation_execution(std::string_view federation) {
-    questions_.create_federation_execution(federation, fom_);
+    parts_.questions.create_federation_execution(federation, fom_);
   }
   void create_federation_execution(std::string_view federation, const Fom& model) {
-    questions_.create_federation_execution(federation, model);
+    parts_.questions.create_federation_execution(federation, model);
   }
   void destroy_federation_execution(std::string_view federation) {
-    questions_.destroy_federation_execution(federation);
+    parts_.questions.destroy_federation_execution(federation);
   }
-  void list_federation_executions() { questions_.list_federation_executions(); }
-  void query_management() { questions_.query_management(); }
+  void list_federation_executions() { parts_.questions.list_federation_executions(); }
+  void query_management() { parts_.questions.query_management(); }
   void join(std::string_view federation, std::string_view federate_name,
             std::string_view federate_type) {
-    session_.join(federation, federate_name, federate_type);
-    regions_.sign(federate_name);
+    parts_.join(federation, federate_name, federate_type);
   }
-  void resign() { session_.resign(); }
-  bool is_joined() const { return phase_.is_joined(); }
-  FederateHandle federate() const { return phase_.federate(); }
+  void resign() { parts_.session.resign(); }
+  bool is_joined() const { return parts_.ground.phase.is_joined(); }
+  FederateHandle federate() const { return parts_.ground.phase.federate(); }
   void register_synchronization_point(std::string_view label, Bytes tag = {},
                                       std::span<const FederateHandle> members = {}) {
-    synchronization_.register_point(label, tag, members);
+    parts_.synchronization.register_point(label, tag, members);
   }
   void synchronization_point_achieved(std::string_view label, bool is_success = true) {
-    synchronization_.achieve(label, is_success);
+    parts_.synchronization.achieve(label, is_success);
   }
-  void watch_federates() { session_.watch_federates(); }
-  void publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes);
-  void unpublish_object_class(ObjectClassHandle object_class);
+  void watch_federates() { parts_.session.watch_federates(); }
+  void publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes) {
+    parts_.declarations.publish(object_class, attributes);
+  }
+  void unpublish_object_class(ObjectClassHandle object_class) {
+    parts_.declarations.publish(object_class, {});
+  }
   void subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes,
-                                         RegionHandle region = {}, bool is_active = true);
-  void unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region = {});
-  void publish_interaction_class(InteractionClassHandle interaction_class);
-  void unpublish_interaction_class(InteractionClassHandle interaction_class);
-  void subscribe_interaction_class(InteractionClassHandle interaction_class, bool is_active = true);
-  void unsubscribe_interaction_class(InteractionClassHandle interaction_class);
-  void unconditional_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes);
+                                         RegionHandle region = {}, bool is_active = true) {
+    parts_.declarations.subscribe(object_class, attributes, region, is_active);
+  }
+  void unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region = {}) {
+    parts_.declarations.subscribe(object_class, {}, region, true);
+  }
+  void publish_interaction_class(InteractionClassHandle interaction_class) {
+    parts_.declarations.publish(interaction_class, true);
+  }
+  void unpublish_interaction_class(InteractionClassHandle interaction_class) {
+    parts_.declarations.publish(interaction_class, false);
+  }
+  void subscribe_interaction_class(InteractionClassHandle interaction_class,
+                                   bool is_active = true) {
+    parts_.declarations.subscribe(interaction_class,
+                                  is_active ? Listening::active : Listening::passive);
+  }
+  void unsubscribe_interaction_class(InteractionClassHandle interaction_class) {
+    parts_.declarations.subscribe(interaction_class, Listening::none);
+  }
+  void unconditional_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes) {
+    parts_.owners.divest(object, attributes);
+  }
   void negotiated_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes,
-                                                  Bytes tag = {});
-  void confirm_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
+                                                  Bytes tag = {}) {
+    parts_.owners.offer(object, attributes, tag);
+  }
+  void confirm_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag = {}) {
+    parts_.owners.confirm(object, attributes, tag);
+  }
   void cancel_negotiated_attribute_ownership_divestiture(ObjectHandle object,
-                                                         AttributeSet attributes);
-  void attribute_ownership_release_denied(ObjectHandle object, AttributeSet attributes);
-  void attribute_ownership_divestiture_if_wanted(ObjectHandle object, AttributeSet attributes);
+                                                         AttributeSet attributes) {
+    parts_.owners.withdraw_offer(object, attributes);
+  }
+  void attribute_ownership_release_denied(ObjectHandle object, AttributeSet attributes) {
+    parts_.owners.deny_release(object, attributes);
+  }
+  void attribute_ownership_divestiture_if_wanted(ObjectHandle object, AttributeSet attributes) {
+    parts_.owners.divest_if_wanted(object, attributes);
+  }
   void attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes,
-                                       Bytes tag = {});
-  void attribute_ownership_acquisition_if_available(ObjectHandle object, AttributeSet attributes);
-  void cancel_attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes);
-  void query_attribute_ownership(ObjectHandle object, AttributeHandle attribute);
-  bool is_attribute_owned_by_federate(ObjectHandle object, AttributeHandle attribute);
-  void set_automatic_resign_directive(ResignAction action);
-  void resign(ResignAction action);
-  ObjectHandle register_object_instance(ObjectClassHandle object_class, std::string_view name = {});
-  void delete_object_instance(ObjectHandle object);
-  void local_delete_object_instance(ObjectHandle object);
-  void reserve_object_instance_name(std::string_view name) { names_.reserve(name); }
+                                       Bytes tag = {}) {
+    parts_.owners.acquire(object, attributes, tag);
+  }
+  void attribute_ownership_acquisition_if_available(ObjectHandle object, AttributeSet attributes) {
+    parts_.owners.acquire_if_available(object, attributes);
+  }
+  void cancel_attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes) {
+    parts_.owners.cancel_acquisition(object, attributes);
+  }
+  void query_attribute_ownership(ObjectHandle object, AttributeHandle attribute) {
+    parts_.owners.query(object, attribute);
+  }
+  bool is_attribute_owned_by_federate(ObjectHandle object, AttributeHandle attribute) {
+    return parts_.owners.is_owned(object, attribute);
+  }
+  void set_automatic_resign_directive(ResignAction action) { parts_.owners.set_directive(action); }
+  void resign(ResignAction action) { parts_.resign(action); }
+  ObjectHandle register_object_instance(ObjectClassHandle object_class,
+                                        std::string_view name = {}) {
+    return parts_.objects.register_instance(object_class, name);
+  }
+  void delete_object_instance(ObjectHandle object) { parts_.objects.delete_instance(object); }
+  void local_delete_object_instance(ObjectHandle object) { parts_.objects.forget_instance(object); }
+  void reserve_object_instance_name(std::string_view name) { parts_.names.reserve(name); }
   void reserve_multiple_object_instance_names(std::span<const std::string_view> names) {
-    names_.reserve_set(names);
+    parts_.names.reserve_set(names);
   }
   void release_object_instance_name(std::string_view name) {
-    names_.release_set(std::span(&name, 1));
+    parts_.names.release_set(std::span(&name, 1));
   }
   void release_multiple_object_instance_names(std::span<const std::string_view> names) {
-    names_.release_set(names);
+    parts_.names.release_set(names);
   }
   void request_attribute_value_update(ObjectClassHandle object_class, AttributeSet attributes,
-                                      Bytes tag = {});
-  void request_attribute_value_update(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
+                                      Bytes tag = {}) {
+    parts_.objects.request_update(object_class, attributes, tag);
+  }
+  void request_attribute_value_update(ObjectHandle object, AttributeSet attributes,
+                                      Bytes tag = {}) {
+    parts_.objects.request_update(object, attributes, tag);
+  }
   void request_attribute_transportation_type_change(ObjectHandle object, AttributeSet attributes,
-                                                    Transportation transportation);
-  void query_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute);
+                                                    Transportation transportation) {
+    parts_.transportation.change(object, attributes, transportation);
+  }
+  void query_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute) {
+    parts_.transportation.query(object, attribute);
+  }
   void request_interaction_transportation_type_change(InteractionClassHandle interaction_class,
-                                                      Transportation transportation);
+                                                      Transportation transportation) {
+    parts_.transportation.change(interaction_class, transportation);
+  }
   void query_interaction_transportation_type(FederateHandle federate,
-                                             InteractionClassHandle interaction_class);
+                                             InteractionClassHandle interaction_class) {
+    parts_.transportation.query(federate, interaction_class);
+  }
   void update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values,
-                               const Stamp& stamp);
+                               const Stamp& stamp) {
+    parts_.updates.update(object, attributes, values, stamp);
+  }
   void send_interaction(InteractionClassHandle interaction_class, Bytes parameters,
-                        const Stamp& stamp);
+                        const Stamp& stamp) {
+    parts_.updates.send(interaction_class, {}, parameters, stamp);
+  }
   void send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver,
-                                 Bytes parameters, const Stamp& stamp);
-  RegionHandle create_region();
-  RegionHandle create_region(DimensionSet dimensions);
-  void set_region(RegionHandle region, const im::Region& bounds);
-  void set_range_bounds(RegionHandle region, DimensionHandle dimension, const Range& range);
-  Range get_range_bounds(RegionHandle region, DimensionHandle dimension) const;
-  DimensionSet get_dimension_handle_set(RegionHandle region) const;
-  void commit_region_modifications(RegionHandle region);
-  void commit_region_modifications(std::span<const RegionHandle> regions);
-  void commit_region_modifications(std::span<const RegionBounds> regions);
-  void delete_region(RegionHandle region);
-  void associate_regions_for_updates(ObjectHandle object, RegionHandle region);
-  void associate_regions_for_updates(ObjectHandle object, std::span<const AttributeRegions> pairs);
+                                 Bytes parameters, const Stamp& stamp) {
+    parts_.updates.send(interaction_class, receiver, parameters, stamp);
+  }
+  RegionHandle create_region() { return parts_.regions.create(); }
+  RegionHandle create_region(DimensionSet dimensions) { return parts_.regions.create(dimensions); }
+  void set_region(RegionHandle region, const im::Region& bounds) {
+    parts_.ground.regions.set_plane(region, bounds);
+  }
+  void set_range_bounds(RegionHandle region, DimensionHandle dimension, const Range& range) {
+    parts_.ground.regions.set_range(region, dimension, range);
+  }
+  Range get_range_bounds(RegionHandle region, DimensionHandle dimension) const {
+    return parts_.ground.regions.range(region, dimension);
+  }
+  DimensionSet get_dimension_handle_set(RegionHandle region) const {
+    return parts_.ground.regions.dimensions(region);
+  }
+  void commit_region_modifications(RegionHandle region) {
+    parts_.regions.commit(std::span<const RegionHandle>(&region, 1));
+  }
+  void commit_region_modifications(std::span<const RegionHandle> regions) {
+    parts_.regions.commit(regions);
+  }
+  void commit_region_modifications(std::span<const RegionBounds> regions) {
+    parts_.regions.commit(regions);
+  }
+  void delete_region(RegionHandle region) { parts_.regions.remove(region); }
+  void associate_regions_for_updates(ObjectHandle object, RegionHandle region) {
+    parts_.regions.associate(object, region);
+  }
+  void associate_regions_for_updates(ObjectHandle object, std::span<const AttributeRegions> pairs) {
+    parts_.regions.associate(object, pairs, true);
+  }
   void unassociate_regions_for_updates(ObjectHandle object,
-                                       std::span<const AttributeRegions> pairs);
+                                       std::span<const AttributeRegions> pairs) {
+    parts_.regions.associate(object, pairs, false);
+  }
   ObjectHandle register_object_instance_with_regions(ObjectClassHandle object_class,
                                                      std::span<const AttributeRegions> pairs,
-                                                     std::string_view name = {});
+                                                     std::string_view name = {}) {
+    return parts_.regions.register_instance(object_class, pairs, name);
+  }
   void subscribe_object_class_attributes_with_regions(ObjectClassHandle object_class,
                                                       std::span<const AttributeRegions> pairs,
-                                                      bool is_active = true);
+                                                      bool is_active = true) {
+    parts_.regions.subscribe(object_class, pairs,
+                             is_active ? RegionAction::add : RegionAction::add_passively);
+  }
   void unsubscribe_object_class_attributes_with_regions(ObjectClassHandle object_class,
-                                                        std::span<const AttributeRegions> pairs);
+                                                        std::span<const AttributeRegions> pairs) {
+    parts_.regions.subscribe(object_class, pairs, RegionAction::remove);
+  }
   void subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class,
                                                 std::span<const RegionHandle> regions,
-                                                bool is_active = true);
+                                                bool is_active = true) {
+    parts_.regions.subscribe(interaction_class, regions,
+                             is_active ? Listening::active : Listening::passive);
+  }
   void unsubscribe_interaction_class_with_regions(InteractionClassHandle interaction_class,
-                                                  std::span<const RegionHandle> regions);
+                                                  std::span<const RegionHandle> regions) {
+    parts_.regions.subscribe(interaction_class, regions, Listening::none);
+  }
   void send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters,
-                                     std::span<const RegionHandle> regions, const Stamp& stamp);
+                                     std::span<const RegionHandle> regions, const Stamp& stamp) {
+    parts_.regions.send(interaction_class, parameters, regions, stamp);
+  }
   void request_attribute_value_update_with_regions(ObjectClassHandle object_class,
-                                                   std::span<const AttributeRegions> pairs);
+                                                   std::span<const AttributeRegions> pairs) {
+    parts_.regions.request_update(object_class, pairs);
+  }
   FederateHandle get_federate_handle(std::string_view name) const {
-    return session_.handle_of(name);
+    return parts_.session.handle_of(name);
   }
   const std::string& get_federate_name(FederateHandle federate) const {
-    return session_.name_of(federate);
+    return parts_.session.name_of(federate);
   }
   ObjectHandle get_object_instance_handle(std::string_view name) const {
-    return names_.handle_of(name);
+    return parts_.names.handle_of(name);
   }
-  std::string get_object_instance_name(ObjectHandle object) const { return names_.name_of(object); }
-  ObjectClassHandle get_known_object_class_handle(ObjectHandle object) const;
-  bool evoke_callback() { return gate_.evoke(1); }
+  std::string get_object_instance_name(ObjectHandle object) const {
+    return parts_.names.name_of(object);
+  }
+  ObjectClassHandle get_known_object_class_handle(ObjectHandle object) const {
+    return parts_.objects.class_of(object);
+  }
+  bool evoke_callback() { return parts_.ground.gate.evoke(1); }
   bool evoke_multiple_callbacks(std::size_t count_max = ~std::size_t{0}) {
-    return gate_.evoke(count_max);
+    return parts_.ground.gate.evoke(count_max);
   }
-  void disable_callbacks();
-  void enable_callbacks();
-  void enable_time_regulation(double lookahead);
-  void disable_time_regulation();
-  void enable_time_constrained();
-  void disable_time_constrained();
-  void time_advance_request(LogicalTime time) { request_advance(AdvanceKind::time_advance, time); }
+  void disable_callbacks() { parts_.disable_callbacks(); }
+  void enable_callbacks() { parts_.enable_callbacks(); }
+  void enable_time_regulation(double lookahead) { parts_.time.enable_regulation(lookahead); }
+  void disable_time_regulation() { parts_.time.disable_regulation(); }
+  void enable_time_constrained() { parts_.time.enable_constrained(); }
+  void disable_time_constrained() { parts_.time.disable_constrained(); }
+  void time_advance_request(LogicalTime time) {
+    parts_.time.request_advance(AdvanceKind::time_advance, time);
+  }
   void time_advance_request_available(LogicalTime time) {
-    request_advance(AdvanceKind::time_advance_available, time);
+    parts_.time.request_advance(AdvanceKind::time_advance_available, time);
   }
-  void next_message_request(LogicalTime time) { request_advance(AdvanceKind::next_message, time); }
+  void next_message_request(LogicalTime time) {
+    parts_.time.request_advance(AdvanceKind::next_message, time);
+  }
   void next_message_request_available(LogicalTime time) {
-    request_advance(AdvanceKind::next_message_available, time);
+    parts_.time.request_advance(AdvanceKind::next_message_available, time);
   }
-  void flush_queue_request(LogicalTime time) { request_advance(AdvanceKind::flush_queue, time); }
-  void modify_lookahead(double lookahead);
-  void enable_asynchronous_delivery() { clock_.ask_asynchronous(true); }
-  void disable_asynchronous_delivery() { clock_.ask_asynchronous(false); }
-  LogicalTime query_logical_time() const { return LogicalTime(clock_.time()); }
-  double query_lookahead() const { return clock_.lookahead(); }
-  void query_time_bounds();
-  const FederateClock& clock() const { return clock_; }
+  void flush_queue_request(LogicalTime time) {
+    parts_.time.request_advance(AdvanceKind::flush_queue, time);
+  }
+  void modify_lookahead(double lookahead) { parts_.time.modify_lookahead(lookahead); }
+  void enable_asynchronous_delivery() { parts_.time.set_asynchronous(true); }
+  void disable_asynchronous_delivery() { parts_.time.set_asynchronous(false); }
+  LogicalTime query_logical_time() const { return LogicalTime(parts_.time.clock().time()); }
+  double query_lookahead() const { return parts_.time.clock().lookahead(); }
+  void query_time_bounds() { parts_.time.query_bounds(); }
+  const FederateClock& clock() const { return parts_.time.clock(); }
   RetractionHandle update_attribute_values(ObjectHandle object, AttributeSet attributes,
-                                           Bytes values, LogicalTime time, std::uint64_t tag = 0);
+                                           Bytes values, LogicalTime time, std::uint64_t tag = 0) {
+    return parts_.time.update(object, attributes, values, {time, tag});
+  }
   RetractionHandle send_interaction(InteractionClassHandle interaction_class, Bytes parameters,
-                                    LogicalTime time, std::uint64_t tag = 0);
+                                    LogicalTime time, std::uint64_t tag = 0) {
+    return parts_.time.send(interaction_class, {}, parameters, {time, tag});
+  }
   RetractionHandle send_directed_interaction(InteractionClassHandle interaction_class,
                                              FederateHandle receiver, Bytes parameters,
-                                             LogicalTime time, std::uint64_t tag = 0);
+                                             LogicalTime time, std::uint64_t tag = 0) {
+    return parts_.time.send(interaction_class, receiver, parameters, {time, tag});
+  }
   RetractionHandle delete_object_instance(ObjectHandle object, LogicalTime time,
-                                          std::uint64_t tag = 0);
-  void retract(const RetractionHandle& handle);
-  void change_attribute_order_type(ObjectHandle object, AttributeSet attributes, Order order);
-  void change_interaction_order_type(InteractionClassHandle interaction_class, Order order);
-  bool receive(Bytes bytes);
-  void receive_datagram(Bytes datagram);
-  void expect_datagrams(std::size_t size_max);
-  std::span<const Datagram> outgoing_datagrams();
-  void clear_outgoing_datagrams();
-  Bytes outgoing() const { return frames_.bytes(); }
-  void clear_outgoing();
-  void advance_clock(double now);
-  void disconnected(std::string_view why) { lose(why); }
-  const AmbassadorCounters& counters() const { return counters_; }
-  std::size_t memory_bytes() const;
+                                          std::uint64_t tag = 0) {
+    return parts_.time.delete_instance(object, {time, tag});
+  }
+  void retract(const RetractionHandle& handle) { parts_.time.retract(handle); }
+  void change_attribute_order_type(ObjectHandle object, AttributeSet attributes, Order order) {
+    parts_.time.change_order(object, attributes, order);
+  }
+  void change_interaction_order_type(InteractionClassHandle interaction_class, Order order) {
+    parts_.time.change_order(interaction_class, order);
+  }
+  bool receive(Bytes bytes) { return parts_.receive(bytes); }
+  void receive_datagram(Bytes datagram) { parts_.receive_datagram(datagram); }
+  void expect_datagrams(std::size_t size_max) { parts_.expect_datagrams(size_max); }
+  std::span<const Datagram> outgoing_datagrams() { return parts_.outgoing_datagrams(); }
+  void clear_outgoing_datagrams() { parts_.clear_outgoing_datagrams(); }
+  Bytes outgoing() const { return parts_.ground.frames.bytes(); }
+  void clear_outgoing() { parts_.clear_outgoing(); }
+  void advance_clock(double now) { parts_.advance_clock(now); }
+  void disconnected(std::string_view why) { parts_.lose(why); }
+  const AmbassadorCounters& counters() const { return parts_.ground.counters; }
+  std::size_t memory_bytes() const { return parts_.memory_bytes(); }
+
+  void switch_advisory(Advisory advisory, bool is_on) {
+    parts_.declarations.switch_advisory(advisory, is_on);
+  }
 
  private:
-  friend AdvisorySwitches<AmbassadorServices>;
+  AmbassadorParts parts_;
 };
 
 }  // namespace rink::rti

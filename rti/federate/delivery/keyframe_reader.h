@@ -9,9 +9,9 @@
 
 #include "rti/baselines/keyframe_memory.h"
 #include "rti/federate/ambassador_basis.h"
-#include "rti/federate/delivery/arrivals.h"
+#include "rti/federate/books/object_book.h"
+#include "rti/federate/delivery/update_arrivals.h"
 #include "rti/federate/read_context.h"
-#include "rti/federate/services/object_book.h"
 #include "rti/fom/quantised_codec.h"
 #include "rti/wire/bit_stream.h"
 
@@ -21,7 +21,7 @@ struct DeltaHeader;
 
 class KeyframeReader {
  public:
-  KeyframeReader(const AmbassadorBasis& basis, const ObjectBook& objects, Arrivals& arrivals)
+  KeyframeReader(const AmbassadorBasis& basis, const ObjectBook& objects, UpdateArrivals& arrivals)
       : basis_(basis), objects_(objects), arrivals_(arrivals) {}
 
   bool handle_begin(Reader& reader);
@@ -48,7 +48,7 @@ class KeyframeReader {
 
   AmbassadorBasis basis_;
   const ObjectBook& objects_;
-  Arrivals& arrivals_;
+  UpdateArrivals& arrivals_;
   KeyframeMemory keyframes_;
   std::vector<std::byte> decoded_;  ///< the value of the record at hand
 };

@@ -97,4 +97,19 @@ Bytes UpdateReceiver::choose(const Block& block, AttributeSet accepted, Bytes va
   return chosen_;
 }
 
+bool UpdateReceiver::handle_interaction(Reader& reader, const ReadContext& context) {
+  InteractionMessage message;
+  if (!exchange(reader, message) ||
+      message.interaction_class >= basis_.fom.interaction_classes().size())
+    return false;
+  ++basis_.counters.interactions_received;
+  if (context.timed != nullptr)
+    basis_.callbacks.receive_interaction_with_time({message.interaction_class}, message.parameters,
+                                                   {message.federate}, *context.timed);
+  else
+    basis_.callbacks.receive_interaction({message.interaction_class}, message.parameters,
+                                         {message.federate}, message.stamp);
+  return true;
+}
+
 }  // namespace rink::rti

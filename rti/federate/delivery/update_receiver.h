@@ -1,20 +1,20 @@
-// Updates of others on their way to callbacks: read, decoded, and told.
+// Updates and interactions of others on their way to callbacks: read, decoded, and told.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
 #include "rti/federate/ambassador_basis.h"
-#include "rti/federate/delivery/arrivals.h"
+#include "rti/federate/books/object_book.h"
+#include "rti/federate/delivery/update_arrivals.h"
 #include "rti/federate/read_context.h"
-#include "rti/federate/services/object_book.h"
 
 namespace rink::rti {
 
 /// Its buffers are not those of what is sent: a callback may send updates while it reads values.
 class UpdateReceiver {
  public:
-  UpdateReceiver(const AmbassadorBasis& basis, const ObjectBook& objects, Arrivals& arrivals)
+  UpdateReceiver(const AmbassadorBasis& basis, const ObjectBook& objects, UpdateArrivals& arrivals)
       : basis_(basis), objects_(objects), arrivals_(arrivals) {}
 
   static bool handle_stamp(Reader& reader, ReadContext& context);
@@ -24,6 +24,7 @@ class UpdateReceiver {
   /// is known.
   bool handle_datagram_updates(Reader& reader, const DatagramHead& head,
                                const ReadContext& context);
+  bool handle_interaction(Reader& reader, const ReadContext& context);
   std::size_t memory_bytes() const { return decoded_.capacity() + chosen_.capacity(); }
 
  private:
@@ -38,7 +39,7 @@ class UpdateReceiver {
 
   AmbassadorBasis basis_;
   const ObjectBook& objects_;
-  Arrivals& arrivals_;
+  UpdateArrivals& arrivals_;
   std::vector<std::byte> decoded_;
   std::vector<std::byte> chosen_;  ///< of the values of a datagram
 };

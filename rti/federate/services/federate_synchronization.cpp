@@ -1,7 +1,7 @@
 // What a federate says about synchronisation points, and is told.
 #include "rti/federate/services/federate_synchronization.h"
 
-#include "rti/federate/services/require.h"
+#include "rti/federate/books/require.h"
 #include "rti/wire/federation_messages.h"
 
 namespace rink::rti {

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "rti/federate/services/require.h"
+#include "rti/federate/books/require.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
 

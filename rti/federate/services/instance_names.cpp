@@ -1,7 +1,7 @@
 // What is asked of the RTI about names, and what it answers.
 #include "rti/federate/services/instance_names.h"
 
-#include "rti/federate/services/require.h"
+#include "rti/federate/books/require.h"
 
 namespace rink::rti {
 

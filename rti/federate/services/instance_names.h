@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "rti/federate/ambassador_basis.h"
-#include "rti/federate/services/object_book.h"
+#include "rti/federate/books/object_book.h"
 #include "rti/objects/name_book.h"
 #include "rti/wire/object_messages.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "rti/federate/services/require.h"
+#include "rti/federate/books/require.h"
 #include "rti/fom/fom_digest.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/fom_messages.h"

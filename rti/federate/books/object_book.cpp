@@ -1,5 +1,5 @@
 // How objects come into the book and leave it.
-#include "rti/federate/services/object_book.h"
+#include "rti/federate/books/object_book.h"
 
 #include <algorithm>
 #include <utility>

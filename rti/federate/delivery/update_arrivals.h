@@ -10,9 +10,9 @@
 namespace rink::rti {
 
 /// Counts the frames of the RTI, by which datagrams say where they belong.
-class Arrivals {
+class UpdateArrivals {
  public:
-  explicit Arrivals(const Fom& fom) : order_(fom) {}
+  explicit UpdateArrivals(const Fom& fom) : order_(fom) {}
 
   const ArrivalOrder& order() const { return order_; }
   /// From the one that let us in, which is the first.

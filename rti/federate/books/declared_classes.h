@@ -1,0 +1,70 @@
+// Which classes a federate publishes, and what others hear of them.
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "rti/distribution/data_distribution.h"
+#include "rti/fom/fom.h"
+
+namespace rink::rti {
+
+/// Written by `Declarations` alone.
+class DeclaredClasses {
+ public:
+  explicit DeclaredClasses(const Fom& fom)
+      : objects_(fom.object_classes().size()), interactions_(fom.interaction_classes().size()) {}
+
+  std::uint32_t object_class_count() const { return static_cast<std::uint32_t>(objects_.size()); }
+  std::uint32_t interaction_class_count() const {
+    return static_cast<std::uint32_t>(interactions_.size());
+  }
+  AttributeSet published(ObjectClassHandle object_class) const {
+    return at(object_class).published;
+  }
+  bool is_published(InteractionClassHandle interaction_class) const {
+    return !at(interaction_class).published.is_empty();
+  }
+  /// What others hear, as the RTI told; all until then, and what is not published: whoever sends
+  /// that shall be told so.
+  AttributeSet heard(ObjectClassHandle object_class) const { return at(object_class).others.heard; }
+  bool is_heard(InteractionClassHandle interaction_class) const {
+    return !at(interaction_class).others.heard.is_empty();
+  }
+
+  void publish(ObjectClassHandle object_class, AttributeSet attributes);
+  void publish(InteractionClassHandle interaction_class, bool is_published);
+  /// What the RTI told of others' subscriptions. It must be published.
+  void set_others(ObjectClassHandle object_class, const Subscription& others);
+  void set_others(InteractionClassHandle interaction_class, const Subscription& others);
+  /// Whether the class became relevant (true), or ceased to be (false), since the federate was last
+  /// told; while its switch is off nothing counts as told.
+  std::optional<bool> turn(ObjectClassHandle object_class, bool is_on);
+  std::optional<bool> turn(InteractionClassHandle interaction_class, bool is_on);
+
+  std::size_t memory_bytes() const {
+    return (objects_.capacity() + interactions_.capacity()) * sizeof(Class);
+  }
+
+ private:
+  struct Class {
+    AttributeSet published;  ///< 1 for an interaction class
+    Subscription others{AttributeSet(~0u), {}};
+    bool is_relevant = false;  ///< as the federate was told
+  };
+  static std::optional<bool> turn(Class& declared, bool is_on);
+  const Class& at(ObjectClassHandle object_class) const {
+    assert(object_class.value < objects_.size());
+    return objects_[object_class.value];
+  }
+  const Class& at(InteractionClassHandle interaction_class) const {
+    assert(interaction_class.value < interactions_.size());
+    return interactions_[interaction_class.value];
+  }
+
+  std::vector<Class> objects_, interactions_;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,43 @@
+// What is kept of a message that waits.
+#include "rti/federate/delivery/postponed_messages.h"
+
+#include "rti/wire/update_block.h"
+
+namespace rink::rti {
+
+bool PostponedMessages::keep(Reader& reader, MessageKind kind, const ReadContext& context) {
+  const Bytes body = reader.rest();
+  if (kind == MessageKind::updates && !context.stamp) return false;
+  const std::size_t start = bytes_.size();
+  if (kind == MessageKind::updates) {
+    StampMessage stamp{*context.stamp};
+    write(bytes_, stamp);
+  }
+  if (!skip(reader, kind)) {
+    bytes_.resize(start);
+    return false;
+  }
+  bytes_.push_back(static_cast<std::byte>(kind));
+  bytes_.insert(bytes_.end(), body.begin(),
+                body.end() - static_cast<std::ptrdiff_t>(reader.left()));
+  return true;
+}
+
+/// Reads over a message, as if it were handled.
+bool PostponedMessages::skip(Reader& reader, MessageKind kind) const {
+  if (kind == MessageKind::updates) {
+    UpdatesMessage message;
+    return exchange(reader, message) && message.object_class < fom_.object_classes().size() &&
+           read_records(reader, fom_.object_classes()[message.object_class],
+                        AttributeSet(message.attributes),
+                        [](std::uint32_t, Bytes) { return true; });
+  }
+  if (kind == MessageKind::interaction) {
+    InteractionMessage message;
+    return exchange(reader, message);
+  }
+  RemoveObjectMessage message;
+  return exchange(reader, message);
+}
+
+}  // namespace rink::rti

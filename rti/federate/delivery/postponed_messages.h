@@ -1,0 +1,35 @@
+// Messages in receive order that wait until a constrained federate asks to advance.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "rti/federate/read_context.h"
+#include "rti/fom/fom.h"
+#include "rti/wire/message.h"
+
+namespace rink::rti {
+
+class PostponedMessages {
+ public:
+  explicit PostponedMessages(const Fom& fom) : fom_(fom) {}
+
+  /// Keeps one message, with its stamp if it needs one. False if it makes no sense.
+  bool keep(Reader& reader, MessageKind kind, const ReadContext& context);
+  bool is_empty() const { return bytes_.empty(); }
+  /// More than a federate that never advances is kept.
+  bool is_overfull() const { return bytes_.size() > size_max; }
+  /// Messages, one after the other.
+  std::vector<std::byte> take() { return std::exchange(bytes_, {}); }
+  std::size_t memory_bytes() const { return bytes_.capacity(); }
+
+ private:
+  static constexpr std::size_t size_max = 64u << 20;  ///< [bytes]
+  bool skip(Reader& reader, MessageKind kind) const;
+
+  const Fom& fom_;
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,37 @@
+// What a federate has sent of each class, as far as that decides what must follow.
+#pragma once
+
+#include <cassert>
+#include <vector>
+
+#include "rti/federate/delivery/frame_outbox.h"
+#include "rti/fom/fom.h"
+
+namespace rink::rti {
+
+class SentUpdates {
+ public:
+  explicit SentUpdates(const Fom& fom) : attributes_(fom.object_classes().size()) {}
+
+  void note(const UpdateHeader& header) {
+    assert(header.object_class.value < attributes_.size());
+    AttributeSet& sent = attributes_[header.object_class.value];
+    sent = sent | header.attributes;
+    newest_ = header.stamp;
+  }
+  /// An update was kept back.
+  void note_spared(const Stamp& stamp) { newest_ = stamp; }
+  /// An update of these was sent once: the RTI may hold a value.
+  AttributeSet of(ObjectClassHandle object_class) const {
+    assert(object_class.value < attributes_.size());
+    return attributes_[object_class.value];
+  }
+  const Stamp& newest() const { return newest_; }  ///< of the latest update, be it kept back
+  std::size_t memory_bytes() const { return attributes_.capacity() * sizeof attributes_[0]; }
+
+ private:
+  std::vector<AttributeSet> attributes_;  ///< by class
+  Stamp newest_;
+};
+
+}  // namespace rink::rti

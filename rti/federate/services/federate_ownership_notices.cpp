@@ -1,0 +1,105 @@
+// What the RTI says about ownership, noted in the book and called back.
+#include "rti/federate/services/federate_ownership.h"
+#include "rti/wire/object_block.h"
+
+namespace rink::rti {
+
+bool FederateOwnership::handle_owner(Reader& reader) {
+  InformOwnershipMessage message;
+  if (!exchange(reader, message)) return false;
+  const ObjectHandle object{message.object};
+  if (uses_.objects.find(object) == nullptr) return uses_.objects.is_gone(object);
+  if (message.federate == FederateHandle::none)
+    basis_.callbacks.attribute_is_not_owned(object, {message.attribute});
+  else basis_.callbacks.inform_attribute_ownership(object, {message.attribute}, {message.federate});
+  return true;
+}
+
+bool FederateOwnership::handle_notices(Reader& reader) {
+  OwnershipNoticeMessage message;
+  if (!exchange(reader, message)) return false;
+  const AttributeSet attributes(message.attributes);
+  const bool is_read = read_objects(reader, [&](ObjectHandle object) {
+    const KnownObject* known = uses_.objects.find(object);
+    if (known == nullptr) return uses_.objects.is_gone(object);
+    if (!uses_.book.all_of(*known).includes(attributes)) return false;
+    note(object, static_cast<OwnershipNotice>(message.word), attributes, message.tag);
+    return basis_.phase.is_joined();
+  });
+  return is_read || !basis_.phase.is_joined();
+}
+
+void FederateOwnership::note(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes,
+                             Bytes tag) {
+  const AttributeSet pending = attributes & uses_.book.pending_of(object);
+  const AttributeSet told = change(object, notice, attributes);
+  if (!told.is_empty()) call_back(object, notice, told, tag);
+  const bool is_kept = notice == OwnershipNotice::kept || notice == OwnershipNotice::kept_offered;
+  if (is_kept && !pending.is_empty())
+    call_back(object, OwnershipNotice::acquired, pending,
+              {});  // asked for again before it was clear that it had stayed
+}
+
+/// Returns what there is to tell: what crossed a word of ours on its way is about what we no longer
+/// own or want, and passes in silence.
+AttributeSet FederateOwnership::change(ObjectHandle object, OwnershipNotice notice,
+                                       AttributeSet attributes) {
+  AttributeSet told = attributes;
+  uses_.book.change(object, [&](Holding& holding) {
+    const AttributeSet pending = attributes & holding.pending();
+    switch (notice) {
+      case OwnershipNotice::assumption_requested:
+        told = attributes.without(holding.owned).without(pending);
+        break;
+      case OwnershipNotice::confirmation_requested:
+        told = attributes & holding.offered;
+        holding.confirmable = holding.confirmable | told;
+        break;
+      case OwnershipNotice::release_requested:
+        told = attributes & holding.owned;
+        break;
+      case OwnershipNotice::unavailable:
+      case OwnershipNotice::acquisition_cancelled:
+        told = pending;
+        holding.end_acquisition(attributes);
+        break;
+      case OwnershipNotice::acquired:
+      case OwnershipNotice::kept:
+        holding.gain(attributes);
+        break;
+      case OwnershipNotice::kept_offered:
+        holding.gain(attributes);
+        holding.offered = holding.offered | attributes;
+        break;
+      case OwnershipNotice::divested:
+        break;
+    }
+  });
+  return told;
+}
+
+void FederateOwnership::call_back(ObjectHandle object, OwnershipNotice notice,
+                                  AttributeSet attributes, Bytes tag) {
+  FederateAmbassador& callbacks = basis_.callbacks;
+  switch (notice) {
+    case OwnershipNotice::assumption_requested:
+      return callbacks.request_attribute_ownership_assumption(object, attributes, tag);
+    case OwnershipNotice::confirmation_requested:
+      return callbacks.request_divestiture_confirmation(object, attributes);
+    case OwnershipNotice::release_requested:
+      return callbacks.request_attribute_ownership_release(object, attributes, tag);
+    case OwnershipNotice::unavailable:
+      return callbacks.attribute_ownership_unavailable(object, attributes);
+    case OwnershipNotice::acquisition_cancelled:
+      return callbacks.confirm_attribute_ownership_acquisition_cancellation(object, attributes);
+    case OwnershipNotice::acquired:
+      return callbacks.attribute_ownership_acquisition_notification(object, attributes, tag);
+    case OwnershipNotice::kept:
+    case OwnershipNotice::kept_offered:
+      return callbacks.attribute_ownership_kept(object, attributes);
+    case OwnershipNotice::divested:
+      return callbacks.attribute_ownership_divested(object, attributes);
+  }
+}
+
+}  // namespace rink::rti

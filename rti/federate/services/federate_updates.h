@@ -1,0 +1,45 @@
+// Updates and interactions as a federate sends them in receive order: checked, spared if nobody
+// hears them, coded, and handed on.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "rti/federate/ambassador_basis.h"
+#include "rti/federate/services/sparing.h"
+
+namespace rink::rti {
+
+class FederateUpdates {
+ public:
+  struct Uses {
+    const ObjectBook& objects;
+    const OwnershipBook& ownership;
+    const DeclaredClasses& classes;
+    Sparing& sparing;
+    UpdateSender& sender;
+  };
+  FederateUpdates(const AmbassadorBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
+
+  /// Throws FederateNotExecutionMember, ObjectInstanceNotKnown, AttributeNotDefined,
+  /// AttributeNotOwned, InvalidLogicalTime, and RTIinternalError for values that are none.
+  void update(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp);
+  /// To `receiver` alone, if it names one. Throws InteractionClassNotPublished and its kin.
+  void send(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters,
+            const Stamp& stamp);
+  /// Whether such an interaction is to be sent; throws if it may not be.
+  bool may_send(InteractionClassHandle interaction_class, Bytes parameters, const Stamp& stamp);
+
+  void require_values(ObjectClassHandle object_class, AttributeSet attributes, Bytes values) const;
+  static void require_parameters(Bytes parameters);
+  std::size_t memory_bytes() const { return coded_.capacity(); }
+
+ private:
+  const KnownObject& require_updatable(ObjectHandle object, AttributeSet attributes) const;
+
+  AmbassadorBasis basis_;
+  Uses uses_;
+  std::vector<std::byte> coded_;  ///< of the update at hand
+};
+
+}  // namespace rink::rti

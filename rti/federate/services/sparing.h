@@ -1,0 +1,58 @@
+// What is not sent since nobody hears it (docs/rti.md, "Nobody listens").
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "rti/federate/ambassador_basis.h"
+#include "rti/federate/delivery/callback_gate.h"
+#include "rti/federate/delivery/update_sender.h"
+#include "rti/objects/spared_values.h"
+
+namespace rink::rti {
+
+/// The newest values that were kept back follow as soon as somebody hears them.
+class Sparing {
+ public:
+  struct Uses {
+    const DeclaredClasses& classes;
+    const OwnershipBook& ownership;
+    const CallbackGate& gate;
+    SentUpdates& sent;
+    UpdateSender& sender;
+  };
+  Sparing(const AmbassadorBasis& basis, const Uses& uses)
+      : basis_(basis), uses_(uses), values_(basis.fom) {}
+
+  /// Before each update: false, and nothing else is to be done, if somebody hears it and nothing of
+  /// it is kept back.
+  bool concerns(ObjectClassHandle object_class, AttributeSet attributes) const {
+    return (attributes & uses_.classes.heard(object_class)).is_empty() ||
+           !(attributes & values_.in_class(object_class)).is_empty();
+  }
+  /// False if the update is to be sent: then what was kept back of it is out of date. `values` are
+  /// as the federate gave them.
+  bool spares(const UpdateHeader& header, ObjectHandle object, bool is_own, Bytes values);
+  bool spares(InteractionClassHandle interaction_class);
+  /// Sends what was kept back: of an object; of objects of a class of which `heard` is a part; of
+  /// all. As the newest state, with the newest stamp.
+  void release(ObjectHandle object);
+  void release(ObjectClassHandle object_class, AttributeSet heard);
+  void release_all() { release(ObjectClassHandle{}, AttributeSet(~0u)); }
+  /// While bytes wait unread, nobody would tell that somebody listens.
+  void gate_closed() {
+    if (!may_spare()) release_all();
+  }
+  void forget(ObjectHandle object) { values_.forget(object); }
+  std::size_t memory_bytes() const { return values_.memory_bytes() + coded_.capacity(); }
+
+ private:
+  bool may_spare() const;
+
+  AmbassadorBasis basis_;
+  Uses uses_;
+  SparedValues values_;
+  std::vector<std::byte> coded_;  ///< of what is being released
+};
+
+}  // namespace rink::rti
