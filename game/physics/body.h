@@ -79,9 +79,9 @@ struct Field {
       false;  ///< bats of Half::left and Half::right bounce off the halfway line x = length/2
 };
 
-/// How pending events are kept: a calendar of buckets, constant time (event_queue.h), or a binary
-/// heap (event_heap.h).
-enum class QueuePolicy : std::uint8_t { calendar, heap };
+/// How pending events are kept: a calendar of buckets, constant time (event_queue.h), a binary heap
+/// (event_heap.h), or by windows, beyond which they wait with their bodies (window_queue.h).
+enum class QueuePolicy : std::uint8_t { calendar, heap, windows };
 
 /// Everything that is true of a World before it has bodies.
 struct WorldSpec {

@@ -32,6 +32,12 @@ const Way ways[] = {{.name = "in one go"},
                      .cell_size = 0.4,
                      .queue = QueuePolicy::heap,
                      .stop_every = 1e-3},
+                    {.name = "windows", .queue = QueuePolicy::windows},
+                    {.name = "windows and large cells, stopped and restored at random",
+                     .cell_size = 0.4,
+                     .queue = QueuePolicy::windows,
+                     .stop_every = 0.01,
+                     .window_every = 0.1},
                     {.name = "random stops", .stop_every = 0.05},
                     {.name = "restored now and then", .window_every = 0.2},
                     {.name = "restored often, between stops",
@@ -184,6 +190,7 @@ TEST(Determinism, LookingAheadAmongManyPucksChangesNothing) {
     return world.hash();
   };
   EXPECT_EQ(hash(QueuePolicy::calendar), hash(QueuePolicy::heap));
+  EXPECT_EQ(hash(QueuePolicy::calendar), hash(QueuePolicy::windows));
 }
 
 TEST(Snapshot, IsRefusedIfAnyByteIsAltered) {

@@ -31,7 +31,7 @@ WorldSpec one_by_one(QueuePolicy queue) {
   return spec;
 }
 
-constexpr std::array policies{QueuePolicy::calendar, QueuePolicy::heap};
+constexpr std::array policies{QueuePolicy::calendar, QueuePolicy::heap, QueuePolicy::windows};
 
 /// Two balls stand at 30 degrees to the way of a third. The first to be hit takes c = cos(30) of
 /// its speed along their line, the second c (1 - n . n') = c/2.

@@ -57,7 +57,7 @@ bool exchange(Stream& stream, WorldSpec& spec) {
   return exchange(stream, field) &&
          stream.numbers(puck_drag, bat_drag, puck_friction, contact_time, cell_size) &&
          exchange_table(stream, restitution, 1.0) && exchange(stream, surface_friction) &&
-         stream.choice(queue, QueuePolicy::heap) && stream.truth(accounts_energy) &&
+         stream.choice(queue, QueuePolicy::windows) && stream.truth(accounts_energy) &&
          stream.truth(allow_overlap) && puck_friction >= 0.0 && puck_drag >= 0.0 &&
          bat_drag >= 0.0 && contact_time > 0.0 && cell_size >= 0.0 &&
          field.wall < restitution.material_count();

@@ -1,4 +1,4 @@
-// One step per bucket of the calendar and distance.
+// One step per bucket of the schedule and distance.
 #include "game/physics/engine/look_ahead.h"
 
 #include <algorithm>
@@ -11,14 +11,14 @@ constexpr std::uint32_t look_ahead_min = 30'000;
 }  // namespace
 
 bool LookAhead::is_worthwhile() const {
-  return bodies_.count() >= look_ahead_min && events_.calendar() != nullptr;
+  return bodies_.count() >= look_ahead_min && events_.upcoming().knows_upcoming();
 }
 
 void LookAhead::fetch_body(std::uint32_t body) const {
   __builtin_prefetch(&bodies_[body], 1);
   __builtin_prefetch(&events_[body], 1);
   grid_.prefetch_place(body);
-  events_.calendar()->prefetch(body);
+  events_.upcoming().prefetch(body);
 }
 
 void LookAhead::fetch_collected(std::uint32_t count) const {
@@ -35,13 +35,13 @@ bool LookAhead::meets_listed(std::uint32_t body) const {
 
 template <class Visit>
 void LookAhead::step(std::size_t number, Visit&& visit) {
-  const EventQueue& calendar = *events_.calendar();
+  const EventSchedule& schedule = events_.upcoming();
   const std::int64_t distance = static_cast<std::int64_t>(seen_.size() - number),
-                     current = calendar.current();
+                     current = schedule.current();
   std::int64_t& last = seen_[number];
   if (last > current + distance) last = current;  // the buckets were numbered anew
   for (last = std::max(last, current); last < current + distance;)
-    calendar.upcoming(++last - current, visit);
+    schedule.upcoming(++last - current, visit);
 }
 
 void LookAhead::fetch() {

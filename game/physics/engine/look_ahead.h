@@ -20,12 +20,12 @@ class LookAhead {
 
   /// Whether it is worth it: with few bodies all is near at hand.
   bool is_worthwhile() const;
-  /// Whether the calendar has turned since the last fetch().
-  bool is_due() const { return events_.calendar()->current() != seen_.back() - 1; }
+  /// Whether the schedule has gone on to another bucket since the last fetch().
+  bool is_due() const { return events_.upcoming().current() != seen_.back() - 1; }
   /// In steps, as one thing leads to the next: who comes, whom he meets and in which cells, who is
   /// there.
   void fetch();
-  /// The buckets of the calendar are others.
+  /// The buckets of the schedule are others.
   void restart() { seen_ = {}; }
 
  private:

@@ -69,8 +69,8 @@ class NextEvents {
     return slots_[body].is_tied || (is_body(partner) && slots_[partner].is_tied) ||
            schedule_.is_followed_within(instant);
   }
-  /// The calendar, if events are kept by one.
-  const EventQueue* calendar() const { return schedule_.calendar(); }
+  /// Who comes after the next one.
+  const EventSchedule& upcoming() const { return schedule_; }
 
  private:
   QueuePolicy policy_;

@@ -6,6 +6,7 @@
 #include "game/physics/body.h"
 #include "game/physics/events/event_heap.h"
 #include "game/physics/events/event_queue.h"
+#include "game/physics/events/window_queue.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -13,27 +14,55 @@ namespace rink::physics::inline RINK_PRECISION {
 /// Same questions, same answers, whichever queue is behind it; the branch is always taken the same
 /// way and costs nothing measurable.
 class EventSchedule {
+ private:
+  template <class Self, class Question>
+  static decltype(auto) ask(Self& self, Question&& question) {
+    if (self.policy_ == QueuePolicy::calendar) return question(self.calendar_);
+    if (self.policy_ == QueuePolicy::windows) return question(self.windows_);
+    return question(self.heap_);
+  }
+
  public:
   static constexpr std::uint32_t none = EventQueue::none;
 
-  explicit EventSchedule(QueuePolicy policy) : is_heap_(policy == QueuePolicy::heap) {}
+  explicit EventSchedule(QueuePolicy policy) : policy_(policy) {}
 
-  void resize(std::uint32_t count) { is_heap_ ? heap_.resize(count) : calendar_.resize(count); }
-  void set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher) {
-    is_heap_ ? heap_.set(body, time, lower, higher) : calendar_.set(body, time, lower, higher);
+  void resize(std::uint32_t count) {
+    ask(*this, [&](auto& queue) { queue.resize(count); });
   }
-  std::uint32_t first(Real until) { return is_heap_ ? heap_.first(until) : calendar_.first(until); }
-  Real time(std::uint32_t body) const { return is_heap_ ? heap_.time(body) : calendar_.time(body); }
-  /// The calendar, if it is that.
-  const EventQueue* calendar() const { return is_heap_ ? nullptr : &calendar_; }
+  void set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher) {
+    ask(*this, [&](auto& queue) { queue.set(body, time, lower, higher); });
+  }
+  std::uint32_t first(Real until) {
+    return ask(*this, [&](auto& queue) { return queue.first(until); });
+  }
+  Real time(std::uint32_t body) const {
+    return ask(*this, [&](const auto& queue) { return queue.time(body); });
+  }
   bool is_followed_within(Real window) const {
-    return is_heap_ ? heap_.is_followed_within(window) : calendar_.is_followed_within(window);
+    return ask(*this, [&](const auto& queue) { return queue.is_followed_within(window); });
+  }
+
+  /// Whether the queue knows who comes after the next one: a heap does not.
+  bool knows_upcoming() const { return policy_ != QueuePolicy::heap; }
+  /// As of EventQueue, where upcoming events are known.
+  std::int64_t current() const {
+    return policy_ == QueuePolicy::windows ? windows_.current() : calendar_.current();
+  }
+  template <class Visit>
+  void upcoming(std::int64_t distance, Visit&& visit) const {
+    policy_ == QueuePolicy::windows ? windows_.upcoming(distance, visit)
+                                    : calendar_.upcoming(distance, visit);
+  }
+  void prefetch(std::uint32_t body) const {
+    policy_ == QueuePolicy::windows ? windows_.prefetch(body) : calendar_.prefetch(body);
   }
 
  private:
-  bool is_heap_;
+  QueuePolicy policy_;
   EventQueue calendar_;
   EventHeap heap_;
+  WindowQueue windows_;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -87,7 +87,7 @@ TEST(JointImpact, TakesContactsOneByOneThatCloseTooSlowlyToShareAnInstant) {
 /// calendar keeps in two buckets: buckets of a new world are a millisecond wide.
 TEST(JointImpact, IsOneWhereAnInstantLiesOnTheEdgeOfABucket) {
   const std::vector<double> masses{1.0, 3.0, 0.25, 5.0, 0.25, 3.0, 1.0};
-  for (const QueuePolicy queue : {QueuePolicy::calendar, QueuePolicy::heap})
+  for (const QueuePolicy queue : {QueuePolicy::calendar, QueuePolicy::heap, QueuePolicy::windows})
     for (const double instant : {0.125, 0.25, 0.375})
       for (const int nearer : {0, 6}) {
         SCOPED_TRACE(testing::Message() << "at " << instant << " s, ball " << nearer << " first");
