@@ -81,7 +81,7 @@ void add(const std::string& name, const Target& target, const Ask& ask, const Tr
 
 void add_static_tests() {
   const auto overlaps = [](const Obstacle& obstacle) {
-    return [=](const Encounter& e) { return number(obstacle.holds(flight_of(e).offset)); };
+    return [=](const Encounter& e) { return number(obstacle.rest_contacts(flight_of(e).offset)); };
   };
   const Point normal(0.6, 0.8);
   add(

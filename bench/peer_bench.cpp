@@ -83,7 +83,7 @@ class Couple {
       shares_[number].peer =
           std::make_unique<peer::Peer>(whole.spec(), division, number, whole.body_count(), 0.5);
       for (std::uint32_t body = 0; body < whole.body_count(); ++body)
-        shares_[number].peer->consider(body, physics::Portion::state_in(whole, body));
+        shares_[number].peer->consider(body, physics::Subdomain::state_in(whole, body));
       shares_[number].peer->begin(window);
     }
   }
@@ -135,7 +135,7 @@ void share(benchmark::State& state, std::uint32_t count, double packing) {
     double busier_s = 0.0, repeats = 0.0, bytes = 0.0, border = 0.0, ghost_events = 0.0,
            own_events = 0.0;
     std::uint32_t different = 0, owned = 0;
-    std::vector<peer::Arrivals> parts;
+    std::vector<peer::Handover> parts;
     for (const Share& share : couple.shares()) {
       const peer::PeerCounters &now = share.peer->counters(), &then = share.before;
       busier_s = std::max(busier_s, share.processor_s);
@@ -148,7 +148,7 @@ void share(benchmark::State& state, std::uint32_t count, double packing) {
           own_events += static_cast<double>(now.own_events - then.own_events);
       for (const std::uint32_t body : share.peer->owned())
         different += peer::bytes_of(share.peer->state(body)) !=
-                     peer::bytes_of(physics::Portion::state_in(whole, body)),
+                     peer::bytes_of(physics::Subdomain::state_in(whole, body)),
             ++owned;
     }
     const auto shared_hash = peer::hash_of_whole(whole.spec(), whole.body_count(), parts);

@@ -62,7 +62,7 @@ struct Flight {
 
 /// When an entity that moves on as it does is with a subscriber that does likewise: from `enters`
 /// to `leaves` [s], both included, infinite if always; never if `enters > leaves`.
-struct Stay {
+struct RelevanceInterval {
   Subscriber subscriber;
   Entity entity;
   double enters, leaves;
@@ -130,7 +130,7 @@ class Filter {
 
   /// From the last match, by the stage `swept`: stays of pairs let through whose flights it had not
   /// seen together, ordered by (subscriber, entity).
-  virtual std::span<const Stay> stays() const { return {}; }
+  virtual std::span<const RelevanceInterval> relevance_intervals() const { return {}; }
   /// Who is to be sent first, if the outermost stage that says so is `priority`; else nothing.
   virtual PriorityOrder* priority() { return nullptr; }
 

@@ -7,9 +7,9 @@ namespace rink::rti {
 
 static_assert(Ambassador::waiting_callbacks_max == CallbackGate::waiting_max);
 
-Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience,
+Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Timeouts& timeouts,
                        CallbackModel model)
-    : services_(std::make_unique<AmbassadorServices>(fom, callbacks, patience, model)) {}
+    : services_(std::make_unique<AmbassadorServices>(fom, callbacks, timeouts, model)) {}
 Ambassador::~Ambassador() = default;
 
 void Ambassador::create_federation_execution(std::string_view federation) {

@@ -30,7 +30,7 @@ class Ambassador {
   static constexpr std::size_t waiting_callbacks_max = 64u << 20;
 
   /// Both must outlive the ambassador.
-  Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {},
+  Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Timeouts& timeouts = {},
              CallbackModel model = CallbackModel::immediate);
 
   /// Federation management. These three ask the host, before the join; answered by

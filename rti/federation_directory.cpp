@@ -13,9 +13,10 @@
 namespace rink::rti {
 
 /// Passes on what executions send, and forgets whom they drop.
-class FederationDirectory::Usher final : public Outlet {
+class FederationDirectory::JoinRouter final : public Outlet {
  public:
-  Usher(FederationDirectory& directory, Outlet& outlet) : directory_(directory), outlet_(outlet) {}
+  JoinRouter(FederationDirectory& directory, Outlet& outlet)
+      : directory_(directory), outlet_(outlet) {}
   void send(ConnectionId connection, std::span<const Bytes> parts) override {
     outlet_.send(connection, parts);
   }
@@ -87,7 +88,7 @@ void FederationDirectory::connect(ConnectionId id) {
   if (id >= connections_.size()) connections_.resize(id + 1);
   connections_[id] = {};
   connections_[id].is_connected = true;
-  connections_[id].last_heard = now_;
+  connections_[id].last_received = now_;
 }
 
 void FederationDirectory::receive(ConnectionId id, Bytes bytes) {
@@ -95,12 +96,12 @@ void FederationDirectory::receive(ConnectionId id, Bytes bytes) {
   Connection& connection = connections_[id];
   if (connection.execution != nullptr) return connection.execution->receive(id, bytes);
   connection.waiting.insert(connection.waiting.end(), bytes.begin(), bytes.end());
-  if (!take_waiting(id)) drop(id);
+  if (!handle_waiting(id)) drop(id);
 }
 
 /// False if a frame broke a rule. A batch of bytes is bounded by its transport, and no frame that
 /// is not whole is kept beyond what a stranger may send.
-bool FederationDirectory::take_waiting(ConnectionId id) {
+bool FederationDirectory::handle_waiting(ConnectionId id) {
   Connection& connection = connections_[id];
   std::size_t taken = 0;
   while (connection.is_connected && connection.execution == nullptr) {
@@ -112,7 +113,7 @@ bool FederationDirectory::take_waiting(ConnectionId id) {
     const Bytes frame = rest.subspan(frame_header_size, size);
     connection.has_spoken = true;  // by a whole frame: one byte now and then says nothing
     const bool is_join = static_cast<MessageKind>(frame[0]) == MessageKind::join;
-    if (is_join ? !lead(id, frame) : !take_frame(id, frame)) return false;
+    if (is_join ? !lead(id, frame) : !handle_frame(id, frame)) return false;
     if (!is_join) taken += frame_header_size + size;
   }
   std::vector<std::byte> waiting = std::move(connection.waiting);
@@ -123,11 +124,11 @@ bool FederationDirectory::take_waiting(ConnectionId id) {
   return true;
 }
 
-bool FederationDirectory::take_frame(ConnectionId id, Bytes frame) {
+bool FederationDirectory::handle_frame(ConnectionId id, Bytes frame) {
   Reader reader(frame);
-  Questions& questions = connections_[id].questions;
+  PreJoinLimits& limits = connections_[id].limits;
   while (!reader.is_at_end()) {
-    if (!questions.ask()) return false;
+    if (!limits.ask()) return false;
     std::uint8_t kind = 0;
     reader.number(kind);
     CreateFederationExecutionMessage creation;
@@ -146,13 +147,13 @@ bool FederationDirectory::take_frame(ConnectionId id, Bytes frame) {
                        static_cast<std::uint8_t>(destroy(destruction.federation))});
         break;
       case MessageKind::list_federation_executions:
-        if (std::exchange(questions.wants_list, true)) break;
+        if (std::exchange(limits.wants_list, true)) break;
         for (const FederationExecutionInformation& each : list())
           answer(id, FederationExecutionMessage{0, each.federation, each.model, each.federates});
         answer(id, FederationExecutionMessage{1, {}, {}, 0});
         break;
       case MessageKind::query_management:
-        if (!std::exchange(questions.wants_report, true)) management_queries_.push_back(id);
+        if (!std::exchange(limits.wants_report, true)) management_queries_.push_back(id);
         break;
       default:
         return false;
@@ -214,9 +215,9 @@ void FederationDirectory::advance_clock(double now) {
   for (ConnectionId id = 0; id < connections_.size(); ++id) {
     Connection& connection = connections_[id];
     if (!connection.is_connected || connection.execution != nullptr) continue;
-    if (connection.has_spoken) connection.last_heard = now;
+    if (connection.has_spoken) connection.last_received = now;
     connection.has_spoken = false;
-    if (now - connection.last_heard > settings_.federation.patience.lost_after_s) drop(id);
+    if (now - connection.last_received > settings_.federation.timeouts.lost_after_s) drop(id);
   }
 }
 
@@ -235,7 +236,7 @@ void FederationDirectory::answer_queries(Outlet& outlet) {
   for (const auto& execution : executions_) for_each_message(execution->report(&outlet), append);
   append(ReportEndMessage{});
   const Bytes bytes = frame.bytes();
-  for (const ConnectionId id : management_queries_) connections_[id].questions = {};
+  for (const ConnectionId id : management_queries_) connections_[id].limits = {};
   for (const ConnectionId id : management_queries_)
     if (connections_[id].is_connected) outlet.send(id, std::span(&bytes, 1));
   management_queries_.clear();
@@ -245,19 +246,19 @@ void FederationDirectory::flush(Outlet& outlet) {
   for (const Answer& each : answers_) {
     const Bytes bytes = each.bytes;
     if (!bytes.empty()) outlet.send(each.connection, std::span(&bytes, 1));
-    connections_[each.connection].questions = {};
+    connections_[each.connection].limits = {};
     if (each.is_last) outlet.drop(each.connection, "it broke the protocol or was refused");
   }
   answers_.clear();
   answer_queries(outlet);
-  Usher usher(*this, outlet);
-  for (const auto& execution : executions_) execution->flush(usher);
-  for (const auto& execution : destroyed_) execution->flush(usher);
+  JoinRouter join_router(*this, outlet);
+  for (const auto& execution : executions_) execution->flush(join_router);
+  for (const auto& execution : destroyed_) execution->flush(join_router);
   for (ConnectionId id = 0; !destroyed_.empty() && id < connections_.size(); ++id)
     if (connections_[id].execution != nullptr &&
         std::any_of(destroyed_.begin(), destroyed_.end(),
                     [&](const auto& each) { return each.get() == connections_[id].execution; }))
-      usher.drop(id, "its federation execution was destroyed");
+      join_router.drop(id, "its federation execution was destroyed");
   destroyed_.clear();
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rti/federation_execution.h"
-#include "rti/questions.h"
+#include "rti/pre_join_limits.h"
 
 namespace rink::rti {
 
@@ -52,21 +52,21 @@ class FederationDirectory final : public CentralComponent {
   std::uint64_t drops() const { return drops_; }
 
  private:
-  class Usher;
+  class JoinRouter;
   struct Connection {
     bool is_connected = false, has_spoken = false;
     FederationExecution* execution = nullptr;  ///< null until it asks to join one
     std::vector<std::byte> waiting;            ///< what came before that and is no whole frame
-    double last_heard = 0.0;
-    Questions questions;
+    double last_received = 0.0;
+    PreJoinLimits limits;
   };
   struct Answer {
     ConnectionId connection;
     std::vector<std::byte> bytes;
     bool is_last = false;
   };
-  bool take_waiting(ConnectionId id);
-  bool take_frame(ConnectionId id, Bytes frame);
+  bool handle_waiting(ConnectionId id);
+  bool handle_frame(ConnectionId id, Bytes frame);
   bool lead(ConnectionId id, Bytes frame);
   void refuse(ConnectionId id, Refusal refusal, const std::string& why);
   void drop(ConnectionId id);

@@ -37,7 +37,7 @@ struct FederationSettings {
   std::uint32_t timed_per_federate_max = 1u
                                          << 18;  ///< of those that their sender can still take back
   std::size_t timed_bytes_per_federate_max = 64u << 20;  ///< likewise
-  Patience patience;
+  Timeouts timeouts;
   std::uint32_t keyframe_period =
       1;  ///< every so-many-th flush with periodic state is a keyframe (docs/wire.md, "Baselines")
 };

@@ -132,7 +132,7 @@ struct FederationExecutionInformation {
 };
 
 /// How long a silent peer is waited for.
-struct Patience {
+struct Timeouts {
   double heartbeat_s = 1.0;   ///< a side that has nothing else to say says so this often
   double lost_after_s = 5.0;  ///< a side that has said nothing for so long is lost
 };

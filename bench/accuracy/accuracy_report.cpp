@@ -14,7 +14,7 @@ namespace rink::accuracy {
 namespace {
 
 using loadgen::escaped;
-using loadgen::Exhibit;
+using loadgen::SectionContent;
 
 constexpr double error_floor =
     1e-17;  ///< where an error of exactly 0 is drawn, since the axis is logarithmic [m]
@@ -99,35 +99,35 @@ std::string summary_of(const Panel& panel) {
   return html + "</tbody></table></div>\n";
 }
 
-Exhibit exhibit_of(const Panel& panel) {
-  Exhibit exhibit;
+SectionContent content_of(const Panel& panel) {
+  SectionContent content;
   const Trial& trial = panel.trial.trial;
-  exhibit.html = "<p>" + escaped(trial.about) + "; after " + loadgen::plain_number(trial.horizon) +
+  content.html = "<p>" + escaped(trial.about) + "; after " + loadgen::plain_number(trial.horizon) +
                  " s. Truth: " + escaped(panel.trial.truth) + ".</p>\n";
   if (const std::string headline = headline_of(panel); !headline.empty())
-    exhibit.html += "<p>" + escaped(headline) + ".</p>\n";
-  exhibit.add(to_svg(plot_of(panel)),
+    content.html += "<p>" + escaped(headline) + ".</p>\n";
+  content.add(to_svg(plot_of(panel)),
               "Lower and further left is better. Each mark is one step, a half of the one before; "
               "the exact engine has no step.",
               points_table(trial.name, std::span(&panel, 1)));
-  exhibit.html += summary_of(panel);
-  return exhibit;
+  content.html += summary_of(panel);
+  return content;
 }
 
-Exhibit exhibit_of(const std::vector<Ordeal>& ordeals) {
-  Exhibit exhibit;
+SectionContent content_of(const std::vector<Ordeal>& ordeals) {
+  SectionContent content;
   for (const Ordeal& ordeal : ordeals) {
-    exhibit.html += "<h3>" + escaped(ordeal.trial.name) + "</h3>\n<p>" +
+    content.html += "<h3>" + escaped(ordeal.trial.name) + "</h3>\n<p>" +
                     escaped(ordeal.trial.about) + "; for " +
                     loadgen::plain_number(ordeal.trial.horizon) + " s.</p>\n";
-    exhibit.html +=
+    content.html +=
         "<div class=\"scroll\"><table>\n<thead><tr><th class=\"text\">engine</th><th "
         "class=\"text\">survived</th><th>deepest overlap, m</th><th>escapes</th><th>energy "
         "error</th><th>events per s</th>"
         "<th>run, ms per s</th></tr></thead>\n<tbody>\n";
     for (const Survival& survival : ordeal.survivals) {
       const std::string verdict = survival.verdict();
-      exhibit.html += "<tr><td class=\"text\">" + escaped(survival.contender.name()) +
+      content.html += "<tr><td class=\"text\">" + escaped(survival.contender.name()) +
                       "</td><td class=\"text" + (verdict == "yes" ? "" : " warn") + "\">" +
                       escaped(verdict) + "</td>";
       if (survival.is_done) {
@@ -136,16 +136,16 @@ Exhibit exhibit_of(const std::vector<Ordeal>& ordeals) {
                           run_ms = loadgen::plain_number(1e3 * wear.run_s);
         for (const std::string& value : {metres(wear.overlap), std::to_string(wear.escapes),
                                          metres(wear.energy_error), events, run_ms})
-          exhibit.html += "<td>" + value + "</td>";
+          content.html += "<td>" + value + "</td>";
       }
-      exhibit.html += "</tr>\n";
+      content.html += "</tr>\n";
     }
-    exhibit.html += "</tbody></table></div>\n";
+    content.html += "</tbody></table></div>\n";
   }
   loadgen::PlotTable table = stability_table(ordeals);
-  exhibit.html += to_details(table);
-  exhibit.tables.push_back(std::move(table));
-  return exhibit;
+  content.html += to_details(table);
+  content.tables.push_back(std::move(table));
+  return content;
 }
 
 constexpr const char* definitions =
@@ -170,8 +170,8 @@ constexpr const char* definitions =
 loadgen::Report report_of(const Findings& findings, const loadgen::Provenance& provenance) {
   loadgen::Page page;
   for (const Panel& panel : findings.panels)
-    page.add(panel.trial.trial.name, panel.trial.trial.name, exhibit_of(panel));
-  if (!findings.ordeals.empty()) page.add("stability", "Stability", exhibit_of(findings.ordeals));
+    page.add(panel.trial.trial.name, panel.trial.trial.name, content_of(panel));
+  if (!findings.ordeals.empty()) page.add("stability", "Stability", content_of(findings.ordeals));
   page.add("definitions", "Definitions", {definitions});
   page.add("provenance", "Provenance", loadgen::provenance_list(provenance));
   std::string introduction;

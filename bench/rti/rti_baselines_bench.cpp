@@ -58,7 +58,7 @@ struct Client : FederateAmbassador {
   Ambassador ambassador;
   const std::vector<State>& truth;
   double greatest_error = 0.0;
-  std::uint64_t heard = 0;
+  std::uint64_t subscribed = 0;
   void reflect_attribute_values(ObjectHandle object, AttributeSet, Bytes values,
                                 const Stamp&) override {
     State state;
@@ -66,7 +66,7 @@ struct Client : FederateAmbassador {
     const State& said = truth[object.value % object_block];
     greatest_error =
         std::max({greatest_error, std::abs(state.x - said.x), std::abs(state.y - said.y)});
-    ++heard;
+    ++subscribed;
   }
 };
 
@@ -184,11 +184,11 @@ void tell(benchmark::State& state, Telling telling) {
   state.counters["flush_us"] = 1e6 * crowd.flush_s / ticks;
   state.counters["receive_us_per_client"] = 1e6 * crowd.receive_s / ticks / clients;
   double error = 0.0;
-  std::uint64_t heard = 0;
+  std::uint64_t subscribed = 0;
   for (const Client& client : crowd.clients())
-    error = std::max(error, client.greatest_error), heard += client.heard;
+    error = std::max(error, client.greatest_error), subscribed += client.subscribed;
   state.counters["error_max_mm"] = 1e3 * error;
-  state.counters["heard"] = static_cast<double>(heard);
+  state.counters["heard"] = static_cast<double>(subscribed);
 }
 
 void to_one_and_to_many(benchmark::internal::Benchmark* timed) {

@@ -71,7 +71,7 @@ void rink_tick_send(benchmark::State& state) {
   const int clients = static_cast<int>(state.range(0));
   ensure_file_limit(static_cast<std::size_t>(2 * clients) + 64);
   FederationSettings settings;
-  settings.patience.lost_after_s = 1e9;
+  settings.timeouts.lost_after_s = 1e9;
   TcpTransport tcp;
   EntityFederation federation(reliable_entities(), settings, tcp);
   Sinks sinks(tcp.listen("127.0.0.1", 0), clients, true);

@@ -74,8 +74,8 @@ class Field {
     for (std::uint32_t federate = 1; federate <= subscribers_; ++federate) {
       FederateInterest& told = distribution_.of(federate);
       told.events.clear();
-      if (told.has_fresh) told.fresh.clear();
-      told.has_fresh = false;
+      if (told.needs_any_full_state) told.needs_full_state.clear();
+      told.needs_any_full_state = false;
     }
   }
   /// Pairs in scope by what the distribution says, and by every range against every other.

@@ -105,7 +105,7 @@ void run_subscribers(std::uint16_t port, int count, Arrivals& arrivals) {
 void run_rti(std::atomic<std::uint16_t>& port, std::atomic<std::size_t>& federates,
              const std::atomic<bool>& is_over) {
   FederationSettings settings;
-  settings.patience.lost_after_s = 1e9;
+  settings.timeouts.lost_after_s = 1e9;
   FederationExecution execution(model(), settings);
   FederationHost host(execution);
   TcpTransport tcp;

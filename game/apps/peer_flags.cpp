@@ -14,8 +14,8 @@ std::string player_names() {
 }
 
 void add_evidence_options(Flags& flags, ViewingOptions& options) {
-  Flag evidence =
-      flags.option("--evidence", options.evidence,
+  Flag trace =
+      flags.option("--evidence", options.trace,
                    "file for what this peer sent, knew and when, and what its player saw "
                    "(docs/metrics.md), as JSON lines; with --pace realtime and a first peer with "
                    "--scheme --seated --unmirrored --balance 0");
@@ -23,12 +23,12 @@ void add_evidence_options(Flags& flags, ViewingOptions& options) {
       .option("--warm-up", options.warm_up_s,
               "with --evidence: simulated seconds before anything counts")
       .check(number_from(0.0, seconds_max))
-      .needs(evidence)
+      .needs(trace)
       .shows_default();
   flags
       .option("--evidence-seed", options.evidence_seed,
               "with --evidence: of whose player it is taken and when; the same for all")
-      .needs(evidence)
+      .needs(trace)
       .shows_default();
 }
 
@@ -181,7 +181,7 @@ void add_options(Flags& flags, PeerOptions& options) {
       .excludes(join)
       .shows_default();
   flags
-      .flag("!--unmirrored", options.terms.is_mirrored,
+      .flag("!--unmirrored", options.terms.is_replicated,
             "no peer keeps another's part: who is lost or interrupted ends all, and nobody "
             "joins later; the first peer's to say")
       .excludes(join);

@@ -7,7 +7,7 @@
 
 #include "game/apps/flags.h"
 #include "game/net/peer/interest/viewing_options.h"
-#include "game/net/peer/meeting/greetings.h"
+#include "game/net/peer/network/greetings.h"
 
 namespace rink::game {
 

@@ -21,8 +21,8 @@
 #include "game/net/exit_status.h"
 #include "game/net/interrupt.h"
 #include "game/net/peer/crowd.h"
-#include "game/net/peer/meeting/listening_place.h"
-#include "game/net/peer/meeting/meeting.h"
+#include "game/net/peer/network/listening_place.h"
+#include "game/net/peer/network/peer_network.h"
 #include "game/net/peer/shared_game.h"
 #include "game/net/record_file.h"
 #include "game/version/version.h"
@@ -40,24 +40,24 @@ void write_record(const PeerOptions& options, const SharedGame& shared, const Pl
 }
 
 /// Until all who begin are there, or those who play already have told us of each other.
-void meet(const PeerOptions& options, const Terms& terms, Meeting& meeting) {
+void meet(const PeerOptions& options, const Terms& terms, PeerNetwork& network) {
   if (options.join.empty()) {
-    meeting.found(terms);
+    network.found(terms);
   } else {
     const auto [address, port] = address_and_port("--join", options.join);
-    meeting.join({address, port});
-    if (meeting.members().empty())
-      std::printf("peer %u of %u\n", meeting.number(), meeting.terms().peer_count);
-    else std::printf("peer %u, beside %zu who play\n", meeting.number(), meeting.members().size());
+    network.join({address, port});
+    if (network.members().empty())
+      std::printf("peer %u of %u\n", network.number(), network.terms().peer_count);
+    else std::printf("peer %u, beside %zu who play\n", network.number(), network.members().size());
     std::fflush(stdout);
   }
-  if (meeting.members().empty()) meeting.gather();
+  if (network.members().empty()) network.gather();
   std::printf("playing\n");
   std::fflush(stdout);
-  if (meeting.terms().is_seated && options.bots > 0)
-    throw Parting(ExitStatus::not_admitted,
-                  "--bots: the peers there are --seated, each with the player in its zone: "
-                  "expected no --bots");
+  if (network.terms().is_seated && options.bots > 0)
+    throw SessionError(ExitStatus::not_admitted,
+                       "--bots: the peers there are --seated, each with the player in its zone: "
+                       "expected no --bots");
 }
 
 /// When the clock shows that simulated time, if need be from the first time that is asked for on.
@@ -73,33 +73,34 @@ class Pace {
   std::optional<double> offset_s_;
 };
 
-PlayedPart play(const PeerOptions& options, SharedGame& shared, Meeting& meeting,
+PlayedPart play(const PeerOptions& options, SharedGame& shared, PeerNetwork& network,
                 const Viewing& viewing, double start_s) {
   // Whoever measures how old a window is when it is known plays it when its end has come, as a
   // server its ticks.
-  Pace pace(viewing.witness ? std::optional(start_s + meeting.terms().window) : std::nullopt);
-  Manner manner{.players = options.players,
-                .before_window = {},
-                .wants_to_leave = [] { return is_interrupted != 0; },
-                .tell = [](const std::string& what) { warn(what); },
-                .members = meeting.members(),
-                .when_taken = {},
-                .listener = viewing.viewer.get()};
+  Pace pace(viewing.recorder ? std::optional(start_s + network.terms().window) : std::nullopt);
+  PartOptions part_options{.players = options.players,
+                           .before_window = {},
+                           .wants_to_leave = [] { return is_interrupted != 0; },
+                           .notify = [](const std::string& what) { warn(what); },
+                           .members = network.members(),
+                           .when_taken = {},
+                           .observer = viewing.viewer.get()};
   // Who shows what others have looks up there what bodies are.
-  if (!viewing.viewer) manner.when_taken = [&shared] { shared.forget_start(); };
-  manner.before_window = [&](double time) {
-    meeting.note_window();
-    if (options.pace == "realtime") meeting.rest_until(pace.clock_s(time));
+  if (!viewing.viewer) part_options.when_taken = [&shared] { shared.forget_start(); };
+  part_options.before_window = [&](double time) {
+    network.note_window();
+    if (options.pace == "realtime") network.rest_until(pace.clock_s(time));
   };
-  peer::Mail& mail = viewing.witness ? viewing.witness->mail() : meeting;
-  return shared.play(meeting.terms(), meeting.guests(), meeting.number(), mail, manner);
+  peer::Mail& mail = viewing.recorder ? viewing.recorder->mail() : network;
+  return shared.play(network.terms(), network.peer_infos(), network.number(), mail, part_options);
 }
 
-Json whole_report(const PlayedPart& part, const Meeting& meeting, const Viewing& viewing,
+Json whole_report(const PlayedPart& part, const PeerNetwork& network, const Viewing& viewing,
                   double playing_s) {
-  Json report = report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s);
+  Json report =
+      report_of(part, network, network.peer_infos()[network.number()].bat_count, playing_s);
   if (viewing.viewer) report["view"] = report_of(*viewing.viewer);
-  report[report::transport] = report_of(meeting.transported());
+  report[report::transport] = report_of(network.transported());
   if (!part.has_left) add_hash(report, part);
   return report;
 }
@@ -124,38 +125,38 @@ ExitStatus leave_behind(const PeerOptions& options, const SharedGame& shared,
 /// From the first word to the last; a connected peer learns why it ends early. Throws
 /// peer::SentAway of a newcomer that may ask again.
 ExitStatus share(const PeerOptions& options, const Terms& terms, SharedGame& shared,
-                 Meeting& meeting) {
+                 PeerNetwork& network) {
   try {
-    meet(options, terms, meeting);
-    const Viewing viewing = make_viewing(shared, meeting, options.viewing, now_s);
+    meet(options, terms, network);
+    const Viewing viewing = make_viewing(shared, network, options.viewing, now_s);
     const double start_s =
-        meeting.terms().starts_together ? start_together(meeting, now_s) : now_s();
-    if (viewing.witness) viewing.witness->start_at(start_s);
-    meeting.begin();
-    const PlayedPart part = play(options, shared, meeting, viewing, start_s);
+        network.terms().starts_together ? start_together(network, now_s) : now_s();
+    if (viewing.recorder) viewing.recorder->start_at(start_s);
+    network.begin();
+    const PlayedPart part = play(options, shared, network, viewing, start_s);
     const double playing_s = now_s() - start_s;
-    if (viewing.witness) write_evidence(options.viewing.evidence, viewing.witness->evidence());
-    meeting.leave({});
+    if (viewing.recorder) write_trace(options.viewing.trace, viewing.recorder->trace());
+    network.leave({});
     if (part.has_left)
       warn("interrupted at ", std::setprecision(9), part.time, " s: ",
            part.was_last ? "nobody was left to go on" : "all that this peer had is with others");
-    return leave_behind(options, shared, part, whole_report(part, meeting, viewing, playing_s));
-  } catch (const Parting& parting) {
-    complain(parting.what());
-    meeting.leave({parting.status() == ExitStatus::interrupted ? FarewellKind::interrupted
-                                                               : FarewellKind::trouble,
-                   parting.what()});
-    return parting.status();
+    return leave_behind(options, shared, part, whole_report(part, network, viewing, playing_s));
+  } catch (const SessionError& error) {
+    complain(error.what());
+    network.leave({error.status() == ExitStatus::interrupted ? FarewellKind::interrupted
+                                                             : FarewellKind::trouble,
+                   error.what()});
+    return error.status();
   } catch (const peer::SentAway&) {
-    meeting.abandon();
+    network.abandon();
     throw;
   } catch (const peer::Halt& halt) {
     complain(halt.what());
-    meeting.leave({FarewellKind::trouble, halt.what()});
+    network.leave({FarewellKind::trouble, halt.what()});
     return ExitStatus::connection_lost;
   } catch (const peer::ProtocolError& error) {
     complain(error.what());
-    meeting.leave({FarewellKind::trouble, error.what()});
+    network.leave({FarewellKind::trouble, error.what()});
     return ExitStatus::failed;
   }
 }
@@ -163,9 +164,8 @@ ExitStatus share(const PeerOptions& options, const Terms& terms, SharedGame& sha
 ExitStatus run(const PeerOptions& options) {
   const RecordFile record("--record", options.record);
   require_writable("--report", options.report);
-  require_writable("--evidence", options.viewing.evidence);
-  if (!options.viewing.evidence.empty() &&
-      (options.pace != "realtime" || options.transport == "mpi"))
+  require_writable("--evidence", options.viewing.trace);
+  if (!options.viewing.trace.empty() && (options.pace != "realtime" || options.transport == "mpi"))
     throw std::invalid_argument(
         "--evidence: latencies are those of the clock: expected --pace realtime, and no mpi");
   if (options.transport == "mpi") return share_among_ranks(options);
@@ -181,7 +181,7 @@ ExitStatus run(const PeerOptions& options) {
         "--bots: the scene or the key log has keys already, and nobody can play beside them");
   Terms terms = options.terms;
   terms.interest.always = relevant_kinds_of(shared.scene(), options.viewing.always).bits();
-  terms.starts_together = !options.viewing.evidence.empty();
+  terms.starts_together = !options.viewing.trace.empty();
   Place place = listening_place(options.listen, options.join, options.transport == "tcp");
   rti::SocketTransport sockets(options.transport);
   place.port = sockets.listen(place.address, place.port);
@@ -193,19 +193,19 @@ ExitStatus run(const PeerOptions& options) {
     return upper << 32 | device();
   };
   for (int tries = 1;; ++tries) {
-    const Guest self{.place = place,
-                     .bat_count = options.bots,
-                     .puck_count = Crowd::pucks_wanted(shared.scene(), options.players),
-                     .token = unpredictable_number()};
-    Meeting meeting(sockets,
-                    {.self = self,
-                     .bats = shared.bat_count(),
-                     .luggage = shared.luggage(),
-                     .session = unpredictable_number(),
-                     .patience_s = options.patience_s},
-                    now_s);
+    const PeerInfo self{.place = place,
+                        .bat_count = options.bots,
+                        .puck_count = Crowd::pucks_wanted(shared.scene(), options.players),
+                        .token = unpredictable_number()};
+    PeerNetwork network(sockets,
+                        {.self = self,
+                         .bats = shared.bat_count(),
+                         .session_fingerprint = shared.session_fingerprint(),
+                         .session = unpredictable_number(),
+                         .patience_s = options.patience_s},
+                        now_s);
     try {
-      return share(options, terms, shared, meeting);
+      return share(options, terms, shared, network);
     } catch (const peer::SentAway& sent) {
       constexpr int tries_max = 10;
       warn(sent.what(), "; ", tries < tries_max ? "asking again" : "that was the last try");

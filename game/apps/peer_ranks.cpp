@@ -9,7 +9,7 @@
 
 #include "game/apps/command.h"
 #include "game/apps/peer_report.h"
-#include "game/net/peer/meeting/rank_mail.h"
+#include "game/net/peer/network/rank_mail.h"
 #include "game/net/peer/shared_game.h"
 
 namespace rink::game {
@@ -54,37 +54,36 @@ ExitStatus share_among_ranks(PeerOptions options) {
   SharedGame shared = game_of(options);
   rti::Ranks ranks;
   options.terms.peer_count = ranks.count();
-  options.terms.balance_windows = 0;  // zones stay: ranks have said nothing of that to each other
-  options.terms.is_mirrored = false;  // MPI ends all of them if one is lost
+  options.terms.balance_windows = 0;    // zones stay: ranks have said nothing of that to each other
+  options.terms.is_replicated = false;  // MPI ends all of them if one is lost
   RankMail mail(ranks, options.patience_s, now_s, wait_for_ranks);
   try {
-    mail.agree(shared.luggage(), options.terms);
-  } catch (const Parting& parting) {
-    if (ranks.number() == 0) complain(parting.what());
-    if (parting.status() != ExitStatus::wrong_version &&
-        parting.status() != ExitStatus::not_admitted)
-      ranks.abort(static_cast<int>(parting.status()));
+    mail.agree(shared.session_fingerprint(), options.terms);
+  } catch (const SessionError& error) {
+    if (ranks.number() == 0) complain(error.what());
+    if (error.status() != ExitStatus::wrong_version && error.status() != ExitStatus::not_admitted)
+      ranks.abort(static_cast<int>(error.status()));
     ranks.finish();
-    return parting.status();
+    return error.status();
   }
   try {
     const double start_s = now_s();
-    const Manner manner{.players = options.players,
-                        .before_window = {},
-                        .wants_to_leave = {},
-                        .tell = {},
-                        .when_taken = [&shared] { shared.forget_start(); }};
-    const PlayedPart part =
-        shared.play(options.terms, std::vector<Guest>(ranks.count()), mail.number(), mail, manner);
+    const PartOptions part_options{.players = options.players,
+                                   .before_window = {},
+                                   .wants_to_leave = {},
+                                   .notify = {},
+                                   .when_taken = [&shared] { shared.forget_start(); }};
+    const PlayedPart part = shared.play(options.terms, std::vector<PeerInfo>(ranks.count()),
+                                        mail.number(), mail, part_options);
     Json report = report_of(part, mail, 0, now_s() - start_s);
     add_hash(report, part);
     report_ranks(report, mail);
     mail.flush();
     ranks.finish();
     return ExitStatus::ok;
-  } catch (const Parting& parting) {
-    complain("rank ", mail.number(), ": ", parting.what());
-    ranks.abort(static_cast<int>(parting.status()));
+  } catch (const SessionError& error) {
+    complain("rank ", mail.number(), ": ", error.what());
+    ranks.abort(static_cast<int>(error.status()));
   } catch (const peer::ProtocolError& error) {
     complain("rank ", mail.number(), ": ", error.what());
     ranks.abort(static_cast<int>(ExitStatus::failed));

@@ -20,11 +20,11 @@ SharedGame game_of(const PeerOptions& options);
 void add_hash(nlohmann::ordered_json& report, const PlayedPart& part);
 
 /// Of a part that was played among those who met, by whichever transport; without the hash.
-template <class Meeting>
-nlohmann::ordered_json report_of(const PlayedPart& part, const Meeting& meeting, std::uint32_t bots,
+template <class Network>
+nlohmann::ordered_json report_of(const PlayedPart& part, const Network& network, std::uint32_t bots,
                                  double playing_s) {
   const peer::PeerCounters& counters = part.counters.peer;
-  return {{"peer", meeting.number()},
+  return {{"peer", network.number()},
           {"peers", part.members},
           {"time", part.time},
           {report::windows, counters.windows},
@@ -44,15 +44,15 @@ nlohmann::ordered_json report_of(const PlayedPart& part, const Meeting& meeting,
           {"claim_bytes", counters.claim_bytes},
           {"verdict_bytes", counters.verdict_bytes},
           {"result_bytes", part.result_bytes},
-          {report::bytes_sent, meeting.bytes_sent()},
-          {"strangers_dismissed", meeting.dismissed()},
+          {report::bytes_sent, network.bytes_sent()},
+          {"strangers_dismissed", network.dismissed()},
           {"wall_s", playing_s},
           {"cpu_s", processor_s()},
           {report::rss_bytes, resident_bytes()},
           {"lost", part.lost},
           {"recoveries", part.counters.recoveries},
           {"shifts", part.counters.shifts},
-          {"mirror_bytes", part.counters.mirror_bytes},
+          {"mirror_bytes", part.counters.replica_bytes},
           {"recovery_bytes", part.counters.recovery_bytes},
           {"entry_bytes", part.counters.entry_bytes}};
 }

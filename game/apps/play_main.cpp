@@ -40,7 +40,7 @@ constexpr double offscreen_frame_s = 1.0 / 60.0,
 
 using game::now_s;
 
-void tell(const std::string& trouble) { game::complain(trouble); }
+void notify(const std::string& problem) { game::complain(problem); }
 
 std::string bot_kind(const std::string& strength) {
   return strength == "club" ? "chaser" : "chaser-" + strength;
@@ -58,10 +58,10 @@ std::string records_folder(const view::PlayOptions& options) {
 /// Where a host keeps its records: a folder that cannot be written to is told of and replaced, for
 /// it is the match that matters.
 std::string host_records(const std::string& folder) {
-  const auto trouble = game::MatchRecords(folder).test();
-  if (!trouble) return folder;
+  const auto problem = game::MatchRecords(folder).test();
+  if (!problem) return folder;
   const std::string other = (std::filesystem::temp_directory_path() / "rink-matches").string();
-  tell(*trouble + "; they are kept in " + other);
+  notify(*problem + "; they are kept in " + other);
   return other;
 }
 
@@ -91,7 +91,7 @@ class RecordedMatch final : public game::MatchSource {
  private:
   void keep() {
     for (const game::KeyLog& log : match_.take_finished()) {
-      if (const auto trouble = records_.keep(log)) tell(*trouble);
+      if (const auto problem = records_.keep(log)) notify(*problem);
       match_.set_notice(records_.is_failing() ? "The last match could not be recorded" : "");
     }
   }
@@ -190,11 +190,11 @@ class Process {
                                                      : options.settings_file) {
     view::ReadSettings read = view::read_settings(settings_file_);
     settings_ = read.settings;
-    is_misread_ = !read.troubles.empty();
+    is_misread_ = !read.errors.empty();
     if (options.is_muted) settings_.is_muted = true;
     if (options.is_full_screen) settings_.is_full_screen = true;
-    for (const std::string& trouble : read.troubles)
-      troubles_ += (troubles_.empty() ? "" : "\n") + trouble;
+    for (const std::string& problem : read.errors)
+      errors_ += (errors_.empty() ? "" : "\n") + problem;
     if (!options.script.empty()) script_ = view::read_script(options.script);
     if (!options.screenshot.empty()) {
       script_.push_back({.time = options.at_s, .events = {}, .picture = options.screenshot});
@@ -233,7 +233,7 @@ class Process {
   void draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen);
 
   view::PlayOptions options_;
-  std::string settings_file_, troubles_;
+  std::string settings_file_, errors_;
   bool is_misread_ = false;  ///< there is more in the settings' file than was understood
   view::Settings settings_;
   std::vector<view::ScriptStep> script_;
@@ -248,7 +248,7 @@ void Process::open(view::Window* window) {
   interface_ = std::make_unique<view::Interface>();
   view::Surroundings surroundings;
   surroundings.make_match = [this](const MatchWish& wish) { return make_match(wish, options_); };
-  surroundings.tell = tell;
+  surroundings.notify = notify;
   if (window != nullptr) {
     sounds_ = std::make_unique<view::Sounds>();
     surroundings.set_full_screen = [window](bool is_wanted) { window->set_full_screen(is_wanted); };
@@ -259,13 +259,13 @@ void Process::open(view::Window* window) {
   }
   surroundings.save_settings = [this](const view::Settings& settings) {
     if (std::exchange(is_misread_, false))
-      if (const auto place = view::set_settings_aside(settings_file_)) tell(*place);
-    if (const auto trouble = view::write_settings(settings, settings_file_)) tell(*trouble);
+      if (const auto place = view::set_settings_aside(settings_file_)) notify(*place);
+    if (const auto problem = view::write_settings(settings, settings_file_)) notify(*problem);
   };
   application_ = std::make_unique<view::Application>(std::move(surroundings), settings_);
   if (const auto viewpoint = view::viewpoint_of(options_)) application_->set_viewpoint(*viewpoint);
   if (options_.shows_figures) application_->show_figures();
-  if (!troubles_.empty()) application_->explain(troubles_);
+  if (!errors_.empty()) application_->explain(errors_);
   if (const auto wish = view::wish_of(options_)) application_->play(*wish);
 }
 
@@ -285,10 +285,10 @@ void Process::run_in_window(const view::WindowSize& size) {
   bool is_ended = false;
   while (!application_->wants_to_quit() && !is_ended && !game::is_interrupted) {
     const double begin_s = now_s();
-    for (const view::WindowEvent& event : window.events()) application_->hear(event);
+    for (const view::WindowEvent& event : window.events()) application_->receive(event);
     const auto due = view::due_steps(script_, next_step_, begin_s - start_s);
     for (const view::ScriptStep& step : due)
-      for (const view::WindowEvent& event : step.events) application_->hear(event);
+      for (const view::WindowEvent& event : step.events) application_->receive(event);
     // One that is too small to be seen goes on unseen: a match over a network must not fall silent.
     const view::WindowSize now_size = window.size();
     const bool is_seen = now_size.width > 0 && now_size.height > 0;
@@ -324,7 +324,7 @@ void Process::run_offscreen(const view::WindowSize& size) {
     const auto due = view::due_steps(script_, next_step_, now);
     bool is_seen = false;
     for (const view::ScriptStep& step : due) {
-      for (const view::WindowEvent& event : step.events) application_->hear(event);
+      for (const view::WindowEvent& event : step.events) application_->receive(event);
       is_seen = is_seen || !step.picture.empty();
       is_ended = is_ended || step.is_end;
     }

@@ -157,7 +157,7 @@ void add_options(Flags& flags, ServeOptions& options) {
   flags.option(
       "--record", options.record,
       "file for the key log of this run; folder for those of hosted matches, by default matches");
-  flags.option("--evidence", options.evidence,
+  flags.option("--evidence", options.trace,
                "file for what a re-simulation of this run needs (docs/metrics.md), as JSON lines");
   flags
       .option(

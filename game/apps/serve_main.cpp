@@ -37,7 +37,7 @@ ExitStatus show_status(const ServeOptions& options) try {
                                             .key_file = options.key_file},
                                            now_s);
     if (!answer.reports) {
-      complain("--status: ", options.status, ": ", answer.trouble);
+      complain("--status: ", options.status, ": ", answer.error);
       return ExitStatus::no_server;
     }
     std::fputs(status_table(*answer.reports).c_str(), stdout);
@@ -72,7 +72,7 @@ ExitStatus serve(ServeOptions& options) {
   if (is_complete) process.run();
   Json report = process.report();
   // Both before the players leave, for the hash is of now.
-  std::optional<ServerEvidence> evidence = process.evidence(played);
+  std::optional<ServerTrace> trace = process.trace(played);
   const KeyLog log = options.record.empty() || !options.hosted.empty()
                          ? KeyLog{}
                          : record_of(played, process.server());
@@ -85,11 +85,11 @@ ExitStatus serve(ServeOptions& options) {
   process.end();
   add_totals(report, process.totals());
   if (!options.report.empty()) write_file(options.report, report.dump(2));
-  if (evidence) write_evidence(options.evidence, *evidence);
+  if (trace) write_trace(options.trace, *trace);
   if (!options.record.empty() && options.hosted.empty()) write_key_log(options.record, log);
   if (is_interrupted) return ExitStatus::interrupted;
-  if (!process.server().trouble().empty()) {
-    complain("the server's own federate left the federation: ", process.server().trouble());
+  if (!process.server().error().empty()) {
+    complain("the server's own federate left the federation: ", process.server().error());
     return ExitStatus::failed;
   }
   if (!is_complete) {

@@ -55,12 +55,12 @@ ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
             .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}},
            now_s);
   serving_.host().add(clients_);
-  if (!options.evidence.empty())
-    serving_.collect_evidence({.seed = options.seed,
-                               .clients = options.clients,
-                               .from_s = begin_s_ + options.warm_up_s,
-                               .until_s = begin_s_ + options.duration_s},
-                              options.rate_hz);
+  if (!options.trace.empty())
+    serving_.collect_trace({.seed = options.seed,
+                            .clients = options.clients,
+                            .from_s = begin_s_ + options.warm_up_s,
+                            .until_s = begin_s_ + options.duration_s},
+                           options.rate_hz);
 }
 
 std::optional<Hosting> ServerProcess::hosting_of(const ServeOptions& options) {
@@ -83,7 +83,7 @@ void ServerProcess::exchange_until(double until_s) {
 
 /// However long the players think, silence is noticed and the RTI is heard to live.
 void ServerProcess::await_turns() {
-  while (!is_interrupted && server_.trouble().empty() && !server_.may_step()) {
+  while (!is_interrupted && server_.error().empty() && !server_.may_step()) {
     serving_.exchange(0.25);
     serving_.host().advance_clock(now_s());
   }
@@ -96,7 +96,7 @@ void ServerProcess::await_turns() {
 void ServerProcess::wait(double seconds) {
   TickCosts uncounted;
   serving_.exchange(seconds);
-  if (server_.is_joined() && server_.trouble().empty())
+  if (server_.is_joined() && server_.error().empty())
     serving_.send(begin_s_, not_started_s, uncounted);
   serving_.host().advance_clock(now_s());
 }
@@ -104,7 +104,7 @@ void ServerProcess::wait(double seconds) {
 bool ServerProcess::start() {
   const double give_up_s = now_s() + options_.patience_s;
   const auto may_wait = [&] {
-    return !is_interrupted && server_.trouble().empty() && now_s() <= give_up_s;
+    return !is_interrupted && server_.error().empty() && now_s() <= give_up_s;
   };
   const auto are_all_there = [&] {
     return server_.is_joined() && server_.seats().player_count() >= options_.clients;
@@ -142,12 +142,12 @@ void ServerProcess::run() {
           ? static_cast<std::uint64_t>(std::floor(options_.duration_s * options_.rate_hz + 1e-9))
           : ~0ull;
   bool is_measuring = false;
-  for (std::uint64_t number = 0; number <= last && !is_interrupted && server_.trouble().empty();
+  for (std::uint64_t number = 0; number <= last && !is_interrupted && server_.error().empty();
        ++number) {
     const double simulated_s = static_cast<double>(number) / options_.rate_hz;
     if (options_.pace == "synchronous") await_turns();
     else exchange_until(start_s_ + simulated_s);
-    if (is_interrupted || !server_.trouble().empty()) break;
+    if (is_interrupted || !server_.error().empty()) break;
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
       costs_.from_s = now_s();
@@ -186,8 +186,7 @@ void ServerProcess::end() {
 
 void ServerProcess::try_records() {
   if (options_.hosted.empty()) return;
-  if (const auto trouble = records_.test())
-    complain(*trouble, "; matches are played without a record");
+  if (const auto error = records_.test()) complain(*error, "; matches are played without a record");
 }
 
 /// Once: who sends too much could fill the terminal as well.
@@ -202,25 +201,25 @@ void ServerProcess::report_flood() {
 void ServerProcess::keep_records() {
   if (!server_.hosted()) return;
   for (const KeyLog& log : server_.hosted()->take_finished()) {
-    if (const auto trouble = records_.keep(log)) complain(*trouble, "; matches go on");
+    if (const auto error = records_.keep(log)) complain(*error, "; matches go on");
     server_.hosted()->set_unrecorded(records_.is_failing());
   }
 }
 
-std::optional<ServerEvidence> ServerProcess::evidence(const ServedGame& played) const {
-  std::optional<ServerEvidence> evidence = serving_.evidence();
-  if (!evidence) return std::nullopt;
-  evidence->choice = played.choice;
-  evidence->state_file = options_.from_state;
-  evidence->state = played.state;
-  evidence->scheme = options_.scheme;
-  evidence->policy = options_.policy;
-  return evidence;
+std::optional<ServerTrace> ServerProcess::trace(const ServedGame& played) const {
+  std::optional<ServerTrace> trace = serving_.trace();
+  if (!trace) return std::nullopt;
+  trace->choice = played.choice;
+  trace->state_file = options_.from_state;
+  trace->state = played.state;
+  trace->scheme = options_.scheme;
+  trace->policy = options_.policy;
+  return trace;
 }
 
 Json ServerProcess::report() const {
   const double ticks = std::max<double>(1.0, static_cast<double>(costs_.ticks));
-  std::string why_invalid = server_.trouble();
+  std::string why_invalid = server_.error();
   if (is_interrupted) why_invalid = "interrupted";
   if (why_invalid.empty() && costs_.ticks == 0) why_invalid = "no tick was measured";
   Json report{{report::mode, "client-server"},

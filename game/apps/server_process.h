@@ -7,11 +7,11 @@
 #include <string>
 
 #include "game/control/match_records.h"
-#include "game/net/evidence.h"
 #include "game/net/server/serve_game.h"
 #include "game/net/server/serve_options.h"
 #include "game/net/server/serve_report.h"
 #include "game/net/server/serving.h"
+#include "game/net/server_trace.h"
 #include "rti/second_core.h"
 #include "rti/transport/socket_transport.h"
 #include "rti/transport/staged/stagger.h"
@@ -50,7 +50,7 @@ class ServerProcess {
   std::string missing() const;
   nlohmann::ordered_json report() const;
   /// What the run was and what its filter decided, if `--evidence` asked for it.
-  std::optional<ServerEvidence> evidence(const ServedGame& played) const;
+  std::optional<ServerTrace> trace(const ServedGame& played) const;
   /// What the connections carried from first to last.
   rti::TransportCounters totals() const { return sockets_.totals(); }
 

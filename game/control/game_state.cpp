@@ -162,7 +162,7 @@ std::vector<std::uint8_t> GameState::save(const Game& game, const Scene& scene) 
 }
 
 GameState::Restored GameState::restore(std::span<const std::uint8_t> bytes, const Scene& scene) {
-  const auto refuse = [](const std::string& trouble) { return Restored{std::nullopt, trouble}; };
+  const auto refuse = [](const std::string& error) { return Restored{std::nullopt, error}; };
   physics::SnapshotReader reader(bytes);
   std::uint64_t kind = 0, of_scene = 0;
   std::uint32_t format = 0;
@@ -203,7 +203,7 @@ std::vector<std::uint8_t> read_game_state(const std::filesystem::path& file) {
 Game game_in_state(std::span<const std::uint8_t> bytes, const Scene& scene,
                    const std::string& file) {
   GameState::Restored restored = GameState::restore(bytes, scene);
-  if (!restored.game) throw SceneError(file + ": " + restored.trouble);
+  if (!restored.game) throw SceneError(file + ": " + restored.error);
   return std::move(*restored.game);
 }
 

@@ -20,7 +20,7 @@ class GameState {
   /// A game, or why there is none.
   struct Restored {
     std::optional<Game> game;
-    std::string trouble;
+    std::string error;
   };
 
   /// Of a game of `scene` on the exact engine (asserted); the same on every machine for the same

@@ -31,15 +31,15 @@ std::filesystem::path MatchRecords::write(const KeyLog& log) {
 }
 
 std::optional<std::string> MatchRecords::keep(const KeyLog& log) {
-  return first_trouble([&] { write(log); });
+  return first_error([&] { write(log); });
 }
 
 std::optional<std::string> MatchRecords::test() {
-  return first_trouble([this] { require_writable(); });
+  return first_error([this] { require_writable(); });
 }
 
 template <class Attempt>
-std::optional<std::string> MatchRecords::first_trouble(Attempt attempt) {
+std::optional<std::string> MatchRecords::first_error(Attempt attempt) {
   const bool was_failing = std::exchange(is_failing_, false);
   try {
     attempt();

@@ -27,7 +27,7 @@ class MatchRecords {
  private:
   void require_writable() const;
   template <class Attempt>
-  std::optional<std::string> first_trouble(Attempt attempt);
+  std::optional<std::string> first_error(Attempt attempt);
 
   std::filesystem::path folder_;
   std::uint32_t next_ = 1;

@@ -1,4 +1,4 @@
-// Where bodies are shown while what was foretold of them is put right.
+// Where bodies are shown while what was predicted of them is put right.
 #pragma once
 
 #include <algorithm>

@@ -27,7 +27,7 @@ class NewsDelay {
 
   /// The last frame without it showed the own bat at `shown_s`; it tells of what happened from
   /// `since_s` on [s, simulated].
-  void heard(double shown_s, double since_s) {
+  void received(double shown_s, double since_s) {
     if (shown_s - since_s > late_most) return;
     late_.push_back(shown_s - since_s);
     if (late_.size() > remembered) late_.pop_front();

@@ -36,8 +36,8 @@ void PredictedRink::check() const {
   assert(lags_.size() == world_.puck_count() && shown_pucks_.size() == lags_.size());
   assert(own_ || keys_.count() == 0);
   assert(std::ranges::none_of(lags_, [](double lag) { return lag < 0.0; }));
-  assert(has_heard() == !track_.is_empty() && (has_heard() || !has_looked_));
-  assert(!has_heard() || track_.end() >= told_time());
+  assert(has_received() == !track_.is_empty() && (has_received() || !has_looked_));
+  assert(!has_received() || track_.end() >= received_time());
   keys_.check();
   track_.check(world_.body_count());
 }
@@ -48,11 +48,11 @@ void PredictedRink::press(Key key, bool is_down, double instant) {
   if constexpr (checks_whole_structures) check();
 }
 
-void PredictedRink::hear(const ToldRink& told) {
-  if (has_heard() && told.time < told_time()) return;
+void PredictedRink::receive(const ReceivedRink& received) {
+  if (has_received() && received.time < received_time()) return;
   const auto before = seen();
-  world_.set_up(told);
-  keys_.felt(told.own_felt);
+  world_.set_up(received);
+  keys_.felt(received.own_felt);
   begin();
   if (!has_looked_) return;
   play(now_);
@@ -76,7 +76,7 @@ void PredictedRink::rewind(double now) {
   assert(std::isfinite(now));
   now_ = now;
   blends_.forget_all();
-  if (has_heard()) {
+  if (has_received()) {
     world_.rewind();
     keys_.apply_again();
     begin();
@@ -85,8 +85,8 @@ void PredictedRink::rewind(double now) {
 }
 
 void PredictedRink::begin() {
-  track_.drop_from(told_time());
-  track_.add(world_.sample(told_time()));
+  track_.drop_from(received_time());
+  track_.add(world_.sample(received_time()));
 }
 
 /// A key that was due before what was told, but not felt by then, was late: it is felt at the next
@@ -112,7 +112,7 @@ void PredictedRink::advance(double now, double delay) {
   const double dt = has_looked_ ? now - now_ : 0.0;
   now_ = now;
   delay_ = delay;
-  if (!has_heard()) return;
+  if (!has_received()) return;
   play(now);
   for (std::size_t puck = 0; puck < lags_.size(); ++puck)
     lags_[puck] = puck_lag(puck, lags_[puck], has_looked_ ? dt : kept_longest);

@@ -34,7 +34,7 @@ class PredictedRink {
 
   /// Takes in what the server told. It is no news if something as new was told before; a match that
   /// begins anew needs a new PredictedRink.
-  void hear(const ToldRink& told);
+  void receive(const ReceivedRink& received);
 
   /// Back to `now` [s] and what was told: the server says that time has stood still since then.
   /// What was pressed stays pressed.
@@ -47,8 +47,8 @@ class PredictedRink {
   const std::vector<ShownBody>& bats() const { return shown_bats_; }
   const std::vector<ShownBody>& pucks() const { return shown_pucks_; }
   double now() const { return now_; }
-  double told_time() const { return world_.told().time; }  ///< of what was told last
-  bool has_heard() const { return world_.is_set_up(); }
+  double received_time() const { return world_.received().time; }  ///< of what was told last
+  bool has_received() const { return world_.is_set_up(); }
   const Corrections& own_corrections() const { return blends_.of_own_bat(); }
   const Corrections& other_corrections() const { return blends_.of_other_bats(); }
   const Corrections& puck_corrections() const { return blends_.of_pucks(); }

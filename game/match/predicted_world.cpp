@@ -28,9 +28,9 @@ PredictedWorld::PredictedWorld(const Scene& scene)
   scene_.world.allow_overlap = true;  // what is told is rounded
 }
 
-void PredictedWorld::set_up(const ToldRink& told) {
-  assert(told.bats.size() == bat_count() && told.pucks.size() == puck_count());
-  told_ = told;
+void PredictedWorld::set_up(const ReceivedRink& received) {
+  assert(received.bats.size() == bat_count() && received.pucks.size() == puck_count());
+  received_ = received;
   world_.emplace(scene_.world);
   for (const Post& post : scene_.bodies.posts) world_->add(post.body);
   for (std::uint32_t bat = 0; bat < bat_count(); ++bat) add_bat(bat);
@@ -39,7 +39,7 @@ void PredictedWorld::set_up(const ToldRink& told) {
 
 void PredictedWorld::rewind() {
   assert(is_set_up());
-  set_up(ToldRink(told_));
+  set_up(ReceivedRink(received_));
 }
 
 void PredictedWorld::press(std::uint32_t bat, Key key, bool is_down) {
@@ -50,13 +50,13 @@ void PredictedWorld::press(std::uint32_t bat, Key key, bool is_down) {
 
 void PredictedWorld::advance(double until) {
   assert(is_set_up());
-  while (world_->advance(until - told_.time)) {
+  while (world_->advance(until - received_.time)) {
   }  // pucks may score; the score is the server's
 }
 
 bool PredictedWorld::is_known(std::size_t body) const {
   assert(is_set_up() && body < body_count());
-  return (body < bat_count() ? told_.bats[body] : told_.pucks[body - bat_count()]).is_known;
+  return (body < bat_count() ? received_.bats[body] : received_.pucks[body - bat_count()]).is_known;
 }
 
 RinkSample PredictedWorld::sample(double time) const {
@@ -77,27 +77,27 @@ const Vector2& PredictedWorld::half_extent(std::uint32_t bat) const {
 }
 
 void PredictedWorld::add_bat(std::uint32_t bat) {
-  const ToldBody& told = told_.bats[bat];
+  const ReceivedBody& received = received_.bats[bat];
   ids_[bat].reset();
-  left_at_[bat] = told.position;
-  held_[bat] = told.held;
-  if (!told.is_known) return;
+  left_at_[bat] = received.position;
+  held_[bat] = received.held;
+  if (!received.is_known) return;
   physics::BatSpec body = scene_.bodies.bats[bat].body;
-  body.position = inside(told.position, body);
-  body.velocity = told.velocity;
+  body.position = inside(received.position, body);
+  body.velocity = received.velocity;
   ids_[bat] = world_->add(body);
   set_thrust(bat);
 }
 
 void PredictedWorld::add_puck(std::size_t puck) {
-  const ToldBody& told = told_.pucks[puck];
+  const ReceivedBody& received = received_.pucks[puck];
   std::optional<physics::BodyId>& id = ids_[held_.size() + puck];
   id.reset();
-  left_at_[held_.size() + puck] = told.position;
-  if (!told.is_in_play || !told.is_known) return;
+  left_at_[held_.size() + puck] = received.position;
+  if (!received.is_in_play || !received.is_known) return;
   physics::PuckSpec body = scene_.bodies.pucks[puck].body;
-  body.position = inside(told.position, body.radius);
-  body.velocity = told.velocity;
+  body.position = inside(received.position, body.radius);
+  body.velocity = received.velocity;
   id = world_->add(body);
 }
 

@@ -13,7 +13,7 @@
 namespace rink::game {
 
 /// A bat or a puck as the server told it.
-struct ToldBody {
+struct ReceivedBody {
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
   KeysHeld held;                                   ///< of bats
   bool is_in_play = true;                          ///< of pucks: not in a goal
@@ -23,9 +23,9 @@ struct ToldBody {
 
 /// All that was true at the simulated instant `time` [s]: of every bat and puck of the scene, in
 /// their order there.
-struct ToldRink {
+struct ReceivedRink {
   double time = 0.0;
-  std::vector<ToldBody> bats, pucks;
+  std::vector<ReceivedBody> bats, pucks;
   std::uint32_t own_felt = 0;  ///< how many of the own player's keys were felt until then
 };
 
@@ -35,7 +35,7 @@ class PredictedWorld {
  public:
   explicit PredictedWorld(const Scene& scene);
 
-  void set_up(const ToldRink& told);
+  void set_up(const ReceivedRink& received);
   /// To the instant that was told last. It must be set up.
   void rewind();
   /// From here on the bat's player holds that key or not. It must be set up.
@@ -45,7 +45,7 @@ class PredictedWorld {
 
   bool is_set_up() const { return world_.has_value(); }
   /// What it was set up from; the time is 0 before.
-  const ToldRink& told() const { return told_; }
+  const ReceivedRink& received() const { return received_; }
   bool is_known(std::size_t body) const;
   /// Where all is at present, which is the instant `time`.
   RinkSample sample(double time) const;
@@ -63,7 +63,7 @@ class PredictedWorld {
 
   Scene scene_;
   std::optional<physics::World> world_;
-  ToldRink told_;  ///< what the world was set up from; it counts its time from there
+  ReceivedRink received_;  ///< what the world was set up from; it counts its time from there
   std::vector<std::optional<physics::BodyId>> ids_;  ///< nothing for a puck that was out of play
   std::vector<KeysHeld> held_;                       ///< by bat
   std::vector<Vector2> left_at_;  ///< where it was told to be while out of play, or not known

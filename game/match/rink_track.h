@@ -28,7 +28,7 @@ class RinkTrack {
   bool is_empty() const { return samples_.empty(); }
   double end() const;  ///< time of the last sample [s]
   void add(RinkSample sample);
-  /// Forgets what was foretold of `time` and later.
+  /// Forgets what was predicted of `time` and later.
   void drop_from(double time);
   /// Forgets what nobody who asks for `time` or later needs.
   void forget_before(double time);

@@ -14,8 +14,8 @@ class ShownDelay {
   /// How much slower or faster than real time the others' time may run while the delay changes.
   static constexpr double time_bend = 0.5;
 
-  /// As NewsDelay::heard.
-  void heard(double shown_s, double since_s) { news_.heard(shown_s, since_s); }
+  /// As NewsDelay::received.
+  void received(double shown_s, double since_s) { news_.received(shown_s, since_s); }
   /// What is shown begins anew, without delay.
   void begin() { seconds_ = 0.0; }
   /// The delay of news [s], or `estimate` until enough was heard.

@@ -18,7 +18,7 @@ struct ZonesSeen {
   std::vector<Zone> zones;
   std::vector<std::uint32_t> ghosts;  ///< ids of the things that are
   std::vector<std::uint32_t>
-      told;  ///< and of those beyond, which their owners tell of because the player sees them
+      received;  ///< and of those beyond, which their owners tell of because the player sees them
   std::uint64_t own_count = 0;  ///< of bodies in the own zones
 };
 

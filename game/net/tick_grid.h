@@ -17,14 +17,14 @@ struct TickGrid {
 
   double lookahead() const { return 0.25 / rate_hz; }
   /// A player's time once it has heard tick `number`.
-  double heard(std::uint64_t number) const {
+  double received(std::uint64_t number) const {
     return (static_cast<double>(number) + 0.125) / rate_hz;
   }
   /// The first tick that a player who was granted `time` may not have heard; at least 1, for tick 0
   /// is the start, which is told without a time stamp.
   std::uint64_t next(double time) const {
     const std::uint64_t number = last(time);
-    return number > 0 && heard(number) > time ? number : number + 1;
+    return number > 0 && received(number) > time ? number : number + 1;
   }
   /// The last tick that was heard at `time`, which is below 1e12 ticks: 0 if none.
   std::uint64_t last(double time) const {

@@ -15,7 +15,7 @@ Assembly::Assembly(const physics::World& whole, const Division& division, double
     Peer& peer = peers_.emplace_back(whole.spec(), division, number, whole.body_count(), halo);
     peer.validate_by(Validator(whole));
     for (std::uint32_t body = 0; body < whole.body_count(); ++body)
-      peer.consider(body, physics::Portion::state_in(whole, body));
+      peer.consider(body, physics::Subdomain::state_in(whole, body));
   }
 }
 
@@ -31,10 +31,10 @@ void Assembly::exchange_all(Make&& make) {
     for (Peer& to : peers_) {
       if (from.number() == to.number()) continue;
       auto message = make(from, to.number());
-      decltype(message) heard;
-      if (!read(written(message), heard))
+      decltype(message) received;
+      if (!read(written(message), received))
         throw std::logic_error("a message that cannot be read back");
-      to.hear(from.number(), std::move(heard));
+      to.receive(from.number(), std::move(received));
     }
 }
 
@@ -52,7 +52,7 @@ void Assembly::advance() {
     for (Peer& peer : peers_) outcome = peer.conclude();
     if (outcome == Outcome::final) break;
     exchange_all([](Peer& from, PeerNumber to) {
-      return from.repeats(to) ? from.arrivals_for_repeat(to) : Arrivals{};
+      return from.repeats(to) ? from.handover_for_repeat(to) : Handover{};
     });
     for (Peer& peer : peers_)
       if (peer.repeats(peer.number())) peer.replay();
@@ -62,7 +62,7 @@ void Assembly::advance() {
     for (Peer& peer : peers_) peer.divide(*next_division_);
   next_division_.reset();
   const double next = window_ * static_cast<double>(count_ + 1);
-  exchange_all([&](Peer& from, PeerNumber to) { return from.arrivals_for(to, next); });
+  exchange_all([&](Peer& from, PeerNumber to) { return from.handover_for(to, next); });
   for (Peer& peer : peers_) peer.commit(next);
   assert(std::ranges::all_of(peers_, [this](const Peer& peer) { return peer.now() == now(); }));
   note_owners();

@@ -55,10 +55,10 @@ std::size_t size_of(Message& message) {
 
 }  // namespace
 
-std::vector<std::uint8_t> written(Arrivals message) { return bytes_from(message, short_checksum); }
+std::vector<std::uint8_t> written(Handover message) { return bytes_from(message, short_checksum); }
 std::vector<std::uint8_t> written(Claims message) { return bytes_from(message, short_checksum); }
 std::vector<std::uint8_t> written(Verdict message) { return bytes_from(message, short_checksum); }
-bool read(std::span<const std::uint8_t> bytes, Arrivals& message) {
+bool read(std::span<const std::uint8_t> bytes, Handover& message) {
   return read_whole(bytes, message, short_checksum);
 }
 bool read(std::span<const std::uint8_t> bytes, Claims& message) {
@@ -68,7 +68,7 @@ bool read(std::span<const std::uint8_t> bytes, Verdict& message) {
   return read_whole(bytes, message, short_checksum);
 }
 
-std::size_t measured(Arrivals& message) { return size_of(message); }
+std::size_t measured(Handover& message) { return size_of(message); }
 std::size_t measured(Claims& message) { return size_of(message); }
 std::size_t measured(Verdict& message) { return size_of(message); }
 

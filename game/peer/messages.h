@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "game/peer/box.h"
-#include "game/physics/portion.h"
+#include "game/physics/subdomain.h"
 
 namespace rink::peer {
 
 using physics::BodyState;
-using physics::Hold;
+using physics::RestContact;
 
 /// From `time` [s] on, `bat` is driven by `thrust` [m/s^2].
 struct Key {
@@ -39,7 +39,7 @@ struct Press {
 };
 
 /// What the owner of a bat shows, at a window's end, to the peer that plays it.
-struct Glimpse {
+struct Observation {
   struct Puck {
     std::uint32_t number = 0;
     Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
@@ -55,12 +55,12 @@ struct Glimpse {
 
 /// What is new of a body to which nothing but free impacts happened: all else of its state is as it
 /// was when the window began.
-struct Flown {
+struct FreeFlightState {
   std::uint32_t number = 0;
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
   double time = 0.0;                               ///< of the last impact [s]
 
-  static Flown of(std::uint32_t number, const physics::Flight& f) {
+  static FreeFlightState of(std::uint32_t number, const physics::Flight& f) {
     return {number, {f.x, f.y}, {f.vx, f.vy}, f.time};
   }
   bool is_as(const physics::Flight& f) const {
@@ -74,17 +74,17 @@ struct Flown {
 /// At a window's start: bodies of the sender that the receiver does not know in this state and
 /// shall simulate or own, all rest contacts of those of the sender's bodies that the receiver now
 /// has, and the keys that fall into the window. And what the players of the receiver may see.
-struct Arrivals {
+struct Handover {
   struct Body {
     std::uint32_t number = 0;
     BodyState state;
   };
   std::uint32_t window = 0;
   std::vector<Body> bodies;
-  std::vector<Flown> flown{};  ///< of those that the receiver has
-  std::vector<Hold> holds;
+  std::vector<FreeFlightState> free_flights{};  ///< of those that the receiver has
+  std::vector<RestContact> rest_contacts;
   std::vector<Key> keys;
-  std::vector<Glimpse> glimpses;
+  std::vector<Observation> observations;
 };
 
 /// A stretch of a body's path that ends at the next one, or with the window.
@@ -149,9 +149,9 @@ struct Verdict {
   bool accepts = false;
   float halo = 0.0f;  ///< m: of the next window, or, if it does not accept, with which it will
                       ///< repeat this one
-  std::uint64_t at_once_max = 0;  ///< the most events at one instant
-  bool was_hopeless = false;      ///< simultaneous impacts that have no solution
-  std::uint64_t events = 0;       ///< with a body of the sender's own, in this run
+  std::uint64_t at_once_max = 0;   ///< the most events at one instant
+  bool had_solver_failed = false;  ///< simultaneous impacts that have no solution
+  std::uint64_t events = 0;        ///< with a body of the sender's own, in this run
   bool leaves =
       false;  ///< the sender wishes to hand over all that it owns when the window is final
   /// Of each event of its run, in which of 256 equal parts of the window it came, so that events of
@@ -167,15 +167,15 @@ struct Verdict {
 /// highest bit says that more follow.
 template <class Stream, class Number>
 bool exchange_short(Stream& stream, Number& number) {
-  std::uint64_t rest = number, heard = 0;
+  std::uint64_t rest = number, received = 0;
   for (int shift = 0; shift < 64; shift += 7, rest >>= 7) {
     std::uint64_t byte = (rest & 0x7f) | (rest > 0x7f ? 0x80 : 0);
     if (!stream.word(byte, 1) || (shift == 63 && byte > 1) || (shift > 0 && byte == 0))
       return false;
-    heard |= (byte & 0x7f) << shift;
+    received |= (byte & 0x7f) << shift;
     if ((byte & 0x80) != 0) continue;
-    number = static_cast<Number>(heard);
-    return number == heard;
+    number = static_cast<Number>(received);
+    return number == received;
   }
   return false;
 }
@@ -219,8 +219,8 @@ bool exchange(Stream& stream, BodyState& s) {
 }
 
 template <class Stream>
-bool exchange(Stream& stream, Hold& hold) {
-  auto& [low, high, axis, pull_time, force, turn_time, age] = hold;
+bool exchange(Stream& stream, RestContact& rest) {
+  auto& [low, high, axis, pull_time, force, turn_time, age] = rest;
   return stream.numbers(low, high, axis, pull_time, force, turn_time, age.time, age.lower,
                         age.higher, age.rank) &&
          stream.truth(age.follows_keys) && (axis == 0 || axis == 1);
@@ -238,20 +238,20 @@ bool exchange(Stream& stream, Press& press) {
 }
 
 template <class Stream>
-bool exchange(Stream& stream, Glimpse::Puck& puck) {
+bool exchange(Stream& stream, Observation::Puck& puck) {
   return stream.numbers(puck.number, puck.position.x(), puck.position.y(), puck.velocity.x(),
                         puck.velocity.y(), puck.radius);
 }
 
 template <class Stream>
-bool exchange(Stream& stream, Arrivals::Body& body) {
+bool exchange(Stream& stream, Handover::Body& body) {
   return stream.number(body.number) && exchange(stream, body.state);
 }
 
 template <class Stream>
-bool exchange(Stream& stream, Flown& flown) {
-  return stream.numbers(flown.number, flown.position.x(), flown.position.y(), flown.velocity.x(),
-                        flown.velocity.y(), flown.time);
+bool exchange(Stream& stream, FreeFlightState& free_flights) {
+  return stream.numbers(free_flights.number, free_flights.position.x(), free_flights.position.y(),
+                        free_flights.velocity.x(), free_flights.velocity.y(), free_flights.time);
 }
 
 template <class Stream>
@@ -296,22 +296,23 @@ bool exchange_part(Stream& stream, bool is_there, std::vector<Item>& list) {
 }
 
 template <class Stream>
-bool exchange(Stream& stream, Glimpse& glimpse) {
-  return stream.numbers(glimpse.bat, glimpse.owner, glimpse.time, glimpse.position.x(),
-                        glimpse.position.y(), glimpse.velocity.x(), glimpse.velocity.y()) &&
-         exchange_list(stream, glimpse.pucks);
+bool exchange(Stream& stream, Observation& observation) {
+  return stream.numbers(observation.bat, observation.owner, observation.time,
+                        observation.position.x(), observation.position.y(),
+                        observation.velocity.x(), observation.velocity.y()) &&
+         exchange_list(stream, observation.pucks);
 }
 
 template <class Stream>
-bool exchange(Stream& stream, Arrivals& message) {
-  Head head({!message.bodies.empty(), !message.flown.empty(), !message.holds.empty(),
-             !message.keys.empty(), !message.glimpses.empty()});
+bool exchange(Stream& stream, Handover& message) {
+  Head head({!message.bodies.empty(), !message.free_flights.empty(), !message.rest_contacts.empty(),
+             !message.keys.empty(), !message.observations.empty()});
   return head.exchange(stream) && exchange_short(stream, message.window) &&
          exchange_part(stream, head.has(0), message.bodies) &&
-         exchange_part(stream, head.has(1), message.flown) &&
-         exchange_part(stream, head.has(2), message.holds) &&
+         exchange_part(stream, head.has(1), message.free_flights) &&
+         exchange_part(stream, head.has(2), message.rest_contacts) &&
          exchange_part(stream, head.has(3), message.keys) &&
-         exchange_part(stream, head.has(4), message.glimpses);
+         exchange_part(stream, head.has(4), message.observations);
 }
 
 template <class Stream>
@@ -361,12 +362,13 @@ bool exchange(Stream& stream, Admission& admission) {
 
 template <class Stream>
 bool exchange(Stream& stream, Verdict& message) {
-  Head head({message.accepts, message.was_hopeless, message.leaves, !message.listed.empty(),
+  Head head({message.accepts, message.had_solver_failed, message.leaves, !message.listed.empty(),
              !message.goals.empty(), !message.admission.is_empty()});
   if (!head.exchange(stream) || !exchange_short(stream, message.window) ||
       !exchange_single(stream, message.halo) || !(message.halo >= 0.0f))
     return false;
-  message.accepts = head.has(0), message.was_hopeless = head.has(1), message.leaves = head.has(2);
+  message.accepts = head.has(0), message.had_solver_failed = head.has(1),
+  message.leaves = head.has(2);
   if (!exchange_short(stream, message.at_once_max) || !exchange_short(stream, message.events))
     return false;
   if (!exchange_part(stream, head.has(3), message.listed) ||
@@ -378,16 +380,16 @@ bool exchange(Stream& stream, Verdict& message) {
 }
 
 /// With a checksum of four bytes at the end.
-std::vector<std::uint8_t> written(Arrivals message);
+std::vector<std::uint8_t> written(Handover message);
 std::vector<std::uint8_t> written(Claims message);
 std::vector<std::uint8_t> written(Verdict message);
 /// False, with the message in no particular state, unless the bytes are one whole message.
-bool read(std::span<const std::uint8_t> bytes, Arrivals& message);
+bool read(std::span<const std::uint8_t> bytes, Handover& message);
 bool read(std::span<const std::uint8_t> bytes, Claims& message);
 bool read(std::span<const std::uint8_t> bytes, Verdict& message);
 
 /// How many bytes written() would make; changes nothing.
-std::size_t measured(Arrivals& message);
+std::size_t measured(Handover& message);
 std::size_t measured(Claims& message);
 std::size_t measured(Verdict& message);
 /// The state as the bytes by which states are compared.

@@ -31,7 +31,7 @@ PeerCounters& PeerCounters::operator+=(const PeerCounters& other) {
 
 Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber number,
            std::uint32_t body_count, double halo)
-    : portion_(spec, body_count),
+    : subdomain_(spec, body_count),
       division_(division),
       number_(number),
       halo_max_(spec.field.length + spec.field.width),
@@ -52,45 +52,45 @@ Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber 
       presses_(division.peer_count()),
       claims_(division.peer_count()),
       verdicts_(division.peer_count()),
-      arrivals_(division.peer_count()) {
+      handovers_(division.peer_count()) {
   assert(number < division.peer_count() && halo > 0.0 && division.zones_of(number).size() < 255);
 }
 
 void Peer::consider(std::uint32_t body, const BodyState& state) {
-  assert(body < portion_.body_count() && !portion_.is_there(body));
+  assert(body < subdomain_.body_count() && !subdomain_.is_there(body));
   const Vector2 place(state.flight.x, state.flight.y);
   extent_max_ = std::max(extent_max_, state.extent().maxCoeff());
   const PeerNumber owner = division_.owner_of(place);
   if (owner != number_ && !is_in_region(number_, Box::around(place, state.extent()))) return;
-  portion_.put(body, state);
+  subdomain_.put(body, state);
   ghosts_.push_back(body);
 }
 
 template <class Message, class... Instants>
 bool Peer::is_sound(PeerNumber from, const Message& message, Instants... instants) {
   const std::string fault = validator_ ? validator_->fault_of(message, instants...) : std::string();
-  return fault.empty() || accuse(from, fault);
+  return fault.empty() || report(from, fault);
 }
 
-void Peer::hear(PeerNumber from, Claims claims) {
+void Peer::receive(PeerNumber from, Claims claims) {
   assert(from < claims_.size() && from != number_);
   if (is_sound(from, claims, end_)) claims_[from] = std::move(claims);
 }
 
-void Peer::hear(PeerNumber from, const Verdict& verdict) {
+void Peer::receive(PeerNumber from, const Verdict& verdict) {
   assert(from < verdicts_.size() && from != number_);
   if (is_sound(from, verdict)) verdicts_[from] = verdict;
 }
 
-void Peer::hear(PeerNumber from, Arrivals arrivals) {
-  assert(from < arrivals_.size() && from != number_);
-  if (is_sound(from, arrivals, told_)) arrivals_[from] = std::move(arrivals);
+void Peer::receive(PeerNumber from, Handover handover) {
+  assert(from < handovers_.size() && from != number_);
+  if (is_sound(from, handover, told_)) handovers_[from] = std::move(handover);
 }
 
 void Peer::begin(double until) {
   assert(until >= start_ && owned_.empty());
-  if (!entered_holds_.empty()) set_holds(std::exchange(entered_holds_, {}));
-  portion_.begin_window();
+  if (!entered_holds_.empty()) set_rest_contacts(std::exchange(entered_holds_, {}));
+  subdomain_.begin_window();
   settle(ghosts_);
   share_keys(until);
   choose_watched();
@@ -100,15 +100,15 @@ void Peer::begin(double until) {
 void Peer::check() const {
   [[maybe_unused]] const std::size_t peer_count = division_.peer_count();
   assert(halos_.size() == peer_count && known_.size() == peer_count &&
-         verdicts_.size() == peer_count && arrivals_.size() == peer_count);
+         verdicts_.size() == peer_count && handovers_.size() == peer_count);
   assert(std::ranges::all_of(halos_, [](double halo) { return halo >= 0.0; }));
   for (std::size_t place = 0; place < owned_.size(); ++place) {
     assert(roles_[owned_[place]] == own && owned_places_[owned_[place]] == place);
-    assert(portion_.is_there(owned_[place]) && homes_[owned_[place]] <= interiors_.size());
+    assert(subdomain_.is_there(owned_[place]) && homes_[owned_[place]] <= interiors_.size());
   }
   assert(std::ranges::adjacent_find(ghosts_, std::greater_equal<>()) == ghosts_.end());
   for ([[maybe_unused]] const std::uint32_t body : ghosts_)
-    assert(roles_[body] == ghost && owners_[body] != number_ && portion_.is_there(body));
+    assert(roles_[body] == ghost && owners_[body] != number_ && subdomain_.is_there(body));
   [[maybe_unused]] const auto with_role = [this](Role role) {
     return static_cast<std::size_t>(std::ranges::count(roles_, std::uint8_t{role}));
   };
@@ -125,60 +125,62 @@ void Peer::check() const {
 
 Vector2 Peer::start_place(std::uint32_t body) const {
   assert(body < roles_.size());
-  if (portion_.was_gone(body)) return portion_.motion_before(body).position;
-  return portion_.motion_before(body).at(start_).position;
+  if (subdomain_.was_gone(body)) return subdomain_.motion_before(body).position;
+  return subdomain_.motion_before(body).at(start_).position;
 }
 
 Box Peer::reach_of(std::uint32_t body) const {
   const auto place = [&](std::uint32_t b) {
-    return Box::around(portion_.world().position({b}), extent_of(b));
+    return Box::around(subdomain_.world().position({b}), extent_of(b));
   };
   Box box = place(body);
-  if (portion_.world().is_held({body}))
-    for (const std::uint32_t companion : portion_.group_of(body)) box = box.with(place(companion));
+  if (subdomain_.world().is_held({body}))
+    for (const std::uint32_t companion : subdomain_.group_of(body))
+      box = box.with(place(companion));
   return box;
 }
 
 void Peer::play() {
   // Those of whom something was entered in the window before have a room again, if they have not
   // been watched since.
-  for (const std::uint32_t body : portion_.take_entered())
-    if (roles_[body] == own && is_watched_[body] == 0) portion_.set_room(body, homes_[body]);
+  for (const std::uint32_t body : subdomain_.take_entered())
+    if (roles_[body] == own && is_watched_[body] == 0) subdomain_.set_room(body, homes_[body]);
   play_keys(end_);
   survey();
 }
 
 /// The same run: who is no longer at home may have had impacts that were not entered.
 void Peer::play_anew() {
-  portion_.undo();
+  subdomain_.undo();
   play();
 }
 
 void Peer::play_keys(double until) {
   assert(std::ranges::is_sorted(due_, is_before));
   for (const Key& key : due_) {
-    portion_.advance(std::max(key.time, portion_.world().now()));
-    portion_.set_thrust(key.bat, key.thrust);
+    subdomain_.advance(std::max(key.time, subdomain_.world().now()));
+    subdomain_.set_thrust(key.bat, key.thrust);
   }
-  portion_.advance(until);
+  subdomain_.advance(until);
 }
 
 /// The same decision everywhere, for all have heard the same.
 Outcome Peer::conclude() {
-  bool is_hopeless = false, is_final = true, are_whole = true;
+  bool solver_failed = false, is_final = true, are_whole = true;
   assert(verdicts_.size() == division_.peer_count() && is_present_[number_]);
   for (PeerNumber peer = 0; peer < verdicts_.size(); ++peer) {
     if (!is_present_[peer])
       verdicts_[peer] = {.accepts = true, .halo = static_cast<float>(halos_[peer])};
     const Verdict& verdict = verdicts_[peer];
-    is_hopeless = is_hopeless || verdict.was_hopeless, is_final = is_final && verdict.accepts;
+    solver_failed = solver_failed || verdict.had_solver_failed,
+    is_final = is_final && verdict.accepts;
     // Of those who are not there no two need think the same.
     are_whole = are_whole && (halos_[peer] == infinity || !is_present_[peer]);
   }
   // The engine's last resorts against endless series at one instant count what happens in the whole
   // field.
   const bool needs_whole =
-      (at_once_bound() >= physics::events_at_once_local || is_hopeless) && !are_whole;
+      (at_once_bound() >= physics::events_at_once_local || solver_failed) && !are_whole;
   for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer) {
     is_repeating_[peer] = needs_whole || !verdicts_[peer].accepts;
     if (needs_whole) halos_[peer] = infinity;
@@ -195,40 +197,45 @@ Outcome Peer::conclude() {
 }
 
 /// Each once, and only between bodies that are there.
-void Peer::set_holds(std::vector<Hold> holds) {
+void Peer::set_rest_contacts(std::vector<RestContact> rest_contacts) {
   const auto is_there = [&](physics::Partner p) {
-    return p >= physics::partner::field_parts || portion_.is_there(p);
+    return p >= physics::partner::field_parts || subdomain_.is_there(p);
   };
-  std::erase_if(holds,
-                [&](const Hold& hold) { return !is_there(hold.low) || !is_there(hold.high); });
-  const auto names = [](const Hold& hold) { return std::tuple(hold.low, hold.high, hold.axis); };
-  std::stable_sort(holds.begin(), holds.end(),
-                   [&](const Hold& a, const Hold& b) { return names(a) < names(b); });
-  holds.erase(std::unique(holds.begin(), holds.end(),
-                          [&](const Hold& a, const Hold& b) { return names(a) == names(b); }),
-              holds.end());
-  portion_.set_holds(std::move(holds));
+  std::erase_if(rest_contacts, [&](const RestContact& rest) {
+    return !is_there(rest.low) || !is_there(rest.high);
+  });
+  const auto names = [](const RestContact& rest) {
+    return std::tuple(rest.low, rest.high, rest.axis);
+  };
+  std::stable_sort(rest_contacts.begin(), rest_contacts.end(),
+                   [&](const RestContact& a, const RestContact& b) { return names(a) < names(b); });
+  rest_contacts.erase(
+      std::unique(rest_contacts.begin(), rest_contacts.end(),
+                  [&](const RestContact& a, const RestContact& b) { return names(a) == names(b); }),
+      rest_contacts.end());
+  subdomain_.set_rest_contacts(std::move(rest_contacts));
 }
 
 void Peer::replay() {
   assert(is_repeating_[number_]);
-  portion_.undo();
-  std::vector<Hold> holds = portion_.holds();
-  for (PeerNumber from = 0; from < arrivals_.size(); ++from) {
+  subdomain_.undo();
+  std::vector<RestContact> rest_contacts = subdomain_.rest_contacts();
+  for (PeerNumber from = 0; from < handovers_.size(); ++from) {
     if (from == number_) continue;
-    Arrivals& arrivals = arrivals_[from];
-    enter_bodies(arrivals, from);
-    for (const auto& [body, state] : arrivals.bodies)
+    Handover& handover = handovers_[from];
+    enter_bodies(handover, from);
+    for (const auto& [body, state] : handover.bodies)
       if (body < roles_.size() && roles_[body] == away)
         roles_[body] = ghost, owners_[body] = from, ghosts_.push_back(body);
-    holds.insert(holds.end(), arrivals.holds.begin(), arrivals.holds.end());
-    due_.insert(due_.end(), arrivals.keys.begin(), arrivals.keys.end());
-    arrivals = {};
+    rest_contacts.insert(rest_contacts.end(), handover.rest_contacts.begin(),
+                         handover.rest_contacts.end());
+    due_.insert(due_.end(), handover.keys.begin(), handover.keys.end());
+    handover = {};
   }
   std::sort(ghosts_.begin(), ghosts_.end());
   std::stable_sort(due_.begin(), due_.end(), is_before);
-  set_holds(std::move(holds));
-  portion_.begin_window();
+  set_rest_contacts(std::move(rest_contacts));
+  subdomain_.begin_window();
   play();
 }
 
@@ -238,42 +245,45 @@ void Peer::correct_doubtful() {
   assert(doubts_.size() == ghosts_.size() && is_unmoved_.size() == ghosts_.size());
   for (std::size_t k = 0; k < ghosts_.size(); ++k) {
     if (doubts_[k] == infinity) continue;
-    if (is_unmoved_[k]) portion_.put(ghosts_[k], portion_.state_before(ghosts_[k]));
-    else portion_.drop(ghosts_[k]);
+    if (is_unmoved_[k]) subdomain_.put(ghosts_[k], subdomain_.state_before(ghosts_[k]));
+    else subdomain_.drop(ghosts_[k]);
   }
 }
 
 void Peer::commit(double until) {
-  glimpses_ = glimpses_for(number_);
+  observations_ = observations_for(number_);
   note_log();
   if (keeps_changes_) note_changed();
-  for (PeerNumber from = 0; from < arrivals_.size(); ++from) complete_flown(arrivals_[from], from);
+  for (PeerNumber from = 0; from < handovers_.size(); ++from)
+    complete_free_flights(handovers_[from], from);
   correct_doubtful();
   doubts_.clear();
-  std::vector<Hold> holds = portion_.holds();
+  std::vector<RestContact> rest_contacts = subdomain_.rest_contacts();
   const auto is_own = [&](physics::Partner p) {
     return p < physics::partner::field_parts && roles_[p] == own;
   };
-  std::erase_if(holds, [&](const Hold& hold) { return !is_own(hold.low) && !is_own(hold.high); });
+  std::erase_if(rest_contacts,
+                [&](const RestContact& rest) { return !is_own(rest.low) && !is_own(rest.high); });
   std::vector<std::uint32_t> candidates = ghosts_;
   for (const Reach& reach : outskirts_) candidates.push_back(reach.body);
-  for (PeerNumber from = 0; from < arrivals_.size(); ++from) {
+  for (PeerNumber from = 0; from < handovers_.size(); ++from) {
     if (from == number_) continue;
-    enter_bodies(arrivals_[from], from);
-    for (const auto& [body, state] : arrivals_[from].bodies)
+    enter_bodies(handovers_[from], from);
+    for (const auto& [body, state] : handovers_[from].bodies)
       if (body < roles_.size()) candidates.push_back(body);
-    holds.insert(holds.end(), arrivals_[from].holds.begin(), arrivals_[from].holds.end());
-    keys_.insert(keys_.end(), arrivals_[from].keys.begin(), arrivals_[from].keys.end());
-    take_glimpses(from);
+    rest_contacts.insert(rest_contacts.end(), handovers_[from].rest_contacts.begin(),
+                         handovers_[from].rest_contacts.end());
+    keys_.insert(keys_.end(), handovers_[from].keys.begin(), handovers_[from].keys.end());
+    handle_observations(from);
   }
-  for (Arrivals& arrivals : arrivals_) arrivals = {};
-  set_holds(std::move(holds));
-  portion_.begin_window();
+  for (Handover& handover : handovers_) handover = {};
+  set_rest_contacts(std::move(rest_contacts));
+  subdomain_.begin_window();
   ++counters_.windows;
   counters_.own_events += own_events_, counters_.ghost_events += ghost_events_;
   ++window_;
   attempts_ = 0;
-  start_ = portion_.world().now();
+  start_ = subdomain_.world().now();
   for (const std::uint32_t body : watched_)
     homes_[body] = end_homes_[body], is_watched_[body] = watched;
   settle(std::move(candidates));
@@ -283,7 +293,7 @@ void Peer::commit(double until) {
 }
 
 void Peer::own_from_now(std::uint32_t body) {
-  assert(roles_[body] != own && portion_.is_there(body));
+  assert(roles_[body] != own && subdomain_.is_there(body));
   roles_[body] = own;
   owned_places_[body] = static_cast<std::uint32_t>(owned_.size());
   owned_.push_back(body);
@@ -292,7 +302,7 @@ void Peer::own_from_now(std::uint32_t body) {
 
 void Peer::disown(std::uint32_t body) {
   roles_[body] = away;
-  portion_.set_room(body, 0);
+  subdomain_.set_room(body, 0);
   ++counters_.hand_overs;
   if (keeps_changes_) left_.push_back(body);
   const std::uint32_t place = owned_places_[body], last = owned_.back();
@@ -304,14 +314,14 @@ void Peer::disown(std::uint32_t body) {
 /// Who owns whom from now on, whom we have as ghosts, and who has ours. Own bodies that are no
 /// candidates are at home.
 void Peer::settle(std::vector<std::uint32_t> candidates) {
-  std::erase_if(candidates, [&](std::uint32_t body) { return !portion_.is_there(body); });
+  std::erase_if(candidates, [&](std::uint32_t body) { return !subdomain_.is_there(body); });
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   std::vector<Vector2> places;
   std::vector<Box> reaches;
   for (const std::uint32_t body : candidates) {
-    places.push_back(portion_.world().position({body}));
-    reaches.push_back(portion_.world().is_held({body})
+    places.push_back(subdomain_.world().position({body}));
+    reaches.push_back(subdomain_.world().is_held({body})
                           ? reach_of(body)
                           : Box::around(places.back(), extent_of(body)));
   }
@@ -324,7 +334,7 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
     if (owners_[body] == number_) {
       if (roles_[body] != own) own_from_now(body);
       watch(body, watched);
-      if (portion_.world().is_held({body})) groups_.push_back({body, reaches[k]});
+      if (subdomain_.world().is_held({body})) groups_.push_back({body, reaches[k]});
       homes_[body] = 0;
       for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
         if (peer != number_ && is_in_region(peer, reaches[k])) known_[peer].push_back(body);
@@ -333,18 +343,18 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
     if (roles_[body] == own) disown(body);
     roles_[body] = is_in_region(number_, reaches[k]) ? ghost : away;
     if (roles_[body] == ghost) ghosts_.push_back(body);
-    else portion_.drop(body);
+    else subdomain_.drop(body);
   }
   std::erase_if(watched_, [&](std::uint32_t body) {
     return roles_[body] != own &&
            std::exchange(is_watched_[body], std::uint8_t{not_watched}) != not_watched;
   });
-  std::vector<Hold> holds = portion_.holds();
-  if (!holds.empty()) set_holds(std::move(holds));
+  std::vector<RestContact> rest_contacts = subdomain_.rest_contacts();
+  if (!rest_contacts.empty()) set_rest_contacts(std::move(rest_contacts));
   if (!is_margin_fit()) choose_margin();
   else
     for (std::size_t k = 0; k < candidates.size(); ++k)
-      if (roles_[candidates[k]] == own && !portion_.world().is_held({candidates[k]}))
+      if (roles_[candidates[k]] == own && !subdomain_.world().is_held({candidates[k]}))
         homes_[candidates[k]] = home_of(places[k], 0);
   counters_.held_max = std::max<std::uint64_t>(counters_.held_max, owned_.size() + ghosts_.size());
   counters_.ghost_windows += ghosts_.size();

@@ -11,9 +11,9 @@
 
 #include "game/peer/division.h"
 #include "game/peer/messages.h"
-#include "game/peer/session/mirror.h"
+#include "game/peer/session/part_replica.h"
 #include "game/peer/validation.h"
-#include "game/physics/portion.h"
+#include "game/physics/subdomain.h"
 
 namespace rink::peer {
 
@@ -48,9 +48,9 @@ enum class Outcome : std::uint8_t { final, repeat };
 
 /// The protocol, in the order in which it goes (docs/peer-to-peer.md). Everybody calls `play`; then
 /// each makes claims for each other and hears those of all others, judges, and hears all verdicts;
-/// `conclude` then says the same to all. `final`: each makes arrivals for each other, hears theirs,
-/// and commits. `repeat`: each makes arrivals for those who repeat, these hear them and call
-/// `replay`, and all go on with claims. Knows no network and no clock.
+/// `conclude` then says the same to all. `final`: each makes a handover for each other, hears
+/// theirs, and commits. `repeat`: each makes a handover for those who repeat, these hear them and
+/// call `replay`, and all go on with claims. Knows no network and no clock.
 class Peer {
  public:
   /// `halo` [m] is where it begins.
@@ -63,7 +63,7 @@ class Peer {
   /// Instead of that, to begin at a later window's start: its number and when it starts [s], then
   /// parts of the whole, among them all that is its own, in its halo, or in rest contact.
   void enter(std::uint32_t window, double start);
-  void take(const Arrivals& part);
+  void take(const Handover& part);
   /// After that; the first window will end at `until` [s].
   void begin(double until);
 
@@ -79,7 +79,7 @@ class Peer {
   /// With the next verdicts, until told otherwise.
   void wish_to_leave(bool wishes) { wishes_to_leave_ = wishes; }
   void announce(Admission admission) { admission_ = std::move(admission); }
-  /// After `conclude` said final, before the arrivals: from the window's end on, zones are these,
+  /// After `conclude` said final, before the handovers: from the window's end on, zones are these,
   /// perhaps for more peers, who are not present yet. The same at all peers.
   void divide(const Division& division);
   /// From now on `change` tells what each commit changed; a first one, after `begin`, tells all.
@@ -88,7 +88,7 @@ class Peer {
   PartChange change(bool is_whole) const;
   /// After a commit: a puck that went into a goal, as its owner has it, is back in play at `place`,
   /// which is free for everybody.
-  void put_back(const Arrivals::Body& scored, const Vector2& place);
+  void put_back(const Handover::Body& scored, const Vector2& place);
   bool owns(std::uint32_t body) const {
     assert(body < roles_.size());
     return roles_[body] == own;
@@ -103,12 +103,12 @@ class Peer {
     seats_.push_back(seat);
   }
   /// What the own players may see now, since the last commit.
-  const std::vector<Glimpse>& glimpses() const { return glimpses_; }
+  const std::vector<Observation>& observations() const { return observations_; }
   /// Of all own bats that `player` plays, whether it is due or not.
-  std::vector<Glimpse> glimpses_of_all(PeerNumber player) const;
+  std::vector<Observation> observations_of_all(PeerNumber player) const;
   /// After a commit and before the claims of the next window: an own player's key, which goes to
-  /// `owner`, the one that the newest glimpse of the bat names. It is stamped there with the end of
-  /// that window or, if that is later, with the instant that it names, though not more than
+  /// `owner`, the one that the newest observation of the bat names. It is stamped there with the
+  /// end of that window or, if that is later, with the instant that it names, though not more than
   /// `ahead_max` later; a player's keys must name instants that do not fall.
   void press(PeerNumber owner, const Press& press) {
     assert(owner < presses_.size() && press.input != 0);
@@ -125,9 +125,9 @@ class Peer {
   /// Whatever is heard must keep to the scene from now on, as `validator` knows it. What does not
   /// is not taken, and whoever sent it is accused.
   void validate_by(Validator validator) { validator_ = std::move(validator); }
-  void hear(PeerNumber from, Claims claims);
+  void receive(PeerNumber from, Claims claims);
   const Verdict& judge();
-  void hear(PeerNumber from, const Verdict& verdict);
+  void receive(PeerNumber from, const Verdict& verdict);
   Outcome conclude();
   const Verdict& verdict() const { return verdicts_[number_]; }
   const Verdict& verdict_of(PeerNumber peer) const {
@@ -138,35 +138,37 @@ class Peer {
     assert(peer < is_repeating_.size());
     return is_repeating_[peer];
   }
-  /// Between the arrivals for `peer` and the commit: whether it will have the own body in the next
+  /// Between the handovers for `peer` and the commit: whether it will have the own body in the next
   /// window, as its own or as a ghost.
   bool will_have(PeerNumber peer, std::uint32_t body) const;
 
-  Arrivals arrivals_for_repeat(PeerNumber peer);
+  Handover handover_for_repeat(PeerNumber peer);
   /// `until` [s]: the end of the next window.
-  Arrivals arrivals_for(PeerNumber peer, double until);
-  void hear(PeerNumber from, Arrivals arrivals);
+  Handover handover_for(PeerNumber peer, double until);
+  void receive(PeerNumber from, Handover handover);
   void replay();
   void commit(double until);
   /// After it, and before anything is played: the window that is prepared ends so soon instead [s].
   void end_at(double until);
 
   PeerNumber number() const { return number_; }
-  double now() const { return portion_.world().now(); }
+  double now() const { return subdomain_.world().now(); }
   const std::vector<std::uint32_t>& owned() const { return owned_; }
   const std::vector<std::uint32_t>& ghosts() const { return ghosts_; }
-  BodyState state(std::uint32_t body) const { return portion_.state(body); }
+  BodyState state(std::uint32_t body) const { return subdomain_.state(body); }
   /// Where it certainly was: at the end of the window that was judged, or at its start if it is a
   /// ghost whose owner tells another story of that window. Once committed, now.
   Vector2 known_place(std::uint32_t body) const;
   /// All in rest contact or in one jam with it, directly or through others, itself first.
-  std::vector<std::uint32_t> group_of(std::uint32_t body) const { return portion_.group_of(body); }
-  const physics::World& world() const { return portion_.world(); }
+  std::vector<std::uint32_t> group_of(std::uint32_t body) const {
+    return subdomain_.group_of(body);
+  }
+  const physics::World& world() const { return subdomain_.world(); }
   double halo() const { return halos_[number_]; }
   const PeerCounters& counters() const { return counters_; }
   /// Why another peer's message cannot be true, naming it; empty if all could.
   const std::string& accusation() const { return accusation_; }
-  PeerNumber accused() const { return accused_; }
+  PeerNumber reported() const { return reported_; }
 
   /// At a window's start: asserts that every body has one role, that lists of own bodies and ghosts
   /// hold those of that role, each once, and that what others have of ours is ours.
@@ -202,7 +204,7 @@ class Peer {
   };
 
   // peer.cpp
-  Vector2 extent_of(std::uint32_t body) const { return portion_.world().half_extent({body}); }
+  Vector2 extent_of(std::uint32_t body) const { return subdomain_.world().half_extent({body}); }
   Vector2 start_place(std::uint32_t body) const;
   Box reach_of(std::uint32_t body) const;
   bool is_in_region(PeerNumber peer, const Box& box) const {
@@ -210,18 +212,18 @@ class Peer {
   }
   void play_anew();
   void play_keys(double until);
-  void set_holds(std::vector<Hold> holds);
+  void set_rest_contacts(std::vector<RestContact> rest_contacts);
   void correct_doubtful();
   void own_from_now(std::uint32_t body);
   void disown(std::uint32_t body);
   void settle(std::vector<std::uint32_t> candidates);
   void share_keys(double until);
 
-  // peer_arrivals.cpp
+  // peer_handovers.cpp
   bool knows(PeerNumber peer, std::uint32_t body) const;
   Box start_reach(std::uint32_t body) const;
-  void enter_bodies(const Arrivals& arrivals, PeerNumber from);
-  void complete_flown(Arrivals& arrivals, PeerNumber from);
+  void enter_bodies(const Handover& handover, PeerNumber from);
+  void complete_free_flights(Handover& handover, PeerNumber from);
 
   // peer_homes.cpp
   std::uint8_t home_of(const Vector2& place, std::uint8_t likely) const;
@@ -253,16 +255,16 @@ class Peer {
   std::vector<std::uint8_t> parts_of_events() const;
   std::uint64_t at_once_bound() const;
   double needed_halo() const;
-  bool hears_truth();
-  bool trusts_ghosts();
+  bool validate_claims();
+  bool validate_ghosts();
   void blame(bool doubts_ghosts);
-  bool accuse(PeerNumber peer, const std::string& of);
+  bool report(PeerNumber peer, const std::string& of);
 
   // peer_players.cpp
-  Glimpse glimpse_of(const Seat& seat) const;
-  std::vector<Glimpse> glimpses_for(PeerNumber peer) const;
-  void take_glimpses(PeerNumber from);
-  void take_presses();
+  Observation observation_of(const Seat& seat) const;
+  std::vector<Observation> observations_for(PeerNumber peer) const;
+  void handle_observations(PeerNumber from);
+  void handle_presses();
   void note_log();
 
   // peer_parts.cpp
@@ -272,7 +274,7 @@ class Peer {
   template <class Message, class... Instants>
   bool is_sound(PeerNumber from, const Message& message, Instants... instants);
 
-  physics::Portion portion_;
+  physics::Subdomain subdomain_;
   std::optional<Validator> validator_;
   Division division_;
   PeerNumber number_;
@@ -290,7 +292,7 @@ class Peer {
   Admission admission_;
   std::vector<std::uint32_t> changed_, left_;  // in the last commit: own bodies whose states
                                                // changed, or that came; and those that went
-  std::vector<std::uint32_t> flown_;           // likewise: that free impacts alone changed
+  std::vector<std::uint32_t> free_flights_;    // likewise: that free impacts alone changed
   std::vector<std::uint8_t> roles_, homes_, end_homes_,
       is_edge_;  // homes: 1 + number of the own zone in which a body is at home; 0 if in none, or
                  // if it has companions
@@ -308,12 +310,13 @@ class Peer {
                                   // and their companions take up then
   std::vector<std::vector<std::uint32_t>>
       known_;  // to each peer, at the window's start: which of the own bodies it has; sorted
-  std::vector<Hold> entered_holds_;  // of parts that were taken, until the first window begins
+  std::vector<RestContact>
+      entered_holds_;  // of parts that were taken, until the first window begins
   std::vector<std::vector<std::uint32_t>>
       coming_;  // to each peer, in the next window: which of the own bodies it will have; sorted
   std::vector<Key> keys_, due_;  // still to come, of own bats; in this window
   std::vector<Seat> seats_;
-  std::vector<Glimpse> glimpses_;
+  std::vector<Observation> observations_;
   std::vector<std::vector<Press>> presses_;  // by owner: to go with the next claims
   std::vector<Key> log_;
   std::vector<Step>
@@ -327,12 +330,12 @@ class Peer {
   std::vector<bool> is_unmoved_;  // likewise: nothing happened to it, its owner says
   std::vector<Claims> claims_;
   std::vector<Verdict> verdicts_;
-  std::vector<Arrivals> arrivals_;
+  std::vector<Handover> handovers_;
   std::uint64_t own_events_ = 0, ghost_events_ = 0;
   std::uint32_t attempts_ = 0;
   PeerCounters counters_;
   std::string accusation_;
-  PeerNumber accused_ = 0;
+  PeerNumber reported_ = 0;
 };
 
 }  // namespace rink::peer

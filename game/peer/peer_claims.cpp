@@ -38,9 +38,9 @@ void Peer::survey() {
 }
 
 void Peer::trace() {
-  const std::vector<physics::Change>& changes = portion_.journal().changes;
+  const std::vector<physics::Change>& changes = subdomain_.journal().changes;
   steps_.clear(), mixed_.clear();
-  own_events_ = portion_.journal().quiet_events, ghost_events_ = 0;
+  own_events_ = subdomain_.journal().quiet_events, ghost_events_ = 0;
   for (std::size_t begin = 0, end = 0; begin < changes.size(); begin = end) {
     bool has_own = false, has_ghost = false, has_edge = false;
     for (end = begin; end < changes.size() && changes[end].event == changes[begin].event; ++end) {
@@ -59,7 +59,7 @@ void Peer::trace() {
 }
 
 void Peer::enter_event(Events event) {
-  const std::vector<physics::Change>& changes = portion_.journal().changes;
+  const std::vector<physics::Change>& changes = subdomain_.journal().changes;
   assert(event.begin < event.end && event.end <= changes.size());
   std::uint64_t concerned = 0;
   for (std::size_t k = event.begin; k < event.end; ++k)
@@ -81,7 +81,7 @@ std::span<const Peer::Step> Peer::steps_of(std::uint32_t body) const {
 }
 
 physics::Motion Peer::motion_after(const Step& step) const {
-  const physics::Journal& journal = portion_.journal();
+  const physics::Journal& journal = subdomain_.journal();
   assert(step.change < journal.changes.size());
   const physics::Change& c = journal.changes[step.change];
   assert(c.body == step.body);
@@ -91,14 +91,14 @@ physics::Motion Peer::motion_after(const Step& step) const {
           {c.x, c.y},
           {c.vx, c.vy},
           {0.0, 0.0},
-          Vector2::Constant(portion_.world().spec().puck_drag)};
+          Vector2::Constant(subdomain_.world().spec().puck_drag)};
 }
 
 void Peer::lay_out_paths() {
   paths_.clear(), flights_.clear();
-  const std::vector<physics::Change>& changes = portion_.journal().changes;
+  const std::vector<physics::Change>& changes = subdomain_.journal().changes;
   for (const std::uint32_t body : edge_) {
-    if (portion_.was_gone(body)) continue;
+    if (subdomain_.was_gone(body)) continue;
     const std::span<const Step> steps = steps_of(body);
     const Vector2 extent = extent_of(body);
     const std::size_t first = flights_.size();
@@ -109,11 +109,12 @@ void Peer::lay_out_paths() {
     // them at home.
     const bool is_late = is_watched_[body] == late;
     flights_.push_back({start_, time_of(0), 0,
-                        is_late ? room_at_home(body).grown(extent.x(), extent.y())
-                                : swept(portion_.motion_before(body), start_, time_of(0), extent)});
+                        is_late
+                            ? room_at_home(body).grown(extent.x(), extent.y())
+                            : swept(subdomain_.motion_before(body), start_, time_of(0), extent)});
     for (std::size_t k = 0; k < steps.size(); ++k) {
       const physics::Motion motion = motion_after(steps[k]);
-      const bool is_out = k + 1 == steps.size() && !portion_.world().is_in_play({body});
+      const bool is_out = k + 1 == steps.size() && !subdomain_.world().is_in_play({body});
       flights_.push_back({time_of(k), time_of(k + 1), steps[k].state,
                           is_out ? Box::around(motion.position, extent)
                                  : swept(motion, time_of(k), time_of(k + 1), extent)});

@@ -21,9 +21,9 @@ constexpr double windows_watched = 24.0;
 std::uint8_t Peer::home_of(const Vector2& place, std::uint8_t likely) const {
   assert(likely <= interiors_.size());
   const Box point = Box::around(place, {0.0, 0.0});
-  if (likely != 0 && interiors_[likely - 1u].holds(point)) return likely;
+  if (likely != 0 && interiors_[likely - 1u].rest_contacts(point)) return likely;
   for (std::size_t k = 0; k < interiors_.size(); ++k)
-    if (interiors_[k].holds(point)) return static_cast<std::uint8_t>(k + 1);
+    if (interiors_[k].rest_contacts(point)) return static_cast<std::uint8_t>(k + 1);
   return 0;
 }
 
@@ -60,7 +60,7 @@ void Peer::watch(std::uint32_t body, Watch how) {
   if (is_watched_[body] != not_watched) return;
   is_watched_[body] = how;
   watched_.push_back(body);
-  portion_.set_room(body, 0);
+  subdomain_.set_room(body, 0);
 }
 
 bool Peer::stays(std::uint8_t home, const Vector2& place, const Vector2& velocity,
@@ -69,8 +69,8 @@ bool Peer::stays(std::uint8_t home, const Vector2& place, const Vector2& velocit
   const Box& interior = interiors_[home - 1u];
   const Vector2 farthest =
       place + velocity * (watched_until_ - since);  // drag only makes it shorter
-  return interior.holds(Box::around(place, {0.0, 0.0})) &&
-         interior.holds(Box::around(farthest, {0.0, 0.0}));
+  return interior.rest_contacts(Box::around(place, {0.0, 0.0})) &&
+         interior.rest_contacts(Box::around(farthest, {0.0, 0.0}));
 }
 
 /// At a window's start: all that might leave their homes before `watched_until_` though nothing
@@ -81,14 +81,14 @@ void Peer::choose_watched() {
   for (const std::uint32_t body : owned_) {
     const std::uint8_t home = homes_[body];
     is_watched_[body] = not_watched;
-    const auto flight = home == 0 ? std::nullopt : portion_.free_flight(body);
+    const auto flight = home == 0 ? std::nullopt : subdomain_.free_flight(body);
     if (!flight || !stays(home, {flight->x, flight->y}, {flight->vx, flight->vy}, flight->time))
       watch(body, watched);
-    else portion_.set_room(body, home);
+    else subdomain_.set_room(body, home);
   }
   std::vector<physics::Journal::Room> rooms;
   for (const Box& box : interiors_) rooms.push_back({box.low_x, box.low_y, box.high_x, box.high_y});
-  portion_.set_rooms(std::move(rooms), watched_until_);
+  subdomain_.set_rooms(std::move(rooms), watched_until_);
 }
 
 /// Which of the own bodies were not at home from the window's start to its end; and which are not
@@ -97,7 +97,7 @@ void Peer::find_edge() {
   for (const std::uint32_t body : edge_) is_edge_[body] = 0;
   edge_.clear(), outskirts_.clear();
   for (const std::uint32_t body : watched_) look_at(body);
-  for (const physics::Change& change : portion_.journal().changes) {
+  for (const physics::Change& change : subdomain_.journal().changes) {
     const std::uint32_t body = change.body;
     if (roles_[body] != own || is_edge_[body] != 0) continue;
     // Between two places in a convex interior a straight flight stays there; one that bends need
@@ -108,7 +108,7 @@ void Peer::find_edge() {
           stays(homes_[body], {change.x, change.y}, {change.vx, change.vy}, change.since)))
       watch(body, late), look_at(body);
     if (!is_straight ||
-        !interiors_[homes_[body] - 1u].holds({change.x, change.y, change.x, change.y}))
+        !interiors_[homes_[body] - 1u].rest_contacts({change.x, change.y, change.x, change.y}))
       note_edge(body);
   }
   std::sort(edge_.begin(), edge_.end());
@@ -118,14 +118,14 @@ void Peer::find_edge() {
 /// Without its infinite sides, from which nothing has a distance.
 Box Peer::room_at_home(std::uint32_t body) const {
   assert(homes_[body] > 0 && homes_[body] <= interiors_.size());
-  const physics::Field& field = portion_.world().spec().field;
+  const physics::Field& field = subdomain_.world().spec().field;
   const Box& room = interiors_[homes_[body] - 1u];
   return {std::max(room.low_x, -field.length), std::max(room.low_y, -field.width),
           std::min(room.high_x, 2.0 * field.length), std::min(room.high_y, 2.0 * field.width)};
 }
 
 void Peer::look_at(std::uint32_t body) {
-  const physics::World& world = portion_.world();
+  const physics::World& world = subdomain_.world();
   const std::uint8_t home = homes_[body];
   end_homes_[body] =
       world.is_held({body}) ? std::uint8_t{0} : home_of(world.position({body}), home);

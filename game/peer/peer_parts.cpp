@@ -10,20 +10,20 @@
 namespace rink::peer {
 
 void Peer::enter(std::uint32_t window, double start) {
-  assert(owned_.empty() && ghosts_.empty() && start >= portion_.world().now());
+  assert(owned_.empty() && ghosts_.empty() && start >= subdomain_.world().now());
   window_ = window, start_ = start;
-  portion_.advance(start);
+  subdomain_.advance(start);
 }
 
 /// `begin` sorts out whose is whose.
-void Peer::take(const Arrivals& part) {
+void Peer::take(const Handover& part) {
   for (const auto& [body, state] : part.bodies) {
-    if (body >= portion_.body_count() || portion_.is_there(body)) continue;
+    if (body >= subdomain_.body_count() || subdomain_.is_there(body)) continue;
     extent_max_ = std::max(extent_max_, state.extent().maxCoeff());
-    portion_.put(body, state);
+    subdomain_.put(body, state);
     ghosts_.push_back(body);
   }
-  entered_holds_.insert(entered_holds_.end(), part.holds.begin(), part.holds.end());
+  entered_holds_.insert(entered_holds_.end(), part.rest_contacts.begin(), part.rest_contacts.end());
   keys_.insert(keys_.end(), part.keys.begin(), part.keys.end());
 }
 
@@ -33,7 +33,7 @@ void Peer::make_room(PeerNumber peer_count) {
   halos_.resize(peer_count, usual_halo_);
   is_repeating_.resize(peer_count, false), is_present_.resize(peer_count, false);
   known_.resize(peer_count), coming_.resize(peer_count), presses_.resize(peer_count);
-  claims_.resize(peer_count), verdicts_.resize(peer_count), arrivals_.resize(peer_count);
+  claims_.resize(peer_count), verdicts_.resize(peer_count), handovers_.resize(peer_count);
 }
 
 /// All own bodies are looked at anew.
@@ -48,37 +48,38 @@ void Peer::divide(const Division& division) {
 
 /// Before the journal is forgotten.
 void Peer::note_changed() {
-  changed_.clear(), flown_.clear(), left_.clear();
-  for (const auto& kept : portion_.before().flights())
+  changed_.clear(), free_flights_.clear(), left_.clear();
+  for (const auto& kept : subdomain_.before().flights())
     if (roles_[kept.body] == own)
-      (portion_.has_only_flown(kept.body) ? flown_ : changed_).push_back(kept.body);
+      (subdomain_.has_flown_freely(kept.body) ? free_flights_ : changed_).push_back(kept.body);
 }
 
 PartChange Peer::change(bool is_whole) const {
   PartChange change{.step = 0,
-                    .time = portion_.world().now(),
+                    .time = subdomain_.world().now(),
                     .is_whole = is_whole,
                     .bodies = {},
                     .gone = {},
-                    .holds = {},
+                    .rest_contacts = {},
                     .keys = {},
                     .log = {}};
   std::vector<std::uint32_t> bodies = is_whole ? owned_ : changed_;
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   for (const std::uint32_t body : bodies)
-    if (roles_[body] == own) change.bodies.push_back({body, portion_.state(body)});
+    if (roles_[body] == own) change.bodies.push_back({body, subdomain_.state(body)});
   if (!is_whole) {
-    for (const std::uint32_t body : flown_)
-      if (roles_[body] == own) change.flown.push_back(Flown::of(body, portion_.flight(body)));
+    for (const std::uint32_t body : free_flights_)
+      if (roles_[body] == own)
+        change.free_flights.push_back(FreeFlightState::of(body, subdomain_.flight(body)));
     change.gone = left_;
     change.log = log_;
   }
   const auto is_own = [&](physics::Partner p) {
     return p < physics::partner::field_parts && roles_[p] == own;
   };
-  for (const Hold& hold : portion_.holds())
-    if (is_own(hold.low) || is_own(hold.high)) change.holds.push_back(hold);
+  for (const RestContact& rest : subdomain_.rest_contacts())
+    if (is_own(rest.low) || is_own(rest.high)) change.rest_contacts.push_back(rest);
   for (const std::vector<Key>* keys : {&due_, &keys_})
     for (const Key& key : *keys)
       if (key.input != 0 && roles_[key.bat] == own) change.keys.push_back(key);
@@ -87,15 +88,15 @@ PartChange Peer::change(bool is_whole) const {
 
 /// Nobody is in contact with it, and whoever has it from now on makes the same of what its owner
 /// had.
-void Peer::put_back(const Arrivals::Body& scored, const Vector2& place) {
+void Peer::put_back(const Handover::Body& scored, const Vector2& place) {
   const std::uint32_t body = scored.number;
   assert(body < roles_.size() && place.allFinite());
   const bool was_own = roles_[body] == own;
   std::erase(ghosts_, body);
   for (std::vector<std::uint32_t>& known : known_) std::erase(known, body);
-  if (!portion_.is_there(body)) portion_.put(body, scored.state);
+  if (!subdomain_.is_there(body)) subdomain_.put(body, scored.state);
   extent_max_ = std::max(extent_max_, scored.state.extent().maxCoeff());
-  portion_.place(body, place);
+  subdomain_.place(body, place);
   const Box reach = Box::around(place, extent_of(body));
   owners_[body] = division_.owner_of(place);
   const auto insert = [body](std::vector<std::uint32_t>& list) {
@@ -114,10 +115,10 @@ void Peer::put_back(const Arrivals::Body& scored, const Vector2& place) {
     is_watched_[body] = not_watched;
     roles_[body] = is_in_region(number_, reach) ? ghost : away;
     if (roles_[body] == ghost) insert(ghosts_);
-    else portion_.drop(body);
+    else subdomain_.drop(body);
   }
   if (!is_margin_fit()) choose_margin();
-  portion_.begin_window();
+  subdomain_.begin_window();
   if constexpr (checks_whole_structures) check();
 }
 

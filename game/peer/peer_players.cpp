@@ -15,62 +15,63 @@ bool Seat::is_due(double begin, double end) const {
   return end >= phase && (begin < phase || count(end) > count(begin));
 }
 
-Glimpse Peer::glimpse_of(const Seat& seat) const {
-  const physics::World& world = portion_.world();
-  Glimpse glimpse{.bat = seat.bat,
-                  .owner = 0,
-                  .time = world.now(),
-                  .position = world.position({seat.bat}),
-                  .velocity = world.velocity({seat.bat}),
-                  .pucks = {}};
+Observation Peer::observation_of(const Seat& seat) const {
+  const physics::World& world = subdomain_.world();
+  Observation observation{.bat = seat.bat,
+                          .owner = 0,
+                          .time = world.now(),
+                          .position = world.position({seat.bat}),
+                          .velocity = world.velocity({seat.bat}),
+                          .pucks = {}};
   assert(roles_[seat.bat] == own && world.kind({seat.bat}) == physics::BodyKind::bat);
-  glimpse.owner = division_.owner_of(glimpse.position);
+  observation.owner = division_.owner_of(observation.position);
   std::vector<std::pair<double, std::uint32_t>> nearest;
   if (seat.puck_count > 0)
     for (const std::vector<std::uint32_t>* bodies : {&owned_, &ghosts_})
       for (const std::uint32_t body : *bodies)
         if (world.kind({body}) == physics::BodyKind::puck && world.is_in_play({body}))
-          nearest.emplace_back((world.position({body}) - glimpse.position).squaredNorm(), body);
+          nearest.emplace_back((world.position({body}) - observation.position).squaredNorm(), body);
   const std::size_t count = std::min<std::size_t>(seat.puck_count, nearest.size());
   std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count),
                     nearest.end());
   nearest.resize(count);
   for (const auto& [square, body] : nearest)
-    glimpse.pucks.push_back(
+    observation.pucks.push_back(
         {body, world.position({body}), world.velocity({body}), world.radius({body})});
-  return glimpse;
+  return observation;
 }
 
 /// Of own bats whose players are due, at a window's end.
-std::vector<Glimpse> Peer::glimpses_for(PeerNumber peer) const {
-  std::vector<Glimpse> glimpses;
+std::vector<Observation> Peer::observations_for(PeerNumber peer) const {
+  std::vector<Observation> observations;
   for (const Seat& seat : seats_)
     if (seat.peer == peer && roles_[seat.bat] == own && seat.is_due(start_, end_))
-      glimpses.push_back(glimpse_of(seat));
-  return glimpses;
+      observations.push_back(observation_of(seat));
+  return observations;
 }
 
-std::vector<Glimpse> Peer::glimpses_of_all(PeerNumber player) const {
-  std::vector<Glimpse> glimpses;
+std::vector<Observation> Peer::observations_of_all(PeerNumber player) const {
+  std::vector<Observation> observations;
   for (const Seat& seat : seats_)
-    if (seat.peer == player && roles_[seat.bat] == own) glimpses.push_back(glimpse_of(seat));
-  return glimpses;
+    if (seat.peer == player && roles_[seat.bat] == own)
+      observations.push_back(observation_of(seat));
+  return observations;
 }
 
-void Peer::take_glimpses(PeerNumber from) {
-  for (Glimpse& glimpse : arrivals_[from].glimpses) {
+void Peer::handle_observations(PeerNumber from) {
+  for (Observation& observation : handovers_[from].observations) {
     const auto is_it = [&](const Seat& seat) {
-      return seat.bat == glimpse.bat && seat.peer == number_;
+      return seat.bat == observation.bat && seat.peer == number_;
     };
-    if (glimpse.owner >= claims_.size() || std::none_of(seats_.begin(), seats_.end(), is_it))
-      accuse(from, "shows bat " + std::to_string(glimpse.bat) + ", which nobody plays here");
-    else glimpses_.push_back(std::move(glimpse));
+    if (observation.owner >= claims_.size() || std::none_of(seats_.begin(), seats_.end(), is_it))
+      report(from, "shows bat " + std::to_string(observation.bat) + ", which nobody plays here");
+    else observations_.push_back(std::move(observation));
   }
 }
 
 /// All peers stamp alike: with the first instant that those who have the bat as a ghost can still
 /// be told of, or the one that the player wants.
-void Peer::take_presses() {
+void Peer::handle_presses() {
   claims_[number_].presses = std::exchange(presses_[number_], {});
   for (PeerNumber from = 0; from < claims_.size(); ++from) {
     for (const Press& press : claims_[from].presses) {
@@ -78,10 +79,10 @@ void Peer::take_presses() {
         return seat.bat == press.bat && seat.peer == from;
       };
       if (std::none_of(seats_.begin(), seats_.end(), is_it))
-        accuse(from,
+        report(from,
                "presses a key of bat " + std::to_string(press.bat) + ", which it does not play");
       else if (roles_[press.bat] != own)
-        accuse(from,
+        report(from,
                "presses a key of bat " + std::to_string(press.bat) + " here, where it is not");
       else
         keys_.push_back(

@@ -33,8 +33,9 @@ constexpr PeerNumber few_peers = 8;
 
 }  // namespace
 
-bool Peer::accuse(PeerNumber peer, const std::string& of) {
-  if (accusation_.empty()) accusation_ = "peer " + std::to_string(peer) + " " + of, accused_ = peer;
+bool Peer::report(PeerNumber peer, const std::string& of) {
+  if (accusation_.empty())
+    accusation_ = "peer " + std::to_string(peer) + " " + of, reported_ = peer;
   return false;
 }
 
@@ -45,32 +46,32 @@ void Peer::blame(bool doubts_ghosts) {
   assert(!doubts_ghosts || doubts_.size() == ghosts_.size());
   if (doubts_ghosts && doubted != doubts_.end()) {
     const std::uint32_t body = ghosts_[static_cast<std::size_t>(doubted - doubts_.begin())];
-    accuse(owners_[body], "claims what cannot be agreed with of body " + std::to_string(body));
+    report(owners_[body], "claims what cannot be agreed with of body " + std::to_string(body));
   }
   for (PeerNumber peer = 0; peer < verdicts_.size() && attempts_ >= attempts_before_blaming_doubt;
        ++peer)
     if (peer != number_ && is_present_[peer] && !verdicts_[peer].accepts)
-      accuse(peer, "accepts no run of window " + std::to_string(window_));
+      report(peer, "accepts no run of window " + std::to_string(window_));
 }
 
 /// Whether claims speak of the bodies that they should.
-bool Peer::hears_truth() {
+bool Peer::validate_claims() {
   std::vector<std::uint32_t> counts(claims_.size(), 0);
   for (const std::uint32_t body : ghosts_) ++counts[owners_[body]];
   for (PeerNumber peer = 0; peer < claims_.size(); ++peer) {
     if (peer == number_ || !is_present_[peer]) continue;
     if (claims_[peer].window != window_)
-      return accuse(peer, "claims window " + std::to_string(claims_[peer].window) + " instead of " +
+      return report(peer, "claims window " + std::to_string(claims_[peer].window) + " instead of " +
                               std::to_string(window_));
     if (claims_[peer].known_count != counts[peer])
-      return accuse(peer, "counts " + std::to_string(claims_[peer].known_count) +
+      return report(peer, "counts " + std::to_string(claims_[peer].known_count) +
                               " of its bodies here, there are " + std::to_string(counts[peer]));
     for (const Claims::Body& body : claims_[peer].bodies) {
       const bool is_there = body.number < roles_.size() &&
                             roles_[body.number] == (body.is_known ? ghost : away) &&
                             (!body.is_known || owners_[body.number] == peer);
       if (!is_there)
-        return accuse(peer,
+        return report(peer,
                       "claims body " + std::to_string(body.number) + ", which it does not own");
     }
   }
@@ -81,25 +82,25 @@ Vector2 Peer::known_place(std::uint32_t body) const {
   const auto found = std::lower_bound(ghosts_.begin(), ghosts_.end(), body);
   const auto place = static_cast<std::size_t>(found - ghosts_.begin());
   const bool is_doubtful = found != ghosts_.end() && *found == body && place < doubts_.size() &&
-                           doubts_[place] < infinity && !portion_.was_gone(body);
-  return is_doubtful ? portion_.motion_before(body).at(start_).position
-                     : portion_.world().position({body});
+                           doubts_[place] < infinity && !subdomain_.was_gone(body);
+  return is_doubtful ? subdomain_.motion_before(body).at(start_).position
+                     : subdomain_.world().position({body});
 }
 
 const Verdict& Peer::judge() {
   Verdict& verdict = verdicts_[number_];
   const double halo = halos_[number_], needed = needed_halo();
-  const bool is_true = hears_truth();
-  if (is_true) take_presses();
-  const bool is_trusted = is_true && trusts_ghosts();
+  const bool is_true = validate_claims();
+  if (is_true) handle_presses();
+  const bool is_trusted = is_true && validate_ghosts();
   if (attempts_ >= attempts_before_blame) blame(is_true && !is_trusted);
   const std::uint64_t at_once_max =
-      std::max(portion_.journal().at_once_max, physics::most_at_once(portion_.journal().times));
+      std::max(subdomain_.journal().at_once_max, physics::most_at_once(subdomain_.journal().times));
   verdict = {window_,
              is_trusted && needed <= halo,
              0.0f,
              at_once_max,
-             portion_.journal().was_hopeless,
+             subdomain_.journal().had_solver_failed,
              own_events_,
              wishes_to_leave_,
              parts_of_events(),
@@ -121,13 +122,13 @@ const Verdict& Peer::judge() {
 
 /// In the run of this window.
 std::vector<Goal> Peer::goals() const {
-  const physics::World& world = portion_.world();
+  const physics::World& world = subdomain_.world();
   std::vector<Goal> goals;
   if (world.spec().field.goal_width == 0.0) return goals;
   std::vector<std::uint32_t> pucks;
-  for (const physics::BeforeImages::KeptState& kept : portion_.before().states())
+  for (const physics::BeforeImages::KeptState& kept : subdomain_.before().states())
     if (roles_[kept.body] == own && kept.state.kind == physics::BodyKind::puck &&
-        !world.is_in_play({kept.body}) && !portion_.was_gone(kept.body))
+        !world.is_in_play({kept.body}) && !subdomain_.was_gone(kept.body))
       pucks.push_back(kept.body);
   std::sort(pucks.begin(), pucks.end());
   for (const std::uint32_t puck : pucks) {
@@ -140,7 +141,7 @@ std::vector<Goal> Peer::goals() const {
 std::vector<std::uint8_t> Peer::parts_of_events() const {
   assert(end_ >= start_);
   std::vector<std::uint8_t> parts;
-  const std::vector<double>& times = portion_.journal().times;
+  const std::vector<double>& times = subdomain_.journal().times;
   if (static_cast<PeerNumber>(std::count(is_present_.begin(), is_present_.end(), true)) <=
           few_peers ||
       times.size() > Verdict::listed_max)
@@ -189,7 +190,7 @@ double Peer::needed_halo() const {
 /// claimed path from then on.
 double Peer::first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> flights,
                               std::vector<PathFlight>& beyond) const {
-  const std::vector<physics::Change>& changes = portion_.journal().changes;
+  const std::vector<physics::Change>& changes = subdomain_.journal().changes;
   const std::span<const Step> steps = steps_of(ghost);
   std::size_t k = 0;
   while (k < steps.size() && k < flights.size() && steps[k].state == flights[k].state &&
@@ -200,8 +201,8 @@ double Peer::first_difference(std::uint32_t ghost, std::span<const ClaimedFlight
                there = k < flights.size() ? flights[k].begin : infinity;
   const double parting = std::min(here, there) - time_margin, flight_end = std::min(there, end_);
   const physics::Motion motion =
-      k == 0 ? portion_.motion_before(ghost) : motion_after(steps[k - 1]);
-  if (parting < flight_end && !portion_.was_gone(ghost))
+      k == 0 ? subdomain_.motion_before(ghost) : motion_after(steps[k - 1]);
+  if (parting < flight_end && !subdomain_.was_gone(ghost))
     beyond.push_back({parting, flight_end, 0,
                       swept(motion, std::max(parting, start_), flight_end, extent_of(ghost))});
   for (; k < flights.size(); ++k)
@@ -225,7 +226,7 @@ bool Peer::may_touch_own(const PathFlight& foreign) const {
 }
 
 /// Parts (a) and (b) of the rule.
-bool Peer::trusts_ghosts() {
+bool Peer::validate_ghosts() {
   doubts_.assign(ghosts_.size(), infinity);
   is_unmoved_.assign(ghosts_.size(), true);
   std::vector<PathFlight> beyond;
@@ -260,7 +261,7 @@ bool Peer::trusts_ghosts() {
     return false;
   return std::none_of(mixed_.begin(), mixed_.end(), [&](const Events& event) {
     for (std::size_t k = event.begin; k < event.end; ++k) {
-      const physics::Change& change = portion_.journal().changes[k];
+      const physics::Change& change = subdomain_.journal().changes[k];
       if (roles_[change.body] == ghost && change.time >= doubts_[place_of(change.body)])
         return true;
     }

@@ -10,11 +10,11 @@ namespace rink::peer {
 namespace {
 
 template <class Message>
-void hear(Peer& peer, PeerNumber from, std::span<const std::uint8_t> bytes) {
+void receive(Peer& peer, PeerNumber from, std::span<const std::uint8_t> bytes) {
   Message message;
   if (!read(bytes, message))
     throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
-  peer.hear(from, std::move(message));
+  peer.receive(from, std::move(message));
 }
 
 /// What `make(to)` makes goes to everybody else, and what they made is heard.
@@ -26,7 +26,7 @@ void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& mak
   if (meanwhile) meanwhile();
   for (PeerNumber from = 0; from < peer_count; ++from) {
     if (from == peer.number()) continue;
-    hear<decltype(make(from))>(peer, from, mail.receive(from));
+    receive<decltype(make(from))>(peer, from, mail.receive(from));
   }
   if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
 }
@@ -55,7 +55,7 @@ void agree(Peer& peer, PeerNumber peer_count, Mail& mail) {
   const auto verdicts = mail.share(peer.number(), peer_count, written(peer.verdict()));
   assert(verdicts.size() == peer_count && "who carries the mail gives one of each");
   for (PeerNumber from = 0; from < peer_count; ++from)
-    if (from != peer.number()) hear<Verdict>(peer, from, verdicts[from]);
+    if (from != peer.number()) receive<Verdict>(peer, from, verdicts[from]);
   if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
 }
 
@@ -66,46 +66,46 @@ void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next) {
   play_steps(peer, next, exchange, [&] { agree(peer, peer_count, mail); }, {});
 }
 
-Arrivals own_bodies(const Peer& peer) {
-  Arrivals all;
+Handover own_bodies(const Peer& peer) {
+  Handover all;
   const physics::WorldSpec& spec = peer.world().spec();
   for (const std::uint32_t body : peer.owned()) {
     const BodyState state = peer.state(body);
     if (state.flags == 0 && flies_straight(state, spec) && !spec.surface_friction)
-      all.flown.push_back(Flown::of(body, state.flight));
+      all.free_flights.push_back(FreeFlightState::of(body, state.flight));
     else all.bodies.push_back({body, state});
   }
-  assert(all.flown.size() + all.bodies.size() == peer.owned().size());
+  assert(all.free_flights.size() + all.bodies.size() == peer.owned().size());
   return all;
 }
 
 std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::uint32_t body_count,
-                                           std::span<const Arrivals> parts) {
+                                           std::span<const Handover> parts) {
   /// Where a body is told of, in one of the parts.
   struct Place {
     const BodyState* state = nullptr;
-    const Flown* flown = nullptr;
+    const FreeFlightState* free_flights = nullptr;
   };
   std::vector<Place> places(body_count);
   std::uint32_t known = 0;
   const auto take = [&](std::uint32_t body, Place place) {
-    if (body >= body_count || places[body].state != nullptr || places[body].flown != nullptr)
+    if (body >= body_count || places[body].state != nullptr || places[body].free_flights != nullptr)
       return false;
     places[body] = place;
     return ++known, true;
   };
-  for (const Arrivals& part : parts) {
+  for (const Handover& part : parts) {
     for (const auto& [body, state] : part.bodies)
       if (!take(body, {&state, nullptr})) return std::nullopt;
-    for (const Flown& flown : part.flown)
-      if (!take(flown.number, {nullptr, &flown})) return std::nullopt;
+    for (const FreeFlightState& free_flights : part.free_flights)
+      if (!take(free_flights.number, {nullptr, &free_flights})) return std::nullopt;
   }
   if (known != body_count) return std::nullopt;
   physics::BodyHash hash;
-  for (const auto& [state, flown] : places) {
-    if (flown != nullptr) {
+  for (const auto& [state, free_flights] : places) {
+    if (free_flights != nullptr) {
       physics::Flight flight{};
-      flown->write_to(flight);
+      free_flights->write_to(flight);
       hash.add(flight, nullptr, nullptr, 0, std::nullopt);
       continue;
     }

@@ -85,7 +85,7 @@ class ProtocolError : public std::runtime_error {
 };
 
 /// What a message of the protocol is about, for who counts them.
-enum class Subject : std::uint8_t { claims, verdict, arrivals };
+enum class Subject : std::uint8_t { claims, verdict, handover };
 
 /// Called in a window, where they are not empty: after its first run, which may yet be repeated or
 /// undone; when all have accepted; and when the others have been sent what they need for the next
@@ -112,15 +112,15 @@ void play_steps(Peer& peer, const double& next, Exchange&& exchange, Agree&& agr
     peer.judge();
     sending(Subject::verdict);
     agree();
-    sending(Subject::arrivals);
+    sending(Subject::handover);
     if (peer.conclude() == Outcome::final) break;
     exchange(
-        [&](PeerNumber to) { return peer.repeats(to) ? peer.arrivals_for_repeat(to) : Arrivals{}; },
+        [&](PeerNumber to) { return peer.repeats(to) ? peer.handover_for_repeat(to) : Handover{}; },
         nullptr);
     if (peer.repeats(peer.number())) peer.replay();
   }
   if (hooks.when_final) hooks.when_final();
-  exchange([&](PeerNumber to) { return peer.arrivals_for(to, next); }, hooks.when_told);
+  exchange([&](PeerNumber to) { return peer.handover_for(to, next); }, hooks.when_told);
   peer.commit(next);
 }
 
@@ -133,12 +133,12 @@ void agree(Peer& peer, PeerNumber peer_count, Mail& mail);
 void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next);
 
 /// At the end of everybody's last window: the states of the peer's own bodies.
-Arrivals own_bodies(const Peer& peer);
+Handover own_bodies(const Peer& peer);
 
 /// The hash (World::hash) of the whole of `body_count` bodies, of which each of `parts` has some;
 /// nothing unless each body is in one of them.
 std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::uint32_t body_count,
-                                           std::span<const Arrivals> parts);
+                                           std::span<const Handover> parts);
 
 /// The hash of a little world that has a bit of everything: builds that differ in it would part in
 /// a simulation.

@@ -32,16 +32,16 @@ std::string named(const char* what, std::uint32_t number, const char* fault) {
   return std::string(what) + " " + std::to_string(number) + " " + fault;
 }
 
-bool names(const Hold& hold, std::uint32_t body, int axis) {
-  return hold.axis == axis && (hold.low == body || hold.high == body);
+bool names(const RestContact& rest, std::uint32_t body, int axis) {
+  return rest.axis == axis && (rest.low == body || rest.high == body);
 }
 
 /// Of a body that is said to be in rest contact, whether the message has the contact.
-bool has_its_holds(const Arrivals::Body& body, const std::vector<Hold>& holds) {
+bool has_its_holds(const Handover::Body& body, const std::vector<RestContact>& rest_contacts) {
   for (const int axis : {0, 1})
-    if (physics::Portion::is_held_along(body.state, axis) &&
-        std::none_of(holds.begin(), holds.end(),
-                     [&](const Hold& hold) { return names(hold, body.number, axis); }))
+    if (physics::Subdomain::is_held_along(body.state, axis) &&
+        std::none_of(rest_contacts.begin(), rest_contacts.end(),
+                     [&](const RestContact& rest) { return names(rest, body.number, axis); }))
       return false;
   return true;
 }
@@ -58,7 +58,7 @@ Validator::Validator(const physics::World& world)
       reach_(2.0 * (world.spec().field.length + world.spec().field.width)),
       material_count_(world.spec().restitution.material_count()) {
   for (std::uint32_t body = 0; body < world.body_count(); ++body) {
-    const BodyConstants own = BodyConstants::of(physics::Portion::state_in(world, body));
+    const BodyConstants own = BodyConstants::of(physics::Subdomain::state_in(world, body));
     const auto known = std::find(constants_.begin(), constants_.end(), own);
     constants_of_.push_back(static_cast<std::uint32_t>(known - constants_.begin()));
     if (known == constants_.end()) constants_.push_back(own);
@@ -79,7 +79,7 @@ bool Validator::is_on_its_way(const physics::Motion& motion, double now) const {
   return is_place(then.position) && then.velocity.norm() <= speed_max;
 }
 
-std::string Validator::fault_of(const Arrivals::Body& body, double now) const {
+std::string Validator::fault_of(const Handover::Body& body, double now) const {
   const BodyState& s = body.state;
   if (!is_body(body.number)) return named("hands over body", body.number, "which does not exist");
   if (BodyConstants::of(s) != constants_[constants_of_[body.number]])
@@ -97,41 +97,42 @@ std::string Validator::fault_of(const Arrivals::Body& body, double now) const {
                           std::isfinite(s.repeats_instant) && !std::isnan(s.rest_time);
   if (!is_counted)
     return named("hands over body", body.number, "with times that are no numbers or still to come");
-  if (!physics::Portion::is_possible(s, static_cast<std::uint32_t>(constants_of_.size())))
+  if (!physics::Subdomain::is_possible(s, static_cast<std::uint32_t>(constants_of_.size())))
     return named("hands over body", body.number, "in a state that does not exist");
   physics::Motion motion = s.motion();
   // Who is out of play stays where it is.
-  if (physics::Portion::is_out_of_play(s)) motion.velocity = motion.acceleration = {0.0, 0.0};
+  if (physics::Subdomain::is_out_of_play(s)) motion.velocity = motion.acceleration = {0.0, 0.0};
   return is_on_its_way(motion, now) && s.motion().velocity.norm() <= speed_max
              ? std::string()
              : named("hands over body", body.number, "at no place, speed or time");
 }
 
-std::string Validator::fault_of(const Flown& flown, double now) const {
-  if (!is_body(flown.number)) return named("hands over body", flown.number, "which does not exist");
-  const physics::Motion motion{.time = flown.time,
-                               .position = flown.position,
-                               .velocity = flown.velocity,
+std::string Validator::fault_of(const FreeFlightState& free_flights, double now) const {
+  if (!is_body(free_flights.number))
+    return named("hands over body", free_flights.number, "which does not exist");
+  const physics::Motion motion{.time = free_flights.time,
+                               .position = free_flights.position,
+                               .velocity = free_flights.velocity,
                                .drag = Vector2::Constant(puck_drag_)};
   return is_on_its_way(motion, now)
              ? std::string()
-             : named("hands over body", flown.number, "at no place, speed or time");
+             : named("hands over body", free_flights.number, "at no place, speed or time");
 }
 
-std::string Validator::fault_of(const Hold& hold) const {
+std::string Validator::fault_of(const RestContact& rest) const {
   const auto is_partner = [&](physics::Partner p) {
     return is_body(p) || (p >= physics::partner::field_parts && p <= physics::partner::halfway);
   };
   const auto is_moving = [&](physics::Partner p) {
     return is_body(p) && !is_of_kind(p, physics::BodyKind::post);
   };
-  if (!is_partner(hold.low) || !is_partner(hold.high) || hold.low == hold.high)
-    return "hands over a rest contact of body " + std::to_string(hold.low) + " with " +
-           std::to_string(hold.high) + ", which cannot be";
-  if (!is_moving(hold.low) && !is_moving(hold.high))
+  if (!is_partner(rest.low) || !is_partner(rest.high) || rest.low == rest.high)
+    return "hands over a rest contact of body " + std::to_string(rest.low) + " with " +
+           std::to_string(rest.high) + ", which cannot be";
+  if (!is_moving(rest.low) && !is_moving(rest.high))
     return "hands over a rest contact of two that cannot move";
-  const bool has_times = !std::isnan(hold.pull_time) && !std::isnan(hold.turn_time) &&
-                         is_within(hold.force, force_max) && std::isfinite(hold.age.time);
+  const bool has_times = !std::isnan(rest.pull_time) && !std::isnan(rest.turn_time) &&
+                         is_within(rest.force, force_max) && std::isfinite(rest.age.time);
   return has_times ? std::string()
                    : "hands over a rest contact whose times or force are no numbers";
 }
@@ -144,13 +145,14 @@ std::string Validator::fault_of(const Key& key) const {
                "which is none, or whose time or thrust is no number or too large");
 }
 
-std::string Validator::fault_of(const Glimpse& glimpse) const {
-  bool is_sound = is_of_kind(glimpse.bat, physics::BodyKind::bat) && std::isfinite(glimpse.time) &&
-                  is_place(glimpse.position) && is_number(glimpse.velocity);
-  for (const Glimpse::Puck& puck : glimpse.pucks)
+std::string Validator::fault_of(const Observation& observation) const {
+  bool is_sound = is_of_kind(observation.bat, physics::BodyKind::bat) &&
+                  std::isfinite(observation.time) && is_place(observation.position) &&
+                  is_number(observation.velocity);
+  for (const Observation::Puck& puck : observation.pucks)
     is_sound = is_sound && is_body(puck.number) && is_place(puck.position) &&
                is_number(puck.velocity) && std::isfinite(puck.radius) && puck.radius >= 0.0;
-  return is_sound ? std::string() : named("shows bat", glimpse.bat, "as it cannot be");
+  return is_sound ? std::string() : named("shows bat", observation.bat, "as it cannot be");
 }
 
 template <class Item, class... Instant>
@@ -160,13 +162,14 @@ std::string Validator::first_fault(const std::vector<Item>& list, Instant... now
   return {};
 }
 
-std::string Validator::fault_of(const Arrivals& message, double now) const {
+std::string Validator::fault_of(const Handover& message, double now) const {
   for (const std::string& fault :
-       {first_fault(message.bodies, now), first_fault(message.flown, now),
-        first_fault(message.holds), first_fault(message.keys), first_fault(message.glimpses)})
+       {first_fault(message.bodies, now), first_fault(message.free_flights, now),
+        first_fault(message.rest_contacts), first_fault(message.keys),
+        first_fault(message.observations)})
     if (!fault.empty()) return fault;
-  for (const Arrivals::Body& body : message.bodies)
-    if (!has_its_holds(body, message.holds))
+  for (const Handover::Body& body : message.bodies)
+    if (!has_its_holds(body, message.rest_contacts))
       return named("hands over body", body.number, "in a rest contact that it does not hand over");
   return {};
 }
@@ -195,13 +198,13 @@ std::string Validator::fault_of(const Verdict& message) const {
 
 std::string Validator::fault_of(const PartChange& message, double now) const {
   for (const std::string& fault :
-       {first_fault(message.bodies, now), first_fault(message.flown, now),
-        first_fault(message.holds), first_fault(message.keys), first_fault(message.log)})
+       {first_fault(message.bodies, now), first_fault(message.free_flights, now),
+        first_fault(message.rest_contacts), first_fault(message.keys), first_fault(message.log)})
     if (!fault.empty()) return fault;
   for (const std::uint32_t body : message.gone)
     if (!is_body(body)) return named("gives away body", body, "which does not exist");
-  for (const Arrivals::Body& body : message.bodies)
-    if (!has_its_holds(body, message.holds))
+  for (const Handover::Body& body : message.bodies)
+    if (!has_its_holds(body, message.rest_contacts))
       return named("tells of body", body.number, "in a rest contact of which it does not tell");
   return message.time == now ? std::string() : "tells of its part at another time";
 }

@@ -7,7 +7,7 @@
 
 #include "game/peer/messages.h"
 #include "game/peer/session/loss.h"
-#include "game/peer/session/mirror.h"
+#include "game/peer/session/part_replica.h"
 #include "game/peer/session/scoring.h"
 
 namespace rink::peer {
@@ -34,7 +34,7 @@ class Validator {
 
   /// What is wrong with the message, as in "hands over body 7 at no place"; empty if nothing is.
   /// `now` [s] is the instant of the states in it, `end` [s] that of the window of which it tells.
-  std::string fault_of(const Arrivals& message, double now) const;
+  std::string fault_of(const Handover& message, double now) const;
   std::string fault_of(const Claims& message, double end) const;
   std::string fault_of(const Verdict& message) const;
   std::string fault_of(const PartChange& message, double now) const;
@@ -43,11 +43,11 @@ class Validator {
   std::string fault_of(const std::vector<Key>& log) const;
 
  private:
-  std::string fault_of(const Arrivals::Body& body, double now) const;
-  std::string fault_of(const Flown& flown, double now) const;
-  std::string fault_of(const Hold& hold) const;
+  std::string fault_of(const Handover::Body& body, double now) const;
+  std::string fault_of(const FreeFlightState& free_flights, double now) const;
+  std::string fault_of(const RestContact& rest) const;
   std::string fault_of(const Key& key) const;
-  std::string fault_of(const Glimpse& glimpse) const;
+  std::string fault_of(const Observation& observation) const;
   template <class Item, class... Instant>
   std::string first_fault(const std::vector<Item>& list, Instant... now) const;
   bool is_on_its_way(const physics::Motion& motion, double now) const;

@@ -11,13 +11,13 @@
 namespace rink::peer {
 
 template <class Make>
-void WindowPlay::say_to_all(Subject about, Make&& make) {
+void WindowPlay::send_to_all(Subject about, Make&& make) {
   for (PeerNumber to = 0; to < peer_count_; ++to)
-    if (to != peer_.number()) say_(to, about, written(make(to)));
+    if (to != peer_.number()) send_(to, about, written(make(to)));
 }
 
 template <class Message>
-void WindowPlay::take_from_all() {
+void WindowPlay::receive_from_all() {
   for (PeerNumber from = 0; from < peer_count_; ++from) {
     if (from == peer_.number()) continue;
     assert(!inboxes_[from].empty());
@@ -25,8 +25,8 @@ void WindowPlay::take_from_all() {
     if (!read(inboxes_[from].front(), message))
       throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
     inboxes_[from].pop_front();
-    heard_ -= inboxes_[from].empty();
-    peer_.hear(from, std::move(message));
+    received_ -= inboxes_[from].empty();
+    peer_.receive(from, std::move(message));
   }
   if (!peer_.accusation().empty()) throw ProtocolError(peer_.accusation());
 }
@@ -35,28 +35,28 @@ void WindowPlay::begin(double next) {
   assert(!is_playing() && std::isfinite(next) && next > peer_.end());
   next_ = next;
   peer_.play();
-  say_to_all(Subject::claims, [&](PeerNumber to) { return peer_.claims_for(to); });
+  send_to_all(Subject::claims, [&](PeerNumber to) { return peer_.claims_for(to); });
   step_ = Step::claims;
   go_on();
 }
 
-void WindowPlay::hear(PeerNumber from, std::vector<std::uint8_t> bytes) {
+void WindowPlay::receive(PeerNumber from, std::vector<std::uint8_t> bytes) {
   assert(from < peer_count_ && from != peer_.number());
-  heard_ += inboxes_[from].empty();
+  received_ += inboxes_[from].empty();
   inboxes_[from].push_back(std::move(bytes));
   go_on();
 }
 
 void WindowPlay::go_on() {
-  while (is_playing() && heard_ + 1 == peer_count_) advance();
+  while (is_playing() && received_ + 1 == peer_count_) advance();
   if constexpr (checks_whole_structures) check();
 }
 
 void WindowPlay::check() const {
   assert(inboxes_.size() == peer_count_ && inboxes_[peer_.number()].empty());
-  assert(heard_ == static_cast<PeerNumber>(std::ranges::count_if(
-                       inboxes_, [](const auto& inbox) { return !inbox.empty(); })));
-  assert((!is_playing() || heard_ + 1 < peer_count_) && "what all have said was taken at once");
+  assert(received_ == static_cast<PeerNumber>(std::ranges::count_if(
+                          inboxes_, [](const auto& inbox) { return !inbox.empty(); })));
+  assert((!is_playing() || received_ + 1 < peer_count_) && "what all have said was taken at once");
 }
 
 void WindowPlay::advance() {
@@ -64,33 +64,34 @@ void WindowPlay::advance() {
     case Step::resting:
       return;
     case Step::claims:
-      take_from_all<Claims>();
+      receive_from_all<Claims>();
       peer_.judge();
       if (!peer_.accusation().empty()) throw ProtocolError(peer_.accusation());
-      say_to_all(Subject::verdict, [&](PeerNumber) { return peer_.verdict(); });
+      send_to_all(Subject::verdict, [&](PeerNumber) { return peer_.verdict(); });
       step_ = Step::verdicts;
       return;
     case Step::verdicts:
-      take_from_all<Verdict>();
+      receive_from_all<Verdict>();
       if (peer_.conclude() == Outcome::final) {
-        say_to_all(Subject::arrivals, [&](PeerNumber to) { return peer_.arrivals_for(to, next_); });
-        step_ = Step::arrivals;
+        send_to_all(Subject::handover,
+                    [&](PeerNumber to) { return peer_.handover_for(to, next_); });
+        step_ = Step::handover;
         if (on_final) on_final();
       } else {
-        say_to_all(Subject::arrivals, [&](PeerNumber to) {
-          return peer_.repeats(to) ? peer_.arrivals_for_repeat(to) : Arrivals{};
+        send_to_all(Subject::handover, [&](PeerNumber to) {
+          return peer_.repeats(to) ? peer_.handover_for_repeat(to) : Handover{};
         });
         step_ = Step::repeats;
       }
       return;
     case Step::repeats:
-      take_from_all<Arrivals>();
+      receive_from_all<Handover>();
       if (peer_.repeats(peer_.number())) peer_.replay();
-      say_to_all(Subject::claims, [&](PeerNumber to) { return peer_.claims_for(to); });
+      send_to_all(Subject::claims, [&](PeerNumber to) { return peer_.claims_for(to); });
       step_ = Step::claims;
       return;
-    case Step::arrivals:
-      take_from_all<Arrivals>();
+    case Step::handover:
+      receive_from_all<Handover>();
       peer_.commit(next_);
       step_ = Step::resting;
       if (on_commit) on_commit();

@@ -16,11 +16,11 @@ namespace rink::peer {
 /// ahead also those of the next window.
 class WindowPlay {
  public:
-  using Say = std::function<void(PeerNumber to, Subject about, std::vector<std::uint8_t> bytes)>;
+  using Send = std::function<void(PeerNumber to, Subject about, std::vector<std::uint8_t> bytes)>;
   /// `peer` and what `say` needs must outlive it.
-  WindowPlay(Peer& peer, PeerNumber peer_count, Say say)
-      : peer_(peer), peer_count_(peer_count), say_(std::move(say)), inboxes_(peer_count) {
-    assert(peer.number() < peer_count && say_);
+  WindowPlay(Peer& peer, PeerNumber peer_count, Send say)
+      : peer_(peer), peer_count_(peer_count), send_(std::move(say)), inboxes_(peer_count) {
+    assert(peer.number() < peer_count && send_);
   }
 
   /// Called when all have accepted, before anything is handed over: what the peer's own bodies are
@@ -31,29 +31,29 @@ class WindowPlay {
 
   bool is_playing() const { return step_ != Step::resting; }
   /// Plays the window that is prepared (only if none is being played), and prepares the next, which
-  /// ends at `next` [s], once it is final. Throws ProtocolError, as `hear` does.
+  /// ends at `next` [s], once it is final. Throws ProtocolError, as `receive` does.
   void begin(double next);
   /// `from` is another peer.
-  void hear(PeerNumber from, std::vector<std::uint8_t> bytes);
+  void receive(PeerNumber from, std::vector<std::uint8_t> bytes);
 
   /// Asserts that those who were heard are counted, and that nothing is heard of the own peer.
   void check() const;
 
  private:
-  enum class Step : std::uint8_t { resting, claims, verdicts, repeats, arrivals };
+  enum class Step : std::uint8_t { resting, claims, verdicts, repeats, handover };
 
   template <class Make>
-  void say_to_all(Subject about, Make&& make);
+  void send_to_all(Subject about, Make&& make);
   template <class Message>
-  void take_from_all();
+  void receive_from_all();
   void go_on();
   void advance();
 
   Peer& peer_;
   PeerNumber peer_count_;
-  Say say_;
+  Send send_;
   std::vector<std::deque<std::vector<std::uint8_t>>> inboxes_;  ///< by peer
-  PeerNumber heard_ = 0;                                        ///< how many of them hold something
+  PeerNumber received_ = 0;                                     ///< how many of them hold something
   Step step_ = Step::resting;
   double next_ = 0.0;
 };

@@ -41,23 +41,23 @@ struct BodyState {
 /// those that others bring about, which come at once; `lower` and `higher` are therefore the
 /// highest pair that the instant has seen so far. What keys of the instant bring about comes after
 /// all that would have happened without them.
-struct HoldAge {
+struct RestContactAge {
   double time = 0.0;
   bool follows_keys = false;
   std::uint32_t lower = 0, higher = 0, rank = 0;
-  friend auto operator<=>(const HoldAge&, const HoldAge&) = default;
+  friend auto operator<=>(const RestContactAge&, const RestContactAge&) = default;
 };
 
 /// A rest contact along `axis`; `low` is on the side of smaller coordinates. Fixed partners are
 /// posts or parts of the field.
-struct Hold {
+struct RestContact {
   Partner low = partner::none, high = partner::none;
   int axis = 0;
   Real pull_time = 0.0;  ///< when the contact force vanishes by drag
   Real force = 0.0;      ///< of the last solution
   Real turn_time = 0.0;  ///< when the friction of pucks in the group takes another direction, or
                          ///< all of it has come to a stop
-  HoldAge age;           ///< holds stand in order of it; only known where a journal is kept
+  RestContactAge age;    ///< holds stand in order of it; only known where a journal is kept
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

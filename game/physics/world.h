@@ -125,7 +125,7 @@ class World final : public Simulator {
   const World* exact_world() const override { return this; }
 
  private:
-  friend class Portion;
+  friend class Subdomain;
   explicit World(std::unique_ptr<Engine> engine);
   std::unique_ptr<Engine> engine_;
 };

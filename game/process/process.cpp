@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t output_kept_max = 64 * 1024;
 constexpr std::size_t errors_kept_max = 8 * 1024;
-constexpr std::size_t last_words_max = 2 * 1024;
+constexpr std::size_t stderr_tail_max = 2 * 1024;
 
 struct Pipe {
   int read_end = -1, write_end = -1;
@@ -49,7 +49,7 @@ struct Program {
 };
 
 /// The child's side of the fork.
-[[noreturn]] void become(const Program& program) {
+[[noreturn]] void exec_child(const Program& program) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, program.signal_when_orphaned);
   if (getppid() != program.parent) _exit(127);  // the parent died before the line above
@@ -99,14 +99,14 @@ Process::Process(const std::filesystem::path& executable, const std::vector<std:
   const pid_t parent = getpid();
   id_ = fork();
   if (id_ == 0) {
-    become({.path = path.c_str(),
-            .arguments = pointers.data(),
-            .processors = settings.processors.empty() ? nullptr : &set,
-            .signal_when_orphaned = settings.signal_when_orphaned,
-            .parent = parent,
-            .output = output.write_end,
-            .errors = settings.joins_errors ? output.write_end : errors.write_end,
-            .failure = failure.write_end});
+    exec_child({.path = path.c_str(),
+                .arguments = pointers.data(),
+                .processors = settings.processors.empty() ? nullptr : &set,
+                .signal_when_orphaned = settings.signal_when_orphaned,
+                .parent = parent,
+                .output = output.write_end,
+                .errors = settings.joins_errors ? output.write_end : errors.write_end,
+                .failure = failure.write_end});
   }
   const int fork_error = errno;
   close(output.write_end);
@@ -193,10 +193,10 @@ std::optional<std::string> Process::line_after(const std::string& beginning) con
 
 std::string Process::take_output() { return std::exchange(output_text_, {}); }
 
-std::string Process::last_words() const {
+std::string Process::stderr_tail() const {
   std::string text = errors_text_;
   while (!text.empty() && text.back() == '\n') text.pop_back();
-  if (text.size() > last_words_max) text.erase(0, text.size() - last_words_max);
+  if (text.size() > stderr_tail_max) text.erase(0, text.size() - stderr_tail_max);
   std::string words;
   for (const char letter : text) {
     if (letter == '\n') {

@@ -55,7 +55,7 @@ class Process {
   std::string take_output();
   /// The last lines of its standard error, at most 2 kB, on one line: newlines become ` / `, other
   /// control characters `?`.
-  std::string last_words() const;
+  std::string stderr_tail() const;
 
   /// Asks the whole group to end (SIGTERM), waits up to `grace`, then kills it. Returns when the
   /// process is gone.

@@ -38,7 +38,7 @@ Publisher::Publisher(const ObjectModel& model, rti::Ambassador& ambassador, Upda
   const physics::Field& field = game.world().spec().field;
   const Extent extent{.length = static_cast<float>(field.length),
                       .width = static_cast<float>(field.width)};
-  const Drag drag = policy.told_drag(game.world().spec());
+  const Drag drag = policy.sent_drag(game.world().spec());
   ambassador_.update_attribute_values(field_, {model_.extent, model_.drag},
                                       encode(encoded_, extent, drag), {});
   ambassador_.update_attribute_values(score_, {model_.goals}, encode(encoded_, goals_), {});
@@ -169,8 +169,8 @@ void Publisher::keep_order() {
                                               rti::Order::timestamp);
 }
 
-void Publisher::tell(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
-                     const rti::Stamp& stamp) {
+void Publisher::notify(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
+                       const rti::Stamp& stamp) {
   if (keeps_order_ && stamp.time >= ambassador_.clock().earliest())
     ambassador_.update_attribute_values(object, attributes, values, rti::LogicalTime(stamp.time),
                                         stamp.tag);
@@ -201,17 +201,17 @@ bool Publisher::fly(const Game& game, const Entity& entity, Published& published
   const std::uint32_t version = game.world().motion_version(entity.id);
   const bool is_in_play = game.world().is_in_play(
       entity.id);  // a scored puck lies where it left play, whatever its motion was
-  if (is_in_play && published.flown == version) return true;
+  if (is_in_play && published.registered_flight == version) return true;
   const physics::Motion motion = game.world().motion(entity.id);
   const double drag = game.world().spec().puck_drag;
   const bool has_law = motion.drag.x() == drag && motion.drag.y() == drag &&
                        motion.rest_time == std::numeric_limits<double>::infinity();
   if (!is_in_play || !motion.acceleration.isZero(0.0) ||
       !(has_law || motion.velocity.isZero(0.0))) {
-    published.flown.reset();
+    published.registered_flight.reset();
     return false;
   }
-  published.flown = version;
+  published.registered_flight = version;
   published.position = rounded(game.position(entity.id));
   moved_.push_back({published.region, bounding_box(game.position(entity.id), entity.half_extent)});
   flights_.push_back({published.object,
@@ -243,7 +243,7 @@ bool Publisher::update(const Game& game, Published& published, const Input& inpu
     }
     counters_.motions_sent += is_due ? 1u : 0u;
     counters_.inputs_sent += has_felt ? 1u : 0u;
-    tell(published.object, sent, encoded_, stamp);
+    notify(published.object, sent, encoded_, stamp);
   }
   schedule(game, published);
   return is_due || has_felt;
@@ -255,8 +255,8 @@ double Publisher::region_holds_until(const Game& game, const Published& publishe
   if (sweep_.is_on()) return sweep_.holds_until(published.swept);
   const bool is_fixed =
       published.entity.kind == physics::BodyKind::post || !game.world().is_in_play(id);
-  const bool stays =
-      is_fixed || (hands_in_flights_ ? published.flown.has_value() : game.world().is_resting(id));
+  const bool stays = is_fixed || (hands_in_flights_ ? published.registered_flight.has_value()
+                                                    : game.world().is_resting(id));
   return stays ? never : game.now();
 }
 
@@ -302,7 +302,7 @@ void Publisher::publish_score(const Game& game, const rti::Stamp& stamp) {
                     .is_over = static_cast<std::uint8_t>(game.is_over())};
   if (goals == goals_) return;
   goals_ = goals;
-  tell(score_, {model_.goals}, encode(encoded_, goals), stamp);
+  notify(score_, {model_.goals}, encode(encoded_, goals), stamp);
 }
 
 }  // namespace rink::game

@@ -59,12 +59,12 @@ class Publisher {
   /// that friction brings to rest, fly by another law, so their regions follow them as ever.
   /// Changes nothing where regions are swept.
   void hand_in_flights() { hands_in_flights_ = !sweep_.is_on(); }
-  struct Flown {
+  struct FlightRegistration {
     rti::ObjectHandle object;
     im::Flight flight;
   };
   /// That the last `publish` found to be new.
-  std::span<const Flown> flights() const { return flights_; }
+  std::span<const FlightRegistration> flights() const { return flights_; }
 
   /// The RTI object of `entity`, which must be in the game.
   rti::ObjectHandle object(EntityId entity) const {
@@ -89,8 +89,9 @@ class Publisher {
     Entity entity;
     Position position;  ///< that its region was last moved to
     Input input;
-    double wake_s = never;               ///< the earliest of `wakes_` that is its own
-    std::optional<std::uint32_t> flown;  ///< version of the motion whose flight was handed in
+    double wake_s = never;  ///< the earliest of `wakes_` that is its own
+    std::optional<std::uint32_t>
+        registered_flight;  ///< version of the motion whose flight was handed in
     RegionSweep::Swept swept;
   };
 
@@ -111,8 +112,8 @@ class Publisher {
   bool update(const Game& game, Published& published, const Input& input, const rti::Stamp& stamp);
   double region_holds_until(const Game& game, const Published& published) const;
   void schedule(const Game& game, Published& published);
-  void tell(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
-            const rti::Stamp& stamp);
+  void notify(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
+              const rti::Stamp& stamp);
   void publish_score(const Game& game, const rti::Stamp& stamp);
 
   const ObjectModel& model_;
@@ -125,7 +126,7 @@ class Publisher {
   std::vector<EntityId> active_, looked_;  ///< to be looked at at the next tick, and at this; by id
   std::vector<Wake> wakes_;                ///< a heap, earliest first
   std::vector<Registered> registered_;
-  std::vector<Flown> flights_;
+  std::vector<FlightRegistration> flights_;
   std::vector<rti::RegionBounds> moved_;
   std::vector<std::byte> encoded_;
   rti::ObjectHandle field_, score_;

@@ -50,7 +50,7 @@ Vector2 thrust_of(const Motion& motion, const Resistance& own) {
                                                                : motion.acceleration;
 }
 
-Vector2 told_drag(const Motion& motion, double own) {
+Vector2 sent_drag(const Motion& motion, double own) {
   return {motion.drag.x() == own ? Trajectory::of_its_kind : motion.drag.x(),
           motion.drag.y() == own ? Trajectory::of_its_kind : motion.drag.y()};
 }
@@ -69,14 +69,14 @@ Trajectory trajectory_of(const physics::World& world, physics::BodyId body) {
   const double time = std::floor(world.now() / trajectory_time_step) * trajectory_time_step;
   assert(time <= world.now() && world.now() - time < trajectory_time_step);
   const Motion there = at_or_before(motion, time);
-  Trajectory told{.time = time,
+  Trajectory sent{.time = time,
                   .position = rounded_to(trajectory_position_step, there.position),
                   .velocity = rounded_to(trajectory_velocity_step, there.velocity),
                   .acceleration = single_precision(thrust_of(motion, own)),
-                  .drag = told_drag(motion, own.drag)};
-  if (told.is_resting())
-    told = {.position = rounded_to(trajectory_position_step, world.position(body))};
-  return told;
+                  .drag = sent_drag(motion, own.drag)};
+  if (sent.is_resting())
+    sent = {.position = rounded_to(trajectory_position_step, world.position(body))};
+  return sent;
 }
 
 Trajectory extrapolation_of(const Vector2& position, const Vector2& velocity, double now,
@@ -91,54 +91,54 @@ Trajectory extrapolation_of(const Vector2& position, const Vector2& velocity, do
   if (own.friction > 0.0) onwards.slide(own.friction);
   const double time = std::floor(now / trajectory_time_step) * trajectory_time_step;
   const Motion there = at_or_before(onwards, time);
-  const Trajectory told{.time = time,
+  const Trajectory sent{.time = time,
                         .position = rounded_to(trajectory_position_step, there.position),
                         .velocity = rounded_to(trajectory_velocity_step, there.velocity)};
-  if (told.is_resting()) return {.position = rounded_to(trajectory_position_step, position)};
-  return told;
+  if (sent.is_resting()) return {.position = rounded_to(trajectory_position_step, position)};
+  return sent;
 }
 
-physics::Motion motion_of(const Trajectory& told, const Resistance& own) {
+physics::Motion motion_of(const Trajectory& sent, const Resistance& own) {
   assert(own.drag >= 0.0 && own.friction >= 0.0);
   const auto drag = [&own](double value) {
     return value == Trajectory::of_its_kind ? own.drag : value;
   };
-  Motion motion{.time = told.time,
-                .position = told.position,
-                .velocity = told.velocity,
-                .acceleration = told.acceleration,
-                .drag = {drag(told.drag.x()), drag(told.drag.y())}};
-  if (own.friction > 0.0 && told.acceleration.isZero(0.0)) motion.slide(own.friction);
+  Motion motion{.time = sent.time,
+                .position = sent.position,
+                .velocity = sent.velocity,
+                .acceleration = sent.acceleration,
+                .drag = {drag(sent.drag.x()), drag(sent.drag.y())}};
+  if (own.friction > 0.0 && sent.acceleration.isZero(0.0)) motion.slide(own.friction);
   return motion;
 }
 
-double holds_until(const physics::World& world, physics::BodyId body, const Trajectory& told) {
+double holds_until(const physics::World& world, physics::BodyId body, const Trajectory& sent) {
   constexpr double forever = std::numeric_limits<double>::infinity(), never = -forever;
   const double now = world.now();
   const Resistance own = own_resistance(world, body);
   if (!can_move(world, body))
-    return told.is_resting() &&
-                   (told.position - world.position(body)).norm() <= trajectory_error_max
+    return sent.is_resting() &&
+                   (sent.position - world.position(body)).norm() <= trajectory_error_max
                ? forever
                : never;
-  const Motion motion = world.motion(body), law = motion_of(told, own);
+  const Motion motion = world.motion(body), law = motion_of(sent, own);
   const Vector2 thrust = thrust_of(motion, own);
   // One that was told to rest has no law yet: a body that creeps on without thrust is compared with
   // its own.
-  const bool is_told_to_rest = told.is_resting();
-  if (is_told_to_rest ? !thrust.isZero(0.0)
-                      : told.acceleration != single_precision(thrust) ||
-                            told.drag != told_drag(motion, own.drag))
+  const bool is_sent_to_rest = sent.is_resting();
+  if (is_sent_to_rest ? !thrust.isZero(0.0)
+                      : sent.acceleration != single_precision(thrust) ||
+                            sent.drag != sent_drag(motion, own.drag))
     return never;
   const Motion exact = motion.at(std::max(now, motion.time)),
-               followed = law.at(std::max(now, told.time));
+               followed = law.at(std::max(now, sent.time));
   // The difference of two motions of one law follows that law: dp + dv s(t) + da t^2/2 at most, and
   // s grows towards 1/g. Friction only brings velocities nearer.
-  const double oldest = is_told_to_rest ? forever : told.time + trajectory_age_max;
+  const double oldest = is_sent_to_rest ? forever : sent.time + trajectory_age_max;
   const double astray = (followed.position - exact.position).norm(),
                growth = (followed.velocity - exact.velocity).norm();
   const double thrust_error =
-      (told.acceleration - thrust).norm() * 0.5 * trajectory_age_max * trajectory_age_max;
+      (sent.acceleration - thrust).norm() * 0.5 * trajectory_age_max * trajectory_age_max;
   const double room = trajectory_error_max - astray - thrust_error, g = motion.drag.minCoeff();
   if (room <= 0.0) return never;
   assert(room <= trajectory_error_max && growth >= 0.0 && g >= 0.0);

@@ -91,9 +91,9 @@ Trajectory extrapolation_of(const physics::Vector2& position, const physics::Vec
 /// be asked for instants before its time.
 physics::Motion motion_of(const Trajectory& trajectory, const Resistance& own);
 
-/// The last instant up to which `told` is within `trajectory_error_max` of `body` if nothing
-/// happens to it, and no older than `trajectory_age_max`; before world.now() if `told` has the
+/// The last instant up to which `sent` is within `trajectory_error_max` of `body` if nothing
+/// happens to it, and no older than `trajectory_age_max`; before world.now() if `sent` has the
 /// wrong law or is too far off already.
-double holds_until(const physics::World& world, physics::BodyId body, const Trajectory& told);
+double holds_until(const physics::World& world, physics::BodyId body, const Trajectory& sent);
 
 }  // namespace rink::game

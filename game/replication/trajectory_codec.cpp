@@ -202,7 +202,7 @@ bool decode_law(rti::Bytes coded, bool has_acceleration, const bool (&is_own)[2]
 }
 
 /// As its first bytes tell, whether or not the rest is there.
-std::optional<std::size_t> told_size(rti::Bytes coded) {
+std::optional<std::size_t> sent_size(rti::Bytes coded) {
   if (coded.empty()) return std::nullopt;
   const unsigned first = static_cast<unsigned>(coded[0]),
                  form = (first & 7u) == driven ? first & 7u : first & 3u;
@@ -252,8 +252,8 @@ void TrajectoryCodec::encode(rti::Bytes value, double time, std::vector<std::byt
 }
 
 std::optional<std::size_t> TrajectoryCodec::size(rti::Bytes coded) const {
-  const std::optional<std::size_t> told = told_size(coded);
-  return told && *told <= coded.size() ? told : std::nullopt;
+  const std::optional<std::size_t> sent = sent_size(coded);
+  return sent && *sent <= coded.size() ? sent : std::nullopt;
 }
 
 bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const {

@@ -47,32 +47,32 @@ Snapshot snapshot_of(const physics::World& world, physics::BodyId body) {
 }
 
 /// Sends where every moving body is and how fast, every tick: delta snapshots, for the RTI tells
-/// each receiver the difference to what the velocity foretold from a state that it acknowledged.
+/// each receiver the difference to what the velocity predicted from a state that it acknowledged.
 class Snapshots : public UpdatePolicy {
  public:
   rti::AttributeHandle motion_attribute(const ObjectModel& model) const override {
     return model.snapshot;
   }
   bool is_due(const Game& game, const Entity& entity) override {
-    assert(entity.id.index < told_.size());
+    assert(entity.id.index < last_sent_.size());
     return entity.kind != physics::BodyKind::post &&
-           snapshot_of(game.world(), entity.id) != told_[entity.id.index];
+           snapshot_of(game.world(), entity.id) != last_sent_[entity.id.index];
   }
   double quiet_until(const Game& game, const Entity& entity) const override {
     return stays(game, entity) ? forever : game.now();
   }
   void write(const Game& game, const Entity& entity, rti::Writer& value) override {
-    if (told_.size() <= entity.id.index) told_.resize(entity.id.index + 1);
-    Snapshot& told = told_[entity.id.index];
-    told = snapshot_of(game.world(), entity.id);
-    exchange(value, told);
+    if (last_sent_.size() <= entity.id.index) last_sent_.resize(entity.id.index + 1);
+    Snapshot& last_sent = last_sent_[entity.id.index];
+    last_sent = snapshot_of(game.world(), entity.id);
+    exchange(value, last_sent);
   }
 
  private:
-  std::vector<Snapshot> told_;  ///< by entity
+  std::vector<Snapshot> last_sent_;  ///< by entity
 };
 
-/// Sends where a body is, how fast and by which law when the one told last no longer foretells it;
+/// Sends where a body is, how fast and by which law when the one told last no longer predicts it;
 /// between, receivers evaluate the engine's own closed form.
 class OnEvent : public UpdatePolicy {
  public:
@@ -82,38 +82,38 @@ class OnEvent : public UpdatePolicy {
 
   bool is_due(const Game& game, const Entity& entity) override {
     if (entity.kind == physics::BodyKind::post) return false;
-    assert(entity.id.index < told_.size() && "it was written before");
-    Told& told = told_[entity.id.index];
+    assert(entity.id.index < last_sent_.size() && "it was written before");
+    LastSent& last_sent = last_sent_[entity.id.index];
     const std::uint32_t version = game.world().motion_version(entity.id);
-    if (version == told.version && game.now() <= told.until_s) return false;
+    if (version == last_sent.version && game.now() <= last_sent.until_s) return false;
     // An event that changes next to nothing, as those of bodies pressed to each other, need not be
     // told.
-    told.version = version;
-    told.until_s = holds_until(game.world(), entity.id, told.trajectory);
-    return told.until_s < game.now() + worthwhile_s;
+    last_sent.version = version;
+    last_sent.until_s = holds_until(game.world(), entity.id, last_sent.trajectory);
+    return last_sent.until_s < game.now() + worthwhile_s;
   }
   double quiet_until(const Game&, const Entity& entity) const override {
-    return entity.kind == physics::BodyKind::post ? forever : told_[entity.id.index].until_s;
+    return entity.kind == physics::BodyKind::post ? forever : last_sent_[entity.id.index].until_s;
   }
 
   void write(const Game& game, const Entity& entity, rti::Writer& value) override {
-    if (told_.size() <= entity.id.index) told_.resize(entity.id.index + 1);
-    Told& told = told_[entity.id.index];
-    told.version = game.world().motion_version(entity.id);
-    told.trajectory = trajectory_of(game.world(), entity.id);
-    told.until_s = holds_until(game.world(), entity.id, told.trajectory);
-    exchange(value, told.trajectory);
+    if (last_sent_.size() <= entity.id.index) last_sent_.resize(entity.id.index + 1);
+    LastSent& last_sent = last_sent_[entity.id.index];
+    last_sent.version = game.world().motion_version(entity.id);
+    last_sent.trajectory = trajectory_of(game.world(), entity.id);
+    last_sent.until_s = holds_until(game.world(), entity.id, last_sent.trajectory);
+    exchange(value, last_sent.trajectory);
   }
 
  private:
   static constexpr double worthwhile_s =
       0.1;  ///< one that is to be replaced so soon may as well be replaced now
-  struct Told {
+  struct LastSent {
     std::uint32_t version = 0;
     double until_s = 0.0;
     Trajectory trajectory;
   };
-  std::vector<Told> told_;  ///< by entity
+  std::vector<LastSent> last_sent_;  ///< by entity
 };
 
 /// Sends where a body is and how fast when receivers, who let it go on from what they were told
@@ -128,44 +128,44 @@ class DeadReckoning : public UpdatePolicy {
   rti::AttributeHandle motion_attribute(const ObjectModel& model) const override {
     return model.trajectory;
   }
-  Drag told_drag(const physics::WorldSpec& spec) const override {
-    return knows_drag_ ? UpdatePolicy::told_drag(spec) : Drag{};
+  Drag sent_drag(const physics::WorldSpec& spec) const override {
+    return knows_drag_ ? UpdatePolicy::sent_drag(spec) : Drag{};
   }
 
   bool is_due(const Game& game, const Entity& entity) override {
     if (entity.kind == physics::BodyKind::post) return false;
-    assert(entity.id.index < told_.size() && "it was written before");
-    const Told& told = told_[entity.id.index];
-    const bool is_resting = told.trajectory.is_resting();
-    if (!is_resting && game.now() > told.trajectory.time + trajectory_age_max) return true;
-    const physics::Vector2 shown = is_resting
-                                       ? told.trajectory.position
-                                       : told.law.at(std::max(game.now(), told.law.time)).position;
+    assert(entity.id.index < last_sent_.size() && "it was written before");
+    const LastSent& last_sent = last_sent_[entity.id.index];
+    const bool is_resting = last_sent.trajectory.is_resting();
+    if (!is_resting && game.now() > last_sent.trajectory.time + trajectory_age_max) return true;
+    const physics::Vector2 shown =
+        is_resting ? last_sent.trajectory.position
+                   : last_sent.law.at(std::max(game.now(), last_sent.law.time)).position;
     return (shown - game.position(entity.id)).norm() > threshold_;
   }
   double quiet_until(const Game& game, const Entity& entity) const override {
-    return stays(game, entity) && told_[entity.id.index].trajectory.is_resting() ? forever
-                                                                                 : game.now();
+    return stays(game, entity) && last_sent_[entity.id.index].trajectory.is_resting() ? forever
+                                                                                      : game.now();
   }
 
   void write(const Game& game, const Entity& entity, rti::Writer& value) override {
-    if (told_.size() <= entity.id.index) told_.resize(entity.id.index + 1);
-    Told& told = told_[entity.id.index];
-    const Resistance own = told_drag(game.world().spec()).of(entity.kind);
+    if (last_sent_.size() <= entity.id.index) last_sent_.resize(entity.id.index + 1);
+    LastSent& last_sent = last_sent_[entity.id.index];
+    const Resistance own = sent_drag(game.world().spec()).of(entity.kind);
     const Snapshot now = snapshot_of(game.world(), entity.id);
-    told.trajectory = extrapolation_of(now.position, now.velocity, game.now(), own);
-    told.law = motion_of(told.trajectory, own);
-    exchange(value, told.trajectory);
+    last_sent.trajectory = extrapolation_of(now.position, now.velocity, game.now(), own);
+    last_sent.law = motion_of(last_sent.trajectory, own);
+    exchange(value, last_sent.trajectory);
   }
 
  private:
-  struct Told {
+  struct LastSent {
     Trajectory trajectory;
     physics::Motion law;
   };
   const double threshold_;
   const bool knows_drag_;
-  std::vector<Told> told_;  ///< by entity
+  std::vector<LastSent> last_sent_;  ///< by entity
 };
 
 }  // namespace

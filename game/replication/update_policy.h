@@ -29,7 +29,7 @@ class UpdatePolicy {
   /// that is new, later when it is due.
   virtual void write(const Game& game, const Entity& entity, rti::Writer& value) = 0;
   /// What slows bodies down, as receivers are told it to work out where they are between updates.
-  virtual Drag told_drag(const physics::WorldSpec& spec) const {
+  virtual Drag sent_drag(const physics::WorldSpec& spec) const {
     return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction};
   }
 };

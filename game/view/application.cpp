@@ -64,9 +64,9 @@ void Application::play(const MatchWish& wish) {
   }
 }
 
-void Application::explain(const std::string& trouble) {
-  menu_.explain(trouble);
-  if (surroundings_.tell) surroundings_.tell(trouble);
+void Application::explain(const std::string& error) {
+  menu_.explain(error);
+  if (surroundings_.notify) surroundings_.notify(error);
 }
 
 void Application::do_wish(const MenuWish& wish) {
@@ -186,8 +186,8 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
   words.is_split = has_two;
   if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get())) {
     words.texts.push_back(replay_line(*replay));
-    if (!sight.notice.empty() && !std::exchange(is_told_, true) && surroundings_.tell)
-      surroundings_.tell(wish_.address + ": " + sight.notice);
+    if (!sight.notice.empty() && !std::exchange(is_told_, true) && surroundings_.notify)
+      surroundings_.notify(wish_.address + ": " + sight.notice);
   }
   if (is_behind_menu || has_settings) {
     words.texts.clear();

@@ -25,7 +25,7 @@ struct Surroundings {
   std::function<void(bool)> set_full_screen{};
   std::function<void(const Settings&)> save_settings{};
   std::function<void(const std::vector<Noise>&, const Settings&)> sound{};
-  std::function<void(const std::string&)> tell{};  ///< troubles, for the standard error
+  std::function<void(const std::string&)> notify{};  ///< troubles, for the standard error
 };
 
 class Application {
@@ -36,14 +36,14 @@ class Application {
   /// explained there.
   void play(const MatchWish& wish);
   /// Explained in the menu and told.
-  void explain(const std::string& trouble);
+  void explain(const std::string& error);
   void set_viewpoint(Viewpoint viewpoint) { chosen_viewpoint_ = viewpoint; }
 
   void show_figures() { shows_figures_ = true; }
 
   /// Takes effect when the next instant is drawn, or one after it: each press is seen by one
   /// drawing at least (event_queue.h).
-  void hear(const WindowEvent& event) { events_.push(event); }
+  void receive(const WindowEvent& event) { events_.push(event); }
   /// Draws the instant `now_s` [s], which never falls; an Interface, and so a context of OpenGL,
   /// must exist. Without a renderer the instant passes unseen: nothing is drawn.
   void draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas,

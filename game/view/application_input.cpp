@@ -25,7 +25,7 @@ void Application::hear_events(Interface& interface) {
   using Kind = WindowEvent::Kind;
   events_.begin_frame();
   while (const std::optional<WindowEvent> event = events_.take(pace())) {
-    interface.hear(*event);
+    interface.receive(*event);
     if (event->kind == Kind::close) wants_to_quit_ = true;
     else if (event->kind == Kind::key) hear_key(event->key, event->is_down);
     else if (event->kind == Kind::focus_lost) release_all();

@@ -84,7 +84,7 @@ Interface::~Interface() {
   ImGui::DestroyContext(context_);
 }
 
-void Interface::hear(const WindowEvent& event) {
+void Interface::receive(const WindowEvent& event) {
   using Kind = WindowEvent::Kind;
   ImGuiIO& io = ImGui::GetIO();
   if (event.kind == Kind::key && event.key >= 0 && event.key < IM_ARRAYSIZE(io.KeysDown)) {

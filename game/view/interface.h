@@ -21,7 +21,7 @@ class Interface {
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
-  void hear(const WindowEvent& event);
+  void receive(const WindowEvent& event);
   /// Between begin and finish the widgets of Dear ImGui may be called. `elapsed_s` since the last
   /// begin.
   void begin(const WindowSize& size, double elapsed_s);

@@ -34,9 +34,9 @@ void Menu::open(Screen screen) {
   binding_.reset();
 }
 
-void Menu::explain(const std::string& trouble) {
+void Menu::explain(const std::string& error) {
   open(Screen::main);
-  trouble_ = trouble;
+  error_ = error;
 }
 
 bool Menu::take_key(KeyCode code, Settings& settings, MenuWish& wish) {
@@ -92,12 +92,12 @@ void Menu::draw_title() const {
   }
 }
 
-void Menu::draw_trouble() const {
-  if (trouble_.empty()) return;
+void Menu::draw_error() const {
+  if (error_.empty()) return;
   ImGui::PushFont(interface_->small_font());
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.62f, 0.52f, 1.0f));
   ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(trouble_.c_str());
+  ImGui::TextUnformatted(error_.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
   ImGui::PopFont();
@@ -137,7 +137,7 @@ MenuWish Menu::draw(const Interface& interface, Settings& settings, const MatchS
       draw_over(wish, sight);
       break;
   }
-  if (wish.kind == MenuWish::Kind::play) trouble_.clear();
+  if (wish.kind == MenuWish::Kind::play) error_.clear();
   return wish;
 }
 
@@ -151,7 +151,7 @@ void Menu::draw_main(MenuWish& wish) {
   if (button("Watch")) open(Screen::watch);
   if (button("Settings")) open(Screen::settings);
   if (button("Quit")) wish.kind = MenuWish::Kind::quit;
-  draw_trouble();
+  draw_error();
   ImGui::End();
 }
 
@@ -181,7 +181,7 @@ void Menu::draw_address(MenuWish& wish, MatchWish::Kind kind, const char* title,
   if (button(verb) || is_entered) wish = {MenuWish::Kind::play, {.kind = kind, .address = text}};
   ImGui::Separator();
   if (button("Back")) open(Screen::main);
-  draw_trouble();
+  draw_error();
   ImGui::End();
 }
 

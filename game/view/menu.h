@@ -50,9 +50,9 @@ class Menu {
   bool is_ready() const { return drawn_ >= 2; }
   void open(Screen screen);
   /// Back to the main menu with what went wrong.
-  void explain(const std::string& trouble);
+  void explain(const std::string& error);
   /// Also shown there, until something is chosen.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& error() const { return error_; }
 
   /// True if the key was taken: to be bound, or to go back. Down only.
   bool take_key(KeyCode code, Settings& settings, MenuWish& wish);
@@ -76,10 +76,10 @@ class Menu {
   void draw_paused(MenuWish& wish);
   void draw_over(MenuWish& wish, const MatchSight& sight);
   void draw_title() const;
-  void draw_trouble() const;
+  void draw_error() const;
 
   Screen screen_ = Screen::main, back_ = Screen::main;
-  std::string trouble_;
+  std::string error_;
   std::string address_ = "127.0.0.1:4711", port_ = "4711";
   std::optional<Binding> binding_;
   bool is_fresh_ = true;  ///< the first widget of this screen is to have the focus

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* how_called =
     "' (keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...)";
 constexpr std::array<const char*, 2> player_tables{"left", "right"};
-constexpr std::size_t troubles_most = 4;  ///< said at once; they are to fit on a small screen
+constexpr std::size_t errors_max = 4;  ///< said at once; they are to fit on a small screen
 constexpr std::uintmax_t file_largest = 1u << 20;  ///< bytes
 
 class Reader {
@@ -29,20 +29,19 @@ class Reader {
   void read(const toml::table& root) {
     for (const auto& [key, node] : root) read_entry(key.str(), node);
     refuse_double_use();
-    for (const auto& [line, words] : troubles_) {
-      if (read_.troubles.size() == troubles_most) {
-        read_.troubles.push_back(file_ + ": and " +
-                                 std::to_string(troubles_.size() - troubles_most) +
-                                 " more like these");
+    for (const auto& [line, words] : errors_) {
+      if (read_.errors.size() == errors_max) {
+        read_.errors.push_back(file_ + ": and " + std::to_string(errors_.size() - errors_max) +
+                               " more like these");
         break;
       }
-      read_.troubles.push_back(file_ + ":" + std::to_string(line) + ": " + words);
+      read_.errors.push_back(file_ + ":" + std::to_string(line) + ": " + words);
     }
   }
 
  private:
-  void trouble(const toml::node& node, const std::string& what) {
-    troubles_.emplace(node.source().begin.line, what);
+  void problem(const toml::node& node, const std::string& what) {
+    errors_.emplace(node.source().begin.line, what);
   }
 
   void read_entry(std::string_view key, const toml::node& node) {
@@ -52,15 +51,15 @@ class Reader {
         (key == "mute"          ? settings.is_muted
          : key == "full_screen" ? settings.is_full_screen
                                 : settings.is_split) = *value;
-      else trouble(node, std::string(key) + " must be true or false");
+      else problem(node, std::string(key) + " must be true or false");
     } else if (key == "volume") {
       const auto value = node.value<double>();
       if (value && *value >= 0.0 && *value <= 1.0) settings.volume = *value;
-      else trouble(node, "volume must be a number from 0 to 1");
+      else problem(node, "volume must be a number from 0 to 1");
     } else if (key == "keys" && node.is_table()) {
       read_keys(*node.as_table());
     } else {
-      trouble(node,
+      problem(node,
               "there is no setting '" + std::string(key) +
                   "'; there are: mute, volume, full_screen, split_screen, keys.left, keys.right");
     }
@@ -70,7 +69,7 @@ class Reader {
     for (const auto& [name, node] : table) {
       const auto player = std::ranges::find(player_tables, name.str());
       if (player == player_tables.end() || !node.is_table())
-        trouble(node, "keys." + std::string(name.str()) +
+        problem(node, "keys." + std::string(name.str()) +
                           " is no player; there are: keys.left, keys.right");
       else
         read_key_set(*node.as_table(),
@@ -82,7 +81,7 @@ class Reader {
     for (const auto& [name, node] : table) {
       const auto key = game::key_from_name(name.str());
       if (!key) {
-        trouble(node, "'" + std::string(name.str()) +
+        problem(node, "'" + std::string(name.str()) +
                           "' is no direction; there are: left, right, up, down");
         continue;
       }
@@ -92,8 +91,8 @@ class Reader {
       const auto text = node.value_exact<std::string>();
       const auto code = text ? key_code_from_name(*text) : std::nullopt;
       if (code) place = *code;
-      else if (text) trouble(node, "there is no key '" + *text + "'" + stays);
-      else trouble(node, "expected the name of a key in quotes" + stays);
+      else if (text) problem(node, "there is no key '" + *text + "'" + stays);
+      else problem(node, "expected the name of a key in quotes" + stays);
     }
   }
 
@@ -103,8 +102,8 @@ class Reader {
     for (const KeySet& keys : read_.settings.keys)
       for (const KeyCode code : keys) {
         if (std::ranges::find(seen, code) != seen.end()) {
-          read_.troubles.push_back(file_ + ": the key '" + key_code_name(code).value_or("?") +
-                                   "' is given two meanings; all keys are as by default");
+          read_.errors.push_back(file_ + ": the key '" + key_code_name(code).value_or("?") +
+                                 "' is given two meanings; all keys are as by default");
           read_.settings.keys = default_keys();
           return;
         }
@@ -114,7 +113,7 @@ class Reader {
 
   std::string file_;
   ReadSettings& read_;
-  std::multimap<std::uint32_t, std::string> troubles_;  ///< by line
+  std::multimap<std::uint32_t, std::string> errors_;  ///< by line
 };
 
 }  // namespace
@@ -138,8 +137,8 @@ ReadSettings parse_settings(std::string_view text, const std::string& file) {
   try {
     Reader(file, read).read(toml::parse(text, file));
   } catch (const toml::parse_error& error) {
-    read.troubles.push_back(file + ":" + std::to_string(error.source().begin.line) + ": " +
-                            std::string(error.description()) + "; all settings are as by default");
+    read.errors.push_back(file + ":" + std::to_string(error.source().begin.line) + ": " +
+                          std::string(error.description()) + "; all settings are as by default");
   }
   return read;
 }
@@ -168,36 +167,36 @@ ReadSettings read_settings(const std::string& file) {
   ReadSettings read;
   std::ifstream stream;
   if (!std::filesystem::is_regular_file(file, ignored))
-    read.troubles = {file + ": not a file; all settings are as by default"};
+    read.errors = {file + ": not a file; all settings are as by default"};
   else if (std::filesystem::file_size(file, ignored) > file_largest)
-    read.troubles = {file + ": larger than 1 MiB; all settings are as by default"};
+    read.errors = {file + ": larger than 1 MiB; all settings are as by default"};
   else if (stream.open(file); !stream)
-    read.troubles = {file + ": cannot be read; all settings are as by default"};
-  if (!read.troubles.empty()) return read;
+    read.errors = {file + ": cannot be read; all settings are as by default"};
+  if (!read.errors.empty()) return read;
   std::ostringstream text;
   text << stream.rdbuf();
   return parse_settings(text.str(), file);
 }
 
 std::optional<std::string> set_settings_aside(const std::string& file) {
-  std::error_code trouble;
-  std::filesystem::rename(file, file + ".old", trouble);
-  return trouble ? std::nullopt
+  std::error_code problem;
+  std::filesystem::rename(file, file + ".old", problem);
+  return problem ? std::nullopt
                  : std::optional("what stood in '" + file + "' is kept as '" + file + ".old'");
 }
 
 /// By way of a second file: one who is interrupted here has the old settings or the new ones.
 std::optional<std::string> write_settings(const Settings& settings, const std::string& file) {
   if (file.empty()) return "the settings cannot be kept: neither XDG_CONFIG_HOME nor HOME is set";
-  std::error_code trouble;
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), trouble);
+  std::error_code problem;
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), problem);
   const std::string fresh = file + ".new";
   std::ofstream stream(fresh);
   stream << settings_text(settings);
   stream.close();
-  if (stream) std::filesystem::rename(fresh, file, trouble);
-  if (stream && !trouble) return std::nullopt;
-  std::filesystem::remove(fresh, trouble);
+  if (stream) std::filesystem::rename(fresh, file, problem);
+  if (stream && !problem) return std::nullopt;
+  std::filesystem::remove(fresh, problem);
   return "cannot write the settings to '" + file + "'";
 }
 

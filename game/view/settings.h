@@ -47,7 +47,7 @@ std::optional<Bound> bound(const Settings& settings, KeyCode code);
 /// screen: what could not be read is as by default.
 struct ReadSettings {
   Settings settings;
-  std::vector<std::string> troubles;
+  std::vector<std::string> errors;
 };
 
 /// `text` is the file's content, `file` its name in messages, which say line, key, value and what

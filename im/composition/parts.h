@@ -36,7 +36,9 @@ class Parts : public Filter {
   /// Of all parts together.
   Traits traits() const override;
   /// Of the first part.
-  std::span<const Stay> stays() const override { return parts_.front()->stays(); }
+  std::span<const RelevanceInterval> relevance_intervals() const override {
+    return parts_.front()->relevance_intervals();
+  }
   PriorityOrder* priority() override { return parts_.front()->priority(); }
   double cell_size() const override;
   /// Moves and tests of all parts together, and its own tests; the changes are its own.

@@ -172,7 +172,7 @@ class Swept final : public Parts {
     for (const Entity entity : entities_.news()) pairs_.touch_near(entity);
     for (const Subscriber subscriber : subscribers_.news()) pairs_.touch(subscriber);
     changes_.clear();
-    stays_.clear();
+    intervals_.clear();
     pairs_.review(
         let_through,
         [this](Subscriber subscriber, Entity entity, bool was) {
@@ -184,12 +184,14 @@ class Swept final : public Parts {
     subscribers_.settle();
     return reported(changes_.span());
   }
-  std::span<const Stay> stays() const override { return stays_.span(); }
+  std::span<const RelevanceInterval> relevance_intervals() const override {
+    return intervals_.span();
+  }
   void list_counts(std::vector<StageCount>& counts) const override {
     Parts::list_counts(counts);
     counts.push_back({"swept", "flights told", flights_told_});
     counts.push_back({"swept", "regions swept", regions_swept_});
-    counts.push_back({"swept", "stays worked out", stays_found_});
+    counts.push_back({"swept", "stays worked out", intervals_found_});
   }
 
  private:
@@ -200,8 +202,8 @@ class Swept final : public Parts {
       const TimeSpan span =
           is_disc_ ? touching_disc(e.flight, e.half, s.flight, std::min(s.half.x, s.half.y), drag_)
                    : touching_boxes(e.flight, e.half, s.flight, s.half, drag_);
-      stays_.push_back({subscriber, entity, span.enters, span.leaves});
-      ++stays_found_;
+      intervals_.push_back({subscriber, entity, span.enters, span.leaves});
+      ++intervals_found_;
     }
     return true;
   }
@@ -210,8 +212,8 @@ class Swept final : public Parts {
   bool is_disc_;
   Flights entities_, subscribers_;
   CandidatePairs pairs_;
-  Buffer<Stay> stays_;
-  std::uint64_t flights_told_ = 0, regions_swept_ = 0, stays_found_ = 0;
+  Buffer<RelevanceInterval> intervals_;
+  std::uint64_t flights_told_ = 0, regions_swept_ = 0, intervals_found_ = 0;
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ using game::existing_file, game::now_s, game::one_of;
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, evidence,
+  std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, trace,
               players = "random", scene = "crowd", transport = "tcp";
   std::string key_file, federation_file;
   bool declares_regions = true, extrapolates = true;
@@ -165,7 +165,7 @@ void add_options(game::Flags& flags, Options& options) {
       .check(game::number_from(0.001, game::seconds_max))
       .shows_default();
   flags.option(
-      "--evidence", options.evidence,
+      "--evidence", options.trace,
       "file for what some of the bots heard and believed (docs/metrics.md), as JSON lines");
   flags.option("--report", options.report, "file for the measurements, as JSON");
 }
@@ -189,7 +189,7 @@ std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) 
   if (game::is_interrupted) return "interrupted";
   if (crowd.bots().lost_count() > 0)
     return std::to_string(crowd.bots().lost_count()) + " of " + std::to_string(options.count) +
-           " bots were lost: " + crowd.bots().first_trouble();
+           " bots were lost: " + crowd.bots().first_error();
   if (!crowd.has_started()) return "the game did not start";
   if (measured.keys_sent < measured.keys_due)
     return std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
@@ -199,9 +199,9 @@ std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) 
 game::ExitStatus status(const loadgen::BotCrowd& crowd) {
   if (game::is_interrupted) return game::ExitStatus::interrupted;
   if (!crowd.has_started() || crowd.bots().lost_count() > 0) {
-    game::complain(crowd.bots().lost_count(), " of ", crowd.bots().size(), " bots were lost: ",
-                   crowd.bots().first_trouble().empty() ? "the game did not start"
-                                                        : crowd.bots().first_trouble());
+    game::complain(
+        crowd.bots().lost_count(), " of ", crowd.bots().size(), " bots were lost: ",
+        crowd.bots().first_error().empty() ? "the game did not start" : crowd.bots().first_error());
     return crowd.bots().first_status();
   }
   return game::ExitStatus::ok;
@@ -228,7 +228,7 @@ game::ExitStatus play(const Options& options) {
   const rti::FederationFile file = federation_of(options);
   const auto& node = file.nodes.front();
   game::require_writable("--report", options.report);
-  game::require_writable("--evidence", options.evidence);
+  game::require_writable("--evidence", options.trace);
   const rti::Fom fom = game::load_rink_fom(file.fom);
   const std::vector<game::InputEvent> plan = plan_of(options);
   rti::ensure_file_limit((options.transport == "udp" ? 2u : 1u) * options.count + 64u);
@@ -252,7 +252,7 @@ game::ExitStatus play(const Options& options) {
       {.key_file = options.key_file, .role = rti::Role::federate, .federation = file.federation},
       now_s);
   loadgen::BotCrowd crowd(fom, gate, settings, plan, now_s);
-  if (!options.evidence.empty()) crowd.collect_evidence(options.seed);
+  if (!options.trace.empty()) crowd.collect_trace(options.seed);
   const double histogram_ns = histogram_ns_per_record();
   crowd.connect([&](std::uint32_t) { return transport.connect(node.address, node.port); });
   const double give_up_s = now_s() + options.patience_s;
@@ -269,7 +269,7 @@ game::ExitStatus play(const Options& options) {
   written[game::report::histogram_ns_per_record.key] = histogram_ns;
   const game::ExitStatus result = status(crowd);
   crowd.resign();
-  if (const auto evidence = crowd.evidence()) loadgen::write_evidence(options.evidence, *evidence);
+  if (const auto trace = crowd.trace()) loadgen::write_trace(options.trace, *trace);
   if (!options.report.empty()) {
     game::write_file(options.report, written.dump(2));
   } else if (crowd.has_started()) {

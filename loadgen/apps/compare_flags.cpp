@@ -105,7 +105,7 @@ void add_options(game::Flags& flags, CompareOptions& options) {
       .excludes(flags.find("EXPERIMENT"))
       .excludes(flags.find("--from"))
       .excludes(resume);
-  flags.flag("--keep-evidence", options.keeps_evidence,
+  flags.flag("--keep-evidence", options.keeps_traces,
              "keep the evidence of points of curves too, for docs/analysis/recompute.py; without "
              "it, --from with it makes the same again");
   flags

@@ -23,7 +23,7 @@
 #include "loadgen/measure/server_cores.h"
 #include "loadgen/report/artefact.h"
 #include "loadgen/report/dictionary.h"
-#include "loadgen/report/exhibits/saturation_exhibit.h"
+#include "loadgen/report/sections/saturation_section.h"
 #include "loadgen/report/table.h"
 #include "loadgen/report/tidy.h"
 #include "loadgen/report/traces.h"
@@ -97,7 +97,7 @@ RunnerSettings runner_settings(const CompareOptions& options, bool needs_peers) 
   expect_program(settings.bots);
   if (needs_peers) expect_program(settings.peer);
   settings.is_interrupted = &is_interrupted;
-  settings.keeps_evidence_of_curves = options.keeps_evidence;
+  settings.keeps_traces_of_curves = options.keeps_traces;
   pin_apart(settings, rink::game::allowed_processors());
   return settings;
 }

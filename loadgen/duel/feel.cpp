@@ -40,7 +40,7 @@ class TruthComparison {
     game::NetworkMatch& match = duel_.client(k);
     const game::PredictedRink* rink = match.prediction();
     if (rink == nullptr || match.sight().phase != game::MatchPhase::playing ||
-        match.client().mirror().match().number != 1)
+        match.client().replicas().match().number != 1)
       return;
     for (std::size_t bat = 0; bat < rink->bats().size(); ++bat)
       add(rink->bats()[bat], bat, bat == match.player() ? Role::own : Role::other);

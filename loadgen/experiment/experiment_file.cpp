@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "game/model/listed.h"
-#include "game/net/peer/meeting/greetings.h"
+#include "game/net/peer/network/greetings.h"
 #include "game/net/relevant_kinds.h"
 #include "game/players/player_kinds.h"
 #include "game/replication/update_policy.h"

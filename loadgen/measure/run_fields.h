@@ -54,7 +54,7 @@ void visit_truth(Line& line, Truth& truth) {
   line.field("control_bytes_fraction", truth.control_bytes_fraction);
   line.field("fairness_jain", truth.fairness_jain);
   line.field("interactions", truth.interactions);
-  line.text_or_null("truth_trouble", truth.trouble);
+  line.text_or_null("truth_trouble", truth.error);
   line.text_or_null("relevance", truth.relevance);
 }
 

@@ -11,14 +11,14 @@
 
 namespace rink::loadgen {
 
-void Page::add(const std::string& id, const std::string& title, Exhibit exhibit) {
+void Page::add(const std::string& id, const std::string& title, SectionContent content) {
   assert(!id.empty() && id.find_first_of("\"<>& ") == std::string::npos && "it stands in a link");
   contents_ += (contents_.empty() ? "" : " \xC2\xB7 ") + std::string("<a href=\"#") + id + "\">" +
                escaped(title) + "</a>\n";
-  body_ += "<section id=\"" + id + "\">\n<h2>" + escaped(title) + "</h2>\n" + exhibit.html +
+  body_ += "<section id=\"" + id + "\">\n<h2>" + escaped(title) + "</h2>\n" + content.html +
            "</section>\n";
-  std::move(exhibit.tables.begin(), exhibit.tables.end(), std::back_inserter(tables_));
-  std::move(exhibit.pictures.begin(), exhibit.pictures.end(), std::back_inserter(pictures_));
+  std::move(content.tables.begin(), content.tables.end(), std::back_inserter(tables_));
+  std::move(content.pictures.begin(), content.pictures.end(), std::back_inserter(pictures_));
 }
 
 Report Page::finished(const std::string& title, const std::string& introduction) && {
@@ -31,12 +31,12 @@ Report Page::finished(const std::string& title, const std::string& introduction)
   return {html, std::move(tables_), numbered(std::move(pictures_))};
 }
 
-Exhibit provenance_list(const Provenance& provenance) {
-  Exhibit exhibit{"<dl>\n"};
+SectionContent provenance_list(const Provenance& provenance) {
+  SectionContent content{"<dl>\n"};
   for (const auto& [name, text] : provenance.facts)
-    exhibit.html += "<dt>" + escaped(name) + "</dt><dd>" + escaped(text) + "</dd>\n";
-  exhibit.html += "</dl>\n";
-  return exhibit;
+    content.html += "<dt>" + escaped(name) + "</dt><dd>" + escaped(text) + "</dd>\n";
+  content.html += "</dl>\n";
+  return content;
 }
 
 }  // namespace rink::loadgen

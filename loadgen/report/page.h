@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "loadgen/report/exhibits/exhibit.h"
+#include "loadgen/report/sections/section_content.h"
 
 namespace rink::loadgen {
 
@@ -18,7 +18,7 @@ struct Report {
 class Page {
  public:
   /// `id` of letters and dashes.
-  void add(const std::string& id, const std::string& title, Exhibit exhibit);
+  void add(const std::string& id, const std::string& title, SectionContent content);
   /// The page with `introduction`, markup, above the contents; `title` is text.
   Report finished(const std::string& title, const std::string& introduction) &&;
 
@@ -29,6 +29,6 @@ class Page {
 };
 
 /// The facts as a list.
-Exhibit provenance_list(const Provenance& provenance);
+SectionContent provenance_list(const Provenance& provenance);
 
 }  // namespace rink::loadgen

@@ -7,9 +7,9 @@
 #include "game/model/listed.h"
 #include "loadgen/measure/modes_table.h"
 #include "loadgen/measure/summary.h"
-#include "loadgen/report/exhibits/gains.h"
 #include "loadgen/report/page.h"
 #include "loadgen/report/plots/text.h"
+#include "loadgen/report/sections/gains.h"
 
 namespace rink::loadgen {
 namespace {
@@ -109,17 +109,17 @@ const std::string* fact(const Provenance& provenance, const std::string& name) {
   return nullptr;
 }
 
-Exhibit reproduction(const Experiment& experiment, const Provenance& provenance) {
-  Exhibit exhibit{
+SectionContent reproduction(const Experiment& experiment, const Provenance& provenance) {
+  SectionContent content{
       "<p>Save the experiment below as EXPERIMENT.toml and run it; seeds fix the scene and every "
       "key, so that games, bytes and errors repeat, while times depend on the machine:</p>\n"
       "<pre>./rink compare EXPERIMENT.toml</pre>\n"};
   if (const std::string* command = fact(provenance, "command"))
-    exhibit.html +=
+    content.html +=
         "<p class=\"faint\">This report was made by</p>\n<pre>" + escaped(*command) + "</pre>\n";
-  exhibit.html +=
+  content.html +=
       "<p class=\"faint\">The experiment:</p>\n<pre>" + escaped(experiment.text) + "</pre>\n";
-  return exhibit;
+  return content;
 }
 
 constexpr const char* definitions =
@@ -166,24 +166,24 @@ Report report_of(const Experiment& experiment, std::span<const RunRecord> runs,
   Page page;
   if (!comparisons.empty())
     page.add("equal-error", "Reduction factor: rivals at equal error",
-             equal_error_exhibit(experiment, runs, comparisons));
-  page.add("traffic", "Traffic", traffic_exhibit(findings));
+             equal_error_content(experiment, runs, comparisons));
+  page.add("traffic", "Traffic", traffic_content(findings));
   if (has_several_modes(runs))
-    page.add("modes", "With and without a server", modes_exhibit(findings));
-  page.add("gains", "Bytes against dead-reckoning error", gains_exhibit(findings));
-  page.add("relevance", "Precision and recall", relevance_exhibit(findings));
+    page.add("modes", "With and without a server", modes_content(findings));
+  page.add("gains", "Bytes against dead-reckoning error", gains_content(findings));
+  page.add("relevance", "Precision and recall", relevance_content(findings));
   if (!more.discoveries.empty())
-    page.add("discovery", "Discovery latency and missed contacts", discovery_exhibit(findings));
-  page.add("sweeps", "Parameters", sweep_exhibit(findings));
-  if (has_expressions_of_one_form(findings)) page.add("stages", "Stages", stages_exhibit(findings));
-  page.add("latency", "Latency", latency_exhibit(findings));
-  page.add("cost", "Cost of a tick (wall time)", cost_exhibit(findings));
-  page.add("replications", "Replications", replication_exhibit(findings));
-  page.add("growth", "Growth", growth_exhibit(findings));
+    page.add("discovery", "Discovery latency and missed contacts", discovery_content(findings));
+  page.add("sweeps", "Parameters", sweep_content(findings));
+  if (has_expressions_of_one_form(findings)) page.add("stages", "Stages", stages_content(findings));
+  page.add("latency", "Latency", latency_content(findings));
+  page.add("cost", "Cost of a tick (wall time)", cost_content(findings));
+  page.add("replications", "Replications", replication_content(findings));
+  page.add("growth", "Growth", growth_content(findings));
   for (const ReportSection& section : more.sections)
-    page.add(section.id, section.title, section.exhibit);
-  page.add("generator", "The load generator", generator_exhibit(findings));
-  page.add("runs", "All runs", runs_exhibit(findings));
+    page.add(section.id, section.title, section.content);
+  page.add("generator", "The load generator", generator_content(findings));
+  page.add("runs", "All runs", runs_content(findings));
   page.add("definitions", "Definitions", {definitions});
   page.add("reproduce", "How to reproduce", reproduction(experiment, provenance));
   page.add("provenance", "Provenance", provenance_list(provenance));

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/page.h"
+#include "loadgen/report/sections/section_content.h"
 
 namespace rink::loadgen {
 
 /// A section that another part of the load generator has to say, e.g. where the server saturates.
 struct ReportSection {
   std::string id, title;  ///< `id` of letters and dashes
-  Exhibit exhibit;
+  SectionContent content;
 };
 
 /// What a page may show besides runs.

@@ -18,10 +18,10 @@ std::size_t write_traces(const std::filesystem::path& folder) {
     if (!run.valid || !std::filesystem::exists(name + ".server.jsonl") ||
         !std::filesystem::exists(name + ".bots.jsonl"))
       continue;
-    const game::ServerEvidence server = game::read_server_evidence(name + ".server.jsonl");
+    const game::ServerTrace server = game::read_server_trace(name + ".server.jsonl");
     const RelevanceArea area = relevance_of(part_of(experiment, run.cell.part), run.cell,
                                             game::chosen_scene(server.choice));
-    write_trace(name + ".truth.jsonl", server, read_bots_evidence(name + ".bots.jsonl"), area);
+    write_trace(name + ".truth.jsonl", server, read_bots_trace(name + ".bots.jsonl"), area);
     ++written;
   }
   return written;

@@ -103,7 +103,7 @@ class CellQueue {
     under_way_.push_back(std::async(std::launch::async, [this, run, &part, cell, key_log] {
       const Worker worker{idle_workers_};
       RunnerSettings settings = settings_;
-      settings.keeps_evidence = !part.is_of_curves || settings.keeps_evidence_of_curves;
+      settings.keeps_traces = !part.is_of_curves || settings.keeps_traces_of_curves;
       return run(settings, part, cell, key_log);
     }));
     return true;

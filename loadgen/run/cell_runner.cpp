@@ -22,8 +22,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-std::string with_last_words(const std::string& what, const game::Process& process) {
-  const std::string words = process.last_words();
+std::string with_stderr_tail(const std::string& what, const game::Process& process) {
+  const std::string words = process.stderr_tail();
   return words.empty() ? what : what + ", saying: " + words;
 }
 
@@ -51,13 +51,13 @@ class CellRun {
     std::error_code ignored;
     std::filesystem::remove(server_report_, ignored);
     std::filesystem::remove(bots_report_, ignored);
-    const std::string server_evidence = server_report_.string() + "l",
-                      bots_evidence =
+    const std::string server_trace = server_report_.string() + "l",
+                      bots_trace =
                           bots_report_.string() + "l";  // NAME.server.jsonl, NAME.bots.jsonl
-    std::filesystem::remove(server_evidence, ignored);
-    std::filesystem::remove(bots_evidence, ignored);
+    std::filesystem::remove(server_trace, ignored);
+    std::filesystem::remove(bots_trace, ignored);
     std::vector<std::string> serve = serve_arguments(experiment_, cell_, key_log_, server_report_);
-    if (settings_.wants_truth) serve.insert(serve.end(), {"--evidence", server_evidence});
+    if (settings_.wants_truth) serve.insert(serve.end(), {"--evidence", server_trace});
     const bool is_apart = cell_.server_cores == 1;
     game::Process server(
         settings_.serve, serve,
@@ -65,7 +65,7 @@ class CellRun {
     const std::string address = address_of(server);
     std::vector<std::string> play =
         bots_arguments(experiment_, cell_, key_log_, address, bots_report_);
-    if (settings_.wants_truth) play.insert(play.end(), {"--evidence", bots_evidence});
+    if (settings_.wants_truth) play.insert(play.end(), {"--evidence", bots_trace});
     game::Process bots(settings_.bots, play,
                        {.processors = is_apart ? settings_.bots_processors : std::vector<int>{}});
     await(server, bots);
@@ -84,11 +84,11 @@ class CellRun {
       server.attend(look_interval);
       if (const auto address = server.line_after("listening on ")) return *address;
       if (server.ending())
-        throw Failure{with_last_words(
+        throw Failure{with_stderr_tail(
             "the server " + server.ending()->text() + " before it listened", server)};
       if (Clock::now() > deadline) {
         server.stop(settings_.stop_grace);
-        throw Failure{with_last_words(
+        throw Failure{with_stderr_tail(
             "the server did not listen within " + decimal(settings_.listen_limit_s) + " s",
             server)};
       }
@@ -117,7 +117,7 @@ class CellRun {
     };
     const auto name_failure = [&](const char* who, const game::Process& process) {
       if (process.ending() && !process.ending()->is_success())
-        add(with_last_words(std::string(who) + " " + process.ending()->text(), process));
+        add(with_stderr_tail(std::string(who) + " " + process.ending()->text(), process));
     };
     name_failure("the server", server);
     name_failure("the bots", bots);
@@ -125,8 +125,8 @@ class CellRun {
       if (process.ending()) return;
       process.stop(settings_.stop_grace);
       if (!has_failed)
-        add(with_last_words(std::string(who) + " had not ended after " + decimal(limit_s) + " s",
-                            process));
+        add(with_stderr_tail(std::string(who) + " had not ended after " + decimal(limit_s) + " s",
+                             process));
     };
     end_late("the server", server);
     end_late("the bots", bots);
@@ -222,8 +222,8 @@ std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experime
 RunRecord judged(const RunnerSettings& settings, const Experiment& experiment, ProcessRun run) {
   RunRecord& record = run.record;
   if (!settings.wants_truth || !run.has_reports) return record;
-  const std::string evidence = (settings.directory / name_of(record.cell)).string();
-  add_truth(record, experiment, evidence + ".server.jsonl", evidence + ".bots.jsonl",
+  const std::string trace = (settings.directory / name_of(record.cell)).string();
+  add_truth(record, experiment, trace + ".server.jsonl", trace + ".bots.jsonl",
             discovery_file(settings.directory, record.cell));
   return record;
 }

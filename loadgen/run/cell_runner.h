@@ -21,8 +21,8 @@ struct RunnerSettings {
   std::vector<int> server_processors,
       bots_processors;      ///< what each is pinned to; empty: not pinned
   bool wants_truth = true;  ///< evidence is taken, and the run judged by a re-simulation
-  bool keeps_evidence_of_curves = false;  ///< of the hundreds of runs that are points of curves too
-  bool keeps_evidence = true;  ///< in files; in virtual time the same seed gives it again
+  bool keeps_traces_of_curves = false;  ///< of the hundreds of runs that are points of curves too
+  bool keeps_traces = true;             ///< in files; in virtual time the same seed gives it again
   double listen_limit_s =
       30.0;  ///< from the server's start to its line `listening on ADDRESS:PORT`
   double join_limit_s =

@@ -50,8 +50,8 @@ class VirtualRun {
   Json server_report() const;
   Json bots_report() const;
   /// What server and bots saw; only if the run is to be judged by truth.
-  game::ServerEvidence server_evidence() const;
-  BotsEvidence bots_evidence() const { return crowd_.evidence().value(); }
+  game::ServerTrace server_trace() const;
+  BotsTrace bots_trace() const { return crowd_.trace().value(); }
   /// What the connections carried from first to last; after `end`.
   void end(Json& server_report);
 
@@ -141,12 +141,12 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
       crowd_(fom, bots_end_, crowd_settings(experiment, cell), game.keys,
              [this] { return now_s(); }) {
   if (settings.wants_truth) {
-    serving_.collect_evidence({.seed = cell.seed,
-                               .clients = cell.clients,
-                               .from_s = experiment.measured_from_s(),
-                               .until_s = experiment.end_s()},
-                              cell.parameters.tick_rate_hz);
-    crowd_.collect_evidence(cell.seed);
+    serving_.collect_trace({.seed = cell.seed,
+                            .clients = cell.clients,
+                            .from_s = experiment.measured_from_s(),
+                            .until_s = experiment.end_s()},
+                           cell.parameters.tick_rate_hz);
+    crowd_.collect_trace(cell.seed);
   }
   if (experiment.network_carries_datagrams) network_.carry_datagrams();
   server_end_.listen(server_name);
@@ -183,8 +183,8 @@ void VirtualRun::await(const std::string& what, Condition is_met) {
   game::TickCosts uncounted;
   while (!is_met()) {
     settings_.heed_interrupt();
-    if (!server_.trouble().empty()) throw Failure{"the server: " + server_.trouble()};
-    if (crowd_.bots().lost_count() > 0) throw Failure{"the bots: " + crowd_.bots().first_trouble()};
+    if (!server_.error().empty()) throw Failure{"the server: " + server_.error()};
+    if (crowd_.bots().lost_count() > 0) throw Failure{"the bots: " + crowd_.bots().first_error()};
     if (network_.now_ns() > limit_ns) throw Failure{"waited in vain for " + what};
     advance_until(network_.now_ns() + step_ns);
     serving_.exchange(0.0);
@@ -240,9 +240,9 @@ void VirtualRun::run() {
 }
 
 Json VirtualRun::server_report() const {
-  const std::string why = !server_.trouble().empty() ? server_.trouble()
-                          : ticks_ == 0              ? "no tick was measured"
-                                                     : "";
+  const std::string why = !server_.error().empty() ? server_.error()
+                          : ticks_ == 0            ? "no tick was measured"
+                                                   : "";
   Json report{{game::report::mode, cell_.mode},
               {game::report::scheme, cell_.scheme},
               {game::report::policy, cell_.policy},
@@ -276,7 +276,7 @@ Json VirtualRun::bots_report() const {
   std::string why;
   if (crowd_.bots().lost_count() > 0)
     why = std::to_string(crowd_.bots().lost_count()) + " of " + std::to_string(cell_.clients) +
-          " bots were lost: " + crowd_.bots().first_trouble();
+          " bots were lost: " + crowd_.bots().first_error();
   else if (!crowd_.is_over()) why = "the game did not end";
   else if (measured.keys_sent < measured.keys_due)
     why = std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
@@ -286,8 +286,8 @@ Json VirtualRun::bots_report() const {
   return report;
 }
 
-game::ServerEvidence VirtualRun::server_evidence() const {
-  game::ServerEvidence server = serving_.evidence().value();
+game::ServerTrace VirtualRun::server_trace() const {
+  game::ServerTrace server = serving_.trace().value();
   server.choice = choice_of(experiment_, cell_);
   server.state_file = state_file_;
   server.state = state_;
@@ -312,21 +312,20 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
   run.run();
   Json server = run.server_report();
   const Json bots = run.bots_report();
-  const game::ServerEvidence server_evidence =
-      settings.wants_truth ? run.server_evidence() : game::ServerEvidence();
-  const BotsEvidence bots_evidence = settings.wants_truth ? run.bots_evidence() : BotsEvidence();
+  const game::ServerTrace server_trace =
+      settings.wants_truth ? run.server_trace() : game::ServerTrace();
+  const BotsTrace bots_trace = settings.wants_truth ? run.bots_trace() : BotsTrace();
   run.end(server);
   write_json(settings.directory / (name_of(cell) + ".server.json"), server);
   write_json(settings.directory / (name_of(cell) + ".bots.json"), bots);
   judge(record, server, bots);
   if (!settings.wants_truth) return;
-  if (experiment.is_of_curves)
-    add_truth(record, experiment, server_evidence, rounded(bots_evidence));
-  if (!settings.keeps_evidence) return;
+  if (experiment.is_of_curves) add_truth(record, experiment, server_trace, rounded(bots_trace));
+  if (!settings.keeps_traces) return;
   const std::string server_file = settings.directory / (name_of(cell) + ".server.jsonl"),
                     bots_file = settings.directory / (name_of(cell) + ".bots.jsonl");
-  game::write_evidence(server_file, server_evidence);
-  write_evidence(bots_file, bots_evidence);
+  game::write_trace(server_file, server_trace);
+  write_trace(bots_file, bots_trace);
   if (!experiment.is_of_curves)
     add_truth(record, experiment, server_file, bots_file, discovery_file(settings.directory, cell));
 }

@@ -13,7 +13,7 @@ Handshake::Handshake(const SharedKey& key, Role role, std::string_view federatio
                      const Nonce& nonce)
     : key_(key), role_(role), federation_(federation), ours_(nonce) {
   assert(federation.size() <= text_max);
-  if (role == Role::federate) say(HelloMessage{protocol_version, nonce, federation});
+  if (role == Role::federate) send(HelloMessage{protocol_version, nonce, federation});
 }
 
 ProofBasis Handshake::basis() const {
@@ -23,12 +23,12 @@ ProofBasis Handshake::basis() const {
 }
 
 template <class Message>
-void Handshake::say(Message message) {
+void Handshake::send(Message message) {
   const std::vector<std::byte> frame = framed(message);
-  if (role_ == Role::rti && said_ + frame.size() > heard_) return;
-  said_ += frame.size();
+  if (role_ == Role::rti && sent_ + frame.size() > received_) return;
+  sent_ += frame.size();
   outgoing_.insert(outgoing_.end(), frame.begin(), frame.end());
-  assert(role_ == Role::federate || said_ <= heard_);
+  assert(role_ == Role::federate || sent_ <= received_);
 }
 
 void Handshake::fail(std::string_view why) {
@@ -39,7 +39,7 @@ void Handshake::fail(std::string_view why) {
 
 void Handshake::refuse(std::string_view why) {
   fail(why);
-  say(RefusedMessage{static_cast<std::uint8_t>(Refusal::not_admitted), why});
+  send(RefusedMessage{static_cast<std::uint8_t>(Refusal::not_admitted), why});
 }
 
 Handshake::State Handshake::receive(Bytes& bytes) {
@@ -47,27 +47,28 @@ Handshake::State Handshake::receive(Bytes& bytes) {
     const std::size_t before = bytes.size();
     Bytes frame;
     const Framing framing = incoming_.next(bytes, frame_max_to_join, frame);
-    heard_ += before - bytes.size();
+    received_ += before - bytes.size();
     if (framing != Framing::sound) fail("the other end speaks another language");
-    else if (!frame.empty()) take_frame(frame);
+    else if (!frame.empty()) handle_frame(frame);
   }
   return state_;
 }
 
-void Handshake::take_frame(Bytes frame) {
+void Handshake::handle_frame(Bytes frame) {
   assert(!frame.empty());
   const auto kind = static_cast<MessageKind>(frame.front());
   const Bytes body = frame.subspan(1);
   if (role_ == Role::rti && !theirs_)
-    return kind == MessageKind::hello ? take_hello(body) : refuse("wants a key");
-  if (role_ == Role::rti) return kind == MessageKind::proof ? take_proof(body) : refuse("no proof");
-  if (kind == MessageKind::refused) return take_refusal(body);
-  if (kind == MessageKind::challenge && !theirs_) return take_challenge(body);
-  if (kind == MessageKind::admitted && theirs_) return take_admission(body);
+    return kind == MessageKind::hello ? handle_hello(body) : refuse("wants a key");
+  if (role_ == Role::rti)
+    return kind == MessageKind::proof ? handle_proof(body) : refuse("no proof");
+  if (kind == MessageKind::refused) return handle_refusal(body);
+  if (kind == MessageKind::challenge && !theirs_) return handle_challenge(body);
+  if (kind == MessageKind::admitted && theirs_) return handle_admission(body);
   fail("the other end didn't prove that it has the key");
 }
 
-void Handshake::take_hello(Bytes body) {
+void Handshake::handle_hello(Bytes body) {
   Reader reader(body);
   HelloMessage hello;
   if (!exchange(reader, hello) || (hello.version == protocol_version && !reader.is_at_end()))
@@ -77,27 +78,27 @@ void Handshake::take_hello(Bytes body) {
                   std::to_string(protocol_version));
   if (hello.federation != federation_) return refuse("other federation");
   theirs_ = hello.nonce;
-  say(ChallengeMessage{ours_});
+  send(ChallengeMessage{ours_});
 }
 
-void Handshake::take_challenge(Bytes body) {
+void Handshake::handle_challenge(Bytes body) {
   Reader reader(body);
   ChallengeMessage challenge;
   if (!exchange(reader, challenge) || !reader.is_at_end()) return fail("no challenge");
   theirs_ = challenge.block;
-  say(ProofMessage{key_.prove(role_, basis())});
+  send(ProofMessage{key_.prove(role_, basis())});
 }
 
-void Handshake::take_proof(Bytes body) {
+void Handshake::handle_proof(Bytes body) {
   Reader reader(body);
   ProofMessage proof;
   if (!exchange(reader, proof) || !reader.is_at_end()) return fail("no proof");
   if (!key_.is_proven(Role::federate, basis(), proof.block)) return refuse("wrong key");
   state_ = State::proven;
-  say(AdmittedMessage{key_.prove(role_, basis())});
+  send(AdmittedMessage{key_.prove(role_, basis())});
 }
 
-void Handshake::take_admission(Bytes body) {
+void Handshake::handle_admission(Bytes body) {
   Reader reader(body);
   AdmittedMessage admitted;
   if (!exchange(reader, admitted) || !reader.is_at_end() ||
@@ -106,7 +107,7 @@ void Handshake::take_admission(Bytes body) {
   state_ = State::proven;
 }
 
-void Handshake::take_refusal(Bytes body) {
+void Handshake::handle_refusal(Bytes body) {
   Reader reader(body);
   RefusedMessage refused;
   if (!exchange(reader, refused)) return fail("refused");

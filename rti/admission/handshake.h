@@ -34,14 +34,14 @@ class Handshake {
   void clear_outgoing() { outgoing_.clear(); }
 
  private:
-  void take_frame(Bytes frame);
-  void take_hello(Bytes body);
-  void take_proof(Bytes body);
-  void take_challenge(Bytes body);
-  void take_admission(Bytes body);
-  void take_refusal(Bytes body);
+  void handle_frame(Bytes frame);
+  void handle_hello(Bytes body);
+  void handle_proof(Bytes body);
+  void handle_challenge(Bytes body);
+  void handle_admission(Bytes body);
+  void handle_refusal(Bytes body);
   template <class Message>
-  void say(Message message);
+  void send(Message message);
   void refuse(std::string_view why);
   void fail(std::string_view why);
   ProofBasis basis() const;
@@ -55,7 +55,7 @@ class Handshake {
   std::string why_;
   FrameReader incoming_;
   std::vector<std::byte> outgoing_;
-  std::size_t heard_ = 0, said_ = 0;  ///< bytes in all
+  std::size_t received_ = 0, sent_ = 0;  ///< bytes in all
 };
 
 }  // namespace rink::rti

@@ -203,14 +203,14 @@ bool Baselines::append_difference(BitWriter& bits, const DeltaBlock& block, cons
   const Keyframe::Record* record = baseline(block, run, index, counts);
   if (record == nullptr) return false;
   const Periodic& periodic = periodic_[block.run];
-  QuantisedCodec::Counts predicted{}, said{};
+  QuantisedCodec::Counts predicted{}, actual{};
   predict(*periodic.codec, counts, run.stamp.time - record->time, predicted);
-  std::ranges::copy(counts_of(periodic, index), said.begin());
+  std::ranges::copy(counts_of(periodic, index), actual.begin());
   BitMeasurer measurer;
-  exchange_differences(measurer, *periodic.codec, block.header.orders, predicted, said);
+  exchange_differences(measurer, *periodic.codec, block.header.orders, predicted, actual);
   if (measurer.bits() >= periodic.codec->packed_bits()) return false;
   bits.flag(false);
-  return exchange_differences(bits, *periodic.codec, block.header.orders, predicted, said);
+  return exchange_differences(bits, *periodic.codec, block.header.orders, predicted, actual);
 }
 
 void Baselines::append_absolute(BitWriter& bits, const UpdateRun& run, std::size_t index,
@@ -226,7 +226,7 @@ std::uint64_t Baselines::known(std::uint32_t federate, std::size_t word) const {
   return keyframe ? receivers_[federate].sent[*keyframe % keyframe_window].objects.word(word) : 0;
 }
 
-void Baselines::tell(std::uint32_t federate, std::size_t word, std::uint64_t objects) {
+void Baselines::note_sent(std::uint32_t federate, std::size_t word, std::uint64_t objects) {
   assert(is_keyframe_ && federate < receivers_.size());
   Receiver& receiver = receivers_[federate];
   receiver.sent.resize(keyframe_window);

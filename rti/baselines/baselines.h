@@ -54,7 +54,7 @@ class Baselines {
   /// 64 objects from 64 * `word` on of which `federate` has the baseline that its blocks refer to.
   std::uint64_t known(std::uint32_t federate, std::size_t word) const;
   /// These objects' records of this keyframe go to `federate`.
-  void tell(std::uint32_t federate, std::size_t word, std::uint64_t objects);
+  void note_sent(std::uint32_t federate, std::size_t word, std::uint64_t objects);
   /// What stands for a record whose baseline is not known.
   void append_absolute(BitWriter& bits, const UpdateRun& run, std::size_t index,
                        std::size_t record) const;

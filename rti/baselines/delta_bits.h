@@ -1,5 +1,5 @@
 // The bits of a block of periodic state: a header, then for each object a step to its handle and
-// its state, as a difference to what its baseline foretells or absolute.
+// its state, as a difference to what its baseline predicts or absolute.
 #pragma once
 
 #include <algorithm>

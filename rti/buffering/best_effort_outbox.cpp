@@ -12,8 +12,8 @@ BestEffortOutbox::BestEffortOutbox(const Fom& fom) : fom_(fom) {
     best_effort_.push_back(best_effort_attributes(each));
 }
 
-bool BestEffortOutbox::say(ObjectHandle object, ObjectClassHandle object_class, AttributeSet set,
-                           const Stamp& stamp, Bytes coded) {
+bool BestEffortOutbox::enqueue(ObjectHandle object, ObjectClassHandle object_class,
+                               AttributeSet set, const Stamp& stamp, Bytes coded) {
   assert(is_usable() && best_effort(object_class).includes(set));
   if (batch_.is_empty()) begin();
   if (!batch_.add(static_cast<std::uint16_t>(object_class.value), set, stamp, object.value, coded))
@@ -32,7 +32,7 @@ bool BestEffortOutbox::say(ObjectHandle object, ObjectClassHandle object_class, 
 
 void BestEffortOutbox::seal(std::uint32_t frames, double now) {
   if (batch_.is_empty()) return;
-  for (const Datagram& each : batch_.finish(frames, way_.ledger, now)) {
+  for (const Datagram& each : batch_.finish(frames, channel_.ledger, now)) {
     bytes_.insert(bytes_.end(), each.head.begin(), each.head.end());
     bytes_.insert(bytes_.end(), each.body.begin(), each.body.end());
     ends_.push_back(bytes_.size());
@@ -54,27 +54,28 @@ void BestEffortOutbox::forget(ObjectHandle object, AttributeSet attributes) {
 }
 
 bool BestEffortOutbox::acknowledge(const AcknowledgeDatagramsMessage& message, double now) {
-  if (!way_.ledger.acknowledge(message, now, way_.due)) return false;
-  if (way_.has_fallen_back) ++recoveries;
-  way_.has_fallen_back = false;
+  if (!channel_.ledger.acknowledge(message, now, channel_.due)) return false;
+  if (channel_.has_fallen_back) ++recoveries;
+  channel_.has_fallen_back = false;
   return true;
 }
 
 void BestEffortOutbox::advance_clock(double now, std::uint32_t frames) {
-  way_.ledger.expire(now, way_.due);
-  const std::optional<double> since = way_.ledger.unanswered_since();
+  channel_.ledger.expire(now, channel_.due);
+  const std::optional<double> since = channel_.ledger.unanswered_since();
   const bool is_open = size_max_ >= size_min,
-             is_silent = since && now - *since > DatagramWay::fallback_after_s;
-  if (!way_.has_fallen_back && (is_silent || (!is_open && way_.ledger.unsettled() > 0))) {
-    way_.has_fallen_back = true;
-    way_.probed_s = now;
-    way_.ledger.abandon(way_.due);
+             is_silent = since && now - *since > DatagramChannel::fallback_after_s;
+  if (!channel_.has_fallen_back && (is_silent || (!is_open && channel_.ledger.unsettled() > 0))) {
+    channel_.has_fallen_back = true;
+    channel_.probed_s = now;
+    channel_.ledger.abandon(channel_.due);
     ++fallbacks;
   }
-  if (!way_.has_fallen_back || !is_open || now - way_.probed_s < DatagramWay::probe_period_s)
+  if (!channel_.has_fallen_back || !is_open ||
+      now - channel_.probed_s < DatagramChannel::probe_period_s)
     return;
-  way_.probed_s = now;
-  DatagramHead head{way_.ledger.note(now), frames};
+  channel_.probed_s = now;
+  DatagramHead head{channel_.ledger.note(now), frames};
   Writer writer(bytes_);
   exchange(writer, head);
   ends_.push_back(bytes_.size());

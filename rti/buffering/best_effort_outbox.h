@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rti/buffering/datagram_batch.h"
-#include "rti/federation/datagram_way.h"
+#include "rti/federation/datagram_channel.h"
 #include "rti/objects/object_map.h"
 
 namespace rink::rti {
@@ -23,7 +23,7 @@ class BestEffortOutbox {
 
   /// The most bytes that a datagram may have now; 0 while there is no way.
   void set_size(std::size_t size_max) { size_max_ = size_max; }
-  bool is_usable() const { return size_max_ >= size_min && !way_.has_fallen_back; }
+  bool is_usable() const { return size_max_ >= size_min && !channel_.has_fallen_back; }
   AttributeSet best_effort(ObjectClassHandle object_class) const {
     assert(object_class.value < best_effort_.size());
     return best_effort_[object_class.value];
@@ -31,8 +31,8 @@ class BestEffortOutbox {
 
   /// `coded` are the values of `set`, all of them best-effort. False if it does not fit a datagram:
   /// then it goes by the stream.
-  bool say(ObjectHandle object, ObjectClassHandle object_class, AttributeSet set,
-           const Stamp& stamp, Bytes coded);
+  bool enqueue(ObjectHandle object, ObjectClassHandle object_class, AttributeSet set,
+               const Stamp& stamp, Bytes coded);
   /// True if some have not been sealed: a frame that is written now counts as said before them.
   bool is_pending() const { return !batch_.is_empty(); }
   /// What is pending was said after `frames` frames.
@@ -60,7 +60,7 @@ class BestEffortOutbox {
   /// probe asks now and then.
   void advance_clock(double now, std::uint32_t frames);
   /// What was lost, to be said again as it is now. Taken by the caller.
-  std::vector<DatagramLedger::Lost>& due() { return way_.due; }
+  std::vector<DatagramLedger::Lost>& due() { return channel_.due; }
 
   /// Sealed datagrams, valid until `clear`.
   std::span<const Datagram> datagrams();
@@ -75,7 +75,7 @@ class BestEffortOutbox {
   std::vector<AttributeSet> best_effort_;  ///< by class
   const Fom& fom_;
   DatagramBatch batch_;
-  DatagramWay way_{batch_.lists()};
+  DatagramChannel channel_{batch_.lists()};
   std::size_t size_max_ = 0;
   ObjectMap<Kept> kept_;
   std::vector<std::byte> bytes_;   ///< of sealed datagrams

@@ -31,20 +31,20 @@ void put_record(std::vector<std::byte>& bytes, std::uint32_t& last, std::uint32_
 
 }  // namespace
 
-void CutRun::let_go(SaidLists& lists) {
+void CutRun::let_go(SentRecordPool& lists) {
   for (const Part& part : parts)
-    if (part.said != SaidLists::none) lists.release(part.said);
+    if (part.sent != SentRecordPool::none) lists.release(part.sent);
   parts.clear();
 }
 
-void CutRun::end_part(SaidLists& lists) {
+void CutRun::end_part(SentRecordPool& lists) {
   assert(!parts.empty() && bytes.size() - parts.back().from <= size_max);
-  said_.end_group();
+  sent_.end_group();
   parts.back().to = bytes.size();
-  parts.back().said = lists.add(said_.groups());
+  parts.back().sent = lists.add(sent_.groups());
 }
 
-void CutRun::cut(const UpdateRun& run, std::size_t part_max, SaidLists& lists) {
+void CutRun::cut(const UpdateRun& run, std::size_t part_max, SentRecordPool& lists) {
   assert(part_max > 0);
   let_go(lists);
   size_max = part_max;
@@ -65,14 +65,14 @@ void CutRun::cut(const UpdateRun& run, std::size_t part_max, SaidLists& lists) {
       end_part(lists);
     }
     if (is_full || parts.empty()) {
-      parts.push_back({bytes.size(), 0, SaidLists::none});
-      said_.clear();
-      said_.begin_group(run.attributes);
+      parts.push_back({bytes.size(), 0, SentRecordPool::none});
+      sent_.clear();
+      sent_.begin_group(run.attributes);
       begin_block(bytes, run.object_class, run.attributes, run.stamp);
       last = 0;
     }
     put_record(bytes, last, run.records[i].handle, values);
-    said_.add(run.records[i].handle);
+    sent_.add(run.records[i].handle);
   }
   if (parts.empty()) return;
   bytes.push_back(std::byte{0});
@@ -101,7 +101,7 @@ const CutRun& DatagramBatch::cut(std::size_t index, const UpdateRun& run, std::s
 void DatagramBatch::begin(std::size_t size_max) {
   size_max_ = size_max;
   bytes_.clear();
-  said_.clear();
+  sent_.clear();
   planned_.clear();
   is_open_ = has_block_ = false;
 }
@@ -116,23 +116,23 @@ void DatagramBatch::make_room(std::size_t needed) {
   if (continues) planned_.pop_back();
   Planned own;
   own.from = bytes_.size();
-  own.said_from = said_.groups().size();
+  own.sent_from = sent_.groups().size();
   planned_.push_back(own);
   is_open_ = true;
-  if (continues) copy(last.shared, last.said);
+  if (continues) copy(last.shared, last.sent);
   assert(bytes_.size() - planned_.back().from + needed <= size_max_);
 }
 
-void DatagramBatch::copy(Bytes body, SaidLists::Number said) {
+void DatagramBatch::copy(Bytes body, SentRecordPool::Number sent) {
   assert(is_open_);
   end_block();
   bytes_.insert(bytes_.end(), body.begin(), body.end());
-  said_.append(lists_.groups(said));
+  sent_.append(lists_.groups(sent));
 }
 
 void DatagramBatch::end_block() {
   if (has_block_) bytes_.push_back(std::byte{0});
-  said_.end_group();
+  sent_.end_group();
   has_block_ = false;
 }
 
@@ -143,7 +143,7 @@ void DatagramBatch::close(bool is_full) {
   if (is_full) bytes_.resize(own.from + size_max_);
   own.to = bytes_.size();
   assert(own.to - own.from <= size_max_);
-  own.said_to = said_.groups().size();
+  own.sent_to = sent_.groups().size();
   is_open_ = false;
 }
 
@@ -157,17 +157,17 @@ void DatagramBatch::add(const CutRun& cut) {
                follows_short = is_open_ || (!planned_.empty() && planned_.back().is_short);
     if (is_short && follows_short) {
       make_room(body.size() + 1);
-      copy(body, part.said);
+      copy(body, part.sent);
       continue;
     }
     close(false);
     planned_.push_back({.shared = body,
                         .from = 0,
                         .to = 0,
-                        .said = part.said,
+                        .sent = part.sent,
                         .is_short = is_short,
-                        .said_from = 0,
-                        .said_to = 0});
+                        .sent_from = 0,
+                        .sent_to = 0});
   }
 }
 
@@ -181,7 +181,7 @@ bool DatagramBatch::add(std::uint16_t object_class, AttributeSet attributes, con
   if (!has_block_ || !continues) {
     end_block();
     begin_block(bytes_, object_class, attributes, stamp);
-    said_.begin_group(attributes);
+    sent_.begin_group(attributes);
     has_block_ = true;
     block_class_ = object_class;
     block_attributes_ = attributes;
@@ -189,7 +189,7 @@ bool DatagramBatch::add(std::uint16_t object_class, AttributeSet attributes, con
     block_last_ = 0;
   }
   put_record(bytes_, block_last_, handle, values);
-  said_.add(handle);
+  sent_.add(handle);
   assert(bytes_.size() - planned_.back().from < size_max_);  // the block's end has room
   return true;
 }
@@ -200,12 +200,12 @@ std::span<const Datagram> DatagramBatch::finish(std::uint32_t frames, DatagramLe
   heads_.clear();
   finished_.clear();
   for (const Planned& each : planned_) {
-    const bool is_own = each.said == SaidLists::none;
-    if (!is_own) lists_.hold(each.said);
-    const SaidLists::Number said =
-        is_own ? lists_.add(said_.groups().subspan(each.said_from, each.said_to - each.said_from))
-               : each.said;
-    DatagramHead head{ledger.note(now, said), frames};
+    const bool is_own = each.sent == SentRecordPool::none;
+    if (!is_own) lists_.hold(each.sent);
+    const SentRecordPool::Number sent =
+        is_own ? lists_.add(sent_.groups().subspan(each.sent_from, each.sent_to - each.sent_from))
+               : each.sent;
+    DatagramHead head{ledger.note(now, sent), frames};
     Writer writer(heads_);
     exchange(writer, head);
   }

@@ -16,20 +16,20 @@ namespace rink::rti {
 class CutRun {
  public:
   struct Part {
-    std::size_t from, to;    ///< of `bytes`
-    SaidLists::Number said;  ///< what it names
+    std::size_t from, to;         ///< of `bytes`
+    SentRecordPool::Number sent;  ///< what it names
   };
   /// `part_max` [bytes] of a part. `fits` is false afterwards if one record alone takes more.
-  void cut(const UpdateRun& run, std::size_t part_max, SaidLists& lists);
-  void let_go(SaidLists& lists);
+  void cut(const UpdateRun& run, std::size_t part_max, SentRecordPool& lists);
+  void let_go(SentRecordPool& lists);
   bool fits = false;
   std::size_t size_max = 0;
   std::vector<Part> parts;
   std::vector<std::byte> bytes;
 
  private:
-  void end_part(SaidLists& lists);
-  SaidList said_;
+  void end_part(SentRecordPool& lists);
+  SentRecord sent_;
 };
 
 /// Collects one destination's datagrams. Keeps its memory.
@@ -54,29 +54,29 @@ class DatagramBatch {
   /// `begin`.
   std::span<const Datagram> finish(std::uint32_t frames, DatagramLedger& ledger, double now);
   /// What ledgers refer to.
-  SaidLists& lists() { return lists_; }
+  SentRecordPool& lists() { return lists_; }
 
  private:
   struct Planned {
-    Bytes shared{};                            ///< somebody's bytes, or
-    std::size_t from = 0, to = 0;              ///< own ones
-    SaidLists::Number said = SaidLists::none;  ///< of the shared
+    Bytes shared{};                                      ///< somebody's bytes, or
+    std::size_t from = 0, to = 0;                        ///< own ones
+    SentRecordPool::Number sent = SentRecordPool::none;  ///< of the shared
     bool is_short = false;  ///< the shared is, and others may still share its datagram
-    std::size_t said_from = 0, said_to = 0;  ///< of the own
+    std::size_t sent_from = 0, sent_to = 0;  ///< of the own
   };
   void make_room(std::size_t needed);
-  void copy(Bytes body, SaidLists::Number said);
+  void copy(Bytes body, SentRecordPool::Number sent);
   void close(bool is_full);
   void end_block();
 
-  SaidLists lists_;
+  SentRecordPool lists_;
   std::vector<CutRun> cuts_;
   std::vector<bool> is_cut_;
   std::size_t cut_count_ = 0;
 
   std::size_t size_max_ = 0;
   std::vector<std::byte> bytes_, heads_;
-  SaidList said_;
+  SentRecord sent_;
   std::vector<Planned> planned_;
   std::vector<Datagram> finished_;
   bool is_open_ = false, has_block_ = false;

@@ -14,7 +14,7 @@ DatagramLedger::~DatagramLedger() {
   while (size_ > 0) drop_oldest();
 }
 
-std::uint32_t DatagramLedger::note(double now, SaidLists::Number said) {
+std::uint32_t DatagramLedger::note(double now, SentRecordPool::Number sent) {
   if (size_ == ring_.size()) {
     std::vector<Entry> larger(std::max<std::size_t>(8, 2 * ring_.size()));
     for (std::uint32_t number = oldest(); number != next_; ++number)
@@ -22,7 +22,7 @@ std::uint32_t DatagramLedger::note(double now, SaidLists::Number said) {
     ring_.swap(larger);
   }
   assert(std::has_single_bit(ring_.size()) && size_ < ring_.size());
-  at(next_) = {.sent_s = now, .said = said, .is_settled = false};
+  at(next_) = {.sent_s = now, .sent = sent, .is_settled = false};
   if (!unanswered_since_) unanswered_since_ = now;
   if (size_++ == 0) oldest_sent_s_ = now;
   return next_++;
@@ -31,7 +31,7 @@ std::uint32_t DatagramLedger::note(double now, SaidLists::Number said) {
 void DatagramLedger::drop_oldest() {
   assert(size_ > 0);
   const Entry& entry = at(oldest());
-  if (entry.said != SaidLists::none) lists_->release(entry.said);
+  if (entry.sent != SentRecordPool::none) lists_->release(entry.sent);
   if (--size_ > 0) oldest_sent_s_ = at(oldest()).sent_s;
 }
 
@@ -39,13 +39,13 @@ void DatagramLedger::drop_oldest() {
 /// once, however many are lost. Rare, so it may gather.
 template <class IsLost>
 void DatagramLedger::lose(IsLost is_lost, std::vector<Lost>& lost) {
-  std::unordered_map<std::uint32_t, std::uint32_t> said_later;
+  std::unordered_map<std::uint32_t, std::uint32_t> sent_later;
   for (std::uint32_t number = next_ - 1; number != oldest() - 1; --number) {
     Entry& entry = at(number);
     const bool is_given_up = !entry.is_settled && is_lost(number);
     entry.is_settled |= is_given_up;
-    for_each_said(groups(entry), [&](std::uint32_t handle, AttributeSet set) {
-      std::uint32_t& later = said_later[handle];
+    for_each_sent(groups(entry), [&](std::uint32_t handle, AttributeSet set) {
+      std::uint32_t& later = sent_later[handle];
       const AttributeSet missing(set.bits & ~later);
       if (is_given_up && !missing.is_empty()) lost.push_back({handle, missing});
       later |= set.bits;

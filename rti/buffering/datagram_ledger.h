@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "rti/buffering/said_lists.h"
+#include "rti/buffering/sent_records.h"
 #include "rti/types.h"
 #include "rti/wire/datagram.h"
 
@@ -19,7 +19,7 @@ namespace rink::rti {
 /// that costs, not work.
 class DatagramLedger {
  public:
-  explicit DatagramLedger(SaidLists& lists) : lists_(&lists) {}
+  explicit DatagramLedger(SentRecordPool& lists) : lists_(&lists) {}
   ~DatagramLedger();
   DatagramLedger(const DatagramLedger&) = delete;
   DatagramLedger& operator=(const DatagramLedger&) = delete;
@@ -30,9 +30,9 @@ class DatagramLedger {
     AttributeSet attributes;
   };
 
-  /// Notes the next datagram and returns its number. `now` [s]; `said` names what it says and is
+  /// Notes the next datagram and returns its number. `now` [s]; `sent` names what it says and is
   /// held for us.
-  std::uint32_t note(double now, SaidLists::Number said = SaidLists::none);
+  std::uint32_t note(double now, SentRecordPool::Number sent = SentRecordPool::none);
 
   /// Settles what has arrived. What is overtaken by three that have arrived, or too old to be told,
   /// is lost: appended to `lost`, unless a later datagram says the same attributes of the same
@@ -53,7 +53,7 @@ class DatagramLedger {
  private:
   struct Entry {
     double sent_s = 0.0;
-    SaidLists::Number said = SaidLists::none;
+    SentRecordPool::Number sent = SentRecordPool::none;
     bool is_settled = false;
   };
   static constexpr std::uint32_t overtaken_by = 3;
@@ -61,7 +61,7 @@ class DatagramLedger {
   const Entry& at(std::uint32_t number) const { return ring_[number & (ring_.size() - 1)]; }
   std::uint32_t oldest() const { return next_ - static_cast<std::uint32_t>(size_); }
   Bytes groups(const Entry& entry) const {
-    return entry.said == SaidLists::none ? Bytes() : lists_->groups(entry.said);
+    return entry.sent == SentRecordPool::none ? Bytes() : lists_->groups(entry.sent);
   }
   void drop_oldest();
   /// Of those that were given up: `is_lost(number)`, asked of all unsettled ones from the newest
@@ -70,7 +70,7 @@ class DatagramLedger {
   void lose(IsLost is_lost, std::vector<Lost>& lost);
   void forget_settled();
 
-  SaidLists* lists_;
+  SentRecordPool* lists_;
   std::vector<Entry> ring_;  ///< a power of two of them
   std::uint32_t next_ = 1;   ///< number of the next datagram
   std::size_t size_ = 0;     ///< from the oldest unsettled one to the newest

@@ -19,14 +19,16 @@ inline bool is_all_in_scope(const UpdateRun& run, const Bitmap& in_scope) {
 /// state doesn't go out whole anyway.
 template <class Visit>
 void for_each_record(const UpdateRun& run, const FederateInterest& interest, Visit visit) {
-  const Bitmap& heard = interest.heard();
+  const Bitmap& reflected = interest.reflected();
   if (run.slots.size() <= UpdateRun::short_run) {
     for (std::size_t i = 0; i < run.slots.size(); ++i)
-      if (heard.contains(run.slots[i]) && !interest.fresh.contains(run.slots[i])) visit(i);
+      if (reflected.contains(run.slots[i]) && !interest.needs_full_state.contains(run.slots[i]))
+        visit(i);
     return;
   }
   for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
-    std::uint64_t bits = run.members.word(i) & heard.word(i) & ~interest.fresh.word(i);
+    std::uint64_t bits =
+        run.members.word(i) & reflected.word(i) & ~interest.needs_full_state.word(i);
     for (; bits != 0; bits &= bits - 1)
       visit(run.record_of[i * 64 + static_cast<std::size_t>(std::countr_zero(bits))]);
   }

@@ -22,7 +22,7 @@ enum class RegionAction : std::uint8_t { remove, add, request_update, add_passiv
 /// Attributes of a class that somebody subscribes to, and those of them that count for advisories:
 /// not subscribed passively (IEEE 1516.1-2010, 5.8).
 struct Subscription {
-  AttributeSet heard, active;
+  AttributeSet subscribed, active;
   friend bool operator==(const Subscription&, const Subscription&) = default;
 };
 /// How somebody subscribes to an interaction class; the numbers are those on the wire.
@@ -77,8 +77,8 @@ class DataDistribution {
                                            std::uint16_t interaction_class) const = 0;
   /// True if a region that it subscribes to the class with overlaps one of the sender's, as they
   /// are committed now.
-  virtual bool hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender,
-                     std::span<const RegionHandle> sent) = 0;
+  virtual bool receives(std::uint32_t federate, std::uint16_t interaction_class,
+                        std::uint32_t sender, std::span<const RegionHandle> sent) = 0;
 
   virtual bool has_region(std::uint32_t federate, RegionHandle region) const = 0;
   /// False if the handle is in use or leaves a gap. Without dimensions: over the plane.
@@ -134,7 +134,7 @@ class DataDistribution {
   /// Of filters that say tiers, or have a budget: fills `turns->waiting` with who is not to be told
   /// of by the flush at hand, for the tier's turn has not come. Asked once for each flush of a
   /// federate that has `turns`.
-  virtual void take_turns(std::uint32_t /*federate*/) {}
+  virtual void plan_turns(std::uint32_t /*federate*/) {}
   /// Adds to it who does not fit into the budget; `bytes_due(object)` are what telling of one
   /// takes, 0 if nothing is to be told. False if there is no budget.
   using BytesDue = std::function<std::size_t(ObjectSlot)>;
@@ -143,7 +143,7 @@ class DataDistribution {
 
   /// Those of an object's attributes that the last match put in its scope by subscriptions that are
   /// not passive.
-  virtual AttributeSet told_actively(std::uint32_t federate, ObjectSlot slot) = 0;
+  virtual AttributeSet actively_in_scope(std::uint32_t federate, ObjectSlot slot) = 0;
   /// See Scopes.
   void watch_scope(bool is_watched) { scopes_.watch(is_watched); }
   std::vector<ObjectSlot>& touched() { return scopes_.touched(); }

@@ -16,12 +16,12 @@ bool FilterFacts::set_heading(std::uint32_t federate, const im::Heading& heading
   return true;
 }
 
-void FilterFacts::tell_subscriber(std::uint32_t federate, im::Subscriber subscriber) const {
+void FilterFacts::inform_subscriber(std::uint32_t federate, im::Subscriber subscriber) const {
   if (traits_.uses_roles) filter_.set_subscriber_role(subscriber, federates_[federate].role);
-  tell_heading(federate, subscriber);
+  inform_heading(federate, subscriber);
 }
 
-void FilterFacts::tell_heading(std::uint32_t federate, im::Subscriber subscriber) const {
+void FilterFacts::inform_heading(std::uint32_t federate, im::Subscriber subscriber) const {
   if (traits_.uses_headings) filter_.set_heading(subscriber, federates_[federate].heading);
 }
 
@@ -32,7 +32,7 @@ void FilterFacts::set_object_role(ObjectSlot object, const im::Role& role) {
 
 /// Objects that share a region differ to the filter in nothing, so they have in common what they
 /// agree in; one of them that is always relevant takes the others along.
-void FilterFacts::tell_entity(const DistributedRegion& region) const {
+void FilterFacts::inform_entity(const DistributedRegion& region) const {
   if (!traits_.uses_roles || !region.is_placed || !region.is_committed || region.objects.empty())
     return;
   im::Role common = object_role(region.objects.front());

@@ -27,9 +27,9 @@ class FilterFacts {
   /// False if it looks there already.
   bool set_heading(std::uint32_t federate, const im::Heading& heading);
   /// Says a federate's role and heading of one of its subscriptions.
-  void tell_subscriber(std::uint32_t federate, im::Subscriber subscriber) const;
+  void inform_subscriber(std::uint32_t federate, im::Subscriber subscriber) const;
   /// The heading alone.
-  void tell_heading(std::uint32_t federate, im::Subscriber subscriber) const;
+  void inform_heading(std::uint32_t federate, im::Subscriber subscriber) const;
 
   im::Role object_role(ObjectSlot object) const {
     return object < objects_.size() ? objects_[object] : im::Role{};
@@ -40,7 +40,7 @@ class FilterFacts {
     if (object < objects_.size()) objects_[object] = {};
   }
   /// Says what is known of the objects that use the region.
-  void tell_entity(const DistributedRegion& region) const;
+  void inform_entity(const DistributedRegion& region) const;
   void set_flight(const DistributedRegion& region, const im::Flight& flight) const;
   void set_time(double now) const {
     if (traits_.uses_flights) filter_.set_time(now);

@@ -72,12 +72,12 @@ Listening Interest::subscribes_interaction(std::uint32_t federate,
   return subscriptions_.subscribes_interaction(federate, interaction_class);
 }
 
-bool Interest::hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender,
-                     std::span<const RegionHandle> sent) {
+bool Interest::receives(std::uint32_t federate, std::uint16_t interaction_class,
+                        std::uint32_t sender, std::span<const RegionHandle> sent) {
   return subscriptions_.any_region_of_interaction(
-      federate, interaction_class, [&](RegionSlot heard) {
+      federate, interaction_class, [&](RegionSlot subscribed) {
         return std::ranges::any_of(sent, [&](RegionHandle each) {
-          return regions_.overlap(regions_[regions_.slot_of(sender, each)], regions_[heard]);
+          return regions_.overlap(regions_[regions_.slot_of(sender, each)], regions_[subscribed]);
         });
       });
 }
@@ -159,8 +159,8 @@ void Interest::owner_changed(ObjectSlot slot) {
   scopes_.touch(slot);
 }
 
-AttributeSet Interest::told_actively(std::uint32_t federate, ObjectSlot slot) {
-  return matcher_.told_actively(federate, slot);
+AttributeSet Interest::actively_in_scope(std::uint32_t federate, ObjectSlot slot) {
+  return matcher_.actively_in_scope(federate, slot);
 }
 
 void Interest::set_role(ObjectSlot slot, const im::Role& role) {
@@ -170,7 +170,7 @@ void Interest::set_role(ObjectSlot slot, const im::Role& role) {
   facts_.set_object_role(slot, role);
   if (!facts_.are_roles_used()) return;
   for (const Association& each : regions_.associations_of(slot))
-    facts_.tell_entity(regions_[each.region]);
+    facts_.inform_entity(regions_[each.region]);
 }
 
 void Interest::set_federate_role(std::uint32_t federate, const im::Role& role) {
@@ -179,11 +179,11 @@ void Interest::set_federate_role(std::uint32_t federate, const im::Role& role) {
   facts_.set_federate_role(federate, role);
   if (former.owner != role.owner && !subscriptions_.of(federate).regionals.empty())
     subscriptions_.mark_changed(federate);
-  subscriptions_.tell_filter(federate);
+  subscriptions_.inform_filter(federate);
 }
 
 void Interest::set_federate_heading(std::uint32_t federate, const im::Heading& heading) {
-  if (facts_.set_heading(federate, heading)) subscriptions_.tell_headings(federate);
+  if (facts_.set_heading(federate, heading)) subscriptions_.inform_headings(federate);
 }
 
 void Interest::set_flight(ObjectSlot slot, const im::Flight& flight) {

@@ -41,8 +41,8 @@ class Interest : public DataDistribution {
                              RegionHandle region, Listening listening) override;
   Listening subscribes_interaction(std::uint32_t federate,
                                    std::uint16_t interaction_class) const override;
-  bool hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender,
-             std::span<const RegionHandle> sent) override;
+  bool receives(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender,
+                std::span<const RegionHandle> sent) override;
 
   bool has_region(std::uint32_t federate, RegionHandle region) const override;
   bool create_region(std::uint32_t federate, RegionHandle region, DimensionSet dimensions) override;
@@ -64,13 +64,13 @@ class Interest : public DataDistribution {
   void object_registered(ObjectSlot slot) override;
   void object_deleted(ObjectSlot slot) override;
   void owner_changed(ObjectSlot slot) override;
-  AttributeSet told_actively(std::uint32_t federate, ObjectSlot slot) override;
+  AttributeSet actively_in_scope(std::uint32_t federate, ObjectSlot slot) override;
   void set_role(ObjectSlot slot, const im::Role& role) override;
   void set_federate_role(std::uint32_t federate, const im::Role& role) override;
   void set_federate_heading(std::uint32_t federate, const im::Heading& heading) override;
   void set_flight(ObjectSlot slot, const im::Flight& flight) override;
   void set_time(double now) override { facts_.set_time(now); }
-  void take_turns(std::uint32_t federate) override { planner_.take_turns(scopes_.of(federate)); }
+  void plan_turns(std::uint32_t federate) override { planner_.plan_turns(scopes_.of(federate)); }
   bool has_budget() const override { return planner_.has_budget(); }
   void share_out(std::uint32_t federate, const BytesDue& bytes_due) override;
 

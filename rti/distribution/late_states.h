@@ -22,11 +22,11 @@ class LateStates {
       by_attribute_[each.value].insert_word(word, objects);
     });
   }
-  void told(std::size_t word, std::uint64_t objects) {
+  void sent(std::size_t word, std::uint64_t objects) {
     any_.erase_word(word, objects);
     for (Bitmap& each : by_attribute_) each.erase_word(word, objects);
   }
-  void told(std::uint32_t object) { told(object / 64, std::uint64_t{1} << object % 64); }
+  void sent(std::uint32_t object) { sent(object / 64, std::uint64_t{1} << object % 64); }
 
   std::uint64_t any(std::size_t word) const { return any_.word(word); }
   std::size_t word_count() const { return any_.word_count(); }

@@ -87,7 +87,7 @@ Commit RegionTable::commit(RegionSlot slot, const im::Region& plane,
   ++counters_.regions_changed;
   if (region.is_placed && !region.objects.empty()) {
     filter_.set_update_region(region.entity, plane);
-    if (is_first) facts_.tell_entity(region);
+    if (is_first) facts_.inform_entity(region);
   }
   const bool is_beyond_filter =
       !region.is_planar || !unplaced_.empty() || unplaced_subscription_count_ > 0;
@@ -123,7 +123,7 @@ void RegionTable::add_object(ObjectSlot object) {
   if (object >= uses_.size()) uses_.resize(object + std::size_t{1});
 }
 
-void RegionTable::take_entity(RegionSlot slot) {
+void RegionTable::become_entity(RegionSlot slot) {
   DistributedRegion& region = regions_[slot];
   if (!region.is_placed) {
     unplaced_.push_back(slot);
@@ -152,16 +152,16 @@ void RegionTable::free_entity(RegionSlot slot, Reassociation& change) {
 }
 
 void RegionTable::use(RegionSlot region, ObjectSlot object) {
-  if (regions_[region].objects.empty()) take_entity(region);
+  if (regions_[region].objects.empty()) become_entity(region);
   regions_[region].objects.push_back(object);
-  facts_.tell_entity(regions_[region]);
+  facts_.inform_entity(regions_[region]);
 }
 
 void RegionTable::stop_using(RegionSlot region, ObjectSlot object, Reassociation& change) {
   std::vector<ObjectSlot>& objects = regions_[region].objects;
   objects.erase(std::find(objects.begin(), objects.end(), object));
   if (objects.empty()) free_entity(region, change);
-  else facts_.tell_entity(regions_[region]);
+  else facts_.inform_entity(regions_[region]);
 }
 
 AttributeSet RegionTable::all_of(ObjectSlot object) const {

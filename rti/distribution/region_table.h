@@ -108,7 +108,7 @@ class RegionTable {
  private:
   RegionSlot take_slot();
   Commit commit(RegionSlot slot, const im::Region& plane, std::span<const Range> ranges);
-  void take_entity(RegionSlot slot);
+  void become_entity(RegionSlot slot);
   void free_entity(RegionSlot slot, Reassociation& change);
   void use(RegionSlot region, ObjectSlot object);
   void stop_using(RegionSlot region, ObjectSlot object, Reassociation& change);

@@ -30,17 +30,19 @@ class Relevance {
     if (federate >= federates_.size()) federates_.resize(federate + 1);
     auto& own = federates_[federate];
     if (own.empty()) own.resize(rows_.size());
-    const bool is_heard_news = rows_[row].heard.change(own[row].heard, now.heard);
+    const bool is_subscribed_news =
+        rows_[row].subscribed.change(own[row].subscribed, now.subscribed);
     const bool is_active_news = rows_[row].active.change(own[row].active, now.active);
     own[row] = now;
-    return is_heard_news || is_active_news;
+    return is_subscribed_news || is_active_news;
   }
   /// What others than `federate` hear of a row.
   Subscription of_others(std::uint32_t federate, std::size_t row) const {
     const Subscription own = federate < federates_.size() && !federates_[federate].empty()
                                  ? federates_[federate][row]
                                  : Subscription();
-    return {rows_[row].heard.of_others(own.heard), rows_[row].active.of_others(own.active)};
+    return {rows_[row].subscribed.of_others(own.subscribed),
+            rows_[row].active.of_others(own.active)};
   }
 
  private:
@@ -64,7 +66,7 @@ class Relevance {
     AttributeSet of_others(AttributeSet own) const { return several | any.without(own); }
   };
   struct Row {
-    Counts heard, active;
+    Counts subscribed, active;
   };
   std::vector<Row> rows_;
   std::vector<std::vector<Subscription>>

@@ -7,18 +7,18 @@
 namespace rink::rti {
 
 void ScopeMatcher::match(std::span<const im::Change> changes, std::vector<ObjectSlot>& changed) {
-  take_filter_changes(changes);
+  apply_filter_changes(changes);
   parts_.subscriptions.for_each([this](const DeclaredInterest& declared) {
     if (declared.is_changed) reconsider_all(declared);
   });
-  take_changed_regions(changed);
+  apply_changed_regions(changed);
   for (const ObjectSlot slot : changed)
     parts_.subscriptions.for_each(
         [&](const DeclaredInterest& declared) { reconsider(declared, slot); });
   changed.clear();
 }
 
-void ScopeMatcher::take_filter_changes(std::span<const im::Change> changes) {
+void ScopeMatcher::apply_filter_changes(std::span<const im::Change> changes) {
   // Memberships first, all of them: what a federate wants of an object depends on several regions.
   Subscriptions& subscriptions = parts_.subscriptions;
   const bool says_tiers = parts_.turns.says_tiers();
@@ -31,7 +31,7 @@ void ScopeMatcher::take_filter_changes(std::span<const im::Change> changes) {
   }
 }
 
-void ScopeMatcher::take_changed_regions(std::vector<ObjectSlot>& changed) {
+void ScopeMatcher::apply_changed_regions(std::vector<ObjectSlot>& changed) {
   for (const RegionSlot slot : parts_.regions.changed()) {
     const DistributedRegion& region = parts_.regions[slot];
     changed.insert(changed.end(), region.objects.begin(), region.objects.end());
@@ -103,14 +103,15 @@ AttributeSet ScopeMatcher::wanted(const DeclaredInterest& declared, ObjectSlot s
              : set;
 }
 
-AttributeSet ScopeMatcher::told_actively(std::uint32_t federate, ObjectSlot slot) const {
+AttributeSet ScopeMatcher::actively_in_scope(std::uint32_t federate, ObjectSlot slot) const {
   const DeclaredInterest& declared = parts_.subscriptions.of(federate);
-  const AttributeSet told =
-      parts_.scopes.of(federate).told(slot, parts_.objects[slot].object_class);
+  const AttributeSet in_scope_now =
+      parts_.scopes.of(federate).attributes_in_scope(slot, parts_.objects[slot].object_class);
   const auto is_passive = [](const Regional& each) { return !each.classes.passive.empty(); };
   const bool has_passive =
       !declared.everywhere.passive.empty() || std::ranges::any_of(declared.regionals, is_passive);
-  return told.is_empty() || !has_passive ? told : told & wanted<true>(declared, slot);
+  return in_scope_now.is_empty() || !has_passive ? in_scope_now
+                                                 : in_scope_now & wanted<true>(declared, slot);
 }
 
 bool ScopeMatcher::uniform_classes(const DeclaredInterest& declared,
@@ -158,7 +159,7 @@ void ScopeMatcher::reconsider(const DeclaredInterest& declared, ObjectSlot slot)
 /// Notes that a federate is told of the attributes `is` of an object from now on.
 void ScopeMatcher::settle(const DeclaredInterest& declared, FederateInterest& interest,
                           ObjectSlot slot, AttributeSet is) {
-  const AttributeSet was = interest.told(slot, parts_.objects[slot].object_class);
+  const AttributeSet was = interest.attributes_in_scope(slot, parts_.objects[slot].object_class);
   if (parts_.turns.says_tiers() && !is.is_empty())
     parts_.turns.place(*interest.turns, declared, slot, was.is_empty());
   // What is heard as before is touched, too: it may be heard passively now.
@@ -174,8 +175,8 @@ void ScopeMatcher::settle(const DeclaredInterest& declared, FederateInterest& in
     ++parts_.counters.exits;
   }
   if (!was.includes(is)) {
-    interest.fresh.insert(slot);
-    interest.has_fresh = true;
+    interest.needs_full_state.insert(slot);
+    interest.needs_any_full_state = true;
   }
 }
 

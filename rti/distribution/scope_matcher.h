@@ -36,13 +36,13 @@ class ScopeMatcher {
   /// match; empties `changed`, the objects of which something is another than then.
   void match(std::span<const im::Change> changes, std::vector<ObjectSlot>& changed);
   /// See DataDistribution.
-  AttributeSet told_actively(std::uint32_t federate, ObjectSlot slot) const;
+  AttributeSet actively_in_scope(std::uint32_t federate, ObjectSlot slot) const;
 
  private:
   using Regional = DeclaredInterest::Regional;
 
-  void take_filter_changes(std::span<const im::Change> changes);
-  void take_changed_regions(std::vector<ObjectSlot>& changed);
+  void apply_filter_changes(std::span<const im::Change> changes);
+  void apply_changed_regions(std::vector<ObjectSlot>& changed);
   void reconsider_around(const DeclaredInterest& declared, const Regional& regional);
   void reconsider_all(const DeclaredInterest& declared);
   void reconsider(const DeclaredInterest& declared, ObjectSlot slot);

@@ -24,17 +24,17 @@ struct ScopeEvent {
 /// What one federate is told, as the last match decided it.
 struct FederateInterest {
   std::uint32_t federate = 0;
-  Bitmap known;     ///< discovered and not removed
-  Bitmap in_scope;  ///< of the last match
-  Bitmap fresh;     ///< came into scope since the last flush: the whole state is due
-  bool has_fresh = false;
+  Bitmap known;             ///< discovered and not removed
+  Bitmap in_scope;          ///< of the last match
+  Bitmap needs_full_state;  ///< came into scope since the last flush: the whole state is due
+  bool needs_any_full_state = false;
   std::vector<ScopeEvent> events;  ///< since the last flush
   Bitmap unannounced;  ///< in scope, and it will be told so by a later flush; their states stay
                        ///< fresh until then
   bool has_unannounced = false;
-  std::uint32_t announced_to = 0, told_to = 0;  ///< where the last flush without room for all of
-                                                ///< `unannounced` and `fresh` stopped
-  std::vector<ObjectSlot> pressing;  ///< announced, and their state told, before all else in this
+  std::uint32_t announced_to = 0, sent_to = 0;  ///< where the last flush without room for all of
+                                                ///< `unannounced` and `needs_full_state` stopped
+  std::vector<ObjectSlot> sent_now;  ///< announced, and their state told, before all else in this
                                      ///< flush, since something in time-stamp order speaks of them
   bool is_uniform = true;  ///< all of a class's objects in scope have the same attributes:
                            ///< `by_class`; else `by_object`
@@ -42,10 +42,10 @@ struct FederateInterest {
   std::unique_ptr<Turns> turns;  ///< null unless the filter says that some of those in scope wait
 
   /// Who is told of by the flush at hand.
-  const Bitmap& heard() const { return turns ? turns->heard : in_scope; }
+  const Bitmap& reflected() const { return turns ? turns->reflected : in_scope; }
 
   /// What it is told of an object.
-  AttributeSet told(ObjectSlot slot, std::uint16_t object_class) const {
+  AttributeSet attributes_in_scope(ObjectSlot slot, std::uint16_t object_class) const {
     if (!in_scope.contains(slot)) return {};
     return is_uniform ? by_class[object_class] : by_object[slot];
   }
@@ -56,23 +56,23 @@ class Scopes {
  public:
   /// Nothing is in its scope. The slot must be free (asserted).
   FederateInterest& add(std::uint32_t federate) {
-    if (federate >= told_.size()) told_.resize(federate + std::size_t{1});
-    assert(!told_[federate]);
-    told_[federate] = std::make_unique<FederateInterest>();
-    told_[federate]->federate = federate;
-    return *told_[federate];
+    if (federate >= interests_.size()) interests_.resize(federate + std::size_t{1});
+    assert(!interests_[federate]);
+    interests_[federate] = std::make_unique<FederateInterest>();
+    interests_[federate]->federate = federate;
+    return *interests_[federate];
   }
   /// All that was in its scope is touched.
   void remove(std::uint32_t federate) {
     if (is_watched_) of(federate).in_scope.for_each([this](ObjectSlot slot) { touch(slot); });
-    told_[federate].reset();
+    interests_[federate].reset();
   }
   /// Valid until it is removed.
-  FederateInterest& of(std::uint32_t federate) { return *told_[federate]; }
-  const FederateInterest& of(std::uint32_t federate) const { return *told_[federate]; }
+  FederateInterest& of(std::uint32_t federate) { return *interests_[federate]; }
+  const FederateInterest& of(std::uint32_t federate) const { return *interests_[federate]; }
   /// Nobody has the object in scope any more; nobody is told so.
   void forget(ObjectSlot slot) {
-    for (const std::unique_ptr<FederateInterest>& each : told_)
+    for (const std::unique_ptr<FederateInterest>& each : interests_)
       if (each) each->in_scope.erase(slot);
   }
 
@@ -86,7 +86,7 @@ class Scopes {
   std::vector<ObjectSlot>& touched() { return touched_; }
 
  private:
-  std::vector<std::unique_ptr<FederateInterest>> told_;  ///< by federate; null where nobody is
+  std::vector<std::unique_ptr<FederateInterest>> interests_;  ///< by federate; null where nobody is
   bool is_watched_ = false;
   std::vector<ObjectSlot> touched_;
 };

@@ -63,8 +63,8 @@ void Subscriptions::subscribe(std::uint32_t federate, std::uint16_t object_class
   DeclaredInterest& interest = *federates_[federate];
   const bool is_regional = region != no_region;
   ClassInterest& classes = is_regional ? regional(interest, region).classes : interest.everywhere;
-  classes.declared[object_class] = attributes.heard;
-  const AttributeSet passive = attributes.heard.without(attributes.active);
+  classes.declared[object_class] = attributes.subscribed;
+  const AttributeSet passive = attributes.subscribed.without(attributes.active);
   if (classes.passive.empty() && !passive.is_empty())
     classes.passive.resize(classes.declared.size());
   if (!classes.passive.empty()) classes.passive[object_class] = passive;
@@ -79,9 +79,10 @@ Subscription Subscriptions::subscribed(std::uint32_t federate, std::uint16_t obj
                                        RegionSlot region) const {
   const DeclaredInterest& interest = *federates_[federate];
   const auto of = [object_class](const ClassInterest& classes) {
-    const AttributeSet heard = classes.declared[object_class];
-    return Subscription{
-        heard, classes.passive.empty() ? heard : heard.without(classes.passive[object_class])};
+    const AttributeSet subscribed = classes.declared[object_class];
+    return Subscription{subscribed, classes.passive.empty()
+                                        ? subscribed
+                                        : subscribed.without(classes.passive[object_class])};
   };
   if (region == no_region) return of(interest.everywhere);
   for (const Regional& each : interest.regionals)
@@ -95,7 +96,7 @@ Subscription Subscriptions::subscribed_anywhere(std::uint32_t federate,
   Subscription all{interest.everywhere.expanded[object_class],
                    active(interest.everywhere, object_class)};
   for (const Regional& each : interest.regionals) {
-    all.heard = all.heard | each.classes.expanded[object_class];
+    all.subscribed = all.subscribed | each.classes.expanded[object_class];
     all.active = all.active | active(each.classes, object_class);
   }
   return all;
@@ -137,7 +138,7 @@ Subscriptions::Regional& Subscriptions::regional(DeclaredInterest& interest, Reg
   number(interest, added);
   if (!region.is_committed) return added;
   filter_.set_subscription_region(added.subscriber, region.plane);
-  facts_.tell_subscriber(interest.federate, added.subscriber);
+  facts_.inform_subscriber(interest.federate, added.subscriber);
   return added;
 }
 
@@ -176,18 +177,18 @@ void Subscriptions::follow(RegionSlot slot, bool is_first) {
   for (const Regional& each : federates_[region.federate]->regionals) {
     if (each.region != slot) continue;
     filter_.set_subscription_region(each.subscriber, region.plane);
-    if (is_first) facts_.tell_subscriber(region.federate, each.subscriber);
+    if (is_first) facts_.inform_subscriber(region.federate, each.subscriber);
   }
 }
 
-void Subscriptions::tell_filter(std::uint32_t federate) {
+void Subscriptions::inform_filter(std::uint32_t federate) {
   for (const Regional& each : federates_[federate]->regionals)
-    if (each.is_placed) facts_.tell_subscriber(federate, each.subscriber);
+    if (each.is_placed) facts_.inform_subscriber(federate, each.subscriber);
 }
 
-void Subscriptions::tell_headings(std::uint32_t federate) {
+void Subscriptions::inform_headings(std::uint32_t federate) {
   for (const Regional& each : federates_[federate]->regionals)
-    if (each.is_placed) facts_.tell_heading(federate, each.subscriber);
+    if (each.is_placed) facts_.inform_heading(federate, each.subscriber);
 }
 
 void Subscriptions::take(const im::Change& change, bool says_tiers) {

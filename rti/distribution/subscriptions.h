@@ -90,8 +90,8 @@ class Subscriptions {
   /// with it.
   void follow(RegionSlot region, bool is_first);
   /// What a federate is known by has changed: the filter is told for all its subscriptions.
-  void tell_filter(std::uint32_t federate);
-  void tell_headings(std::uint32_t federate);
+  void inform_filter(std::uint32_t federate);
+  void inform_headings(std::uint32_t federate);
 
   /// The federate whose subscription the filter calls `subscriber`.
   std::uint32_t federate_of(im::Subscriber subscriber) const { return subscribers_[subscriber]; }

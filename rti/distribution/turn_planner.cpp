@@ -59,7 +59,7 @@ void TurnPlanner::place(Turns& turns, const DeclaredInterest& declared, ObjectSl
   if (is_changed && !is_new) turns.prompt.insert(slot);
 }
 
-void TurnPlanner::take_turns(FederateInterest& interest) const {
+void TurnPlanner::plan_turns(FederateInterest& interest) const {
   Turns& turns = *interest.turns;
   turns.waiting.clear();
   for (std::uint32_t k = 1; k <= Turns::tier_max; ++k) {
@@ -67,7 +67,7 @@ void TurnPlanner::take_turns(FederateInterest& interest) const {
     const std::uint64_t turn = turn_of(match_, k);
     for (std::size_t i = 0; i < tier.word_count(); ++i)
       turns.waiting.insert_word(i, tier.word(i) & ~turn & interest.in_scope.word(i) &
-                                       ~interest.fresh.word(i) & ~turns.prompt.word(i));
+                                       ~interest.needs_full_state.word(i) & ~turns.prompt.word(i));
   }
   turns.prompt.clear();
 }

@@ -27,7 +27,7 @@ class TurnPlanner {
   /// one hears of it without the filter's saying so.
   void place(Turns& turns, const DeclaredInterest& declared, ObjectSlot slot, bool is_new) const;
   /// See DataDistribution.
-  void take_turns(FederateInterest& interest) const;
+  void plan_turns(FederateInterest& interest) const;
   void share_out(FederateInterest& interest, const DataDistribution::BytesDue& bytes_due);
 
  private:

@@ -26,7 +26,7 @@ struct Turns {
   Bitmap waiting;    ///< in scope, and not told of
   Bitmap caught_up;  ///< told of what is late from the newest state, since the updates at hand
                      ///< don't say it all
-  Bitmap heard;      ///< told of by the updates at hand
+  Bitmap reflected;  ///< told of by the updates at hand
 };
 
 /// The slots from 64 i on whose turn it is at `match` in tier `tier`, for every i alike.

@@ -13,12 +13,12 @@ namespace rink::rti {
 
 /// Each member sees only those above it.
 struct AmbassadorGround {
-  AmbassadorGround(const Fom& model, FederateAmbassador& callbacks, const Patience& patience,
+  AmbassadorGround(const Fom& model, FederateAmbassador& callbacks, const Timeouts& timeouts,
                    CallbackModel callback_model)
       : fom(model),
         gate(callbacks, callback_model),
         frames(phase),
-        watch(patience),
+        watch(timeouts),
         regions(fom),
         classes(fom),
         sent(fom),

@@ -8,8 +8,8 @@
 namespace rink::rti {
 
 AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
-                                 const Patience& patience, CallbackModel model)
-    : ground(fom, callbacks, patience, model),
+                                 const Timeouts& timeouts, CallbackModel model)
+    : ground(fom, callbacks, timeouts, model),
       sender(ground.basis(), {ground.objects, ground.ownership, ground.classes, ground.arrivals,
                               ground.watch, ground.sent}),
       sparing(ground.basis(), {ground.classes, ground.ownership, ground.gate, ground.sent, sender}),
@@ -45,19 +45,19 @@ void AmbassadorParts::resign(ResignAction action) {
 
 bool AmbassadorParts::receive(Bytes bytes) {
   if (ground.phase.has_ended()) return true;
-  ground.watch.heard();
+  ground.watch.received();
   ground.counters.bytes_received += bytes.size();
-  if (ground.gate.is_open()) return take_bytes(bytes);
+  if (ground.gate.is_open()) return handle_bytes(bytes);
   if (ground.gate.hold(bytes)) return true;
   lose("callbacks were disabled for too long");
   return false;
 }
 
-bool AmbassadorParts::take_bytes(Bytes bytes) {
+bool AmbassadorParts::handle_bytes(Bytes bytes) {
   const bool is_understood =
       incoming_.receive(
           bytes, [] { return frame_max_to_federate; },
-          [this](Bytes frame) { return take_frame(frame); }) == Framing::sound;
+          [this](Bytes frame) { return handle_frame(frame); }) == Framing::sound;
   if (!is_understood) lose("the RTI sent what this version does not understand");
   datagrams.apply_held();
   if (!is_understood || !ground.gate.is_overfull()) return is_understood;
@@ -65,26 +65,26 @@ bool AmbassadorParts::take_bytes(Bytes bytes) {
   return false;
 }
 
-bool AmbassadorParts::take_frame(Bytes frame) {
+bool AmbassadorParts::handle_frame(Bytes frame) {
   ++ground.counters.frames_received;
   if (ground.phase.is_joined()) ground.arrivals.count_frame();
   if (!postponed_.is_empty() && !release_postponed()) return false;
   ReadContext context;
   Reader reader(frame);
   while (!reader.is_at_end() && !ground.phase.has_ended())
-    if (!take_message(reader, context)) return false;
+    if (!handle_message(reader, context)) return false;
   keyframes.end_frame();
   ground.objects.sweep();
   return true;
 }
 
-bool AmbassadorParts::take_message(Reader& reader, ReadContext& context) {
+bool AmbassadorParts::handle_message(Reader& reader, ReadContext& context) {
   std::uint8_t number = 0;
   reader.number(number);
   const auto kind = static_cast<MessageKind>(number);
   if (time.clock().holds_receive_order() && context.timed == nullptr && is_receive_ordered(kind))
     return postpone(reader, kind, context);
-  return handle_message(*this, kind, reader, context);
+  return rti::handle_message(*this, kind, reader, context);
 }
 
 bool AmbassadorParts::postpone(Reader& reader, MessageKind kind, const ReadContext& context) {
@@ -99,7 +99,7 @@ bool AmbassadorParts::release_postponed() {
   Reader reader(messages);
   ReadContext context;
   while (!reader.is_at_end() && ground.phase.is_joined())
-    if (!take_message(reader, context)) return false;
+    if (!handle_message(reader, context)) return false;
   return true;
 }
 
@@ -134,7 +134,7 @@ bool AmbassadorParts::handle_timed(Reader& reader, const ReadContext& context) {
   Reader content(message.content);
   const bool is_content =
       !message.content.empty() && is_receive_ordered(static_cast<MessageKind>(message.content[0]));
-  return is_content && take_message(content, inner) &&
+  return is_content && handle_message(content, inner) &&
          (content.is_at_end() || !ground.phase.is_joined());
 }
 
@@ -147,7 +147,7 @@ void AmbassadorParts::lose(std::string_view why) {
 
 void AmbassadorParts::receive_datagram(Bytes datagram) {
   if (!ground.phase.is_joined()) return;
-  ground.watch.heard();
+  ground.watch.received();
   datagrams.receive(datagram, ground.gate.is_open());
 }
 
@@ -195,7 +195,7 @@ void AmbassadorParts::enable_callbacks() {
   ground.gate.enable();
   const std::vector<std::byte> held = ground.gate.take_held();
   const std::string loss = ground.gate.take_held_loss();
-  if (!held.empty()) take_bytes(held);
+  if (!held.empty()) handle_bytes(held);
   if (!was_open) datagrams.apply_held();
   if (!loss.empty()) lose(loss);
 }

@@ -24,7 +24,7 @@ namespace rink::rti {
 /// them in a stated order: joining, losing the connection, and reading what comes.
 class AmbassadorParts final {
  public:
-  AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience,
+  AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, const Timeouts& timeouts,
                   CallbackModel model);
 
   void join(std::string_view federation, std::string_view federate_name,
@@ -67,9 +67,9 @@ class AmbassadorParts final {
   DatagramReceiver datagrams;
 
  private:
-  bool take_bytes(Bytes bytes);
-  bool take_frame(Bytes frame);
-  bool take_message(Reader& reader, ReadContext& context);
+  bool handle_bytes(Bytes bytes);
+  bool handle_frame(Bytes frame);
+  bool handle_message(Reader& reader, ReadContext& context);
   bool postpone(Reader& reader, MessageKind kind, const ReadContext& context);
   bool release_postponed();
 

@@ -15,9 +15,9 @@ namespace rink::rti {
 
 class AmbassadorServices final : public FomLookup, public AdvisorySwitches<AmbassadorServices> {
  public:
-  AmbassadorServices(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {},
+  AmbassadorServices(const Fom& fom, FederateAmbassador& callbacks, const Timeouts& timeouts = {},
                      CallbackModel model = CallbackModel::immediate)
-      : FomLookup(fom), parts_(fom, callbacks, patience, model) {}
+      : FomLookup(fom), parts_(fom, callbacks, timeouts, model) {}
   void create_federation_execution(std::string_view federation) {
     parts_.questions.create_federation_execution(federation, fom_);
   }

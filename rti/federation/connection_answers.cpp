@@ -8,7 +8,7 @@
 namespace rink::rti {
 
 template <class Message>
-Outcome Connections::answer(ConnectionId id, Message message) {
+Status Connections::answer(ConnectionId id, Message message) {
   if (answers_.empty() || answers_.back().connection != id) answers_.push_back({id, {}, {}});
   const std::vector<std::byte> frame = framed(message);
   answers_.back().bytes.insert(answers_.back().bytes.end(), frame.begin(), frame.end());
@@ -16,8 +16,8 @@ Outcome Connections::answer(ConnectionId id, Message message) {
 }
 
 /// A host of one execution makes no others and keeps the one it has.
-Outcome Connections::answer_stranger(ConnectionId id, MessageKind kind, Reader& reader) {
-  if (!connections_[id].questions.ask()) return Violation::over_limit;
+Status Connections::answer_stranger(ConnectionId id, MessageKind kind, Reader& reader) {
+  if (!connections_[id].limits.ask()) return Violation::over_limit;
   const std::string& own = basis_.settings.federation;
   switch (kind) {
     case MessageKind::create_federation_execution: {
@@ -47,16 +47,16 @@ Outcome Connections::answer_stranger(ConnectionId id, MessageKind kind, Reader& 
   }
 }
 
-Outcome Connections::list_executions(ConnectionId id) {
-  if (std::exchange(connections_[id].questions.wants_list, true)) return std::nullopt;
+Status Connections::list_executions(ConnectionId id) {
+  if (std::exchange(connections_[id].limits.wants_list, true)) return std::nullopt;
   answer(id,
          FederationExecutionMessage{0, basis_.settings.federation, basis_.fom.name(),
                                     static_cast<std::uint32_t>(basis_.federates.joined_count())});
   return answer(id, FederationExecutionMessage{1, {}, {}, 0});
 }
 
-Outcome Connections::query_report(ConnectionId id) {
-  if (!std::exchange(connections_[id].questions.wants_report, true)) report_queries_.push_back(id);
+Status Connections::query_report(ConnectionId id) {
+  if (!std::exchange(connections_[id].limits.wants_report, true)) report_queries_.push_back(id);
   return std::nullopt;
 }
 
@@ -66,17 +66,17 @@ FederationReport Connections::report(const Outlet* outlet) const {
   for (FederateReport& each : report.federates)
     if (const auto slot = basis_.federates.joined(each.federate))
       each.counts.silence_s =
-          basis_.now - connections_[basis_.federates[*slot].connection].last_heard;
+          basis_.now - connections_[basis_.federates[*slot].connection].last_received;
   return report;
 }
 
 void Connections::send_answers(Outlet& outlet) {
-  for (const Farewell& each : answers_) {
+  for (const PendingClose& each : answers_) {
     const Bytes bytes = each.bytes;
     outlet.send(each.connection, std::span(&bytes, 1));
-    connections_[each.connection].questions = {};
+    connections_[each.connection].limits = {};
   }
-  for (const ConnectionId each : report_queries_) connections_[each].questions = {};
+  for (const ConnectionId each : report_queries_) connections_[each].limits = {};
   answers_.clear();
   if (!report_queries_.empty()) send_reports(outlet);
 }

@@ -16,7 +16,7 @@ void Connections::connect(ConnectionId id) {
   if (id >= connections_.size()) connections_.resize(id + 1);
   connections_[id] = {};
   connections_[id].phase = Phase::connected;
-  connections_[id].last_heard = basis_.now;
+  connections_[id].last_received = basis_.now;
 }
 
 void Connections::disconnect(ConnectionId id) {
@@ -27,17 +27,17 @@ void Connections::disconnect(ConnectionId id) {
 }
 
 void Connections::forget_words(ConnectionId id) {
-  for (std::vector<Farewell>* words : {&answers_, &farewells_})
-    std::erase_if(*words, [id](const Farewell& each) { return each.connection == id; });
+  for (std::vector<PendingClose>* words : {&answers_, &pending_closes_})
+    std::erase_if(*words, [id](const PendingClose& each) { return each.connection == id; });
 }
 
 void Connections::advance_clock() {
   for (ConnectionId id = 0; id < connections_.size(); ++id) {
     FederationConnection& connection = connections_[id];
     if (connection.phase == Phase::unknown) continue;
-    if (connection.has_spoken) connection.last_heard = basis_.now;
+    if (connection.has_spoken) connection.last_received = basis_.now;
     connection.has_spoken = false;
-    if (basis_.now - connection.last_heard > basis_.settings.patience.lost_after_s)
+    if (basis_.now - connection.last_received > basis_.settings.timeouts.lost_after_s)
       expel(id, Violation::silent, ResignReason::lost, explain(Violation::silent));
   }
 }
@@ -50,15 +50,15 @@ void Connections::expel(ConnectionId id, Violation violation, ResignReason reaso
   const bool was_joined = is_joined(id);
   if (was_joined) desk_.remove(connections_[id].federate, reason);
   connections_[id] = {};
-  farewells_.push_back(
+  pending_closes_.push_back(
       {id, std::string(why), was_joined ? framed(ExpelledMessage{why}) : std::vector<std::byte>()});
 }
 
-Outcome Connections::resign(ConnectionId id) {
+Status Connections::resign(ConnectionId id) {
   assert(is_joined(id));
   desk_.remove(connections_[id].federate, ResignReason::resigned);
   connections_[id] = {};
-  farewells_.push_back({id, "resigned", {}});
+  pending_closes_.push_back({id, "resigned", {}});
   return std::nullopt;
 }
 
@@ -71,24 +71,24 @@ void Connections::receive(ConnectionId id, Bytes bytes) {
   // The reader leaves its connection meanwhile: dropping the connection must not pull it from under
   // our feet.
   FrameReader reader = std::move(connections_[id].reader);
-  Outcome outcome;
+  Status status;
   const auto limit = [&] { return is_joined(id) ? frame_max_to_rti : frame_max_to_join; };
   const auto take = [&](Bytes frame) {
-    outcome = take_frame(id, frame);
-    return !outcome && !is_unknown(id);
+    status = handle_frame(id, frame);
+    return !status && !is_unknown(id);
   };
   const Framing framing = reader.receive(bytes, limit, take);
   if (framing == Framing::sound) connections_[id].reader = std::move(reader);
-  else punish(id, framing, outcome);
+  else punish(id, framing, status);
 }
 
-void Connections::punish(ConnectionId id, Framing framing, const Outcome& outcome) {
+void Connections::punish(ConnectionId id, Framing framing, const Status& status) {
   if (framing == Framing::empty)
     expel(id, Violation::malformed, ResignReason::misbehaved, "it sent a frame without a message");
   if (framing == Framing::oversized)
     expel(id, Violation::oversized, ResignReason::misbehaved, explain(Violation::oversized));
-  if (framing == Framing::stopped && outcome)
-    expel(id, *outcome, ResignReason::misbehaved, explain(*outcome));
+  if (framing == Framing::stopped && status)
+    expel(id, *status, ResignReason::misbehaved, explain(*status));
   assert(is_unknown(id));
 }
 
@@ -98,22 +98,22 @@ void Connections::receive_datagram(ConnectionId id, Bytes datagram) {
   connections_[id].has_spoken = true;
   const std::uint32_t slot = connections_[id].federate;
   basis_.federates[slot].counts.bytes_sent += datagram.size();
-  desk_.take_datagram(slot, datagram);
+  desk_.handle_datagram(slot, datagram);
 }
 
-Outcome Connections::take_frame(ConnectionId id, Bytes frame) {
+Status Connections::handle_frame(ConnectionId id, Bytes frame) {
   ++basis_.counters.frames_received;
   connections_[id].has_spoken = true;
   if (is_joined(id)) desk_.begin_frame(connections_[id].federate);
   Reader reader(frame);
   while (!reader.is_at_end() && !is_unknown(id))
-    if (const Outcome outcome = take_message(id, reader)) return outcome;
+    if (const Status status = handle_message(id, reader)) return status;
   if (is_joined(id)) desk_.end_frame(connections_[id].federate);
   return std::nullopt;
 }
 
-Outcome Connections::take_message(ConnectionId id, Reader& reader) {
-  if (is_joined(id)) return desk_.take_message(connections_[id].federate, reader);
+Status Connections::handle_message(ConnectionId id, Reader& reader) {
+  if (is_joined(id)) return desk_.handle_message(connections_[id].federate, reader);
   std::uint8_t kind = 0;
   reader.number(kind);
   return static_cast<MessageKind>(kind) == MessageKind::join
@@ -121,7 +121,7 @@ Outcome Connections::take_message(ConnectionId id, Reader& reader) {
              : answer_stranger(id, static_cast<MessageKind>(kind), reader);
 }
 
-Outcome Connections::join(ConnectionId id, Reader& reader) {
+Status Connections::join(ConnectionId id, Reader& reader) {
   JoinMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (const auto objection = membership_.objection(message))
@@ -134,7 +134,7 @@ Outcome Connections::join(ConnectionId id, Reader& reader) {
 
 void Connections::refuse(ConnectionId id, const Membership::Objection& objection) {
   expel(id, Violation::refused, ResignReason::misbehaved, objection.why);
-  std::vector<std::byte>& bytes = farewells_.back().bytes;
+  std::vector<std::byte>& bytes = pending_closes_.back().bytes;
   if (objection.refusal == Refusal::wrong_fom) bytes = framed_digest();
   const std::vector<std::byte> refused =
       framed(RefusedMessage{static_cast<std::uint8_t>(objection.refusal), objection.why});
@@ -150,13 +150,13 @@ std::vector<std::byte> Connections::framed_digest() const {
                                  std::as_bytes(std::span(entries))});
 }
 
-void Connections::send_farewells(Outlet& outlet) {
-  for (const Farewell& each : farewells_) {
+void Connections::close_pending(Outlet& outlet) {
+  for (const PendingClose& each : pending_closes_) {
     const Bytes bytes = each.bytes;
     if (!bytes.empty()) outlet.send(each.connection, std::span(&bytes, 1));
     outlet.drop(each.connection, each.why);
   }
-  farewells_.clear();
+  pending_closes_.clear();
 }
 
 }  // namespace rink::rti

@@ -11,7 +11,7 @@
 #include "rti/federation/federation_connection.h"
 #include "rti/federation/management/federation_census.h"
 #include "rti/federation/membership.h"
-#include "rti/federation/outcome.h"
+#include "rti/federation/status.h"
 
 namespace rink::rti {
 
@@ -24,9 +24,9 @@ class FederateDesk {
   virtual void remove(std::uint32_t slot, ResignReason reason) = 0;
   /// A frame of a federate that has joined: its beginning, each message, and its end.
   virtual void begin_frame(std::uint32_t slot) = 0;
-  virtual Outcome take_message(std::uint32_t slot, Reader& reader) = 0;
+  virtual Status handle_message(std::uint32_t slot, Reader& reader) = 0;
   virtual void end_frame(std::uint32_t slot) = 0;
-  virtual void take_datagram(std::uint32_t slot, Bytes datagram) = 0;
+  virtual void handle_datagram(std::uint32_t slot, Bytes datagram) = 0;
 };
 
 class Connections {
@@ -42,14 +42,14 @@ class Connections {
   /// Drops who has been silent for too long.
   void advance_clock();
   void expel(ConnectionId id, Violation violation, ResignReason reason, std::string_view why);
-  Outcome resign(ConnectionId id);
+  Status resign(ConnectionId id);
   /// Answered by the next flush.
-  Outcome query_report(ConnectionId id);
+  Status query_report(ConnectionId id);
   FederationReport report(const Outlet* outlet) const;
 
   /// What strangers asked goes out at once, reports to federates by their outboxes.
   void send_answers(Outlet& outlet);
-  void send_farewells(Outlet& outlet);
+  void close_pending(Outlet& outlet);
 
  private:
   using Phase = FederationConnection::Phase;
@@ -58,16 +58,16 @@ class Connections {
     return id >= connections_.size() || connections_[id].phase == Phase::unknown;
   }
   void forget_words(ConnectionId id);
-  void punish(ConnectionId id, Framing framing, const Outcome& outcome);
-  Outcome take_frame(ConnectionId id, Bytes frame);
-  Outcome take_message(ConnectionId id, Reader& reader);
-  Outcome join(ConnectionId id, Reader& reader);
+  void punish(ConnectionId id, Framing framing, const Status& status);
+  Status handle_frame(ConnectionId id, Bytes frame);
+  Status handle_message(ConnectionId id, Reader& reader);
+  Status join(ConnectionId id, Reader& reader);
   void refuse(ConnectionId id, const Membership::Objection& objection);
   std::vector<std::byte> framed_digest() const;
-  Outcome answer_stranger(ConnectionId id, MessageKind kind, Reader& reader);
+  Status answer_stranger(ConnectionId id, MessageKind kind, Reader& reader);
   template <class Message>
-  Outcome answer(ConnectionId id, Message message);
-  Outcome list_executions(ConnectionId id);
+  Status answer(ConnectionId id, Message message);
+  Status list_executions(ConnectionId id);
   void send_reports(Outlet& outlet);
 
   FederationBasis basis_;
@@ -76,7 +76,7 @@ class Connections {
   FederateDesk& desk_;
   std::vector<FederationConnection> connections_;  ///< by id
   std::vector<ConnectionId> report_queries_;       ///< that wait for the next flush
-  std::vector<Farewell> farewells_,
+  std::vector<PendingClose> pending_closes_,
       answers_;  ///< answers go to those who have not joined, and don't end their connection
 };
 

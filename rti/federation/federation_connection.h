@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rti/questions.h"
+#include "rti/pre_join_limits.h"
 #include "rti/wire/bytes.h"
 #include "rti/wire/frame.h"
 
@@ -17,12 +17,12 @@ struct FederationConnection {
   Phase phase = Phase::unknown;
   std::uint32_t federate = 0;  ///< slot, once joined
   bool has_spoken = false;     ///< since the last `advance_clock`
-  Questions questions;
-  double last_heard = 0.0;
+  PreJoinLimits limits;
+  double last_received = 0.0;
   FrameReader reader;
 };
 
-struct Farewell {
+struct PendingClose {
   ConnectionId connection;
   std::string why;
   std::vector<std::byte> bytes;  ///< sent before the connection is dropped

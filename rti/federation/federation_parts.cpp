@@ -68,15 +68,15 @@ void FederationParts::match() {
 /// message in time-stamp order presses asks in this one.
 void FederationParts::flush(Outlet& outlet) {
   time.settle();
-  declarations.tell_object_relevance();
-  management_objects.tell();
+  declarations.advise_object_relevance();
+  management_objects.notify();
   connections.send_answers(outlet);
   objects.requests.settle();
   sender.flush(outlet);
   objects.requests.flushed();
   interactions.flushed();
   ground.objects.recycle();
-  connections.send_farewells(outlet);
+  connections.close_pending(outlet);
 }
 
 std::uint32_t FederationParts::admit(ConnectionId connection, const JoinMessage& message) {
@@ -117,7 +117,7 @@ void FederationParts::remove(std::uint32_t slot, ResignReason reason) {
 
 void FederationParts::begin_frame(std::uint32_t slot) {
   objects.updates.begin_frame(slot);
-  objects.arrivals.hear_frame(slot);
+  objects.arrivals.count_frame(slot);
 }
 
 void FederationParts::subscriptions_changed(std::uint32_t slot) {
@@ -125,12 +125,12 @@ void FederationParts::subscriptions_changed(std::uint32_t slot) {
   management_objects.subscribed(slot);
 }
 
-Outcome FederationParts::send(std::uint32_t slot, InteractionMessage& message,
-                              std::span<const RegionHandle> sent_within) {
+Status FederationParts::send(std::uint32_t slot, InteractionMessage& message,
+                             std::span<const RegionHandle> sent_within) {
   Interactions::Receivers receivers;
-  if (const Outcome outcome = interactions.accept(slot, message, receivers)) return outcome;
+  if (const Status status = interactions.accept(slot, message, receivers)) return status;
   if (ground.fom.is_management(InteractionClassHandle{message.interaction_class}))
-    if (const Outcome outcome = management_interactions.take(slot, message)) return outcome;
+    if (const Status status = management_interactions.take(slot, message)) return status;
   return interactions.deliver(slot, message, receivers, sent_within);
 }
 

@@ -41,8 +41,8 @@ class FederationParts final : private FederateDesk {
   void subscriptions_changed(std::uint32_t slot);
   /// An interaction that was read; one that is for the RTI is answered before it reaches others.
   /// `regions` are the sender's; none: the default region, which overlaps all.
-  Outcome send(std::uint32_t slot, InteractionMessage& message,
-               std::span<const RegionHandle> regions);
+  Status send(std::uint32_t slot, InteractionMessage& message,
+              std::span<const RegionHandle> regions);
 
   FederationGround ground;
   ObjectServices objects;
@@ -67,9 +67,9 @@ class FederationParts final : private FederateDesk {
   std::uint32_t admit(ConnectionId connection, const JoinMessage& message) override;
   void remove(std::uint32_t slot, ResignReason reason) override;
   void begin_frame(std::uint32_t slot) override;
-  Outcome take_message(std::uint32_t slot, Reader& reader) override;  ///< message_table.cpp
-  void end_frame(std::uint32_t slot) override { objects.receiver.take_held(slot); }
-  void take_datagram(std::uint32_t slot, Bytes datagram) override {
+  Status handle_message(std::uint32_t slot, Reader& reader) override;  ///< message_table.cpp
+  void end_frame(std::uint32_t slot) override { objects.receiver.handle_held(slot); }
+  void handle_datagram(std::uint32_t slot, Bytes datagram) override {
     objects.receiver.receive(slot, datagram);
   }
 };

@@ -11,7 +11,7 @@
 
 #include "rti/distribution/data_distribution.h"
 #include "rti/federate_ambassador.h"
-#include "rti/federation/datagram_way.h"
+#include "rti/federation/datagram_channel.h"
 #include "rti/federation/outbox.h"
 #include "rti/fom/fom.h"
 #include "rti/handles.h"
@@ -31,12 +31,12 @@ struct JoinedFederate {
   std::uint32_t block = 0;  ///< of its objects' handles
   std::string name, type;
   Outbox outbox;
-  double last_said = 0.0;
+  double last_sent = 0.0;
   std::uint64_t objects_deleted = 0, objects_removed = 0, objects_discovered = 0;
-  FederateCounts counts;             ///< what is counted as it happens; `report` adds the rest
-  std::uint32_t frames = 0;          ///< sent to it
-  bool has_stream_only = false;      ///< no datagrams, whatever its connection could carry
-  std::unique_ptr<DatagramWay> way;  ///< null until it has one
+  FederateCounts counts;         ///< what is counted as it happens; `report` adds the rest
+  std::uint32_t frames = 0;      ///< sent to it
+  bool has_stream_only = false;  ///< no datagrams, whatever its connection could carry
+  std::unique_ptr<DatagramChannel> channel;  ///< null until it has one
 };
 
 }  // namespace rink::rti

@@ -34,7 +34,7 @@ void Membership::joined(std::uint32_t slot) {
   JoinedFederate& federate = basis_.federates[slot];
   assert(federate.is_joined);
   ++basis_.counters.joins;
-  federate.last_said = basis_.now;
+  federate.last_sent = basis_.now;
   federate.outbox.before_updates(JoinedMessage{federate.handle.value, federate.block});
   for (JoinedFederate& other : basis_.federates)
     if (other.is_watching)
@@ -51,7 +51,7 @@ void Membership::left(std::uint32_t slot, ResignReason reason) {
   ++basis_.counters.resigns;
 }
 
-Outcome Membership::handle_watch(std::uint32_t slot) {
+Status Membership::handle_watch(std::uint32_t slot) {
   JoinedFederate& federate = basis_.federates[slot];
   if (federate.is_watching) return std::nullopt;
   federate.is_watching = true;

@@ -8,7 +8,7 @@
 
 #include "rti/federate_ambassador.h"
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
+#include "rti/federation/status.h"
 #include "rti/wire/membership_messages.h"
 
 namespace rink::rti {
@@ -24,7 +24,7 @@ class Membership {
   /// Why it may not join; nothing if it may.
   std::optional<Objection> objection(const JoinMessage& message) const;
   /// It wants to be told of all who are there, who come and who go.
-  Outcome handle_watch(std::uint32_t slot);
+  Status handle_watch(std::uint32_t slot);
   void joined(std::uint32_t slot);
   /// While its handle and name are still known.
   void left(std::uint32_t slot, ResignReason reason);

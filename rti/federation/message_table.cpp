@@ -14,11 +14,11 @@ class MessageTable {
   using Parts = FederationParts;
   using Slot = std::uint32_t;
   using Kind = MessageKind;
-  using Handler = Outcome (*)(Parts&, Slot, Reader&);
+  using Handler = Status (*)(Parts&, Slot, Reader&);
 
  public:
   constexpr MessageTable() {
-    handlers_.fill([](Parts&, Slot, Reader&) -> Outcome { return Violation::malformed; });
+    handlers_.fill([](Parts&, Slot, Reader&) -> Status { return Violation::malformed; });
     add_membership();
     add_declarations();
     add_objects();
@@ -26,7 +26,7 @@ class MessageTable {
     add_ownership();
     add_time();
   }
-  Outcome take(Parts& parts, Slot slot, Reader& reader) const {
+  Status take(Parts& parts, Slot slot, Reader& reader) const {
     std::uint8_t kind = 0;
     reader.number(kind);
     return kind < kind_count ? handlers_[kind](parts, slot, reader) : Violation::malformed;
@@ -34,15 +34,15 @@ class MessageTable {
 
  private:
   /// What it subscribes has changed, if all is well.
-  static Outcome subscribed(Parts& parts, Slot slot, const Outcome& outcome) {
-    if (!outcome) parts.subscriptions_changed(slot);
-    return outcome;
+  static Status subscribed(Parts& parts, Slot slot, const Status& status) {
+    if (!status) parts.subscriptions_changed(slot);
+    return status;
   }
   constexpr Handler& at(MessageKind kind) { return handlers_[static_cast<std::size_t>(kind)]; }
 
   constexpr void add_membership() {
-    at(Kind::join) = [](Parts&, Slot, Reader&) -> Outcome { return Violation::wrong_phase; };
-    at(Kind::heartbeat) = [](Parts&, Slot, Reader&) -> Outcome { return std::nullopt; };
+    at(Kind::join) = [](Parts&, Slot, Reader&) -> Status { return Violation::wrong_phase; };
+    at(Kind::heartbeat) = [](Parts&, Slot, Reader&) -> Status { return std::nullopt; };
     at(Kind::resign) = [](Parts& parts, Slot slot, Reader&) {
       return parts.connections.resign(parts.ground.federates[slot].connection);
     };
@@ -98,9 +98,9 @@ class MessageTable {
     at(Kind::spare_update) = [](Parts& parts, Slot slot, Reader& reader) {
       return parts.objects.updates.handle_spare(slot, reader);
     };
-    at(Kind::interaction) = [](Parts& parts, Slot slot, Reader& reader) -> Outcome {
+    at(Kind::interaction) = [](Parts& parts, Slot slot, Reader& reader) -> Status {
       InteractionMessage message;
-      if (const Outcome outcome = parts.interactions.read(reader, message)) return outcome;
+      if (const Status status = parts.interactions.read(reader, message)) return status;
       return parts.send(slot, message, {});
     };
     at(Kind::request_update) = [](Parts& parts, Slot slot, Reader& reader) {
@@ -124,9 +124,9 @@ class MessageTable {
       return parts.regions.handle_create(slot, reader);
     };
     at(Kind::delete_region) = [](Parts& parts, Slot slot, Reader& reader) {
-      const Outcome outcome = parts.regions.handle_delete(slot, reader);
-      if (!outcome) parts.interactions.join_groups(slot);
-      return subscribed(parts, slot, outcome);
+      const Status status = parts.regions.handle_delete(slot, reader);
+      if (!status) parts.interactions.join_groups(slot);
+      return subscribed(parts, slot, status);
     };
     at(Kind::create_region_over) = [](Parts& parts, Slot slot, Reader& reader) {
       return parts.regions.handle_create_over(slot, reader);
@@ -149,11 +149,11 @@ class MessageTable {
     at(Kind::regional_interaction) = [](Parts& parts, Slot slot, Reader& reader) {
       return subscribed(parts, slot, parts.interactions.handle_subscribe_within(slot, reader));
     };
-    at(Kind::interaction_within) = [](Parts& parts, Slot slot, Reader& reader) -> Outcome {
+    at(Kind::interaction_within) = [](Parts& parts, Slot slot, Reader& reader) -> Status {
       InteractionMessage message;
       std::vector<RegionHandle> regions;
-      const Outcome outcome = parts.interactions.read_within(slot, reader, message, regions);
-      return outcome ? outcome : parts.send(slot, message, regions);
+      const Status status = parts.interactions.read_within(slot, reader, message, regions);
+      return status ? status : parts.send(slot, message, regions);
     };
   }
   constexpr void add_ownership() {
@@ -198,7 +198,7 @@ constexpr MessageTable message_table;
 
 }  // namespace
 
-Outcome FederationParts::take_message(std::uint32_t slot, Reader& reader) {
+Status FederationParts::handle_message(std::uint32_t slot, Reader& reader) {
   return message_table.take(*this, slot, reader);
 }
 

@@ -53,9 +53,9 @@ std::optional<std::string> note(const Node& node, const std::string& words) {
     for (const Node& each : model.child("notes").children("note")) {
       if (each.child("label").text().get() != label) continue;
       std::istringstream text(each.child("semantics").text().get());
-      std::string said;
-      for (std::string word; text >> word;) said += (said.empty() ? "" : " ") + word;
-      if (said.starts_with(words + " ")) return said.substr(words.size() + 1);
+      std::string words_read;
+      for (std::string word; text >> word;) words_read += (words_read.empty() ? "" : " ") + word;
+      if (words_read.starts_with(words + " ")) return words_read.substr(words.size() + 1);
     }
   return std::nullopt;
 }

@@ -157,12 +157,12 @@ void Ownership::check(const Record& record) const {
   }
 }
 
-void Ownership::tell(Kind kind, std::uint32_t federate, AttributeSet attributes) {
+void Ownership::notify(Kind kind, std::uint32_t federate, AttributeSet attributes) {
   if (!attributes.is_empty()) events_.push_back({kind, federate, attributes});
 }
 
-void Ownership::tell_owners(Kind kind, const Record& record, AttributeSet attributes) {
-  for (const Share& each : record.shares) tell(kind, each.federate, each.attributes & attributes);
+void Ownership::notify_owners(Kind kind, const Record& record, AttributeSet attributes) {
+  for (const Share& each : record.shares) notify(kind, each.federate, each.attributes & attributes);
 }
 
 /// Takes them from whoever owns them and gives them to `to`, if that is anybody. Who still wants
@@ -179,9 +179,9 @@ void Ownership::transfer(Record& record, AttributeSet attributes, std::uint32_t 
   else share->attributes = share->attributes | attributes;
   for (Claim& each : record.claims)
     if (each.federate == to) each.attributes = each.attributes.without(attributes);
-  tell(Kind::acquired, to, attributes);
+  notify(Kind::acquired, to, attributes);
   end_claims(record, attributes, false);
-  tell(Kind::release_requested, to, union_of(record.claims) & attributes);
+  notify(Kind::release_requested, to, union_of(record.claims) & attributes);
 }
 
 /// Each of `attributes` goes to the first who claims it. Returns those that went.
@@ -204,7 +204,7 @@ AttributeSet Ownership::give_to_claimants(Record& record, AttributeSet attribute
 void Ownership::end_claims(Record& record, AttributeSet attributes, bool also_regular) {
   for (Claim& each : record.claims) {
     if (!also_regular && !each.is_if_available) continue;
-    tell(Kind::unavailable, each.federate, each.attributes & attributes);
+    notify(Kind::unavailable, each.federate, each.attributes & attributes);
     each.attributes = each.attributes.without(attributes);
   }
   drop_empty_claims(record);
@@ -221,7 +221,7 @@ Ownership::Events Ownership::divest([[maybe_unused]] std::uint32_t federate, Obj
   Record& record = open(object);
   const AttributeSet rest = attributes.without(give_to_claimants(record, attributes));
   transfer(record, rest, no_federate);
-  tell(Kind::offered, no_federate, rest);
+  notify(Kind::offered, no_federate, rest);
   close_if_settled(record);
   return events_;
 }
@@ -234,8 +234,8 @@ Ownership::Events Ownership::offer(std::uint32_t federate, ObjectSlot object,
   record.tag.assign(tag.begin(), tag.end());
   const AttributeSet wanted = attributes & union_of(record.claims);
   record.confirming = record.confirming | wanted;
-  tell(Kind::confirmation_requested, federate, wanted);
-  tell(Kind::offered, no_federate, attributes.without(wanted));
+  notify(Kind::confirmation_requested, federate, wanted);
+  notify(Kind::offered, no_federate, attributes.without(wanted));
   close_if_settled(record);
   return events_;
 }
@@ -247,7 +247,7 @@ Ownership::Events Ownership::withdraw_offer(std::uint32_t federate, ObjectSlot o
   record.offered = record.offered.without(attributes);
   end_claims(record, attributes, false);
   record.confirming = record.confirming.without(attributes);
-  tell(Kind::release_requested, federate, attributes & union_of(record.claims));
+  notify(Kind::release_requested, federate, attributes & union_of(record.claims));
   close_if_settled(record);
   return events_;
 }
@@ -287,8 +287,8 @@ Ownership::Events Ownership::acquire(std::uint32_t federate, ObjectSlot object,
   const AttributeSet confirmable = taken & record.offered.without(record.confirming);
   drop_empty_claims(record);
   record.confirming = record.confirming | confirmable;
-  tell_owners(Kind::confirmation_requested, record, confirmable);
-  tell_owners(Kind::release_requested, record, taken.without(record.offered));
+  notify_owners(Kind::confirmation_requested, record, confirmable);
+  notify_owners(Kind::release_requested, record, taken.without(record.offered));
   close_if_settled(record);
   return events_;
 }
@@ -303,8 +303,8 @@ Ownership::Events Ownership::acquire_if_available(std::uint32_t federate, Object
   if (!waiting.is_empty()) record.claims.push_back({federate, waiting, true});
   const AttributeSet confirmable = waiting.without(record.confirming);
   record.confirming = record.confirming | waiting;
-  tell_owners(Kind::confirmation_requested, record, confirmable);
-  tell(Kind::unavailable, federate, attributes.without(free).without(waiting));
+  notify_owners(Kind::confirmation_requested, record, confirmable);
+  notify(Kind::unavailable, federate, attributes.without(free).without(waiting));
   close_if_settled(record);
   return events_;
 }
@@ -314,7 +314,7 @@ Ownership::Events Ownership::cancel(std::uint32_t federate, ObjectSlot object,
   Record& record = open(object);
   for (Claim& each : record.claims) {
     if (each.federate != federate || each.is_if_available) continue;
-    tell(Kind::cancelled, federate, each.attributes & attributes);
+    notify(Kind::cancelled, federate, each.attributes & attributes);
     each.attributes = each.attributes.without(attributes);
   }
   drop_empty_claims(record);

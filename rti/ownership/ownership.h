@@ -119,8 +119,8 @@ class Ownership {
   void check(const Record& record) const;
   Record& open(ObjectSlot object);
   void close_if_settled(Record& record);
-  void tell(OwnershipEvent::Kind kind, std::uint32_t federate, AttributeSet attributes);
-  void tell_owners(OwnershipEvent::Kind kind, const Record& record, AttributeSet attributes);
+  void notify(OwnershipEvent::Kind kind, std::uint32_t federate, AttributeSet attributes);
+  void notify_owners(OwnershipEvent::Kind kind, const Record& record, AttributeSet attributes);
   void transfer(Record& record, AttributeSet attributes, std::uint32_t to);
   AttributeSet give_to_claimants(Record& record, AttributeSet attributes);
   void end_claims(Record& record, AttributeSet attributes, bool also_regular);

@@ -31,20 +31,20 @@ bool ConservativeTime::enable_regulation(std::uint32_t federate, double lookahea
   if (mine.is_regulating || mine.is_advancing || !is_valid_lookahead(lookahead)) return false;
   // Nothing that it will say may be in anybody's past: its time becomes one from which that holds,
   // at once, so that the others can't run away from it meanwhile.
-  double past = 0.0, heard = 0.0;
+  double past = 0.0, horizon = 0.0;
   for (const Clock& other : clocks_) {
     if (&other == &mine || !other.is_constrained) continue;
     past = std::max(past, other.time);
-    heard = std::max(heard, other.heard);
+    horizon = std::max(horizon, other.horizon);
   }
   mine.is_regulating = mine.awaits_regulation = true;
   mine.lookahead = lookahead;
   mine.enabling = std::max(mine.time, past - lookahead);
   if (mine.is_constrained)
-    heard = std::max(
-        heard,
-        mine.heard);  // else somebody could answer it at an instant of which it has heard all
-  mine.floor = std::max(heard, mine.enabling + lookahead);
+    horizon = std::max(
+        horizon,
+        mine.horizon);  // else somebody could answer it at an instant of which it has heard all
+  mine.floor = std::max(horizon, mine.enabling + lookahead);
   assert(mine.enabling >= mine.time && mine.floor >= mine.enabling);
   weigh(federate);
   return true;
@@ -131,7 +131,7 @@ double ConservativeTime::time(std::uint32_t federate) const { return clock(feder
 
 void ConservativeTime::enqueue(std::uint32_t federate, const TimedEntry& entry) {
   Clock& mine = clock(federate);
-  assert(mine.is_constrained && entry.time >= mine.heard && "a message in its receiver's past");
+  assert(mine.is_constrained && entry.time >= mine.horizon && "a message in its receiver's past");
   mine.queue.push(entry);
   if (awaits_message(mine)) weigh(federate);
 }
@@ -164,8 +164,8 @@ void ConservativeTime::weigh(std::uint32_t federate) {
   assert(!mine.is_advancing || mine.asked >= mine.time);
   assert(!mine.awaits_regulation || (mine.is_regulating && mine.enabling >= mine.time));
   assert(!mine.is_regulating || mine.floor >= mine.time);
-  assert(!mine.is_constrained || (mine.heard >= mine.time && !mine.awaits_constraint));
-  assert(!mine.is_constrained || mine.queue.next_time() >= mine.heard);
+  assert(!mine.is_constrained || (mine.horizon >= mine.time && !mine.awaits_constraint));
+  assert(!mine.is_constrained || mine.queue.next_time() >= mine.horizon);
   const bool may_be_lowered = mine.is_regulating && awaits_message(mine);
   double bound = time_unbounded;
   if (mine.is_regulating)
@@ -254,14 +254,14 @@ void ConservativeTime::serve(std::uint32_t federate, TimeListener& listener) {
   if (mine.awaits_constraint && mine.time <= bound) {
     mine.awaits_constraint = false;
     mine.is_constrained = true;
-    mine.heard = mine.time;
+    mine.horizon = mine.time;
     listener.constrained_enabled(federate, mine.time);
   }
   if (mine.awaits_regulation && (!mine.is_constrained || mine.enabling <= bound)) {
     mine.awaits_regulation = false;
     if (mine.enabling > mine.time) deliver(federate, mine.enabling, listener);
     mine.time = mine.enabling;
-    mine.heard = std::max(mine.heard, mine.time);
+    mine.horizon = std::max(mine.horizon, mine.time);
     listener.regulation_enabled(federate, mine.time, mine.floor);
   }
   if (mine.is_advancing) advance(federate, bound, listener);
@@ -279,7 +279,7 @@ void ConservativeTime::advance(std::uint32_t federate, double galt, TimeListener
   deliver(federate, mine.kind == AdvanceKind::flush_queue ? time_unbounded : granted, listener);
   mine.is_advancing = false;
   mine.time = granted;
-  mine.heard = std::max(mine.heard, is_complete(mine.kind) ? just_after(granted) : granted);
+  mine.horizon = std::max(mine.horizon, is_complete(mine.kind) ? just_after(granted) : granted);
   if (mine.is_regulating)
     mine.floor = std::max(mine.floor, earliest_stamp(granted, mine.lookahead, mine.kind));
   listener.grant(federate, granted);

@@ -48,7 +48,8 @@ class ConservativeTime final : public TimeManagement {
     double lookahead = 0.0;
     double floor = 0.0;  ///< regulating: the least time stamp it may use, or may use once its
                          ///< request is granted; never decreases
-    double heard = 0.0;  ///< the least time stamp that may still reach it without being in its past
+    double horizon =
+        0.0;  ///< the least time stamp that may still reach it without being in its past
     TimeQueue queue;
   };
   const Clock& clock(std::uint32_t federate) const;

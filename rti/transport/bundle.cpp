@@ -175,24 +175,24 @@ void BundledTransport::on_open(ConnectionId trunk_id) {
 
 void BundledTransport::on_bytes(ConnectionId trunk_id, Bytes bytes) {
   while (!bytes.empty() && !trunks_[trunk_id].is_closed) {
-    Trunk& heard = trunks_[trunk_id];
-    if (heard.left == 0) {
-      const std::size_t taken = std::min(sizeof heard.header - heard.header_size, bytes.size());
-      std::memcpy(heard.header + heard.header_size, bytes.data(), taken);
-      heard.header_size += taken;
+    Trunk& trunk = trunks_[trunk_id];
+    if (trunk.left == 0) {
+      const std::size_t taken = std::min(sizeof trunk.header - trunk.header_size, bytes.size());
+      std::memcpy(trunk.header + trunk.header_size, bytes.data(), taken);
+      trunk.header_size += taken;
       bytes = bytes.subspan(taken);
-      if (heard.header_size < sizeof heard.header) return;
-      heard.header_size = 0;
-      if (!take_header(trunk_id)) {
+      if (trunk.header_size < sizeof trunk.header) return;
+      trunk.header_size = 0;
+      if (!handle_header(trunk_id)) {
         carrier_.close(trunk_id);
         return on_close(trunk_id, CloseReason::failed, "sent what is no record of a bundle");
       }
       continue;
     }
-    const Bytes part = bytes.first(std::min<std::size_t>(heard.left, bytes.size()));
+    const Bytes part = bytes.first(std::min<std::size_t>(trunk.left, bytes.size()));
     bytes = bytes.subspan(part.size());
-    heard.left -= static_cast<std::uint32_t>(part.size());
-    const ConnectionId connection = heard.channels[heard.number];
+    trunk.left -= static_cast<std::uint32_t>(part.size());
+    const ConnectionId connection = trunk.channels[trunk.number];
     if (Channel* channel =
             find(connection)) {  // else it was closed by us, and the peer has not heard yet
       channel->counters.bytes_received += part.size();
@@ -201,26 +201,26 @@ void BundledTransport::on_bytes(ConnectionId trunk_id, Bytes bytes) {
   }
 }
 
-bool BundledTransport::take_header(ConnectionId trunk_id) {
-  Trunk& heard = trunks_[trunk_id];
+bool BundledTransport::handle_header(ConnectionId trunk_id) {
+  Trunk& trunk = trunks_[trunk_id];
   std::uint32_t number = 0, size = 0;
-  Reader header(heard.header);
+  Reader header(trunk.header);
   header.number(number);
   header.number(size);
   if (size == opens) {
-    if (heard.is_ours || number != heard.channels.size() || number >= channel_max) return false;
+    if (trunk.is_ours || number != trunk.channels.size() || number >= channel_max) return false;
     const ConnectionId connection = add(trunk_id);
     news_.push_back({connection, true, {}, {}});
     return report(), true;
   }
-  if (number >= heard.channels.size()) return false;
+  if (number >= trunk.channels.size()) return false;
   if (size == closes) {
-    if (find(heard.channels[number]) != nullptr)
-      end(heard.channels[number], CloseReason::closed_by_peer, "closed by peer");
+    if (find(trunk.channels[number]) != nullptr)
+      end(trunk.channels[number], CloseReason::closed_by_peer, "closed by peer");
     return report(), true;
   }
-  heard.number = number;
-  heard.left = size;
+  trunk.number = number;
+  trunk.left = size;
   return true;
 }
 

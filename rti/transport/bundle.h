@@ -73,7 +73,7 @@ class BundledTransport final : public Transport, private TransportListener {
   void write_header(ConnectionId trunk_id, std::uint32_t number, std::uint32_t size);
   void send_gathered(ConnectionId trunk_id);
   /// False if the header is none.
-  bool take_header(ConnectionId trunk_id);
+  bool handle_header(ConnectionId trunk_id);
   void end(ConnectionId connection, CloseReason reason, const std::string& detail);
   void report();
 

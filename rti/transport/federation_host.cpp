@@ -14,30 +14,30 @@ class FederationHost::Port final : public TransportListener {
  public:
   Port(FederationHost& host, Transport& transport) : host_(host), transport_(transport) {}
   Transport& transport() { return transport_; }
-  bool has_heard() const { return has_heard_; }
+  bool has_received() const { return has_received_; }
   void poll(std::chrono::nanoseconds longest_wait) {
-    has_heard_ = false;
+    has_received_ = false;
     transport_.poll(longest_wait, *this);
   }
 
   void on_open(ConnectionId connection) override {
-    has_heard_ = true;
+    has_received_ = true;
     if (connection >= numbers_.size()) numbers_.resize(connection + 1, nobody);
     assert(numbers_[connection] == nobody);  // connections are never numbered twice
     numbers_[connection] = host_.admit(*this, connection);
   }
   void on_bytes(ConnectionId connection, Bytes bytes) override {
-    has_heard_ = true;
+    has_received_ = true;
     assert(connection < numbers_.size() && numbers_[connection] != nobody);
     host_.core_.receive(numbers_[connection], bytes);
   }
   void on_datagram(ConnectionId connection, Bytes datagram) override {
-    has_heard_ = true;
+    has_received_ = true;
     assert(connection < numbers_.size() && numbers_[connection] != nobody);
     host_.core_.receive_datagram(numbers_[connection], datagram);
   }
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override {
-    has_heard_ = true;
+    has_received_ = true;
     if (connection >= numbers_.size() || numbers_[connection] == nobody) return;
     host_.core_.disconnect(numbers_[connection], detail.empty() ? to_string(reason) : detail);
     if (reason == CloseReason::queue_full) ++host_.closed_by_full_queue_;
@@ -50,7 +50,7 @@ class FederationHost::Port final : public TransportListener {
   FederationHost& host_;
   Transport& transport_;
   std::vector<ConnectionId> numbers_;  ///< the execution's, by the transport's
-  bool has_heard_ = false;
+  bool has_received_ = false;
 };
 
 class FederationHost::HostOutlet final : public Outlet {
@@ -105,11 +105,11 @@ ConnectionId FederationHost::admit(Port& port, ConnectionId connection) {
 }
 
 void FederationHost::poll(std::chrono::nanoseconds longest_wait) {
-  bool has_heard = false;
+  bool has_received = false;
   for (const auto& port : ports_) {
-    const bool may_wait = &port == &ports_.back() && !has_heard;
+    const bool may_wait = &port == &ports_.back() && !has_received;
     port->poll(may_wait ? longest_wait : std::chrono::nanoseconds(0));
-    has_heard |= port->has_heard();
+    has_received |= port->has_received();
   }
 }
 

@@ -51,8 +51,8 @@ void Readiness::change(int file, std::uint64_t number, bool wants_bytes, bool wa
 
 void Readiness::ask_now() {
   taken_ = 0;
-  count_ = static_cast<std::size_t>(
-      std::max(0, ::epoll_wait(epoll_.number(), told_.data(), static_cast<int>(told_.size()), 0)));
+  count_ = static_cast<std::size_t>(std::max(
+      0, ::epoll_wait(epoll_.number(), events_.data(), static_cast<int>(events_.size()), 0)));
 }
 
 void Readiness::ask(std::chrono::nanoseconds longest_wait, std::chrono::nanoseconds spin) {
@@ -79,8 +79,8 @@ void Readiness::sleep(std::chrono::nanoseconds longest_wait) {
                          .tv_nsec = static_cast<long>((longest_wait - seconds).count())};
   if (has_exact_sleep_) {
     taken_ = 0;
-    const int count = ::epoll_pwait2(epoll_.number(), told_.data(), static_cast<int>(told_.size()),
-                                     &timeout, nullptr);
+    const int count = ::epoll_pwait2(epoll_.number(), events_.data(),
+                                     static_cast<int>(events_.size()), &timeout, nullptr);
     count_ = static_cast<std::size_t>(std::max(0, count));
     if (count >= 0 || errno == EINTR) return;
     has_exact_sleep_ = false;  // an older kernel, or a sandbox that has not heard of it
@@ -91,10 +91,10 @@ void Readiness::sleep(std::chrono::nanoseconds longest_wait) {
 }
 
 std::optional<Readiness::Event> Readiness::next() {
-  assert(taken_ <= count_ && count_ <= told_.size());
-  if (taken_ == count_ && count_ == told_.size()) ask_now();
+  assert(taken_ <= count_ && count_ <= events_.size());
+  if (taken_ == count_ && count_ == events_.size()) ask_now();
   if (taken_ == count_) return std::nullopt;
-  const epoll_event& event = told_[taken_++];
+  const epoll_event& event = events_[taken_++];
   const bool is_over = (event.events & (EPOLLERR | EPOLLHUP)) != 0;
   return Event{.number = event.data.u64,
                .is_writable = is_over || (event.events & EPOLLOUT) != 0,

@@ -72,7 +72,7 @@ class Readiness {
   void ask_now();
   void sleep(std::chrono::nanoseconds longest_wait);
   File epoll_;
-  std::array<epoll_event, batch_max> told_;
+  std::array<epoll_event, batch_max> events_;
   std::size_t taken_ = 0, count_ = 0;
   bool has_exact_sleep_ = true;  ///< the kernel knows epoll_pwait2
 };

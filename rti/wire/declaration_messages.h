@@ -54,14 +54,15 @@ using SubscribeInteractionClassMessage =
 struct ClassRelevanceMessage {
   static constexpr MessageKind kind = MessageKind::class_relevance;
   std::uint8_t is_interaction = 0;
-  std::uint16_t number = 0;             ///< of the object or interaction class
-  std::uint32_t heard = 0, active = 0;  ///< attributes; 0 or 1 for an interaction class. `active`:
-                                        ///< of those by subscriptions that are not passive
+  std::uint16_t number = 0;  ///< of the object or interaction class
+  std::uint32_t subscribed = 0,
+                active = 0;  ///< attributes; 0 or 1 for an interaction class. `active`:
+                             ///< of those by subscriptions that are not passive
 };
 template <class Stream>
 bool exchange(Stream& stream, ClassRelevanceMessage& message) {
   return stream.range(message.is_interaction, 1) && stream.varint(message.number) &&
-         stream.varint(message.heard) && stream.varint(message.active);
+         stream.varint(message.subscribed) && stream.varint(message.active);
 }
 
 /// An object and some of its attributes. Downwards: those that are in somebody's scope now, of the

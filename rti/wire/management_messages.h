@@ -53,13 +53,13 @@ bool exchange(Stream& stream, FederateReportMessage& message) {
 /// The answer is complete.
 using ReportEndMessage = BareMessage<MessageKind::report_end>;
 
-/// Calls `say(message)` for every message of one report; the end is not among them.
-template <class Say>
-void for_each_message(const FederationReport& report, Say say) {
-  say(FederationReportMessage{report.federation, report.model, report.filter, report.objects,
-                              report.drops});
+/// Calls `enqueue(message)` for every message of one report; the end is not among them.
+template <class Enqueue>
+void for_each_message(const FederationReport& report, Enqueue enqueue) {
+  enqueue(FederationReportMessage{report.federation, report.model, report.filter, report.objects,
+                                  report.drops});
   for (const FederateReport& each : report.federates)
-    say(FederateReportMessage{each.federate.value, each.name, each.type, each.counts});
+    enqueue(FederateReportMessage{each.federate.value, each.name, each.type, each.counts});
 }
 
 }  // namespace rink::rti

@@ -56,7 +56,7 @@ class Sound final : public Outlet {
   Ambassador owner{rti::testing::fjord(), owner_heard}, watch{rti::testing::fjord(), heard};
   std::array<ObjectHandle, 3> boats;
   std::deque<std::vector<std::byte>> said;  ///< by the watch, on its way
-  bool holds = false;
+  bool rest_contacts = false;
   unsigned changes = 0, change_at = 0;  ///< of the frame that the third one hears
 
   void tick() {
@@ -65,7 +65,7 @@ class Sound final : public Outlet {
     if (const Bytes bytes = watch.outgoing(); !bytes.empty())
       said.emplace_back(bytes.begin(), bytes.end());
     watch.clear_outgoing();
-    for (; !holds && !said.empty(); said.pop_front()) execution_.receive(1, said.front());
+    for (; !rest_contacts && !said.empty(); said.pop_front()) execution_.receive(1, said.front());
     execution_.match();
     execution_.flush(*this);
   }
@@ -169,7 +169,7 @@ void drive_baselines(Bytes bytes) {
       sound.said.push_back(input.byte() % 2 == 0 ? framed(AcknowledgeKeyframeMessage{number})
                                                  : framed(RefuseKeyframeMessage{number}));
     }
-    sound.holds = fate == 2;
+    sound.rest_contacts = fate == 2;
     if (fate == 3) sound.watch.clear_outgoing();  // forgotten
     if (fate == 4 && !sound.said.empty()) sound.said.push_back(sound.said.back());
     sound.changes = fate > 5 ? input.byte() : 0;

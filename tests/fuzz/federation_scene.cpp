@@ -41,7 +41,7 @@ class Scene final : public Outlet {
                                .federate_max = 8,
                                .object_max = 64,
                                .objects_per_federate_max = 16,
-                               .patience = {}}) {
+                               .timeouts = {}}) {
     execution_.connect(0);
     witness_.join("rink", "witness", "tester");
     tick();

@@ -29,8 +29,8 @@ std::span<const Harness> game_harnesses();
 std::span<const Harness> im_harnesses();
 
 /// Stands in all builds, unlike an assertion.
-inline void require(bool holds, const char* what) {
-  if (holds) return;
+inline void require(bool rest_contacts, const char* what) {
+  if (rest_contacts) return;
   std::fprintf(stderr, "does not hold: %s\n", what);
   std::abort();
 }

@@ -139,7 +139,7 @@ class Stream {
       if (change.transition == im::Transition::left) known_.erase(pair);
       else known_.insert(pair);
     }
-    for (const im::Stay& stay : filter_.filter().stays())
+    for (const im::RelevanceInterval& stay : filter_.filter().relevance_intervals())
       require(known_.contains({stay.subscriber, stay.entity}), "stays are of pairs let through");
     im::PriorityOrder* const order = filter_.filter().priority();
     if (order != nullptr)

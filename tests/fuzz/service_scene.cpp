@@ -57,7 +57,7 @@ class Quay final : public Outlet {
                                .federate_max = 4,
                                .object_max = 64,
                                .objects_per_federate_max = 64,
-                               .patience = {}}) {
+                               .timeouts = {}}) {
     execution_.connect(0);
     witness.join("rink", "witness", "tester");
     tick();

@@ -49,11 +49,11 @@ TEST(Process, TellsOutputAndErrorsApartUnlessTheyAreJoined) {
   Process apart("/bin/sh", words);
   attend_to_its_end(apart);
   EXPECT_EQ(apart.line_after("th"), "ree");
-  EXPECT_EQ(apart.last_words(), "two");
+  EXPECT_EQ(apart.stderr_tail(), "two");
   EXPECT_EQ(apart.take_output(), "one\nthree\n");
   Process joined("/bin/sh", words, {.joins_errors = true});
   attend_to_its_end(joined);
-  EXPECT_EQ(joined.last_words(), "");
+  EXPECT_EQ(joined.stderr_tail(), "");
   EXPECT_EQ(joined.take_output(), "one\ntwo\nthree\n");
   EXPECT_EQ(joined.take_output(), "");
 }

@@ -17,7 +17,7 @@ EXCEPTED = {"Ambassador", "AmbassadorServices", "FederateAmbassador", "CallbackQ
 
 # Not divided yet: how many functions and data members each has, which may only shrink.
 UNDIVIDED = {
-    "Meeting": (54, 27), "Peer": (100, 62), "Session": (63, 24),
+    "PeerNetwork": (54, 27), "Peer": (100, 62), "Session": (63, 24),
 }
 
 FOLDERS = ("rti", "im", "game", "loadgen", "bench")

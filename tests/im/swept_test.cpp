@@ -164,7 +164,8 @@ TEST(Swept, HoldsEveryPlaceOfAFlightUntilItsHorizonAndTellsTheTimes) {
       for (const Change& change : filter->match())
         change.transition == Transition::entered ? void(known.insert({0, change.entity}))
                                                  : void(known.erase({0, change.entity}));
-      for (const Stay& stay : filter->stays()) stays[stay.entity] = {stay.enters, stay.leaves};
+      for (const RelevanceInterval& stay : filter->relevance_intervals())
+        stays[stay.entity] = {stay.enters, stay.leaves};
       for (const auto& [id, flight] : flights)
         for (double ahead = 0.0; ahead <= 0.1; ahead += 0.02) {
           const Flight at = at_time(flight, now + ahead, drag);
@@ -197,15 +198,15 @@ TEST(Swept, TellsTheTimesAnewWhereEitherOfTwoTakesAnotherWay) {
     filter->set_flight(0, {.x = 50.0, .y = 50.0, .velocity_x = 2.0});
     filter->set_subscriber_flight(0, {.x = 50.0, .y = 50.0, .velocity_x = -3.0});
     filter->match();
-    ASSERT_EQ(filter->stays().size(), 1u);
-    EXPECT_NEAR(filter->stays()[0].leaves, 2.0, 1e-12) << "10 m at 5 m/s";
+    ASSERT_EQ(filter->relevance_intervals().size(), 1u);
+    EXPECT_NEAR(filter->relevance_intervals()[0].leaves, 2.0, 1e-12) << "10 m at 5 m/s";
     filter->set_time(1.0);
     if (turns_the_subscriber)
       filter->set_subscriber_flight(0, {.x = 47.0, .y = 50.0, .velocity_x = 1.0, .time = 1.0});
     else filter->set_flight(0, {.x = 52.0, .y = 50.0, .velocity_x = -2.0, .time = 1.0});
     EXPECT_THAT(filter->match(), IsEmpty());
-    ASSERT_EQ(filter->stays().size(), 1u);
-    EXPECT_NEAR(filter->stays()[0].leaves, 6.0, 1e-12) << "5 m at 1 m/s either way";
+    ASSERT_EQ(filter->relevance_intervals().size(), 1u);
+    EXPECT_NEAR(filter->relevance_intervals()[0].leaves, 6.0, 1e-12) << "5 m at 1 m/s either way";
   }
 }
 
@@ -217,25 +218,26 @@ TEST(Swept, CostsNothingForWhoRests) {
   for (Entity id = 0; id < 100; ++id)
     filter->set_flight(id, {.x = static_cast<double>(id), .y = 50.0});
   filter->match();
-  EXPECT_EQ(filter->stays().size(), 21u);
+  EXPECT_EQ(filter->relevance_intervals().size(), 21u);
   const FilterCounters before = filter->counters();
   for (int tick = 1; tick < 10; ++tick) {
     filter->set_time(tick);
     for (Entity id = 0; id < 100; ++id)
       filter->set_flight(id, {.x = static_cast<double>(id), .y = 50.0});
     EXPECT_THAT(filter->match(), IsEmpty());
-    EXPECT_THAT(filter->stays(), IsEmpty());
+    EXPECT_THAT(filter->relevance_intervals(), IsEmpty());
   }
   EXPECT_EQ(filter->counters().pairs_tested, before.pairs_tested);
   EXPECT_EQ(filter->counters().regions_moved, before.regions_moved);
   filter->set_flight(30, {.x = 30.0, .y = 50.0, .velocity_x = 5.0, .time = 9.0});
   filter->match();
-  EXPECT_THAT(filter->stays(), IsEmpty()) << "until its swept region reaches the disc";
+  EXPECT_THAT(filter->relevance_intervals(), IsEmpty())
+      << "until its swept region reaches the disc";
   filter->set_time(10.5);
   EXPECT_THAT(filter->match(), ElementsAre(Change{0, 30, Transition::entered}));
-  ASSERT_EQ(filter->stays().size(), 1u);
-  EXPECT_NEAR(filter->stays()[0].enters, 10.9, 1e-12);
-  EXPECT_NEAR(filter->stays()[0].leaves, 15.1, 1e-12);
+  ASSERT_EQ(filter->relevance_intervals().size(), 1u);
+  EXPECT_NEAR(filter->relevance_intervals()[0].enters, 10.9, 1e-12);
+  EXPECT_NEAR(filter->relevance_intervals()[0].leaves, 15.1, 1e-12);
 }
 
 TEST(Swept, LetsTiersMeasureWhereThoseWhoFlyAre) {
@@ -262,7 +264,7 @@ TEST(Swept, TakesARegionForTheEndOfAFlight) {
   EXPECT_THAT(filter->match(), ElementsAre(Change{0, 0, Transition::entered}));
   filter->set_update_region(0, {0.0, 5.0, 1.0, 6.0});
   EXPECT_THAT(filter->match(), ElementsAre(Change{0, 0, Transition::left}));
-  EXPECT_THAT(filter->stays(), IsEmpty());
+  EXPECT_THAT(filter->relevance_intervals(), IsEmpty());
 }
 
 }  // namespace

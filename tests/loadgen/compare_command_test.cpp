@@ -65,7 +65,7 @@ class CompareCommandTest : public testing::Test {
   int exit_status_of(const std::vector<std::string>& arguments) {
     game::Process compare(test::binary_folder() + "/bin/rink-compare", arguments, {});
     while (!compare.ending()) compare.attend(std::chrono::milliseconds(20));
-    errors_ = compare.last_words();
+    errors_ = compare.stderr_tail();
     return compare.ending()->exit_status;
   }
 

@@ -93,7 +93,7 @@ struct ADuel {
 TEST(DuelCommand, PlaysAsManyMatchesAsItIsAskedFor) {
   for (const int count : {1, 2}) {
     ADuel two({"--matches", std::to_string(count)}, short_match);
-    EXPECT_EQ(two.status(), 0) << two.duel->last_words();
+    EXPECT_EQ(two.status(), 0) << two.duel->stderr_tail();
     EXPECT_TRUE(two.has_record(count));
     EXPECT_FALSE(two.has_record(count + 1));
     EXPECT_THAT(two.duel->line_after("left: ").value_or(""), HasSubstr("1 to 0"));
@@ -105,7 +105,7 @@ TEST(DuelCommand, PlaysAsManyMatchesAsItIsAskedFor) {
 TEST(DuelCommand, LeavesWhenItsTimeIsOver) {
   ADuel two({"--duration", "1"});
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(two.status(), 0) << two.duel->last_words();
+  EXPECT_EQ(two.status(), 0) << two.duel->stderr_tail();
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 900ms);
   EXPECT_GT(two.told("played"), 0.0);
   EXPECT_LT(two.told("played"), 1.0);
@@ -115,8 +115,8 @@ TEST(DuelCommand, LeavesWhenItsTimeIsOver) {
 TEST(DuelCommand, DrawsAsManyFramesAsItIsAskedFor) {
   ADuel slow({"--duration", "1.2", "--frame-rate", "10"}),
       quick({"--duration", "1.2", "--frame-rate", "200"});
-  EXPECT_EQ(slow.status(), 0) << slow.duel->last_words();
-  EXPECT_EQ(quick.status(), 0) << quick.duel->last_words();
+  EXPECT_EQ(slow.status(), 0) << slow.duel->stderr_tail();
+  EXPECT_EQ(quick.status(), 0) << quick.duel->stderr_tail();
   EXPECT_GE(slow.told("ping"), 90.0);
   EXPECT_LT(quick.told("ping"), 60.0);
 }
@@ -140,7 +140,7 @@ TEST(DuelCommand, PlaysByItsSeed) {
         std::vector<std::string>{"--players", "waypoint", "--duration", "1", "--seed", seed}));
   std::vector<std::vector<Key>> keys;
   for (const auto& each : duels) {
-    ASSERT_EQ(each->status(), 0) << each->duel->last_words();
+    ASSERT_EQ(each->status(), 0) << each->duel->stderr_tail();
     keys.push_back(first_keys(each->record(1)));
     ASSERT_EQ(keys.back().size(), 2u);
   }
@@ -152,7 +152,7 @@ TEST(DuelCommand, PlaysByItsSeed) {
 int status_of(const std::vector<std::string>& words, std::string& said) {
   Process duel(program("duel"), words, {});
   for (int i = 0; i < 1000 && !duel.ending(); ++i) duel.attend(10ms);
-  said = duel.last_words();
+  said = duel.stderr_tail();
   return duel.ending() ? duel.ending()->exit_status : -1;
 }
 

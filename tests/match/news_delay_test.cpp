@@ -16,7 +16,7 @@ double delay_measured(double tick, double way, double frame, double frame_phase)
     const double told = number * tick, heard = told + way;
     const double before = frame_phase + std::ceil((heard - frame_phase) / frame - 1.0) *
                                             frame;  // the last frame before it was heard
-    delay.heard(before + way, told - tick);  // a key pressed in that frame is felt a way later
+    delay.received(before + way, told - tick);  // a key pressed in that frame is felt a way later
   }
   return delay.delay().value_or(-1.0);
 }
@@ -36,20 +36,20 @@ TEST(NewsDelay, IsThereAndBackAndATick) {
 
 TEST(NewsDelay, SaysNothingBeforeItHasHeardEnoughAndForgets) {
   NewsDelay delay;
-  for (std::size_t k = 1; k < NewsDelay::needed; ++k) delay.heard(1.0, 0.5);
+  for (std::size_t k = 1; k < NewsDelay::needed; ++k) delay.received(1.0, 0.5);
   EXPECT_FALSE(delay.delay());
-  delay.heard(1.0, 0.5);
+  delay.received(1.0, 0.5);
   EXPECT_DOUBLE_EQ(delay.delay().value_or(0.0), 0.5 + NewsDelay::spare);
-  for (std::size_t k = 0; k < NewsDelay::remembered; ++k) delay.heard(1.0, 0.9);
+  for (std::size_t k = 0; k < NewsDelay::remembered; ++k) delay.received(1.0, 0.9);
   EXPECT_DOUBLE_EQ(delay.delay().value_or(0.0), 0.1 + NewsDelay::spare);
 }
 
 TEST(NewsDelay, IsNotThatOfTheOnePieceInThirtyThatWasHeldUp) {
   NewsDelay delay;
-  for (int k = 0; k < 62; ++k) delay.heard(1.0, 0.9);
-  delay.heard(1.0, 0.5), delay.heard(1.0, 0.4);
+  for (int k = 0; k < 62; ++k) delay.received(1.0, 0.9);
+  delay.received(1.0, 0.5), delay.received(1.0, 0.4);
   EXPECT_DOUBLE_EQ(delay.delay().value_or(0.0), 0.1 + NewsDelay::spare);
-  delay.heard(10.0, 0.0);
+  delay.received(10.0, 0.0);
   EXPECT_DOUBLE_EQ(delay.delay().value_or(0.0), 0.1 + NewsDelay::spare)
       << "seconds late: a machine that slept";
 }

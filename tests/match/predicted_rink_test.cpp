@@ -1,4 +1,4 @@
-// What is foretold against the game itself: told late, in part or wrongly, it must find back, and
+// What is predicted against the game itself: told late, in part or wrongly, it must find back, and
 // smoothly.
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 namespace rink::game {
 namespace {
 
-ToldRink told_by(const Game& game) {
-  ToldRink told{.time = game.now(), .bats = {}, .pucks = {}};
+ReceivedRink told_by(const Game& game) {
+  ReceivedRink told{.time = game.now(), .bats = {}, .pucks = {}};
   for (const Entity& entity : game.entities()) {
-    ToldBody body{.position = game.position(entity.id),
-                  .velocity = game.velocity(entity.id),
-                  .held = {},
-                  .is_in_play = game.simulator().is_in_play(entity.id)};
+    ReceivedBody body{.position = game.position(entity.id),
+                      .velocity = game.velocity(entity.id),
+                      .held = {},
+                      .is_in_play = game.simulator().is_in_play(entity.id)};
     if (entity.player) body.held = game.keys_held(*entity.player);
     if (entity.kind == physics::BodyKind::bat) told.bats.push_back(body);
     if (entity.kind == physics::BodyKind::puck) told.pucks.push_back(body);
@@ -29,7 +29,7 @@ Vector2 bat_of(const Game& game, std::uint32_t player) { return game.position(*g
 TEST(APredictedRink, ShowsTheOwnBatWhereTheServerWillHaveItThoughNothingIsToldForAWhile) {
   Game game(match_scene());
   PredictedRink rink(match_scene(), 0);
-  rink.hear(told_by(game));
+  rink.receive(told_by(game));
   rink.advance(0.0, 0.0);
   const InputEvent events[] = {{0.10, 0, InputKind::key_down, Key::up},
                                {0.25, 0, InputKind::key_down, Key::right},
@@ -45,7 +45,7 @@ TEST(APredictedRink, ShowsTheOwnBatWhereTheServerWillHaveItThoughNothingIsToldFo
   EXPECT_EQ(rink.bats()[0].time, 0.6);
   EXPECT_EQ(rink.bats()[1].time, 0.6 - 0.2);
   EXPECT_EQ(rink.keys_waiting(), 3u);
-  rink.hear(told_by(game));
+  rink.receive(told_by(game));
   EXPECT_EQ(rink.keys_waiting(), 0u);
   EXPECT_EQ(rink.own_corrections().visible_count, 0u);
 }
@@ -55,22 +55,22 @@ TEST(APredictedRink, GoesByTheNewestStateWhateverComesAfterIt) {
   Game game(match_scene());
   game.submit({0.0, 1, InputKind::key_down, Key::down});
   game.advance(0.1);
-  const ToldRink older = told_by(game);
+  const ReceivedRink older = told_by(game);
   game.submit({0.15, 0, InputKind::key_down, Key::up});
   game.submit({0.15, 1, InputKind::key_up, Key::down});
   game.advance(0.2);
-  const ToldRink newer = told_by(game);
+  const ReceivedRink newer = told_by(game);
   PredictedRink rink(match_scene(), 0), only_newer(match_scene(), 0);
-  rink.hear(newer), rink.hear(older);
-  only_newer.hear(newer);
-  EXPECT_EQ(rink.told_time(), 0.2);
+  rink.receive(newer), rink.receive(older);
+  only_newer.receive(newer);
+  EXPECT_EQ(rink.received_time(), 0.2);
   game.advance(0.4);
   for (PredictedRink* each : {&rink, &only_newer}) each->advance(0.4, 0.0);
   for (const std::uint32_t bat : {0u, 1u}) {
     EXPECT_LT((rink.bats()[bat].position - bat_of(game, bat)).norm(), 1e-12) << bat;
     EXPECT_EQ(rink.bats()[bat].position, only_newer.bats()[bat].position);
   }
-  rink.hear(older);
+  rink.receive(older);
   rink.advance(0.4, 0.0);
   EXPECT_EQ(rink.bats()[0].position, only_newer.bats()[0].position);
   EXPECT_EQ(rink.own_corrections().visible_count + rink.other_corrections().visible_count, 0u);
@@ -81,15 +81,15 @@ TEST(APredictedRink, GoesByTheNewestStateWhateverComesAfterIt) {
 TEST(APredictedRink, ForgetsAKeyThatWasFeltOnceAndForAll) {
   Game game(match_scene());
   PredictedRink rink(match_scene(), 0);
-  rink.hear(told_by(game));
+  rink.receive(told_by(game));
   rink.advance(0.0, 0.0);
-  const ToldRink before = told_by(game);
+  const ReceivedRink before = told_by(game);
   rink.press(Key::up, true, 0.05);
   game.submit({0.05, 0, InputKind::key_down, Key::up});
   game.advance(0.1);
-  rink.hear(told_by(game));
+  rink.receive(told_by(game));
   EXPECT_EQ(rink.keys_waiting(), 0u);
-  rink.hear(before);
+  rink.receive(before);
   rink.advance(0.3, 0.0);
   game.advance(0.3);
   EXPECT_EQ(rink.keys_waiting(), 0u);
@@ -99,7 +99,7 @@ TEST(APredictedRink, ForgetsAKeyThatWasFeltOnceAndForAll) {
 TEST(APredictedRink, LeavesAWrongPlaceBehindWithinATenthOfASecondWithoutAJump) {
   Game game(match_scene());
   PredictedRink rink(match_scene(), 0);
-  rink.hear(told_by(game));
+  rink.receive(told_by(game));
   rink.advance(0.0, 0.0);
   rink.press(Key::up, true, 0.0);  // which the server never gets
   rink.advance(0.2, 0.05);
@@ -107,7 +107,7 @@ TEST(APredictedRink, LeavesAWrongPlaceBehindWithinATenthOfASecondWithoutAJump) {
   game.submit({0.1, 0, InputKind::key_down, Key::down}),
       game.submit({0.1, 0, InputKind::key_up, Key::down});
   game.advance(0.2);
-  rink.hear(told_by(game));
+  rink.receive(told_by(game));
   rink.advance(0.2, 0.05);
   EXPECT_NEAR(rink.bats()[0].position.y(), wrong, 1e-9) << "no jump";
   EXPECT_EQ(rink.own_corrections().visible_count, 1u);
@@ -127,15 +127,15 @@ TEST(APredictedRink, LeavesAWrongPlaceBehindWithinATenthOfASecondWithoutAJump) {
 TEST(APredictedRink, GlidesToABatHoweverWrongItWasAndJumpsToAPuckThatIsFarOff) {
   const Scene scene = match_scene();
   Game game(scene);
-  ToldRink told = told_by(game);
+  ReceivedRink told = told_by(game);
   PredictedRink rink(scene, 0);
-  rink.hear(told);
+  rink.receive(told);
   rink.advance(0.0, 0.0);
   const Vector2 bat = rink.bats()[0].position, puck = rink.pucks()[0].position;
   told.time = 0.01;
   told.bats[0].position.y() -= 0.4, told.pucks[0].position.y() += 0.4;
   rink.advance(0.01, 0.0);
-  rink.hear(told);
+  rink.receive(told);
   rink.advance(0.01, 0.0);
   EXPECT_LT((rink.bats()[0].position - bat).norm(), 1e-9);
   EXPECT_NEAR(rink.own_corrections().greatest, 0.4, 1e-9);
@@ -146,7 +146,7 @@ TEST(APredictedRink, GlidesToABatHoweverWrongItWasAndJumpsToAPuckThatIsFarOff) {
   told.pucks[0].position.y() -= 0.2;
   rink.advance(0.2, 0.0);
   const Vector2 shown = rink.pucks()[0].position;
-  rink.hear(told);
+  rink.receive(told);
   rink.advance(0.2, 0.0);
   EXPECT_LT((rink.pucks()[0].position - shown).norm(), 1e-9);
   EXPECT_EQ(rink.puck_corrections().visible_count, 1u);
@@ -155,9 +155,9 @@ TEST(APredictedRink, GlidesToABatHoweverWrongItWasAndJumpsToAPuckThatIsFarOff) {
 TEST(APredictedRink, MakesUpForASecondMistakeWithoutForgettingTheFirst) {
   const Scene scene = match_scene();
   Game game(scene);
-  ToldRink told = told_by(game);
+  ReceivedRink told = told_by(game);
   PredictedRink rink(scene, 0);
-  rink.hear(told);
+  rink.receive(told);
   rink.advance(0.0, 0.0);
   double now = 0.0;
   for (const double step : {-0.1, -0.05, 0.08}) {
@@ -166,7 +166,7 @@ TEST(APredictedRink, MakesUpForASecondMistakeWithoutForgettingTheFirst) {
     const Vector2 shown = rink.bats()[0].position;
     told.time = now;
     told.bats[0].position.y() += step;
-    rink.hear(told);
+    rink.receive(told);
     rink.advance(now, 0.0);
     EXPECT_LT((rink.bats()[0].position - shown).norm(), 1e-12) << "a jump at " << now;
   }
@@ -180,7 +180,7 @@ TEST(APredictedRink, LetsAPucksTimeRunAtMostThreeTimesAndAtLeastThreeTenthsAsFas
   scene.bodies.pucks[0].body.position = {2.05, 0.6};  // at the other's bat: shown as late as that
   Game game(scene);
   PredictedRink rink(scene, 0);
-  rink.hear(told_by(game));
+  rink.receive(told_by(game));
   rink.advance(0.0, 0.0);
   double now = 0.0;
   const auto rate_at = [&](double delay) {
@@ -204,7 +204,7 @@ TEST(APredictedRink, ShowsAPuckAtEachBatInThatBatsOwnTime) {
     scene.bodies.pucks[0].body.position = {x, 0.6};
     Game game(scene);
     PredictedRink rink(scene, 0);
-    rink.hear(told_by(game));
+    rink.receive(told_by(game));
     rink.advance(0.0, 0.0);
     for (double now = 0.01; now < 1.0; now += 0.01) rink.advance(now, 0.2);
     const double lag = rink.now() - rink.pucks()[0].time;
@@ -215,17 +215,18 @@ TEST(APredictedRink, ShowsAPuckAtEachBatInThatBatsOwnTime) {
 TEST(APredictedRink, BearsWhatNoServerShouldTell) {
   const Scene scene = match_scene();
   PredictedRink rink(scene, 0);
-  ToldRink told{.time = 1.0, .bats = std::vector<ToldBody>(2), .pucks = std::vector<ToldBody>(1)};
+  ReceivedRink told{
+      .time = 1.0, .bats = std::vector<ReceivedBody>(2), .pucks = std::vector<ReceivedBody>(1)};
   told.bats[0].position = {-5.0, 90.0}, told.bats[1].position = {0.1, 0.1};
   told.pucks[0].position = {1.2, -3.0}, told.pucks[0].velocity = {100.0, -100.0};
-  rink.hear(told);
+  rink.receive(told);
   rink.advance(1.5, 0.1);
   for (const ShownBody& bat : rink.bats()) EXPECT_TRUE(bat.position.allFinite());
   told.time = 0.5;
-  rink.hear(told);
+  rink.receive(told);
   rink.advance(1.6, 0.1);
   told.pucks[0].is_in_play = false, told.time = 1.6;
-  rink.hear(told);
+  rink.receive(told);
   rink.advance(1.7, 0.1);
   EXPECT_TRUE(rink.pucks()[0].position.allFinite());
   rink.rewind(1.6);
@@ -235,16 +236,16 @@ TEST(APredictedRink, BearsWhatNoServerShouldTell) {
 TEST(APredictedRink, HasNothingInTheWayThatIsTooFarAwayToBeKnownAndNoJumpWhenItComesNear) {
   Game game(match_scene());
   PredictedRink rink(match_scene(), 0);
-  ToldRink told = told_by(game);
+  ReceivedRink told = told_by(game);
   told.pucks[0].is_known = told.bats[1].is_known = false;
   told.pucks[0].velocity = {-50.0, 0.0};
-  rink.hear(told);
+  rink.receive(told);
   for (const double now : {0.0, 0.05, 0.1}) rink.advance(now, 0.05);
   EXPECT_EQ(rink.pucks()[0].position, told.pucks[0].position)
       << "it would have gone through the own bat";
   EXPECT_EQ(rink.bats()[0].position, bat_of(game, 0));
   game.advance(0.1);
-  rink.hear(told_by(game));
+  rink.receive(told_by(game));
   rink.advance(0.1, 0.05);
   EXPECT_EQ(rink.puck_corrections().visible_count, 0u);
   rink.advance(0.3, 0.05);

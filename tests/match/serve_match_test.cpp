@@ -52,29 +52,29 @@ struct AHost : testing::Test {
 };
 
 TEST_F(AHost, RecordsAMatchThatItsPlayersLeaveAndTheRecordReplaysToTheSameHash) {
-  ASSERT_TRUE(place) << host->last_words();
+  ASSERT_TRUE(place) << host->stderr_tail();
   Process duel(command("duel"), {"--connect", *place, "--duration", "2.5"}, {});
-  EXPECT_EQ(status_of(duel, 20s), 0) << duel.last_words();
+  EXPECT_EQ(status_of(duel, 20s), 0) << duel.stderr_tail();
   host->stop(5s);
-  EXPECT_EQ(host->ending()->exit_status, 130) << host->last_words();
+  EXPECT_EQ(host->ending()->exit_status, 130) << host->stderr_tail();
   Process replay(command("replay"), {(folder / "match-1.keys").string()}, {});
-  EXPECT_EQ(status_of(replay, 20s), 0) << replay.last_words();
+  EXPECT_EQ(status_of(replay, 20s), 0) << replay.stderr_tail();
 }
 
 TEST_F(AHost, ThatIsKilledIsMissedByItsPlayersAtOnce) {
-  ASSERT_TRUE(place) << host->last_words();
+  ASSERT_TRUE(place) << host->stderr_tail();
   Process duel(command("duel"), {"--connect", *place, "--duration", "60"}, {});
-  ASSERT_TRUE(has_federates(*place, 3, 20s)) << duel.last_words();
-  ASSERT_FALSE(duel.ending()) << duel.last_words();
+  ASSERT_TRUE(has_federates(*place, 3, 20s)) << duel.stderr_tail();
+  ASSERT_FALSE(duel.ending()) << duel.stderr_tail();
   host.reset();
-  EXPECT_EQ(status_of(duel, 3s), 16) << duel.last_words();
-  EXPECT_THAT(duel.last_words(), HasSubstr("closed by peer"));
+  EXPECT_EQ(status_of(duel, 3s), 16) << duel.stderr_tail();
+  EXPECT_THAT(duel.stderr_tail(), HasSubstr("closed by peer"));
 }
 
 TEST(ServeMatch, RefusesASceneThatIsNoMatch) {
   Process crowd(command("serve"), {"crowd", "--port", "0"}, {});
   EXPECT_EQ(status_of(crowd, 10s), 2);
-  EXPECT_THAT(crowd.last_words(), HasSubstr("cannot be hosted: it has populations"));
+  EXPECT_THAT(crowd.stderr_tail(), HasSubstr("cannot be hosted: it has populations"));
 }
 
 TEST(ServeMatch, GoesOnWhereNoRecordCanBeWrittenAndSaysItOnce) {
@@ -83,15 +83,15 @@ TEST(ServeMatch, GoesOnWhereNoRecordCanBeWrittenAndSaysItOnce) {
   std::optional<std::string> place;
   for (int i = 0; i < 500 && !place; ++i)
     host.attend(10ms), place = host.line_after("listening on ");
-  ASSERT_TRUE(place) << host.last_words();
+  ASSERT_TRUE(place) << host.stderr_tail();
   for (int round = 0; round < 2; ++round) {
     Process duel(command("duel"), {"--connect", *place, "--duration", "1"}, {});
-    EXPECT_EQ(status_of(duel, 20s), 0) << duel.last_words();
+    EXPECT_EQ(status_of(duel, 20s), 0) << duel.stderr_tail();
   }
   host.attend(20ms);
   EXPECT_FALSE(host.ending());
   host.stop(5s);
-  const std::string said = host.last_words();
+  const std::string said = host.stderr_tail();
   EXPECT_THAT(said, HasSubstr("/proc/nowhere: this folder for records of matches cannot be made"));
   EXPECT_EQ(said.find("/proc/nowhere"), said.rfind("/proc/nowhere")) << said;
 }

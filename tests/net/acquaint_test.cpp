@@ -1,6 +1,6 @@
 // Headings and flights that the game's server hands to the RTI's filter, and rates by tier, against
 // the game itself.
-#include "game/net/server/acquaint.h"
+#include "game/net/server/push_filter_hints.h"
 
 #include <gtest/gtest.h>
 
@@ -179,8 +179,8 @@ TEST(Tiers, NeverLeaveAMirrorMoreThanItsPeriodBehind) {
         versions[each.id.index].push_back(world.motion_version(each.id));
         if (tick < 8 || (policy == "snapshot" && each.kind == physics::BodyKind::bat))
           continue;  // snapshots know nothing of thrust
-        const MirroredEntity* const seen =
-            rink.client(0).mirror().find(rink.server().publisher().object(each.id));
+        const EntityReplica* const seen =
+            rink.client(0).replicas().find(rink.server().publisher().object(each.id));
         ASSERT_NE(seen, nullptr);
         const Vector2 believed = seen->position_at(rink.now);
         double off = (believed - path[tick]).norm();

@@ -33,7 +33,7 @@ TEST(BotsCommand, BotsThatWantDatagramsOfAServerWithoutAreToldToLookAtItsTranspo
   Process server(test::binary_folder() + "/bin/rink-serve",
                  {"--scene", "match", "--clients", "2", "--port", "0"}, {});
   const std::optional<std::string> place = place_of(server);
-  ASSERT_TRUE(place) << server.last_words();
+  ASSERT_TRUE(place) << server.stderr_tail();
   const Ended bots = run(
       "rink-bots", {"--connect", *place, "--transport", "udp", "--count", "2", "--duration", "1"});
   EXPECT_EQ(bots.status, 16);
@@ -45,16 +45,16 @@ TEST(BotsCommand, AServerThatIsKilledEndsThemAtOnceWithAStatusOfItsOwn) {
       test::binary_folder() + "/bin/rink-serve",
       std::vector<std::string>{"--scene", "match", "--clients", "2", "--port", "0"});
   const std::optional<std::string> place = place_of(*server);
-  ASSERT_TRUE(place) << server->last_words();
+  ASSERT_TRUE(place) << server->stderr_tail();
   Process bots(test::binary_folder() + "/bin/rink-bots",
                {"--connect", *place, "--count", "2", "--duration", "60"}, {});
   for (int i = 0; i < 50; ++i) bots.attend(20ms);
-  ASSERT_FALSE(bots.ending()) << bots.last_words();
+  ASSERT_FALSE(bots.ending()) << bots.stderr_tail();
   server.reset();
   for (int i = 0; i < 100 && !bots.ending(); ++i) bots.attend(20ms);
   ASSERT_TRUE(bots.ending());
   EXPECT_EQ(bots.ending()->exit_status, 16);
-  EXPECT_THAT(bots.last_words(), HasSubstr("lost: closed by peer"));
+  EXPECT_THAT(bots.stderr_tail(), HasSubstr("lost: closed by peer"));
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ double farthest_off(LockstepRink& rink, std::size_t& compared) {
   double farthest = 0.0;
   for (std::size_t k = 0; k < rink.client_count(); ++k)
     for (const Entity& entity : game.entities()) {
-      const MirroredEntity* mirrored =
-          rink.client(k).mirror().find(rink.server().publisher().object(entity.id));
+      const EntityReplica* mirrored =
+          rink.client(k).replicas().find(rink.server().publisher().object(entity.id));
       if (mirrored == nullptr || !mirrored->in_scope) continue;
       farthest =
           std::max(farthest, (mirrored->position_at(game.now()) - game.position(entity.id)).norm());
@@ -59,7 +59,7 @@ TEST_P(DeadReckoning, KeepsEveryMirrorWithinTheThresholdAtEveryTick) {
   }
   EXPECT_GT(compared, 10'000u);
   EXPECT_GT(farthest, 0.5 * threshold) << "the threshold is made use of";
-  EXPECT_EQ(rink.client(0).mirror().counters().malformed, 0u);
+  EXPECT_EQ(rink.client(0).replicas().counters().malformed, 0u);
 }
 
 const auto policies_schemes_and_thresholds =
@@ -86,9 +86,9 @@ std::uint64_t updates_of(const Scene& scene, const char* policy, double threshol
        .server = {.policy = policy, .threshold = threshold, .replay = std::vector<InputEvent>{}}});
   rink.start();
   rink.tick();
-  const std::uint64_t before = rink.client(0).mirror().counters().updates;
+  const std::uint64_t before = rink.client(0).replicas().counters().updates;
   rink.run(seconds);
-  return rink.client(0).mirror().counters().updates - before;
+  return rink.client(0).replicas().counters().updates - before;
 }
 
 Scene lone_puck(double drag) {
@@ -156,7 +156,7 @@ double off_between_ticks(double drag, bool extrapolates) {
                     [](const Entity& each) { return each.kind == physics::BodyKind::puck; });
   const double later = game.now() + 0.5 / 30.0;
   return (rink.client(0)
-              .mirror()
+              .replicas()
               .find(rink.server().publisher().object(puck.id))
               ->position_at(later) -
           game.world().motion(puck.id).at(later).position)
@@ -173,17 +173,17 @@ TEST(PeriodicPositions, AreShownAheadByTheVelocityBetweenTheLastTwo) {
 
 TEST(PeriodicPositions, OfWhatWasPutElsewhereAreShownWhereItWasPut) {
   const ObjectModel model(load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml"));
-  Mirror mirror(model);
-  mirror.extrapolate();
+  ReplicaSet replicas(model);
+  replicas.extrapolate();
   const rti::ObjectHandle puck{7};
-  mirror.discover(puck, model.entity);
-  mirror.set_scope(puck, true);
+  replicas.discover(puck, model.entity);
+  replicas.set_scope(puck, true);
   std::vector<std::byte> bytes;
   const auto tell = [&](float x, double time) {
-    mirror.reflect(puck, {model.position}, encode(bytes, Position{x, 0.0f}),
-                   {.time = time, .tag = 1});
+    replicas.reflect(puck, {model.position}, encode(bytes, Position{x, 0.0f}),
+                     {.time = time, .tag = 1});
   };
-  const auto shown = [&](double instant) { return mirror.find(puck)->position_at(instant).x(); };
+  const auto shown = [&](double instant) { return replicas.find(puck)->position_at(instant).x(); };
   tell(1.0f, 1.0);
   EXPECT_EQ(shown(2.0), 1.0) << "one position says nothing of how it moves";
   tell(1.5f, 1.25);
@@ -197,8 +197,8 @@ TEST(PeriodicPositions, OfWhatWasPutElsewhereAreShownWhereItWasPut) {
   tell(21.0f, 4.0);
   EXPECT_EQ(shown(5.0), 21.0) << "two seconds ago is too long ago";
   tell(21.5f, 4.25);
-  mirror.set_scope(puck, false);
-  mirror.set_scope(puck, true);
+  replicas.set_scope(puck, false);
+  replicas.set_scope(puck, true);
   EXPECT_EQ(shown(5.0), 21.5) << "it was away meanwhile";
   tell(22.0f, 4.5);
   EXPECT_EQ(shown(5.0), 22.0);

@@ -30,7 +30,7 @@ inline Ended run(const std::string& command, const std::vector<std::string>& arg
   while (!process.ending() && std::chrono::steady_clock::now() < limit)
     process.attend(std::chrono::milliseconds(20));
   if (!process.ending()) return {};
-  return {process.ending()->exit_status, process.last_words()};
+  return {process.ending()->exit_status, process.stderr_tail()};
 }
 
 inline Ended serve(std::vector<std::string> arguments) {

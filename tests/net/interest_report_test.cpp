@@ -16,21 +16,21 @@ namespace {
 /// Ids of what a client was told is in its scope.
 std::vector<std::uint32_t> heard_by(const Client& client) {
   std::vector<std::uint32_t> heard;
-  for (const MirroredEntity& entity : client.mirror().entities())
+  for (const EntityReplica& entity : client.replicas().entities())
     if (entity.in_scope) heard.push_back(entity.object.value);
   std::ranges::sort(heard);
   return heard;
 }
 
 bool hears(const Client& client, rti::ObjectHandle object) {
-  const MirroredEntity* entity = client.mirror().find(object);
+  const EntityReplica* entity = client.replicas().find(object);
   return entity != nullptr && entity->in_scope;
 }
 
 /// The server's side of a tick, as Serving does it.
 void answer(LockstepRink& rink) {
   for (const Inspections::Question& each : rink.server().inspections().take())
-    rink.server().tell_interest(each.federate,
+    rink.server().send_interest(each.federate,
                                 interest_report(rink.server(), rink.execution(), each.object));
   rink.settle();
 }

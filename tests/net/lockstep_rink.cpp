@@ -1,7 +1,7 @@
 // Steps server, RTI and clients by turns; a round in which nothing is sent ends the exchange.
 #include "tests/net/lockstep_rink.h"
 
-#include "game/net/server/acquaint.h"
+#include "game/net/server/push_filter_hints.h"
 #include "game/replication/trajectory_codec.h"
 #include "tests/places.h"
 
@@ -98,7 +98,7 @@ void LockstepRink::send_tick(double time) {
   server_->publish({.time = time, .tag = static_cast<std::uint64_t>(1e9 * (time + 1.0))});
   server_link_->flush(now);
   host_.poll({});
-  acquaint(*server_, execution_);
+  push_filter_hints(*server_, execution_);
   host_.match();
   host_.flush();
   host_.advance_clock(now);

@@ -30,8 +30,8 @@ void measure(LockstepRink& rink, std::size_t client, const im::Region& view, Err
   const Game& game = rink.server().game();
   for (const Entity& entity : game.entities()) {
     const Vector2 centre = game.position(entity.id);
-    const MirroredEntity* mirrored =
-        rink.client(client).mirror().find(rink.server().publisher().object(entity.id));
+    const EntityReplica* mirrored =
+        rink.client(client).replicas().find(rink.server().publisher().object(entity.id));
     const bool is_known = mirrored != nullptr && mirrored->in_scope;
     ASSERT_TRUE(is_known || !overlaps(view, centre,
                                       is_by_centre(rink) ? Vector2(0.0, 0.0) : entity.half_extent))
@@ -70,7 +70,7 @@ TEST_P(OnEventUnderScheme, MirrorsFollowACrowdWithinTheStatedErrorAtEveryTick) {
   follow(rink, 240, error);
   EXPECT_GT(error.count, 10'000u);
   EXPECT_LE(error.rms(), 0.5 * trajectory_error_max);
-  EXPECT_EQ(rink.client(0).mirror().counters().malformed, 0u);
+  EXPECT_EQ(rink.client(0).replicas().counters().malformed, 0u);
   RecordProperty("rms_mm", std::to_string(1e3 * error.rms()));
   RecordProperty("greatest_mm", std::to_string(1e3 * error.greatest));
 }
@@ -125,7 +125,7 @@ TEST(OnEvent, MirrorsFollowPucksThatFrictionBringsToRest) {
     Error error;
     follow(rink, 300, error);
     EXPECT_GT(error.count, 5'000u);
-    EXPECT_EQ(rink.client(0).mirror().drag().puck_friction, 0.4);
+    EXPECT_EQ(rink.client(0).replicas().drag().puck_friction, 0.4);
     EXPECT_GT(rink.server().game().world().counters().stops, 50u) << "or the test shows nothing";
   }
 }
@@ -182,9 +182,9 @@ TEST(OnEvent, APressedPuckIsFollowedAndNotToldEveryTick) {
   rink.client(0).press(Key::left);  // the bat presses the puck to the wall
   Error error;
   follow(rink, 90, error);
-  const std::uint64_t before = rink.client(0).mirror().counters().updates;
+  const std::uint64_t before = rink.client(0).replicas().counters().updates;
   follow(rink, 300, error);
-  EXPECT_LE(rink.client(0).mirror().counters().updates - before, 300u)
+  EXPECT_LE(rink.client(0).replicas().counters().updates - before, 300u)
       << "less than one update a tick for the two of them";
 }
 

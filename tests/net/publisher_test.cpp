@@ -76,7 +76,7 @@ class ScanningPublisher {
     ambassador_.update_attribute_values(
         field_, {model_.extent, model_.drag},
         encode(encoded_, Extent{static_cast<float>(field.length), static_cast<float>(field.width)},
-               policy.told_drag(game.world().spec())),
+               policy.sent_drag(game.world().spec())),
         {});
     ambassador_.update_attribute_values(score_, {model_.goals}, encode(encoded_, goals_), {});
   }

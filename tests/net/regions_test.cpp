@@ -96,12 +96,12 @@ TEST(PlayersWithoutRegions, MirrorTheSameUnderNoneAndSendKeysAndHeartbeatsAlone)
     }
     with.tick(), without.tick();
     for (std::size_t k = 0; k < with.client_count(); ++k) {
-      const Mirror &mine = without.client(k).mirror(), &other = with.client(k).mirror();
+      const ReplicaSet &mine = without.client(k).replicas(), &other = with.client(k).replicas();
       ASSERT_EQ(mine.entities().size(), other.entities().size());
       ASSERT_EQ(mine.counters().updates, other.counters().updates);
       for (const Entity& entity : with.server().game().entities()) {
-        const MirroredEntity *one = mine.find(without.server().publisher().object(entity.id)),
-                             *two = other.find(with.server().publisher().object(entity.id));
+        const EntityReplica *one = mine.find(without.server().publisher().object(entity.id)),
+                            *two = other.find(with.server().publisher().object(entity.id));
         ASSERT_TRUE(one != nullptr && two != nullptr && one->in_scope && two->in_scope)
             << "client " << k << ", entity " << entity.id.index;
         ASSERT_EQ(one->position, two->position)

@@ -106,7 +106,7 @@ TEST(Roles, LetNobodyWaitForHisOwnBatForEver) {
       EXPECT_EQ(rink.client(k).state(), Client::State::playing) << scheme;
     rink.client(0).press(Key::up);
     rink.run(0.5);
-    const MirroredEntity* own = rink.client(0).bat();
+    const EntityReplica* own = rink.client(0).bat();
     ASSERT_NE(own, nullptr) << scheme;
     EXPECT_TRUE(own->in_scope) << scheme;
     EXPECT_NEAR(own->position_at(rink.now).y(),

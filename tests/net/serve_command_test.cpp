@@ -131,7 +131,7 @@ TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
       std::chrono::steady_clock::now() + 6s;  // longer than the RTI lets a federate be silent
   while (!server.ending() && std::chrono::steady_clock::now() < limit) server.attend(20ms);
   server.stop(5s);
-  EXPECT_EQ(server.ending()->exit_status, 130) << server.last_words();
+  EXPECT_EQ(server.ending()->exit_status, 130) << server.stderr_tail();
   EXPECT_EQ(nlohmann::json::parse(std::ifstream(report)).at("why_invalid"), "interrupted");
 }
 
@@ -168,7 +168,7 @@ TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlaye
     if (is_managed) flags.push_back("--time-management");
     Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
     const std::optional<std::string> place = place_of(server);
-    ASSERT_TRUE(place) << server.last_words();
+    ASSERT_TRUE(place) << server.stderr_tail();
     const std::vector<std::string> bots{"--connect", *place, "--count",    "3",
                                         "--seed",    "5",    "--duration", flags[15]};
     Process first(test::binary_folder() + "/bin/rink-bots", bots, {});
@@ -179,12 +179,12 @@ TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlaye
     for (bool is_killed = false; !server.ending() && std::chrono::steady_clock::now() < limit;
          is_killed = true) {
       if (loses_one && !is_killed) {
-        ASSERT_TRUE(takes_turns(*place, 6)) << server.last_words();
+        ASSERT_TRUE(takes_turns(*place, 6)) << server.stderr_tail();
         second.stop(0s);
       }
       for (Process* each : {&server, &first, &second}) each->attend(10ms);
     }
-    ASSERT_TRUE(server.ending()) << server.last_words();
+    ASSERT_TRUE(server.ending()) << server.stderr_tail();
     const nlohmann::json told = nlohmann::json::parse(std::ifstream(report));
     EXPECT_EQ(told.at("time_managed"), is_managed);
     EXPECT_EQ(told.at("ticks"), loses_one ? 6000 : 60);
@@ -213,7 +213,7 @@ TEST(ServeCommand, ASecondCoreIsAnotherThreadThatChangesNoDecision) {
     if (has_second_core) flags.push_back("--second-core");
     Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
     const std::optional<std::string> place = place_of(server);
-    ASSERT_TRUE(place) << server.last_words();
+    ASSERT_TRUE(place) << server.stderr_tail();
     threads.push_back(thread_count(server));
     EXPECT_EQ(
         run("rink-bots", {"--connect", *place, "--count", "4", "--seed", "5", "--duration", "0.5"})
@@ -221,7 +221,7 @@ TEST(ServeCommand, ASecondCoreIsAnotherThreadThatChangesNoDecision) {
         0);
     for (int i = 0; i < 1000 && !server.ending(); ++i) server.attend(10ms);
     ASSERT_TRUE(server.ending());
-    EXPECT_EQ(server.ending()->exit_status, 0) << server.last_words();
+    EXPECT_EQ(server.ending()->exit_status, 0) << server.stderr_tail();
     reports.push_back(nlohmann::json::parse(std::ifstream(report)));
   }
   EXPECT_EQ(threads[1], threads[0] + 1);
@@ -261,7 +261,7 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
   EXPECT_EQ(listed.status, 0) << listed.words;
   for (int i = 0; i < 500 && !first->ending(); ++i) first->attend(10ms);
   ASSERT_TRUE(first->ending());
-  EXPECT_EQ(first->ending()->exit_status, 0) << first->last_words();
+  EXPECT_EQ(first->ending()->exit_status, 0) << first->stderr_tail();
 
   const auto second = serve_for("1");
   while (!second->line_after("listening on ") && !second->ending()) second->attend(10ms);
@@ -269,7 +269,7 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
   for (int i = 0; i < 500 && !second->ending(); ++i) second->attend(10ms);
   ASSERT_TRUE(second->ending());
   EXPECT_EQ(second->ending()->exit_status, 17);
-  EXPECT_THAT(second->last_words(), HasSubstr("1 of 2 players came within 1 s; missing: Grace"));
+  EXPECT_THAT(second->stderr_tail(), HasSubstr("1 of 2 players came within 1 s; missing: Grace"));
   EXPECT_THAT(run("rink-bots", {"--federation-file", file, "--count", "3"}).words,
               HasSubstr("lists 2"));
 }
@@ -278,7 +278,7 @@ TEST(ServeCommand, APlayerWhoNeverGetsReadyCostsTheServerNothingButThePatience) 
   Process server(test::binary_folder() + "/bin/rink-serve",
                  {"--scene", "match", "--clients", "1", "--patience", "7", "--port", "0"}, {});
   const std::optional<std::string> place = place_of(server);
-  ASSERT_TRUE(place) << server.last_words();
+  ASSERT_TRUE(place) << server.stderr_tail();
   struct : rti::FederateAmbassador {
   } deaf;  // joins and lives, but takes no seat and reaches no barrier
   const rti::Fom fom = load_rink_fom(fom_file());
@@ -297,7 +297,7 @@ TEST(ServeCommand, APlayerWhoNeverGetsReadyCostsTheServerNothingButThePatience) 
   }
   ASSERT_TRUE(server.ending());
   EXPECT_EQ(server.ending()->exit_status, 17) << "players did not come";
-  EXPECT_THAT(server.last_words(),
+  EXPECT_THAT(server.stderr_tail(),
               HasSubstr("1 players came, but not all were ready to start within 7 s"));
 }
 

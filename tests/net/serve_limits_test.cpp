@@ -32,7 +32,7 @@ Held held_by(std::vector<std::string> flags, const std::function<void(Guest&)>& 
                                "0.3", "--report", report});
   Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
   const std::optional<std::string> place = place_of(server);
-  if (!place) return {.ended = {.status = -1, .words = server.last_words()}};
+  if (!place) return {.ended = {.status = -1, .words = server.stderr_tail()}};
   Guest guest(*place, {.name = "bat-0"});
   for (int i = 0; i < 5000 && guest.client.state() != Client::State::playing; ++i)
     guest.exchange(), server.attend(0ms);
@@ -49,7 +49,7 @@ Held held_by(std::vector<std::string> flags, const std::function<void(Guest&)>& 
   guest.leave();
   for (int i = 0; i < 500 && !server.ending(); ++i) server.attend(10ms);
   if (server.ending())
-    held.ended = {.status = server.ending()->exit_status, .words = server.last_words()};
+    held.ended = {.status = server.ending()->exit_status, .words = server.stderr_tail()};
   held.report = nlohmann::json::parse(std::ifstream(report), nullptr, false);
   return held;
 }

@@ -23,11 +23,11 @@ TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
   Process server(test::binary_folder() + "/bin/rink-serve",
                  {"--scene", "match", "--port", "0", "--scheme", "grid"}, {});
   const std::optional<std::string> place = place_of(server);
-  ASSERT_TRUE(place) << server.last_words();
+  ASSERT_TRUE(place) << server.stderr_tail();
   Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place}, {});
   for (int i = 0; i < 500 && !status.ending(); ++i) status.attend(10ms);
   ASSERT_TRUE(status.ending());
-  EXPECT_EQ(status.ending()->exit_status, 0) << status.last_words();
+  EXPECT_EQ(status.ending()->exit_status, 0) << status.stderr_tail();
   EXPECT_THAT(status.line_after("federation rink: ").value_or(""),
               testing::AllOf(HasSubstr("filter grid"), HasSubstr("1 federates"),
                              HasSubstr("connections dropped: none")));
@@ -62,9 +62,9 @@ TEST(ServeCommand, StatusTellsARefusalFromSomebodyWhoSpeaksAnotherProtocol) {
       status.attend(5ms), foreigner.tcp.poll(5ms, foreigner);
     ASSERT_TRUE(status.ending());
     EXPECT_EQ(status.ending()->exit_status, 11);
-    EXPECT_THAT(status.last_words(),
+    EXPECT_THAT(status.stderr_tail(),
                 HasSubstr("does not speak version " + std::to_string(rti::protocol_version)));
-    EXPECT_THAT(status.last_words(),
+    EXPECT_THAT(status.stderr_tail(),
                 HasSubstr(hangs_up ? "closed by peer" : "no answer within 3 s"));
   }
 }
@@ -74,16 +74,16 @@ TEST(ServeCommand, StatusAsksAgainWhenToldTo) {
   Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0"},
                  {});
   const std::optional<std::string> place = place_of(server);
-  ASSERT_TRUE(place) << server.last_words();
+  ASSERT_TRUE(place) << server.stderr_tail();
   Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place, "--every", "0.05"},
                  {});
   for (int i = 0; i < 200 && !status.line_after("server "); ++i) status.attend(20ms);
-  EXPECT_TRUE(status.line_after("server ")) << status.last_words();
+  EXPECT_TRUE(status.line_after("server ")) << status.stderr_tail();
   EXPECT_FALSE(status.line_after("Ada "));
   Guest guest(*place, {.name = "Ada", .only_watches = true});
   for (int i = 0; i < 400 && !status.line_after("Ada "); ++i) guest.exchange(), status.attend(5ms);
   EXPECT_TRUE(status.line_after("Ada ")) << "it asked before Ada came, and again since then";
-  EXPECT_FALSE(status.ending()) << "it goes on until it is interrupted: " << status.last_words();
+  EXPECT_FALSE(status.ending()) << "it goes on until it is interrupted: " << status.stderr_tail();
   status.stop(5s);
   EXPECT_EQ(status.ending()->exit_status, 0);
 }

@@ -82,7 +82,7 @@ TEST(Server, TellsAPlayerTooManyThatNoBatIsFree) {
   Client& third = rink.add_client("third");
   rink.start();
   EXPECT_EQ(third.state(), Client::State::refused);
-  EXPECT_EQ(third.joining().trouble(), "no bat is free");
+  EXPECT_EQ(third.joining().error(), "no bat is free");
   EXPECT_EQ(rink.client(1).state(), Client::State::playing);
 }
 
@@ -91,12 +91,12 @@ TEST(Server, RemovesTheBatOfAKilledClientEverywhereAndGivesItBackToTheNext) {
   rink.start();
   rink.run(0.2);
   const rti::ObjectHandle bat = rink.client(1).bat()->object;
-  ASSERT_NE(rink.client(0).mirror().find(bat), nullptr);
+  ASSERT_NE(rink.client(0).replicas().find(bat), nullptr);
   rink.kill(1);
   rink.tick();
   rink.tick();
   EXPECT_FALSE(rink.server().game().bat(1));
-  EXPECT_EQ(rink.client(0).mirror().find(bat), nullptr);
+  EXPECT_EQ(rink.client(0).replicas().find(bat), nullptr);
   EXPECT_EQ(rink.server().counters().federates_lost, 1u);
   Client& next = rink.add_client("next");
   rink.run(0.3);

@@ -28,8 +28,8 @@ TEST_P(SnapshotUnderScheme, MirrorsFollowACrowdWithinHalfTheResolutionAtEveryTic
     const Game& game = rink.server().game();
     for (std::size_t k = 0; k < rink.client_count(); ++k) {
       for (const Entity& entity : game.entities()) {
-        const MirroredEntity* mirrored =
-            rink.client(k).mirror().find(rink.server().publisher().object(entity.id));
+        const EntityReplica* mirrored =
+            rink.client(k).replicas().find(rink.server().publisher().object(entity.id));
         if (mirrored == nullptr || !mirrored->in_scope) continue;
         ASSERT_TRUE(mirrored->trajectory.has_value());
         const Vector2 off = mirrored->position_at(game.now()) - game.position(entity.id);
@@ -43,7 +43,7 @@ TEST_P(SnapshotUnderScheme, MirrorsFollowACrowdWithinHalfTheResolutionAtEveryTic
   const rti::BaselineCounters& counters = rink.execution().baseline_counters();
   EXPECT_GT(counters.differences_sent, 5 * counters.absolutes_sent);
   EXPECT_EQ(counters.refused, 0u);
-  EXPECT_EQ(rink.client(0).mirror().counters().malformed, 0u);
+  EXPECT_EQ(rink.client(0).replicas().counters().malformed, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, SnapshotUnderScheme, testing::Values("none", "grid", "region"),
@@ -59,8 +59,8 @@ TEST(Snapshot, TellsVelocitiesToHalfTheirResolution) {
   const Game& game = rink.server().game();
   std::size_t moving = 0;
   for (const Entity& entity : game.entities()) {
-    const MirroredEntity* mirrored =
-        rink.client(0).mirror().find(rink.server().publisher().object(entity.id));
+    const EntityReplica* mirrored =
+        rink.client(0).replicas().find(rink.server().publisher().object(entity.id));
     ASSERT_NE(mirrored, nullptr);
     const physics::Motion motion = game.world().motion(entity.id);
     if (!game.world().is_in_play(entity.id) || game.world().is_resting(entity.id)) continue;

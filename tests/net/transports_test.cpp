@@ -195,7 +195,7 @@ class SynchronousGame {
     outcome.datagrams = serving_.execution().counters().datagrams_sent;
     for (const Player& each : players_) {
       auto& seen = outcome.seen.emplace_back();
-      for (const MirroredEntity& entity : each.client->mirror().entities())
+      for (const EntityReplica& entity : each.client->replicas().entities())
         if (entity.in_scope)
           seen[entity.object.value] = {static_cast<float>(entity.position_at(2.0).x()),
                                        static_cast<float>(entity.position_at(2.0).y())};

@@ -33,14 +33,14 @@ TEST(Watching, ShowsUnderABudgetWhoWasToldOfAndNobodyElse) {
     exchange();
     const std::vector<Thing>& things = watcher.sight().things;
     most_waiting =
-        std::max(most_waiting, watcher.client().mirror().entities().size() - things.size());
+        std::max(most_waiting, watcher.client().replicas().entities().size() - things.size());
     for (const Thing& thing : things)
       EXPECT_GT(thing.half_extent.minCoeff(), 0.0) << "thing " << thing.id << " at tick " << tick;
     EXPECT_GE(things.size(), shown);
     shown = things.size();
   }
   EXPECT_GT(most_waiting, 50u) << "all are in scope at once, and what they are has to wait";
-  EXPECT_EQ(shown, watcher.client().mirror().entities().size()) << "in the end nobody is missing";
+  EXPECT_EQ(shown, watcher.client().replicas().entities().size()) << "in the end nobody is missing";
 }
 
 }  // namespace

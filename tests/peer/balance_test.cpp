@@ -134,7 +134,7 @@ TEST(Zones, MayBecomeAnyOthersAtAnyWindowAndTheStatesAreThoseOfOneEngine) {
       EXPECT_EQ(assembly.misowned(), 0u);
       for (std::uint32_t body = 0; body < scene.world.body_count(); ++body)
         ASSERT_EQ(bytes_of(assembly.state(body)),
-                  bytes_of(physics::Portion::state_in(scene.world, body)))
+                  bytes_of(physics::Subdomain::state_in(scene.world, body)))
             << "scene " << number << ", window " << k << ", body " << body;
     }
     for (const Peer& peer : assembly.peers()) hand_overs += peer.counters().hand_overs;
@@ -159,7 +159,8 @@ TEST(Zones, ThatShiftBringTheirPostsAlong) {
       if (k % 5 == 0) assembly.divide(random_division(whole.spec().field, random, peer_count));
       assembly.advance();
       for (std::uint32_t body = 0; body < whole.body_count(); ++body)
-        ASSERT_EQ(bytes_of(assembly.state(body)), bytes_of(physics::Portion::state_in(whole, body)))
+        ASSERT_EQ(bytes_of(assembly.state(body)),
+                  bytes_of(physics::Subdomain::state_in(whole, body)))
             << "scene " << number << ", window " << k << ", body " << body;
     }
   }

@@ -86,7 +86,7 @@ Played expect_same_history(std::uint64_t number, int window_max) {
       }
     }
     for (std::uint32_t body = 0; body < body_count; ++body) {
-      if (bytes_of(assembly.state(body)) == bytes_of(physics::Portion::state_in(whole, body)))
+      if (bytes_of(assembly.state(body)) == bytes_of(physics::Subdomain::state_in(whole, body)))
         continue;
       ADD_FAILURE() << where << ", body " << body << " of " << body_count;
       window = window_count;
@@ -163,7 +163,7 @@ std::uint64_t expect_same_bodies(SharedScene& scene, const Division& division, d
     physics::test::RandomKeys::advance(world, length * window);
     assembly.advance();
     for (std::uint32_t body = 0; body < world.body_count(); ++body) {
-      if (bytes_of(assembly.state(body)) == bytes_of(physics::Portion::state_in(world, body)))
+      if (bytes_of(assembly.state(body)) == bytes_of(physics::Subdomain::state_in(world, body)))
         continue;
       ADD_FAILURE() << division.peer_count() << " peers, window " << window << ", body " << body;
       return 0;

@@ -54,7 +54,7 @@ class Spoiler : public physics::SnapshotStream<Spoiler> {
 };
 
 /// Face-offs are between goals, of which these scenes have none.
-enum Kind : std::size_t { loss, entry, verdict, claims, arrivals, face_off, part, kind_count };
+enum Kind : std::size_t { loss, entry, verdict, claims, handover, face_off, part, kind_count };
 
 template <class Message>
 bool spoil(std::vector<std::uint8_t>& bytes, Message message, Random& random) {
@@ -74,7 +74,7 @@ Kind spoil(std::vector<std::uint8_t>& bytes, const physics::Field& field, Random
   if (spoil(bytes, Entry{.state = {.cuts = Cuts::whole(field)}}, random)) return entry;
   if (spoil(bytes, Verdict{}, random)) return verdict;
   if (spoil(bytes, Claims{}, random)) return claims;
-  if (spoil(bytes, Arrivals{}, random)) return arrivals;
+  if (spoil(bytes, Handover{}, random)) return handover;
   if (spoil(bytes, FaceOffWord{}, random)) return face_off;
   return spoil(bytes, PartChange{}, random) ? part : kind_count;
 }
@@ -134,7 +134,7 @@ void expect_no_harm(std::uint64_t first, std::uint64_t last) {
   std::cout << named << " peers named a liar; spoilt:";
   for (const auto& count : spoilt) std::cout << ' ' << count;
   std::cout << '\n';
-  for (const Kind kind : {loss, entry, verdict, claims, arrivals, part})
+  for (const Kind kind : {loss, entry, verdict, claims, handover, part})
     EXPECT_GT(spoilt[kind], 0u) << "messages of kind " << kind << " were spoilt";
   EXPECT_GT(named, 0u);
 }

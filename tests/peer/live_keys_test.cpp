@@ -13,7 +13,7 @@ namespace rink::peer::test {
 namespace {
 
 struct Counts {
-  std::uint64_t keys = 0, foreign_keys = 0, timed_keys = 0, glimpses = 0, moved_bats = 0;
+  std::uint64_t keys = 0, foreign_keys = 0, timed_keys = 0, observations = 0, moved_bats = 0;
 };
 
 /// Scene `number` of those with bats, each of which a random peer plays, at random, by what it is
@@ -48,7 +48,7 @@ class LiveGame {
       replay(window_ * k, counts);
       for (std::uint32_t body = 0; body < scene_.world.body_count(); ++body)
         ASSERT_EQ(bytes_of(assembly_.state(body)),
-                  bytes_of(physics::Portion::state_in(scene_.world, body)))
+                  bytes_of(physics::Subdomain::state_in(scene_.world, body)))
             << "window " << k << ", body " << body;
       EXPECT_EQ(assembly_.misowned(), 0u);
       for (Peer& peer : assembly_.peers()) look_and_press(peer, window_ * k, counts);
@@ -81,28 +81,28 @@ class LiveGame {
   }
 
   void look_and_press(Peer& peer, double now, Counts& counts) {
-    for (const Glimpse& glimpse : peer.glimpses()) {
-      ++counts.glimpses;
-      EXPECT_EQ(seats_.at(glimpse.bat).peer, peer.number());
-      EXPECT_EQ(glimpse.position, scene_.world.position({glimpse.bat}));
-      EXPECT_EQ(glimpse.time, now);
-      const PeerNumber owner = division_.owner_of(glimpse.position);
-      EXPECT_EQ(glimpse.owner, owner);
-      counts.moved_bats += std::exchange(owners_[glimpse.bat], owner) != owner;
+    for (const Observation& observation : peer.observations()) {
+      ++counts.observations;
+      EXPECT_EQ(seats_.at(observation.bat).peer, peer.number());
+      EXPECT_EQ(observation.position, scene_.world.position({observation.bat}));
+      EXPECT_EQ(observation.time, now);
+      const PeerNumber owner = division_.owner_of(observation.position);
+      EXPECT_EQ(observation.owner, owner);
+      counts.moved_bats += std::exchange(owners_[observation.bat], owner) != owner;
       double distance = 0.0;
-      for (const Glimpse::Puck& puck : glimpse.pucks) {
-        EXPECT_LE(distance, (puck.position - glimpse.position).norm());
-        distance = (puck.position - glimpse.position).norm();
+      for (const Observation::Puck& puck : observation.pucks) {
+        EXPECT_LE(distance, (puck.position - observation.position).norm());
+        distance = (puck.position - observation.position).norm();
       }
       for (std::uint32_t k = below(random_, 3); k > 0; --k) {
         const double x = static_cast<double>(below(random_, 3)) - 1.0,
                      y = static_cast<double>(below(random_, 3)) - 1.0;
-        double& wanted = wanted_[glimpse.bat];
+        double& wanted = wanted_[observation.bat];
         wanted = std::max(wanted, now + uniform(random_, -1.0, 3.0) * window_);
-        const Press press{glimpse.bat, Vector2(x, y) * 6.0,
-                          static_cast<std::uint8_t>(1 + counts.glimpses % 200), wanted};
-        peer.press(glimpse.owner, press);
-        wishes_[glimpse.bat].push_back({press, peer.end()});
+        const Press press{observation.bat, Vector2(x, y) * 6.0,
+                          static_cast<std::uint8_t>(1 + counts.observations % 200), wanted};
+        peer.press(observation.owner, press);
+        wishes_[observation.bat].push_back({press, peer.end()});
         counts.foreign_keys += owner != peer.number();
       }
     }
@@ -132,10 +132,10 @@ TEST(LiveKeys, GoToTheOwnersWhoseLogsAreTheSameGameToTheLastDigit) {
   }
   std::cout << counts.keys << " keys, " << counts.foreign_keys
             << " pressed of bats that others own, " << counts.timed_keys
-            << " for an instant after their window, by " << counts.glimpses
+            << " for an instant after their window, by " << counts.observations
             << " glimpses; bats changed their owners " << counts.moved_bats << " times\n";
-  for (const std::uint64_t count :
-       {counts.keys, counts.foreign_keys, counts.timed_keys, counts.glimpses, counts.moved_bats})
+  for (const std::uint64_t count : {counts.keys, counts.foreign_keys, counts.timed_keys,
+                                    counts.observations, counts.moved_bats})
     EXPECT_GT(count, 0u);
 }
 

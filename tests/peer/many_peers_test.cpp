@@ -31,7 +31,7 @@ Compared played_alone_and_shared(physics::World& whole, int windows, double wind
     assembly.advance();
     for (std::uint32_t body = 0; body < whole.body_count(); ++body)
       compared.different +=
-          bytes_of(assembly.state(body)) != bytes_of(physics::Portion::state_in(whole, body));
+          bytes_of(assembly.state(body)) != bytes_of(physics::Subdomain::state_in(whole, body));
   }
   for (const Peer& peer : assembly.peers()) compared.repeats += peer.counters().repeats;
   compared.at_once = whole.counters().events_at_once_max;

@@ -11,22 +11,22 @@
 namespace rink::peer::test {
 namespace {
 
-Arrivals some_arrivals() {
+Handover some_arrivals() {
   SharedScene scene = shared_scene(6, 0.2);
   scene.world.advance(0.2);
-  Arrivals message{.window = 3,
+  Handover message{.window = 3,
                    .bodies = {},
-                   .holds = {{.low = 2, .high = 5, .axis = 1, .age = {}}},
+                   .rest_contacts = {{.low = 2, .high = 5, .axis = 1, .age = {}}},
                    .keys = scene.keys,
-                   .glimpses = {}};
-  message.glimpses = {{.bat = 4,
-                       .owner = 1,
-                       .time = 0.2,
-                       .position = {1.0, 2.0},
-                       .pucks = {{.number = 9, .radius = 0.04}, {}}},
-                      {}};
+                   .observations = {}};
+  message.observations = {{.bat = 4,
+                           .owner = 1,
+                           .time = 0.2,
+                           .position = {1.0, 2.0},
+                           .pucks = {{.number = 9, .radius = 0.04}, {}}},
+                          {}};
   for (std::uint32_t body = 0; body < 20; ++body)
-    message.bodies.push_back({body, physics::Portion::state_in(scene.world, body)});
+    message.bodies.push_back({body, physics::Subdomain::state_in(scene.world, body)});
   return message;
 }
 
@@ -34,16 +34,16 @@ template <class Message>
 void expect_kept(Message message) {
   const std::vector<std::uint8_t> bytes = written(message);
   EXPECT_EQ(bytes.size(), measured(message));
-  Message heard;
-  ASSERT_TRUE(read(bytes, heard));
-  EXPECT_EQ(written(heard), bytes);
+  Message received;
+  ASSERT_TRUE(read(bytes, received));
+  EXPECT_EQ(written(received), bytes);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     std::vector<std::uint8_t> altered = bytes;
     altered[i] = static_cast<std::uint8_t>(altered[i] ^ (1u << (i % 8)));
-    EXPECT_FALSE(read(altered, heard)) << i;
+    EXPECT_FALSE(read(altered, received)) << i;
   }
   for (std::size_t length = 0; length < bytes.size(); ++length)
-    EXPECT_FALSE(read(std::span(bytes).first(length), heard)) << length;
+    EXPECT_FALSE(read(std::span(bytes).first(length), received)) << length;
 }
 
 TEST(Messages, AreReadAsWrittenAndRefusedIfAltered) {
@@ -58,7 +58,7 @@ TEST(Messages, AreReadAsWrittenAndRefusedIfAltered) {
                       .accepts = true,
                       .halo = std::numeric_limits<float>::infinity(),
                       .at_once_max = 3,
-                      .was_hopeless = true,
+                      .had_solver_failed = true,
                       .events = 9,
                       .leaves = true,
                       .listed = {0, 7, 255}});
@@ -68,9 +68,11 @@ TEST(Messages, AreReadAsWrittenAndRefusedIfAltered) {
 /// (docs/peer-to-peer.md, "What is said").
 TEST(Messages, ThatSayNothingTakeAFewBytes) {
   constexpr std::size_t head = 1, window = 2, checksum = 4;
-  EXPECT_EQ(written(Arrivals{.window = 300, .bodies = {}, .holds = {}, .keys = {}, .glimpses = {}})
-                .size(),
-            head + window + checksum);
+  EXPECT_EQ(
+      written(Handover{
+                  .window = 300, .bodies = {}, .rest_contacts = {}, .keys = {}, .observations = {}})
+          .size(),
+      head + window + checksum);
   EXPECT_EQ(
       written(Claims{.window = 300, .known_count = 100, .bodies = {}, .flights = {}, .presses = {}})
           .size(),
@@ -90,20 +92,21 @@ TEST(Messages, GrowByWhatIsThereAlone) {
   EXPECT_EQ(written(verdict).size(), written(plain).size() + 1 + 13);
   verdict = plain, verdict.admission.reached = {3, 4};
   expect_kept(verdict);
-  Arrivals arrivals;
-  const std::size_t nothing = written(arrivals).size();
-  arrivals.flown = {{.number = 8, .position = {1.0, 2.0}, .velocity = {3.0, 4.0}, .time = 0.5}, {}};
-  expect_kept(arrivals);
-  EXPECT_EQ(written(arrivals).size(), nothing + 1 + 2 * 44);
+  Handover handover;
+  const std::size_t nothing = written(handover).size();
+  handover.free_flights = {
+      {.number = 8, .position = {1.0, 2.0}, .velocity = {3.0, 4.0}, .time = 0.5}, {}};
+  expect_kept(handover);
+  EXPECT_EQ(written(handover).size(), nothing + 1 + 2 * 44);
 }
 
 /// A loss may come instead of any of them, and all look for it in whatever they do not understand.
 TEST(Messages, OfAWindowAreNeverTakenForALossNorALossForThem) {
   Loss loss{.step = 12, .gone = {0, 1}, .finished = {1}};
-  Arrivals arrivals;
+  Handover handover;
   Claims claims;
   Verdict verdict;
-  EXPECT_FALSE(read(written(loss), arrivals) || read(written(loss), claims) ||
+  EXPECT_FALSE(read(written(loss), handover) || read(written(loss), claims) ||
                read(written(loss), verdict));
   EXPECT_FALSE(read(written(some_arrivals()), loss) || read(written(Claims{}), loss) ||
                read(written(Verdict{}), loss));
@@ -113,8 +116,8 @@ TEST(Messages, WithAPartThatIsSaidToBeThereAndIsEmptyAreRefused) {
   physics::SnapshotWriter writer;
   for (std::uint64_t byte : {0x80u | 2u, 3u, 0u})
     writer.word(byte, 1);  // flights of bodies, window 3, none
-  Arrivals arrivals;
-  EXPECT_FALSE(read(writer.finish(4), arrivals));
+  Handover handover;
+  EXPECT_FALSE(read(writer.finish(4), handover));
 }
 
 TEST(Messages, KeepNumbersOfAnyLength) {
@@ -122,29 +125,29 @@ TEST(Messages, KeepNumbersOfAnyLength) {
                                      std::uint64_t{1} << 32, ~std::uint64_t{0}}) {
     const Verdict verdict{.window = 0xffffffff, .events = events};
     expect_kept(verdict);
-    Verdict heard;
-    ASSERT_TRUE(read(written(verdict), heard));
-    EXPECT_EQ(heard.events, events);
-    EXPECT_EQ(heard.window, 0xffffffffu);
+    Verdict received;
+    ASSERT_TRUE(read(written(verdict), received));
+    EXPECT_EQ(received.events, events);
+    EXPECT_EQ(received.window, 0xffffffffu);
   }
 }
 
 TEST(Messages, WhoseFlightsDoNotAddUpAreRefused) {
   Claims claims{
       .window = 2, .known_count = 0, .bodies = {{4, 3, true}}, .flights = {{}, {}}, .presses = {}};
-  Claims heard;
-  EXPECT_FALSE(read(written(claims), heard));
+  Claims received;
+  EXPECT_FALSE(read(written(claims), received));
 }
 
 TEST(Messages, WithThrustsThatAreNoNumberAreRefused) {
-  Claims heard;
+  Claims received;
   EXPECT_FALSE(
       read(written(Claims{
                .window = 2, .bodies = {}, .flights = {}, .presses = {{3, {std::nan(""), 0.0}, 5}}}),
-           heard));
+           received));
   EXPECT_FALSE(read(
       written(Claims{.window = 2, .bodies = {}, .flights = {}, .presses = {{3, {1.0, 0.0}, 0}}}),
-      heard));
+      received));
 }
 
 /// Two halves of a gas, the left one's peer after a window.
@@ -156,7 +159,7 @@ struct TwoPeers {
   TwoPeers() {
     for (Peer* peer : {&left, &right}) {
       for (std::uint32_t body = 0; body < scene.world.body_count(); ++body)
-        peer->consider(body, physics::Portion::state_in(scene.world, body));
+        peer->consider(body, physics::Subdomain::state_in(scene.world, body));
       peer->begin(0.01);
       peer->play();
     }
@@ -167,7 +170,7 @@ TEST(Peer, NamesWhoClaimsABodyThatIsNotItsOwn) {
   TwoPeers two;
   Claims claims = two.right.claims_for(0);
   claims.bodies.push_back({two.left.owned().front(), 0, true});
-  two.left.hear(1, claims);
+  two.left.receive(1, claims);
   EXPECT_FALSE(two.left.judge().accepts);
   EXPECT_EQ(
       two.left.accusation(),
@@ -178,7 +181,7 @@ TEST(Peer, NamesWhoCountsOtherwise) {
   TwoPeers two;
   Claims claims = two.right.claims_for(0);
   ++claims.known_count;
-  two.left.hear(1, claims);
+  two.left.receive(1, claims);
   EXPECT_FALSE(two.left.judge().accepts);
   EXPECT_THAT(two.left.accusation(), testing::StartsWith("peer 1 counts"));
 }
@@ -186,14 +189,14 @@ TEST(Peer, NamesWhoCountsOtherwise) {
 TEST(Peer, NamesWhoHandsOverABodyThatIsNotItsOwn) {
   TwoPeers two;
   const std::uint32_t body = two.left.owned().front();
-  two.left.hear(1, two.right.claims_for(0)), two.right.hear(0, two.left.claims_for(1));
-  two.left.hear(1, two.right.judge()), two.right.hear(0, two.left.judge());
+  two.left.receive(1, two.right.claims_for(0)), two.right.receive(0, two.left.claims_for(1));
+  two.left.receive(1, two.right.judge()), two.right.receive(0, two.left.judge());
   ASSERT_EQ(two.left.conclude(), Outcome::final);
   ASSERT_EQ(two.right.conclude(), Outcome::final);
-  Arrivals arrivals = two.right.arrivals_for(0, 0.02);
+  Handover handover = two.right.handover_for(0, 0.02);
   const std::vector<std::uint8_t> before = bytes_of(two.left.state(body));
-  arrivals.bodies.push_back({body, two.right.state(two.right.owned().front())});
-  two.left.hear(1, arrivals);
+  handover.bodies.push_back({body, two.right.state(two.right.owned().front())});
+  two.left.receive(1, handover);
   two.left.commit(0.02);
   EXPECT_EQ(two.left.accusation(),
             "peer 1 hands over body " + std::to_string(body) + ", which it does not own");
@@ -216,18 +219,18 @@ TEST(Peer, KnowsOfAGhostThatWentAstrayWhereItWasWhenTheWindowBegan) {
       right(world.spec(), division, 1, world.body_count(), 0.3);
   for (Peer* peer : {&left, &right}) {
     for (std::uint32_t body = 0; body < world.body_count(); ++body)
-      peer->consider(body, physics::Portion::state_in(world, body));
+      peer->consider(body, physics::Subdomain::state_in(world, body));
     peer->begin(0.02), peer->play();
   }
-  left.hear(1, right.claims_for(0)), right.hear(0, left.claims_for(1));
-  left.hear(1, right.judge()), right.hear(0, left.judge());
+  left.receive(1, right.claims_for(0)), right.receive(0, left.claims_for(1));
+  left.receive(1, right.judge()), right.receive(0, left.judge());
   ASSERT_EQ(left.conclude(), Outcome::final);
   ASSERT_EQ(right.conclude(), Outcome::final);
   const Vector2 here = left.world().position({ghost}), there = right.world().position({ghost});
   EXPECT_GT((here - there).norm(), 0.05) << "it went astray";
   EXPECT_EQ(left.known_place(ghost), ghost_place);
   EXPECT_EQ(right.known_place(ghost), there);
-  left.hear(1, right.arrivals_for(0, 0.04)), right.hear(0, left.arrivals_for(1, 0.04));
+  left.receive(1, right.handover_for(0, 0.04)), right.receive(0, left.handover_for(1, 0.04));
   left.commit(0.04), right.commit(0.04);
   for (const Peer* peer : {&left, &right}) {
     const bool has_it = peer->owns(ghost) || std::ranges::binary_search(peer->ghosts(), ghost);

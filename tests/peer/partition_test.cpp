@@ -22,7 +22,7 @@ constexpr std::int64_t patience_ns = 300 * ms;
 struct Outcomes {
   std::vector<Fate> fates;
   std::vector<std::string> messages;
-  std::vector<std::vector<Arrivals>> ends;
+  std::vector<std::vector<Handover>> ends;
   std::vector<SessionCounters> counters;
   std::vector<std::uint64_t> last_steps;
   std::int64_t end_ns = 0;
@@ -90,7 +90,7 @@ class PartitionPlay {
     return alone.world.hash();
   }
   /// Nothing unless each body is one peer's.
-  std::optional<std::uint64_t> hash_of(const std::vector<Arrivals>& parts) const {
+  std::optional<std::uint64_t> hash_of(const std::vector<Handover>& parts) const {
     return hash_of_whole(start_.world.spec(), start_.world.body_count(), parts);
   }
   /// At each step that ever stood, nobody's body is another's too, and where all members were, each
@@ -293,7 +293,8 @@ TEST(Partition, OfAnyLengthLeavesOneAuthorityAtMost) {
       EXPECT_EQ(play.hash_of(outcomes.ends[peer]), play.truth());
       std::vector<PeerNumber> owners;
       for (PeerNumber other = 0; other < outcomes.ends[peer].size(); ++other)
-        if (!outcomes.ends[peer][other].bodies.empty() || !outcomes.ends[peer][other].flown.empty())
+        if (!outcomes.ends[peer][other].bodies.empty() ||
+            !outcomes.ends[peer][other].free_flights.empty())
           owners.push_back(other);
       if (!authority) authority = owners;
       EXPECT_EQ(owners, *authority) << "peer " << peer;

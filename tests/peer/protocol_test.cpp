@@ -10,14 +10,14 @@ namespace {
 
 TEST(HashOfWhole, IsRefusedWhereABodyIsMissingOrDoubled) {
   const SharedScene scene = shared_scene(2, 1.0);
-  Arrivals all;
+  Handover all;
   for (std::uint32_t body = 0; body < scene.world.body_count(); ++body)
-    all.bodies.push_back({body, physics::Portion::state_in(scene.world, body)});
-  const auto hash_of = [&](std::initializer_list<Arrivals> parts) {
+    all.bodies.push_back({body, physics::Subdomain::state_in(scene.world, body)});
+  const auto hash_of = [&](std::initializer_list<Handover> parts) {
     return hash_of_whole(scene.world.spec(), scene.world.body_count(), std::vector(parts));
   };
   EXPECT_EQ(hash_of({all}), scene.world.hash());
-  Arrivals one, others = all;
+  Handover one, others = all;
   one.bodies.push_back(all.bodies.back());
   others.bodies.pop_back();
   EXPECT_EQ(hash_of({one, others}), scene.world.hash());

@@ -75,8 +75,8 @@ class Play {
     launch([this, via, bat_count] { join(via, bat_count); });
   }
   /// By one engine, with everybody's logs.
-  std::uint64_t replayed(const std::vector<Arrivals>& parts) {
-    for (const Arrivals& part : parts)
+  std::uint64_t replayed(const std::vector<Handover>& parts) {
+    for (const Handover& part : parts)
       scene_.keys.insert(scene_.keys.end(), part.keys.begin(), part.keys.end());
     std::stable_sort(scene_.keys.begin(), scene_.keys.end(), [](const Key& a, const Key& b) {
       return a.time != b.time ? a.time < b.time : a.bat < b.bat;
@@ -87,7 +87,7 @@ class Play {
   /// All who ended have the hash of that. Answers whether anybody did.
   bool expect_truth_of_logs() {
     std::optional<std::uint64_t> truth;
-    for (const std::vector<Arrivals>& parts : ends) {
+    for (const std::vector<Handover>& parts : ends) {
       if (parts.empty()) continue;
       if (!truth) truth = replayed(parts);
       EXPECT_EQ(hash_of(parts), truth);
@@ -96,7 +96,7 @@ class Play {
   }
   std::uint64_t truth() const { return scene_.world.hash(); }
   std::size_t key_count() const { return scene_.keys.size(); }
-  std::uint64_t hash_of(const std::vector<Arrivals>& parts) const {
+  std::uint64_t hash_of(const std::vector<Handover>& parts) const {
     return hash_of_whole(scene_.world.spec(), scene_.world.body_count(), parts).value_or(0);
   }
   LossyOffice& office() { return office_; }
@@ -122,7 +122,7 @@ class Play {
       }
       physics::test::RandomKeys::advance(scene_.world, until);
       for (std::uint32_t body = 0; body < scene_.world.body_count(); ++body)
-        states_[{window, body}] = bytes_of(physics::Portion::state_in(scene_.world, body));
+        states_[{window, body}] = bytes_of(physics::Subdomain::state_in(scene_.world, body));
     }
   }
 
@@ -220,10 +220,10 @@ class Play {
         ++windows_played[own];
         if (!is_live) expect_truth(*session);
         note_owners(*session);
-        for (const Glimpse& glimpse : session->peer().glimpses()) {
+        for (const Observation& observation : session->peer().observations()) {
           const double x = static_cast<double>(below(random, 3)) - 1.0;
-          session->press(glimpse, {glimpse.bat, Vector2(x, 0.5) * 6.0,
-                                   static_cast<std::uint8_t>(1 + below(random, 200))});
+          session->press(observation, {observation.bat, Vector2(x, 0.5) * 6.0,
+                                       static_cast<std::uint8_t>(1 + below(random, 200))});
         }
       }
       if (!session->has_left()) ends[own] = session->end();
@@ -301,7 +301,7 @@ class Play {
 
  public:
   std::vector<Fate> fates;
-  std::vector<std::vector<Arrivals>> ends;
+  std::vector<std::vector<Handover>> ends;
   std::vector<SessionCounters> counters;
   std::vector<std::string> messages;
   std::vector<std::uint64_t> windows_played;
@@ -310,7 +310,7 @@ class Play {
 };
 
 inline void expect_whole(Play& play) {
-  for (const std::vector<Arrivals>& parts : play.ends)
+  for (const std::vector<Handover>& parts : play.ends)
     EXPECT_TRUE(parts.empty() || play.hash_of(parts) == play.truth());
   play.expect_one_owner_each();
 }

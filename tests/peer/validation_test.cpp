@@ -28,39 +28,40 @@ struct Honest {
   SharedScene scene = shared_scene(6, 0.2);
   Validator validator{scene.world};
   std::uint32_t bat = 0, puck = 0;
-  Arrivals arrivals{.window = 3, .bodies = {}, .holds = {}, .keys = {}, .glimpses = {}};
+  Handover handover{.window = 3, .bodies = {}, .rest_contacts = {}, .keys = {}, .observations = {}};
 
   Honest() {
     scene.world.advance(now);
     for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) {
       if (scene.world.kind({body}) == physics::BodyKind::bat) bat = body;
       if (scene.world.kind({body}) == physics::BodyKind::puck) puck = body;
-      arrivals.bodies.push_back({body, physics::Portion::state_in(scene.world, body)});
+      handover.bodies.push_back({body, physics::Subdomain::state_in(scene.world, body)});
     }
     // Rest contacts are made up so that every one that a body says it is in is there.
-    for (const Arrivals::Body& body : arrivals.bodies)
+    for (const Handover::Body& body : handover.bodies)
       for (const int axis : {0, 1})
-        if (physics::Portion::is_held_along(body.state, axis))
-          arrivals.holds.push_back(
+        if (physics::Subdomain::is_held_along(body.state, axis))
+          handover.rest_contacts.push_back(
               {.low = physics::partner::wall_left, .high = body.number, .axis = axis, .age = {}});
-    arrivals.holds.push_back(
+    handover.rest_contacts.push_back(
         {.low = physics::partner::wall_left, .high = puck, .axis = 0, .age = {}});
-    arrivals.flown.push_back(Flown::of(puck, arrivals.bodies[puck].state.flight));
-    arrivals.keys.push_back({.time = 0.3, .bat = bat, .thrust = {1.0, 0.0}});
+    handover.free_flights.push_back(FreeFlightState::of(puck, handover.bodies[puck].state.flight));
+    handover.keys.push_back({.time = 0.3, .bat = bat, .thrust = {1.0, 0.0}});
     const Vector2 place(0.3, 0.3);
-    arrivals.glimpses.push_back({.bat = bat,
-                                 .owner = 1,
-                                 .time = 0.2,
-                                 .position = place,
-                                 .pucks = {{.number = puck, .position = place, .radius = 0.04}}});
+    handover.observations.push_back(
+        {.bat = bat,
+         .owner = 1,
+         .time = 0.2,
+         .position = place,
+         .pucks = {{.number = puck, .position = place, .radius = 0.04}}});
   }
-  BodyState& state() { return arrivals.bodies[puck].state; }
+  BodyState& state() { return handover.bodies[puck].state; }
 };
 
 TEST(Validator, FindsNoFaultInWhatIsHonest) {
   Honest honest;
   ASSERT_NE(honest.bat, honest.puck);
-  EXPECT_EQ(honest.validator.fault_of(honest.arrivals, now), "");
+  EXPECT_EQ(honest.validator.fault_of(honest.handover, now), "");
   EXPECT_EQ(honest.validator.fault_of(Claims{.window = 1,
                                              .bodies = {{honest.puck, 1, true}},
                                              .flights = {{0.1, 7, 0.0f, 0.0f, 1.0f, 1.0f}},
@@ -71,16 +72,16 @@ TEST(Validator, FindsNoFaultInWhatIsHonest) {
             "");
   EXPECT_EQ(honest.validator.fault_of(
                 FaceOffWord{
-                    .puck = honest.puck, .taken = 3, .body = {honest.arrivals.bodies[honest.puck]}},
+                    .puck = honest.puck, .taken = 3, .body = {honest.handover.bodies[honest.puck]}},
                 now),
             "");
   const PartChange part{.step = 1,
                         .time = 0.2,
                         .is_whole = true,
-                        .bodies = honest.arrivals.bodies,
+                        .bodies = honest.handover.bodies,
                         .gone = {honest.puck},
-                        .holds = honest.arrivals.holds,
-                        .keys = honest.arrivals.keys,
+                        .rest_contacts = honest.handover.rest_contacts,
+                        .keys = honest.handover.keys,
                         .log = {}};
   EXPECT_EQ(honest.validator.fault_of(part, now), "");
 }
@@ -134,54 +135,58 @@ std::vector<Lie> lies_about_kinds() {
       [](Honest& honest) { honest.state().mouth = 3; },
       [](Honest& honest) { honest.state().flags = 32, honest.state().jam = nobody; },
       [](Honest& honest) { honest.state().flags = 8 | 16; },
-      [](Honest& honest) { honest.arrivals.bodies[0].number = nobody; },
-      [](Honest& honest) { honest.arrivals.bodies[0].number = honest.scene.world.body_count(); },
+      [](Honest& honest) { honest.handover.bodies[0].number = nobody; },
+      [](Honest& honest) { honest.handover.bodies[0].number = honest.scene.world.body_count(); },
       [](Honest& honest) {
-        std::swap(honest.arrivals.bodies[honest.bat].number,
-                  honest.arrivals.bodies[honest.puck].number);
+        std::swap(honest.handover.bodies[honest.bat].number,
+                  honest.handover.bodies[honest.puck].number);
       }};
 }
 
 std::vector<Lie> lies_beside_bodies() {
-  return {
-      [](Honest& honest) { honest.arrivals.holds.back().low = nobody; },
-      [](Honest& honest) { honest.arrivals.holds.back().high = nobody; },
-      [](Honest& honest) { honest.arrivals.holds.back().high = physics::partner::wall_top; },
-      [](Honest& honest) { honest.arrivals.holds.back().low = physics::partner::stop; },
-      [](Honest& honest) { honest.arrivals.holds.back().low = honest.arrivals.holds.back().high; },
-      [](Honest& honest) { honest.arrivals.holds.back().pull_time = nan; },
-      [](Honest& honest) { honest.arrivals.holds.back().turn_time = nan; },
-      [](Honest& honest) { honest.arrivals.holds.back().force = nan; },
-      [](Honest& honest) { honest.arrivals.holds.back().force = -1e300; },
-      [](Honest& honest) { honest.arrivals.holds.back().age.time = nan; },
-      [](Honest& honest) { honest.arrivals.flown[0].number = nobody; },
-      [](Honest& honest) { honest.arrivals.flown[0].position.x() = nan; },
-      [](Honest& honest) { honest.arrivals.flown[0].velocity.y() = HUGE_VAL; },
-      [](Honest& honest) { honest.arrivals.flown[0].time = nan; },
-      [](Honest& honest) { honest.arrivals.flown[0].time = now + 1e-9; },
-      // A fast one that hit nobody for so long is not where it says.
-      [](Honest& honest) {
-        honest.arrivals.flown[0].velocity = {1e6, 0.0}, honest.arrivals.flown[0].time = 0.1;
-      },
-      [](Honest& honest) { honest.state().flight.vx = 1e6, honest.state().flight.time = 0.1; },
-      [](Honest& honest) { honest.arrivals.keys[0].bat = nobody; },
-      [](Honest& honest) { honest.arrivals.keys[0].bat = honest.puck; },
-      [](Honest& honest) { honest.arrivals.keys[0].thrust.x() = nan; },
-      [](Honest& honest) { honest.arrivals.keys[0].thrust.y() = 1e300; },
-      [](Honest& honest) { honest.arrivals.keys[0].time = nan; },
-      [](Honest& honest) { honest.arrivals.glimpses[0].bat = nobody; },
-      [](Honest& honest) { honest.arrivals.glimpses[0].position.x() = nan; },
-      [](Honest& honest) { honest.arrivals.glimpses[0].velocity.x() = nan; },
-      [](Honest& honest) { honest.arrivals.glimpses[0].time = nan; },
-      [](Honest& honest) { honest.arrivals.glimpses[0].pucks[0].number = nobody; },
-      [](Honest& honest) { honest.arrivals.glimpses[0].pucks[0].radius = -1.0; }};
+  return {[](Honest& honest) { honest.handover.rest_contacts.back().low = nobody; },
+          [](Honest& honest) { honest.handover.rest_contacts.back().high = nobody; },
+          [](Honest& honest) {
+            honest.handover.rest_contacts.back().high = physics::partner::wall_top;
+          },
+          [](Honest& honest) { honest.handover.rest_contacts.back().low = physics::partner::stop; },
+          [](Honest& honest) {
+            honest.handover.rest_contacts.back().low = honest.handover.rest_contacts.back().high;
+          },
+          [](Honest& honest) { honest.handover.rest_contacts.back().pull_time = nan; },
+          [](Honest& honest) { honest.handover.rest_contacts.back().turn_time = nan; },
+          [](Honest& honest) { honest.handover.rest_contacts.back().force = nan; },
+          [](Honest& honest) { honest.handover.rest_contacts.back().force = -1e300; },
+          [](Honest& honest) { honest.handover.rest_contacts.back().age.time = nan; },
+          [](Honest& honest) { honest.handover.free_flights[0].number = nobody; },
+          [](Honest& honest) { honest.handover.free_flights[0].position.x() = nan; },
+          [](Honest& honest) { honest.handover.free_flights[0].velocity.y() = HUGE_VAL; },
+          [](Honest& honest) { honest.handover.free_flights[0].time = nan; },
+          [](Honest& honest) { honest.handover.free_flights[0].time = now + 1e-9; },
+          // A fast one that hit nobody for so long is not where it says.
+          [](Honest& honest) {
+            honest.handover.free_flights[0].velocity = {1e6, 0.0},
+            honest.handover.free_flights[0].time = 0.1;
+          },
+          [](Honest& honest) { honest.state().flight.vx = 1e6, honest.state().flight.time = 0.1; },
+          [](Honest& honest) { honest.handover.keys[0].bat = nobody; },
+          [](Honest& honest) { honest.handover.keys[0].bat = honest.puck; },
+          [](Honest& honest) { honest.handover.keys[0].thrust.x() = nan; },
+          [](Honest& honest) { honest.handover.keys[0].thrust.y() = 1e300; },
+          [](Honest& honest) { honest.handover.keys[0].time = nan; },
+          [](Honest& honest) { honest.handover.observations[0].bat = nobody; },
+          [](Honest& honest) { honest.handover.observations[0].position.x() = nan; },
+          [](Honest& honest) { honest.handover.observations[0].velocity.x() = nan; },
+          [](Honest& honest) { honest.handover.observations[0].time = nan; },
+          [](Honest& honest) { honest.handover.observations[0].pucks[0].number = nobody; },
+          [](Honest& honest) { honest.handover.observations[0].pucks[0].radius = -1.0; }};
 }
 
 void expect_seen(const std::vector<Lie>& lies) {
   for (std::size_t k = 0; k < lies.size(); ++k) {
     Honest honest;
     lies[k](honest);
-    EXPECT_NE(honest.validator.fault_of(honest.arrivals, now), "") << "lie " << k;
+    EXPECT_NE(honest.validator.fault_of(honest.handover, now), "") << "lie " << k;
   }
 }
 
@@ -224,7 +229,7 @@ TEST(Validator, SeesClaimsVerdictsPartsAndFaceOffsThatCannotBe) {
   for (const std::uint32_t puck : {nobody, honest.bat})
     EXPECT_NE(validator.fault_of(Verdict{.window = 1, .goals = {{0.1, puck, true}}}), "");
   EXPECT_NE(validator.fault_of(FaceOffWord{.puck = nobody, .taken = 0, .body = {}}, now), "");
-  Arrivals::Body lie = honest.arrivals.bodies[honest.puck];
+  Handover::Body lie = honest.handover.bodies[honest.puck];
   lie.state.flight.vx = nan;
   EXPECT_NE(validator.fault_of(FaceOffWord{.puck = honest.puck, .taken = 0, .body = {lie}}, now),
             "");
@@ -233,7 +238,7 @@ TEST(Validator, SeesClaimsVerdictsPartsAndFaceOffsThatCannotBe) {
                   .is_whole = true,
                   .bodies = {lie},
                   .gone = {},
-                  .holds = {},
+                  .rest_contacts = {},
                   .keys = {},
                   .log = {}};
   EXPECT_NE(validator.fault_of(part, now), "");
@@ -246,7 +251,7 @@ TEST(Validator, SeesClaimsVerdictsPartsAndFaceOffsThatCannotBe) {
   }
   part.time = now;
   EXPECT_EQ(validator.fault_of(part, now), "");
-  lie.state.flight.vx = 0.0, lie.state.flags = 8, part.bodies = {lie}, part.holds.clear();
+  lie.state.flight.vx = 0.0, lie.state.flags = 8, part.bodies = {lie}, part.rest_contacts.clear();
   EXPECT_THAT(validator.fault_of(part, now),
               HasSubstr("in a rest contact of which it does not tell"));
   EXPECT_NE(validator.fault_of(std::vector<Key>{{.time = nan, .bat = honest.bat}}), "");
@@ -268,26 +273,26 @@ struct HandOver {
   Division division = Division::into_strips(scene.world.spec().field, 2);
   Peer left{scene.world.spec(), division, 0, scene.world.body_count(), 0.3},
       right{scene.world.spec(), division, 1, scene.world.body_count(), 0.3};
-  Arrivals arrivals;
+  Handover handover;
 
   HandOver() {
     for (Peer* peer : {&left, &right}) {
       peer->validate_by(Validator(scene.world));
       for (std::uint32_t body = 0; body < scene.world.body_count(); ++body)
-        peer->consider(body, physics::Portion::state_in(scene.world, body));
+        peer->consider(body, physics::Subdomain::state_in(scene.world, body));
       peer->begin(0.01);
       peer->play();
     }
-    left.hear(1, right.claims_for(0)), right.hear(0, left.claims_for(1));
-    left.hear(1, right.judge()), right.hear(0, left.judge());
+    left.receive(1, right.claims_for(0)), right.receive(0, left.claims_for(1));
+    left.receive(1, right.judge()), right.receive(0, left.judge());
     EXPECT_EQ(left.conclude(), Outcome::final);
     EXPECT_EQ(right.conclude(), Outcome::final);
-    arrivals = right.arrivals_for(0, 0.02);
-    arrivals.bodies.push_back({right.owned().front(), right.state(right.owned().front())});
+    handover = right.handover_for(0, 0.02);
+    handover.bodies.push_back({right.owned().front(), right.state(right.owned().front())});
   }
   /// The left peer hears it, names the right one, takes nothing of it, and can go on.
   void expect_named(const char* fault) {
-    left.hear(1, arrivals);
+    left.receive(1, handover);
     EXPECT_THAT(left.accusation(), StartsWith("peer 1 "));
     EXPECT_THAT(left.accusation(), HasSubstr(fault));
     left.commit(0.02);
@@ -299,19 +304,19 @@ struct HandOver {
 
 TEST(Peer, NamesWhoHandsOverARestContactOfBodiesThatDoNotExist) {
   HandOver scene;
-  scene.arrivals.holds.push_back({.low = nobody, .high = nobody + 1, .axis = 0, .age = {}});
+  scene.handover.rest_contacts.push_back({.low = nobody, .high = nobody + 1, .axis = 0, .age = {}});
   scene.expect_named("rest contact of body 4000000000");
 }
 
 TEST(Peer, NamesWhoHandsOverAVelocityThatIsNoNumber) {
   HandOver scene;
-  scene.arrivals.bodies.back().state.flight.vx = nan;
+  scene.handover.bodies.back().state.flight.vx = nan;
   scene.expect_named("at no place, speed or time");
 }
 
 TEST(Peer, NamesWhoHandsOverABodyHeavierThanTheScenes) {
   HandOver scene;
-  scene.arrivals.bodies.back().state.mass *= 2.0;
+  scene.handover.bodies.back().state.mass *= 2.0;
   scene.expect_named("that the scene does not give it");
 }
 

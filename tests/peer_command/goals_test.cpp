@@ -48,11 +48,11 @@ speeds = "maxwell"
 }
 
 /// What one peer had at each window's end.
-class Notes final : public Onlooker {
+class Notes final : public WindowParticipant {
  public:
   struct Window {
     double time;
-    std::vector<peer::Arrivals::Body> own;
+    std::vector<peer::Handover::Body> own;
   };
   void after_window(const peer::Session& session) override {
     windows.push_back({session.peer().now(), {}});
@@ -70,21 +70,21 @@ struct Shared {
 };
 
 Shared shared_by(std::uint32_t peers, const SharedGame& game, const Terms& terms) {
-  std::vector<Guest> guests(peers);
-  for (std::uint32_t k = 0; k < 6; ++k) ++guests[k % peers].bat_count;
+  std::vector<PeerInfo> peer_infos(peers);
+  for (std::uint32_t k = 0; k < 6; ++k) ++peer_infos[k % peers].bat_count;
   for (std::uint32_t k = 1; k < peers; ++k)
-    guests[k].first_bat = guests[k - 1].first_bat + guests[k - 1].bat_count;
-  for (Guest& guest : guests) guest.puck_count = 8;
+    peer_infos[k].first_bat = peer_infos[k - 1].first_bat + peer_infos[k - 1].bat_count;
+  for (PeerInfo& info : peer_infos) info.puck_count = 8;
   Shared shared{std::vector<Notes>(peers), std::vector<PlayedPart>(peers)};
   peer::test::PostOffice office(peers);
   std::vector<std::thread> threads;
   for (std::uint32_t k = 0; k < peers; ++k)
     threads.emplace_back([&, k] {
       peer::test::ThreadMail mail(office, k);
-      Manner manner;
-      manner.players = {"chaser", "random"};
-      manner.onlooker = &shared.notes[k];
-      shared.parts[k] = game.play(terms, guests, k, mail, manner);
+      PartOptions part_options;
+      part_options.players = {"chaser", "random"};
+      part_options.participant = &shared.notes[k];
+      shared.parts[k] = game.play(terms, peer_infos, k, mail, part_options);
     });
   for (std::thread& thread : threads) thread.join();
   return shared;
@@ -105,7 +105,7 @@ TEST(GoalsAmongPeers, AreCountedAndTheirPucksComeBackAsInOneGameToTheLastDigit) 
                       .until = 4.0,
                       .window = seed % 4 == 0 ? 0.07 : 0.02,
                       .balance_windows = 25,
-                      .is_mirrored = seed % 2 == 0};
+                      .is_replicated = seed % 2 == 0};
     const Shared shared = shared_by(peers, game, terms);
 
     Game one(scene);
@@ -124,7 +124,7 @@ TEST(GoalsAmongPeers, AreCountedAndTheirPucksComeBackAsInOneGameToTheLastDigit) 
         for (const auto& [body, state] : notes.windows[k].own) {
           ++count;
           ASSERT_EQ(peer::bytes_of(state),
-                    peer::bytes_of(physics::Portion::state_in(one.world(), body)))
+                    peer::bytes_of(physics::Subdomain::state_in(one.world(), body)))
               << "window " << k << ", body " << body;
         }
       ASSERT_EQ(count, one.world().body_count()) << "window " << k;
@@ -157,9 +157,12 @@ TEST(GoalsAmongPeers, AreCountedAndTheirPucksComeBackAsInOneGameToTheLastDigit) 
 TEST(GoalsAmongPeers, EndTheGameWithTheWindowInWhichOneSideHasWon) {
   const Scene scene = goal_mouths(3, 30, "face_off_delay = 0.5\ngoals_to_win = 4");
   const SharedGame game(scene, {});
-  const Shared shared = shared_by(
-      3, game,
-      {.peer_count = 3, .until = 60.0, .window = 0.02, .balance_windows = 0, .is_mirrored = true});
+  const Shared shared = shared_by(3, game,
+                                  {.peer_count = 3,
+                                   .until = 60.0,
+                                   .window = 0.02,
+                                   .balance_windows = 0,
+                                   .is_replicated = true});
   Game one(scene);
   for (const InputEvent& event : shared.parts[1].keys) one.submit(event);
   while (!one.is_over()) one.advance(one.now() + 0.001);

@@ -19,7 +19,7 @@
 #include "game/model/scene_file.h"
 #include "game/net/peer/crowd.h"
 #include "game/net/peer/interest/viewer.h"
-#include "game/net/peer/meeting/seating.h"
+#include "game/net/peer/network/seating.h"
 #include "game/replication/region_sweep.h"
 #include "tests/im/recount.h"
 #include "tests/peer/lossy_mail.h"
@@ -28,7 +28,7 @@
 namespace rink::game {
 
 /// Mail between threads that carries asides in the same stream.
-class AsideMail final : public peer::Mail, public Asides {
+class AsideMail final : public peer::Mail, public SideChannel {
  public:
   using End = peer::test::End;
   AsideMail(peer::test::LossyOffice& office, End own, std::map<peer::PeerNumber, End> others,
@@ -37,7 +37,7 @@ class AsideMail final : public peer::Mail, public Asides {
   void send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override {
     say(to, std::move(bytes), false);
   }
-  void say_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override {
+  void send_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override {
     say(to, std::move(bytes), true);
   }
   std::vector<std::uint8_t> receive(peer::PeerNumber from) override {
@@ -71,8 +71,8 @@ class AsideMail final : public peer::Mail, public Asides {
     mail_.send(to, std::move(bytes));
   }
   void pass_on() {
-    for (; hear_aside && !waiting_.empty(); waiting_.pop_front())
-      EXPECT_TRUE(hear_aside(waiting_.front().first, waiting_.front().second))
+    for (; receive_aside && !waiting_.empty(); waiting_.pop_front())
+      EXPECT_TRUE(receive_aside(waiting_.front().first, waiting_.front().second))
           << "said by peer " << waiting_.front().first;
   }
 
@@ -167,7 +167,7 @@ class InterestPlay {
   /// Of those who were there to the end, and that of one engine with everybody's keys.
   std::vector<std::uint64_t> hashes;
   std::uint64_t truth = 0, goals = 0;
-  std::vector<std::string> troubles;
+  std::vector<std::string> errors;
   std::vector<peer::PeerNumber> came;
 
   /// After `run`: what one engine says.
@@ -214,7 +214,7 @@ class InterestPlay {
     return false;
   }
 
-  class Watch final : public Onlooker {
+  class Watch final : public WindowParticipant {
    public:
     Watch(InterestPlay& play, End own) : play_(play), own_(own) {}
     void before_window(peer::Session& session) override { play_.act(session.window(), own_); }
@@ -241,20 +241,20 @@ class InterestPlay {
     bool are_all_in = false;
     {
       const std::lock_guard lock(mutex_);
-      are_all_in = came.size() + troubles.size() == asked_;
+      are_all_in = came.size() + errors.size() == asked_;
     }
     if (!are_all_in) std::this_thread::sleep_for(std::chrono::milliseconds(3));
   }
 
   void begin(peer::PeerNumber number) {
     std::map<peer::PeerNumber, End> others;
-    std::vector<Guest> guests(terms_.peer_count);
+    std::vector<PeerInfo> peer_infos(terms_.peer_count);
     for (peer::PeerNumber peer = 0; peer < terms_.peer_count; ++peer) {
       if (peer != number) others[peer] = peer;
-      guests[peer] = guest(peer);
+      peer_infos[peer] = info(peer);
     }
     AsideMail mail(office_, number, others, others);
-    live(mail, number, number, guests, {});
+    live(mail, number, number, peer_infos, {});
   }
 
   void join() {
@@ -263,19 +263,20 @@ class InterestPlay {
       return note("a newcomer is not let in");
     std::map<peer::PeerNumber, End> counted;
     for (const peer::PeerNumber peer : ticket.members) counted[peer] = ticket.others.at(peer);
-    std::vector<Guest> guests(ticket.number + 1);
-    guests[ticket.number] = guest(ticket.first_bat);
+    std::vector<PeerInfo> peer_infos(ticket.number + 1);
+    peer_infos[ticket.number] = info(ticket.first_bat);
     AsideMail mail(office_, own, ticket.others, counted);
-    live(mail, own, ticket.number, guests, ticket.members);
+    live(mail, own, ticket.number, peer_infos, ticket.members);
   }
 
-  static Guest guest(std::uint32_t bat) {
+  static PeerInfo info(std::uint32_t bat) {
     return {.place = {}, .first_bat = bat, .bat_count = 1, .puck_count = 4};
   }
 
-  void live(AsideMail& mail, End own, peer::PeerNumber number, const std::vector<Guest>& guests,
-            const std::vector<peer::PeerNumber>& members) {
-    Viewer viewer(game_, interest_settings(game_.start(), terms_, guests, half_side, 0.0), mail);
+  void live(AsideMail& mail, End own, peer::PeerNumber number,
+            const std::vector<PeerInfo>& peer_infos, const std::vector<peer::PeerNumber>& members) {
+    Viewer viewer(game_, interest_settings(game_.start(), terms_, peer_infos, half_side, 0.0),
+                  mail);
     std::vector<Sight> sights;
     std::uint64_t first = 0, valid_from = 0;
     // With this window's agreement all that others told of the one before has come.
@@ -297,7 +298,7 @@ class InterestPlay {
       std::sort(sight.bodies.begin(), sight.bodies.end());
       sight.told = static_cast<std::size_t>(std::count_if(
           sight.bodies.begin(), sight.bodies.end(),
-          [&](std::uint32_t body) { return viewer.interest().picture().belief(body).is_there; }));
+          [&](std::uint32_t body) { return viewer.interest().replicas().replica(body).is_there; }));
       sights.push_back(std::move(sight));
     };
     // All is told anew with the window after the one that is played when somebody is lost, the own
@@ -306,14 +307,15 @@ class InterestPlay {
       if (what.find(" go on from ") != std::string::npos) valid_from = viewer.windows() + 4;
     };
     Watch watch(*this, own);
-    Manner manner;
-    manner.wants_to_leave = [&] {
+    PartOptions part_options;
+    part_options.wants_to_leave = [&] {
       return leavings.contains(own) && viewer.windows() >= leavings.at(own);
     };
-    manner.tell = hear_of_loss;
-    manner.onlooker = &watch, manner.members = members, manner.listener = &viewer;
+    part_options.notify = hear_of_loss;
+    part_options.participant = &watch, part_options.members = members,
+    part_options.observer = &viewer;
     try {
-      const PlayedPart part = game_.play(terms_, guests, number, mail, manner);
+      const PlayedPart part = game_.play(terms_, peer_infos, number, mail, part_options);
       const std::lock_guard lock(mutex_);
       if (!part.has_left) hashes.push_back(part.hash), keys_ = part.keys;
     } catch (const peer::test::Killed&) {
@@ -331,9 +333,9 @@ class InterestPlay {
     const std::lock_guard lock(mutex_);
     if (is_newcomer) came.push_back(number);
   }
-  void note(const std::string& trouble) {
+  void note(const std::string& problem) {
     const std::lock_guard lock(mutex_);
-    troubles.push_back(trouble);
+    errors.push_back(problem);
   }
 
   Scene scene_;

@@ -16,7 +16,7 @@ class InterestRecount : public testing::Test {
   static void expect_right(InterestPlay& play, const im::Relevant& relevant,
                            const im::Relevant& stays, const std::string& what) {
     play.find_truth();
-    for (const std::string& trouble : play.troubles) ADD_FAILURE() << what << ": " << trouble;
+    for (const std::string& problem : play.errors) ADD_FAILURE() << what << ": " << problem;
     ASSERT_FALSE(play.hashes.empty()) << what;
     for (const std::uint64_t hash : play.hashes) EXPECT_EQ(hash, play.truth) << what;
     EXPECT_GT(play.key_count(), 0u);
@@ -116,7 +116,7 @@ TEST_F(InterestRecount, LeavesGoalsAsTheyAreWhoeverComes) {
   play.leavings = {{1, 150}};
   play.run();
   play.find_truth();
-  for (const std::string& trouble : play.troubles) ADD_FAILURE() << trouble;
+  for (const std::string& problem : play.errors) ADD_FAILURE() << problem;
   EXPECT_EQ(play.came.size(), 5u);
   EXPECT_EQ(play.hashes.size(), 6u);
   EXPECT_GT(play.goals, 5u);

@@ -3,7 +3,7 @@
 #include "tests/peer_command/peer_processes.h"
 
 #include "game/net/address.h"
-#include "game/net/peer/meeting/frames.h"
+#include "game/net/peer/network/frames.h"
 #include "game/net/peer/shared_game.h"
 #include "rti/transport/tcp/tcp.h"
 
@@ -22,7 +22,7 @@ TEST_F(PeerCommand, EndsInTheHashOfOneEngineForTwoAndFourPeersOverTcpAndSharedMe
         all.push_back(&join(*all.back(), {"--transport", transport}));
       for (const Process* peer : all) {
         ASSERT_TRUE(ends(*peer));
-        EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+        EXPECT_EQ(peer->ending()->exit_status, 0) << peer->stderr_tail();
         EXPECT_EQ(hash_of(*peer), printed(one.hash())) << count << " peers over " << transport;
       }
     }
@@ -40,7 +40,7 @@ TEST_F(PeerCommand, PlaysRecordedKeysToTheHashOfTheirLog) {
   const Process& keyless = join(first);
   ASSERT_TRUE(ends(keyless));
   EXPECT_EQ(keyless.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
-  EXPECT_THAT(keyless.last_words(), HasSubstr("it has other keys"));
+  EXPECT_THAT(keyless.stderr_tail(), HasSubstr("it has other keys"));
   const std::vector<const Process*> all{&first, &join(first, {"--keys", file}),
                                         &join(first, {"--keys", file})};
   for (const Process* peer : all) {
@@ -76,12 +76,12 @@ TEST_F(PeerCommand, RecordsWhatBotsOfAllPeersPlayedLiveAsAKeyLogOfTheSameGame) {
 TEST_F(PeerCommand, LetsNobodyPlayMoreBatsThanThereAre) {
   const Process& greedy = start({"--listen", "127.0.0.1:0", "--bots", "9"});
   ASSERT_TRUE(ends(greedy));
-  EXPECT_THAT(greedy.last_words(), HasSubstr("--bots: 9 wanted, the scene has 8 bats"));
+  EXPECT_THAT(greedy.stderr_tail(), HasSubstr("--bots: 9 wanted, the scene has 8 bats"));
   Process& first = found(2, "1", {"--bots", "5"});
   const Process& late = join(first, {"--bots", "4"});
   ASSERT_TRUE(ends(late));
   EXPECT_EQ(late.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
-  EXPECT_THAT(late.last_words(), HasSubstr("it wants to play 4 bats, of 8 here 3 are free"));
+  EXPECT_THAT(late.stderr_tail(), HasSubstr("it wants to play 4 bats, of 8 here 3 are free"));
 }
 
 TEST_F(PeerCommand, RefusesOtherScenesAndWhoComesTooLateByNameAndGoesOn) {
@@ -90,15 +90,15 @@ TEST_F(PeerCommand, RefusesOtherScenesAndWhoComesTooLateByNameAndGoesOn) {
   const Process& seeded = join(first, {"--seed", "9"});
   ASSERT_TRUE(ends(seeded));
   EXPECT_EQ(seeded.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
-  EXPECT_THAT(seeded.last_words(), testing::AllOf(HasSubstr("does not let this one in"),
-                                                  HasSubstr("another scene: its fingerprint is"),
-                                                  HasSubstr("here it is")));
+  EXPECT_THAT(seeded.stderr_tail(), testing::AllOf(HasSubstr("does not let this one in"),
+                                                   HasSubstr("another scene: its fingerprint is"),
+                                                   HasSubstr("here it is")));
   const Process& other = start({"--join", place_of(first)}, (folder_ / "other.toml").string());
   ASSERT_TRUE(ends(other));
-  EXPECT_THAT(other.last_words(), HasSubstr("another scene"));
+  EXPECT_THAT(other.stderr_tail(), HasSubstr("another scene"));
   const Process& second = join(first);
   ASSERT_TRUE(ends(second) && ends(first));
-  EXPECT_EQ(first.ending()->exit_status, 0) << first.last_words();
+  EXPECT_EQ(first.ending()->exit_status, 0) << first.stderr_tail();
 
   Process& crowded = found(2, "1000", {"--unmirrored"});
   const Process& last = join(crowded);
@@ -107,7 +107,7 @@ TEST_F(PeerCommand, RefusesOtherScenesAndWhoComesTooLateByNameAndGoesOn) {
   ASSERT_TRUE(ends(third));
   EXPECT_EQ(third.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
   EXPECT_THAT(
-      third.last_words(),
+      third.stderr_tail(),
       HasSubstr("they play already, and without mirrors (--unmirrored) nobody can join them"));
   EXPECT_FALSE(crowded.ending());
 }
@@ -116,11 +116,11 @@ TEST_F(PeerCommand, SaysWhatItCannotPlay) {
   const Process& goals = start({"--listen", "127.0.0.1:0", "--window", "0.2"}, "crowd");
   ASSERT_TRUE(ends(goals));
   EXPECT_EQ(goals.ending()->exit_status, 2);
-  EXPECT_THAT(goals.last_words(), HasSubstr("windows are 0.200000 s long: expected shorter ones"));
+  EXPECT_THAT(goals.stderr_tail(), HasSubstr("windows are 0.200000 s long: expected shorter ones"));
   const Process& alone = start({"--join", "127.0.0.1:1"});
   ASSERT_TRUE(ends(alone));
   EXPECT_EQ(alone.ending()->exit_status, static_cast<int>(ExitStatus::no_server));
-  EXPECT_THAT(alone.last_words(), HasSubstr("no peer answers at 127.0.0.1:1"));
+  EXPECT_THAT(alone.stderr_tail(), HasSubstr("no peer answers at 127.0.0.1:1"));
 }
 
 TEST_F(PeerCommand, SaysByItsStatusThatAReportOrARecordCouldNotBeWritten) {
@@ -167,7 +167,7 @@ class Stranger final : public rti::TransportListener {
 
 TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
   Process& first = found(2, "1");
-  const Luggage luggage = SharedGame(load_scene(scene()), {}).luggage();
+  const Fingerprint session_fingerprint = SharedGame(load_scene(scene()), {}).session_fingerprint();
   const auto answer_to = [&](const Hello& hello) {
     Stranger stranger(place_of(first), framed(FrameKind::hello, bytes_of(hello)));
     const auto frame = stranger.frame();
@@ -175,7 +175,7 @@ TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
                                                       : std::nullopt;
   };
   Hello hello;
-  hello.luggage = luggage, hello.guest.place = {"127.0.0.1", 1};
+  hello.session_fingerprint = session_fingerprint, hello.info.place = {"127.0.0.1", 1};
   hello.version = peer_protocol_version + 1;
   const auto version = answer_to(hello);
   ASSERT_TRUE(version);
@@ -185,7 +185,7 @@ TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
                         " of the peers' protocol, here it is version " +
                         std::to_string(peer_protocol_version)));
   hello.version = peer_protocol_version;
-  ++hello.luggage.self_test;
+  ++hello.session_fingerprint.self_test;
   const auto build = answer_to(hello);
   ASSERT_TRUE(build);
   EXPECT_THAT(build->reason, HasSubstr("a build that computes other bits"));
@@ -207,9 +207,9 @@ TEST_F(PeerCommand, LosesNoMoreThanTheConnectionToStrangersWhoSayAnything) {
     words.push_back(framed(kind, std::vector<std::uint8_t>(40, 0x55)));
   words.push_back(
       framed(FrameKind::greeting,
-             bytes_of(Greeting{.session = 1, .number = 1, .guest = {{"127.0.0.1", 1}}})));
+             bytes_of(Greeting{.session = 1, .number = 1, .info = {{"127.0.0.1", 1}}})));
   Hello damaged;
-  damaged.guest.place = {"127.0.0.1", 1};
+  damaged.info.place = {"127.0.0.1", 1};
   std::vector<std::uint8_t> content = bytes_of(damaged);
   for (std::size_t k = 0; k < content.size(); ++k) {
     std::vector<std::uint8_t> other = content;
@@ -219,7 +219,7 @@ TEST_F(PeerCommand, LosesNoMoreThanTheConnectionToStrangersWhoSayAnything) {
   for (const auto& bytes : words) EXPECT_TRUE(Stranger(place_of(first), bytes).is_closed());
   const Process& second = join(first);
   ASSERT_TRUE(ends(second) && ends(first));
-  EXPECT_EQ(first.ending()->exit_status, 0) << first.last_words();
+  EXPECT_EQ(first.ending()->exit_status, 0) << first.stderr_tail();
   EXPECT_EQ(hash_of(first), hash_of(second));
 }
 

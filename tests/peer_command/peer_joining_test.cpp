@@ -17,7 +17,7 @@ class PeerJoining : public PeerCommand {
   }
   bool is_in(const Process& peer) {
     return until([&] {
-             return peer.last_words().find(" is in from ") != std::string::npos || peer.ending();
+             return peer.stderr_tail().find(" is in from ") != std::string::npos || peer.ending();
            }) &&
            !peer.ending();
   }
@@ -30,17 +30,17 @@ TEST_F(PeerJoining, OneAloneIsJoinedThroughAnybodyAndGoesWithoutMissing) {
     ASSERT_TRUE(are_playing({&first}));
     pass(300ms);
     Process& second = join(first, real);
-    ASSERT_TRUE(is_in(second)) << second.last_words();
+    ASSERT_TRUE(is_in(second)) << second.stderr_tail();
     Process& third = join(second, real);
-    ASSERT_TRUE(is_in(third)) << third.last_words();
+    ASSERT_TRUE(is_in(third)) << third.stderr_tail();
     ASSERT_EQ(kill(first.id(), SIGINT), 0);
     ASSERT_TRUE(ends(first));
     EXPECT_EQ(first.ending()->exit_status, 130);
     Process& fourth = join(third, real);
-    ASSERT_TRUE(is_in(fourth)) << fourth.last_words();
+    ASSERT_TRUE(is_in(fourth)) << fourth.stderr_tail();
     for (const Process* peer : {&second, &third, &fourth}) {
       ASSERT_TRUE(ends(*peer));
-      EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+      EXPECT_EQ(peer->ending()->exit_status, 0) << peer->stderr_tail();
       EXPECT_EQ(hash_of(*peer), truth(4.0)) << transport;
       EXPECT_EQ(peer->line_after("  \"recoveries\": "), "0,");
       EXPECT_NE(peer->line_after("  \"own_events\": "), "0,");
@@ -53,14 +53,14 @@ TEST_F(PeerJoining, BringsItsOwnBotsAndIsRefusedMoreThanAreFree) {
   Process& first = found(1, "3", {"--pace", "realtime", "--bots", "3", "--record", file});
   ASSERT_TRUE(are_playing({&first}));
   Process& second = join(first, {"--bots", "4", "--players", "chaser,random"});
-  ASSERT_TRUE(is_in(second)) << second.last_words();
+  ASSERT_TRUE(is_in(second)) << second.stderr_tail();
   const Process& greedy = join(second, {"--bots", "2"});
   ASSERT_TRUE(ends(greedy));
   EXPECT_EQ(greedy.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
-  EXPECT_THAT(greedy.last_words(), HasSubstr("it wants to play 2 bats, of 8 here 1 are free"));
+  EXPECT_THAT(greedy.stderr_tail(), HasSubstr("it wants to play 2 bats, of 8 here 1 are free"));
   const Process& other = join(second, {"--seed", "9"});
   ASSERT_TRUE(ends(other));
-  EXPECT_THAT(other.last_words(), HasSubstr("another scene"));
+  EXPECT_THAT(other.stderr_tail(), HasSubstr("another scene"));
   ASSERT_TRUE(ends(first) && ends(second));
   const KeyLog log = read_key_log(std::filesystem::path(file));
   Game one(load_scene(scene()));
@@ -82,7 +82,7 @@ TEST_F(PeerJoining, SeveralWhoComeAtOnceEachPlayTheirOwnBats) {
   for (int k = 0; k < 5; ++k) all.push_back(&join(first, real));
   for (const Process* peer : all) {
     ASSERT_TRUE(ends(*peer));
-    EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+    EXPECT_EQ(peer->ending()->exit_status, 0) << peer->stderr_tail();
     EXPECT_EQ(hash_of(*peer), hash_of(first));
     EXPECT_NE(peer->line_after("  \"key_presses\": "), "0,");
   }
@@ -102,7 +102,7 @@ TEST_F(PeerJoining, MayBeAskedForBeforeTheFirstListens) {
   Process& first = start({"--peers", "2", "--until", "1", "--listen", place});
   for (const Process* peer : {&first, &early}) {
     ASSERT_TRUE(ends(*peer));
-    EXPECT_EQ(hash_of(*peer), truth(1.0)) << peer->last_words();
+    EXPECT_EQ(hash_of(*peer), truth(1.0)) << peer->stderr_tail();
   }
 }
 
@@ -115,8 +115,8 @@ TEST_F(PeerJoining, InAStormOfLeavingAndDyingLeavesTheGameOfOneEngine) {
   for (int turn = 0; turn < 6; ++turn) {
     Process& newcomer = join(*there.back(), real);
     Process& another = join(*there.front(), real);
-    ASSERT_TRUE(is_in(newcomer)) << newcomer.last_words();
-    ASSERT_TRUE(is_in(another)) << another.last_words();
+    ASSERT_TRUE(is_in(newcomer)) << newcomer.stderr_tail();
+    ASSERT_TRUE(is_in(another)) << another.stderr_tail();
     there.push_back(&newcomer), there.push_back(&another);
     ASSERT_EQ(kill(there[0]->id(), SIGINT), 0);
     if (turn % 2 == 0) {
@@ -131,7 +131,7 @@ TEST_F(PeerJoining, InAStormOfLeavingAndDyingLeavesTheGameOfOneEngine) {
   EXPECT_EQ(killed, 3);
   for (const Process* peer : there) {
     ASSERT_TRUE(ends(*peer));
-    EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+    EXPECT_EQ(peer->ending()->exit_status, 0) << peer->stderr_tail();
     EXPECT_EQ(hash_of(*peer), truth(12.0));
   }
 }

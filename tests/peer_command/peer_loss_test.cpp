@@ -8,7 +8,7 @@ namespace {
 class PeerLoss : public PeerCommand {
  protected:
   bool says(const Process& peer, const std::string& words, std::chrono::seconds limit) {
-    return until([&] { return peer.last_words().find(words) != std::string::npos; }, limit);
+    return until([&] { return peer.stderr_tail().find(words) != std::string::npos; }, limit);
   }
 };
 
@@ -21,13 +21,13 @@ TEST_F(PeerLoss, OfOneThatIsKilledIsMadeGoodWithinASecondAndTheHashIsThatOfOneEn
     until([] { return false; }, 1s);
     ASSERT_EQ(kill(second.id(), SIGKILL), 0);
     for (const Process* peer : {&first, &third})
-      EXPECT_TRUE(says(*peer, "2 peers go on from", 1s)) << peer->last_words();
+      EXPECT_TRUE(says(*peer, "2 peers go on from", 1s)) << peer->stderr_tail();
     // Whoever hears of it from another one does not say where it was.
-    EXPECT_THAT(first.last_words() + third.last_words(),
+    EXPECT_THAT(first.stderr_tail() + third.stderr_tail(),
                 HasSubstr("peer 1 (" + place_of(second) + ") is gone"));
     for (const Process* peer : {&first, &third}) {
       ASSERT_TRUE(ends(*peer));
-      EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+      EXPECT_EQ(peer->ending()->exit_status, 0) << peer->stderr_tail();
       EXPECT_EQ(hash_of(*peer), truth(2.0)) << transport;
     }
   }
@@ -39,12 +39,12 @@ TEST_F(PeerLoss, OfOneOfTwoLeavesTheOtherAlone) {
   ASSERT_TRUE(are_playing({&first, &second}));
   until([] { return false; }, 1s);
   ASSERT_EQ(kill(first.id(), SIGKILL), 0);
-  EXPECT_TRUE(says(second, "this peer goes on alone", 1s)) << second.last_words();
+  EXPECT_TRUE(says(second, "this peer goes on alone", 1s)) << second.stderr_tail();
   ASSERT_TRUE(ends(second));
   EXPECT_EQ(hash_of(second), truth(2.0));
   EXPECT_EQ(second.ending()->exit_status, static_cast<int>(ExitStatus::may_have_split))
       << "it cannot know that the first one is dead";
-  EXPECT_THAT(second.last_words(), HasSubstr("the other may have done so too"));
+  EXPECT_THAT(second.stderr_tail(), HasSubstr("the other may have done so too"));
 }
 
 TEST_F(PeerLoss, OfOneThatFallsSilentBeforeAllAreThereKeepsNobodyWaiting) {
@@ -55,7 +55,7 @@ TEST_F(PeerLoss, OfOneThatFallsSilentBeforeAllAreThereKeepsNobodyWaiting) {
   ASSERT_EQ(kill(second.id(), SIGSTOP), 0);
   ASSERT_TRUE(ends(first, 5s));
   EXPECT_EQ(first.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-  EXPECT_THAT(first.last_words(), HasSubstr("peer 1 (" + place_of(second) + ") has said nothing"));
+  EXPECT_THAT(first.stderr_tail(), HasSubstr("peer 1 (" + place_of(second) + ") has said nothing"));
   ASSERT_EQ(kill(second.id(), SIGCONT), 0);
   ASSERT_TRUE(ends(second, 5s));
   EXPECT_NE(second.ending()->exit_status, 0);
@@ -68,7 +68,7 @@ TEST_F(PeerLoss, OfOneThatIsKilledBeforeAllAreThereKeepsNobodyWaiting) {
   ASSERT_EQ(kill(second.id(), SIGKILL), 0);
   ASSERT_TRUE(ends(first, 5s));
   EXPECT_EQ(first.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-  EXPECT_THAT(first.last_words(), HasSubstr("is gone"));
+  EXPECT_THAT(first.stderr_tail(), HasSubstr("is gone"));
 }
 
 TEST_F(PeerLoss, ThatIsNoneWhileTwoWaitLongerThanTheirPatienceForAThird) {
@@ -79,7 +79,7 @@ TEST_F(PeerLoss, ThatIsNoneWhileTwoWaitLongerThanTheirPatienceForAThird) {
   Process& third = join(first, patience);
   for (const Process* peer : {&first, &second, &third}) {
     ASSERT_TRUE(ends(*peer));
-    EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+    EXPECT_EQ(peer->ending()->exit_status, 0) << peer->stderr_tail();
     EXPECT_EQ(hash_of(*peer), truth(0.2));
   }
 }
@@ -91,7 +91,7 @@ TEST_F(PeerLoss, OfTheSecondOfTwoLeavesTheFirstWithTheSession) {
   ASSERT_EQ(kill(second.id(), SIGKILL), 0);
   ASSERT_TRUE(ends(first));
   EXPECT_EQ(hash_of(first), truth(2.0));
-  EXPECT_EQ(first.ending()->exit_status, 0) << first.last_words();
+  EXPECT_EQ(first.ending()->exit_status, 0) << first.stderr_tail();
 }
 
 TEST_F(PeerLoss, OfEachOtherLetsAtMostOneOfTwoEndWithStatusZero) {
@@ -99,11 +99,11 @@ TEST_F(PeerLoss, OfEachOtherLetsAtMostOneOfTwoEndWithStatusZero) {
   Process& second = join(first, {"--patience", "0.5"});
   ASSERT_TRUE(are_playing({&first, &second}));
   ASSERT_EQ(kill(second.id(), SIGSTOP), 0);
-  EXPECT_TRUE(says(first, "this peer goes on alone", 3s)) << first.last_words();
+  EXPECT_TRUE(says(first, "this peer goes on alone", 3s)) << first.stderr_tail();
   ASSERT_EQ(kill(second.id(), SIGCONT), 0);
   for (const Process* peer : {&first, &second}) ASSERT_TRUE(ends(*peer));
-  EXPECT_EQ(first.ending()->exit_status, 0) << first.last_words();
-  EXPECT_NE(second.ending()->exit_status, 0) << second.last_words();
+  EXPECT_EQ(first.ending()->exit_status, 0) << first.stderr_tail();
+  EXPECT_NE(second.ending()->exit_status, 0) << second.stderr_tail();
 }
 
 TEST_F(PeerLoss, IsNotWhatTwoSecondsOfSilenceAre) {
@@ -117,7 +117,7 @@ TEST_F(PeerLoss, IsNotWhatTwoSecondsOfSilenceAre) {
   for (const Process* peer : {&slow, &stopped, &other}) {
     ASSERT_TRUE(ends(*peer));
     EXPECT_EQ(hash_of(*peer), truth(3.0));
-    EXPECT_EQ(peer->last_words(), "");
+    EXPECT_EQ(peer->stderr_tail(), "");
   }
 }
 
@@ -129,12 +129,12 @@ TEST_F(PeerLoss, OfOneThatIsSilentForTooLongIsFinalAndItHaltsWhenItComesBack) {
   ASSERT_TRUE(are_playing({&first, &second, &third}));
   ASSERT_EQ(kill(second.id(), SIGSTOP), 0);
   for (const Process* peer : {&first, &third})
-    EXPECT_TRUE(says(*peer, "2 peers go on from", 3s)) << peer->last_words();
+    EXPECT_TRUE(says(*peer, "2 peers go on from", 3s)) << peer->stderr_tail();
   ASSERT_EQ(kill(second.id(), SIGCONT), 0);
   ASSERT_TRUE(ends(second, 3s));
   EXPECT_EQ(second.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-  EXPECT_THAT(second.last_words(), testing::AnyOf(HasSubstr("1 of 3 peers are left: it halts"),
-                                                  HasSubstr("has given this one up: it halts")));
+  EXPECT_THAT(second.stderr_tail(), testing::AnyOf(HasSubstr("1 of 3 peers are left: it halts"),
+                                                   HasSubstr("has given this one up: it halts")));
   for (const Process* peer : {&first, &third}) {
     ASSERT_TRUE(ends(*peer));
     EXPECT_EQ(hash_of(*peer), truth(4.0));
@@ -150,12 +150,12 @@ TEST_F(PeerLoss, IsNotWhenOneIsInterruptedForItHandsOverWhatItOwns) {
   ASSERT_EQ(kill(first.id(), SIGINT), 0);
   ASSERT_TRUE(ends(first, 2s));
   EXPECT_EQ(first.ending()->exit_status, 130);
-  EXPECT_THAT(first.last_words(), HasSubstr("all that this peer had is with others"));
+  EXPECT_THAT(first.stderr_tail(), HasSubstr("all that this peer had is with others"));
   for (const Process* peer : {&second, &third}) {
     ASSERT_TRUE(ends(*peer));
     EXPECT_EQ(hash_of(*peer), truth(2.0));
     EXPECT_EQ(peer->line_after("  \"recoveries\": "), "0,");
-    EXPECT_EQ(peer->last_words(), "rink-peer: peer 0 has left in good order");
+    EXPECT_EQ(peer->stderr_tail(), "rink-peer: peer 0 has left in good order");
   }
 }
 
@@ -166,7 +166,7 @@ TEST_F(PeerLoss, IsNotWhenOneOfTwoIsInterruptedForTheOtherGoesOn) {
   ASSERT_EQ(kill(second.id(), SIGINT), 0);
   ASSERT_TRUE(ends(second));
   EXPECT_EQ(second.ending()->exit_status, 130);
-  EXPECT_THAT(second.last_words(), HasSubstr("all that this peer had is with others"));
+  EXPECT_THAT(second.stderr_tail(), HasSubstr("all that this peer had is with others"));
   ASSERT_TRUE(ends(first));
   EXPECT_EQ(hash_of(first), truth(2.0));
 }
@@ -179,7 +179,7 @@ TEST_F(PeerLoss, IsNotWhenOneIsInterruptedInWindowsOfMoreThanASecond) {
   until([] { return false; }, 2s);
   ASSERT_EQ(kill(second.id(), SIGINT), 0);
   ASSERT_TRUE(ends(second, 8s));
-  EXPECT_THAT(second.last_words(), HasSubstr("all that this peer had is with others"));
+  EXPECT_THAT(second.stderr_tail(), HasSubstr("all that this peer had is with others"));
   for (const Process* peer : {&first, &third}) {
     ASSERT_TRUE(ends(*peer));
     EXPECT_EQ(hash_of(*peer), truth(9.0));
@@ -209,7 +209,7 @@ TEST_F(PeerCommand, UnmirroredNoticesWithinTwoSecondsThatAPeerWasKilledAndNamesI
   for (const Process* peer : {&first, &third}) {
     ASSERT_TRUE(ends(*peer, 2s));
     EXPECT_EQ(peer->ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-    EXPECT_THAT(peer->last_words(), HasSubstr(killed));
+    EXPECT_THAT(peer->stderr_tail(), HasSubstr(killed));
   }
 }
 
@@ -222,7 +222,7 @@ TEST_F(PeerCommand, UnmirroredAndInterruptedEndsAllButOnlyOneSaysThatItWasInterr
   ASSERT_TRUE(second.ending());
   EXPECT_EQ(second.ending()->exit_status, 130);
   EXPECT_EQ(first.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-  EXPECT_THAT(first.last_words(), HasSubstr("was interrupted, so all end"));
+  EXPECT_THAT(first.stderr_tail(), HasSubstr("was interrupted, so all end"));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "game/model/scene_file.h"
-#include "game/net/peer/hand_player.h"
+#include "game/net/peer/local_player.h"
 #include "game/net/peer/peer_match.h"
 #include "tests/peer/thread_mail.h"
 
@@ -31,7 +31,7 @@ constexpr double frame_s = 1.0 / 60.0;
 
 /// Looks at 60 frames a second of a real time by which each window is played when it begins, and
 /// presses keys at random.
-class Person final : public Onlooker {
+class Person final : public WindowParticipant {
  public:
   struct Frame {
     double instant;
@@ -68,8 +68,8 @@ class Person final : public Onlooker {
         {rink->now(), rink->bats()[player_].position, rink->bats()[1 - player_].position});
   }
 
-  Hand hand_;
-  HandPlayer hand_player_;
+  InputQueue hand_;
+  LocalPlayer hand_player_;
   PeerMatch match_;
   std::uint32_t player_;
   std::minstd_rand random_;
@@ -89,22 +89,22 @@ struct Played {
 /// the half where it is.
 Played played_by_a_person(const SharedGame& game, std::uint32_t player, double until) {
   const Terms terms{.peer_count = 2, .until = until, .window = 0.02, .balance_windows = 0};
-  std::vector<Guest> guests(2);
-  guests[0] = {.place = {}, .first_bat = player, .bat_count = 1, .hand_count = 1};
-  guests[1] = {.place = {}, .first_bat = 1 - player, .bat_count = 1};
+  std::vector<PeerInfo> peer_infos(2);
+  peer_infos[0] = {.place = {}, .first_bat = player, .bat_count = 1, .hand_count = 1};
+  peer_infos[1] = {.place = {}, .first_bat = 1 - player, .bat_count = 1};
   peer::test::PostOffice office(2);
   std::thread other([&] {
     peer::test::ThreadMail mail(office, 1);
-    Manner manner;
-    manner.players = {"random"};
-    game.play(terms, guests, 1, mail, manner);
+    PartOptions part_options;
+    part_options.players = {"random"};
+    game.play(terms, peer_infos, 1, mail, part_options);
   });
   Played played;
   Person person(game, player, 7 + player);
   peer::test::ThreadMail mail(office, 0);
-  Manner manner;
-  manner.onlooker = &person;
-  played.part = game.play(terms, guests, 0, mail, manner);
+  PartOptions part_options;
+  part_options.participant = &person;
+  played.part = game.play(terms, peer_infos, 0, mail, part_options);
   other.join();
   played.frames = std::move(person.frames), played.pressed = std::move(person.pressed);
   played.corrections = person.match().prediction()->own_corrections().visible_count;

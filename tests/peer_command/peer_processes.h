@@ -105,7 +105,7 @@ class PeerCommand : public testing::Test {
     return printed(one.hash());
   }
   static std::string hash_of(const Process& peer) {
-    return peer.line_after("  \"hash\": ").value_or(peer.last_words());
+    return peer.line_after("  \"hash\": ").value_or(peer.stderr_tail());
   }
   /// As a report prints it.
   static std::string printed(std::uint64_t hash) {

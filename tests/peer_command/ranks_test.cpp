@@ -16,7 +16,7 @@
 #include "game/control/playing.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
-#include "game/net/peer/meeting/rank_mail.h"
+#include "game/net/peer/network/rank_mail.h"
 #include "game/process/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
@@ -117,7 +117,7 @@ TEST_F(RanksOfMpi, FourOnTwoProcessorsEndInTheHashOfOneEngineWithOneCollectiveFo
   one.advance(2.0);
   run({{4, peer({"--until", "2"})}});
   ASSERT_TRUE(ends());
-  ASSERT_EQ(launcher_->ending()->exit_status, 0) << launcher_->last_words();
+  ASSERT_EQ(launcher_->ending()->exit_status, 0) << launcher_->stderr_tail();
   const nlohmann::json all = report();
   ASSERT_EQ(all["ranks"].size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -140,7 +140,7 @@ TEST_F(RanksOfMpi, PlayRecordedKeysToTheHashOfTheirLogAndOneRankPlaysAlone) {
   for (const int count : {1, 3}) {
     run({{count, peer({"--until", "2", "--keys", file, "--window", "0.07"})}});
     ASSERT_TRUE(ends());
-    EXPECT_EQ(report()["hash"], text_of(playing.game().hash())) << launcher_->last_words();
+    EXPECT_EQ(report()["hash"], text_of(playing.game().hash())) << launcher_->stderr_tail();
   }
 }
 
@@ -151,7 +151,7 @@ TEST_F(RanksOfMpi, WhoHaveAnotherSceneOrOtherTermsAreNamedAndNobodyPlays) {
   ASSERT_TRUE(ends());
   EXPECT_EQ(launcher_->ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
   EXPECT_THAT(
-      launcher_->last_words(),
+      launcher_->stderr_tail(),
       AllOf(HasSubstr("rank 2 cannot play with rank 0: it has another scene: its fingerprint is"),
             HasSubstr("rank 3 cannot play with rank 0: it is to play 2 s in windows of 0.02 s, "
                       "here it is 1 s in windows of 0.02 s")));
@@ -162,7 +162,7 @@ TEST_F(RanksOfMpi, OneOfAnotherVersionIsNamed) {
   run({{3, peer({"--until", "1"})}, {1, {test::binary_folder() + "/bin/rank-of-another-version"}}});
   ASSERT_TRUE(ends());
   EXPECT_EQ(launcher_->ending()->exit_status, static_cast<int>(ExitStatus::wrong_version));
-  EXPECT_THAT(launcher_->last_words(),
+  EXPECT_THAT(launcher_->stderr_tail(),
               HasSubstr("rank 3 cannot play with rank 0: it speaks version " +
                         std::to_string(peer_protocol_version + 1)));
 }
@@ -170,27 +170,27 @@ TEST_F(RanksOfMpi, OneOfAnotherVersionIsNamed) {
 TEST_F(RanksOfMpi, OneThatIsKilledEndsAllWithinFiveSeconds) {
   run({{4, peer({"--until", "80000"})}});
   const pid_t rank = one_of_four_that_play();
-  ASSERT_NE(rank, 0) << launcher_->last_words();
+  ASSERT_NE(rank, 0) << launcher_->stderr_tail();
   ASSERT_EQ(kill(rank, SIGKILL), 0);
   ASSERT_TRUE(ends(5s));
   EXPECT_NE(launcher_->ending()->exit_status, 0);
-  EXPECT_THAT(launcher_->last_words(), HasSubstr("signal 9"));
+  EXPECT_THAT(launcher_->stderr_tail(), HasSubstr("signal 9"));
 }
 
 TEST_F(RanksOfMpi, OneThatFallsSilentIsWaitedForWithPatienceThenAllEnd) {
   run({{4, peer({"--until", "80000", "--patience", "1"})}});
   const pid_t rank = one_of_four_that_play();
-  ASSERT_NE(rank, 0) << launcher_->last_words();
+  ASSERT_NE(rank, 0) << launcher_->stderr_tail();
   ASSERT_EQ(kill(rank, SIGSTOP), 0);
   ASSERT_TRUE(ends(15s));
   EXPECT_EQ(launcher_->ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-  EXPECT_THAT(launcher_->last_words(), HasSubstr("for 1 s"));
+  EXPECT_THAT(launcher_->stderr_tail(), HasSubstr("for 1 s"));
   for (const pid_t other : children_of(launcher_->id())) EXPECT_NE(kill(other, 0), 0);
 }
 
 TEST(RankWords, DamagedOnesAreRefusedWhateverIsDamaged) {
   RankWords words;
-  words.luggage = {1, 2, 3}, words.until = 5.0, words.window = 0.02;
+  words.session_fingerprint = {1, 2, 3}, words.until = 5.0, words.window = 0.02;
   const std::vector<std::uint8_t> good = spoken(words);
   std::vector<std::uint8_t> both = good;
   both.insert(both.end(), good.begin(), good.end());
@@ -212,7 +212,7 @@ TEST(PeerWithoutALauncher, RefusesFlagsThatRanksDoNotHave) {
                  {});
     while (!peer.ending()) peer.attend(10ms);
     EXPECT_EQ(peer.ending()->exit_status, 2);
-    EXPECT_THAT(peer.last_words(),
+    EXPECT_THAT(peer.stderr_tail(),
                 HasSubstr("with --transport mpi the launcher says how many there are"));
   }
 }
@@ -223,7 +223,7 @@ TEST(PeerWithoutMpi, SaysWhatToInstall) {
                {});
   while (!peer.ending()) peer.attend(10ms);
   EXPECT_EQ(peer.ending()->exit_status, 1);
-  EXPECT_THAT(peer.last_words(),
+  EXPECT_THAT(peer.stderr_tail(),
               HasSubstr("this build has no MPI: install libopenmpi-dev and openmpi-bin"));
 }
 

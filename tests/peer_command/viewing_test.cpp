@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "game/net/peer/meeting/seating.h"
-#include "game/net/peer/peer_evidence.h"
+#include "game/net/peer/network/seating.h"
+#include "game/net/peer/peer_trace.h"
 #include "game/players/random_plan.h"
 #include "tests/peer_command/peer_processes.h"
 
@@ -39,7 +39,7 @@ TEST_F(Viewing, ShowsPlayersWhatOthersHaveAndLeavesTheGameAsItIs) {
     Process& third = join(first, {"--bots", "2", "--players", "random", "--view", "1"});
     for (const Process* peer : {&first, &second, &third}) {
       ASSERT_TRUE(ends(*peer));
-      EXPECT_EQ(peer->ending()->exit_status, 0) << scheme << ": " << peer->last_words();
+      EXPECT_EQ(peer->ending()->exit_status, 0) << scheme << ": " << peer->stderr_tail();
     }
     const nlohmann::json view_of_first = report_of(folder_ / "first.json")["view"];
     EXPECT_GT(view_of_first["updates_bytes"], 0) << scheme;
@@ -71,7 +71,7 @@ TEST_F(Viewing, GoesOnWhenAPeerIsKilled) {
   Game one(load_scene(scene()));
   for (const InputEvent& key : read_key_log(folder_ / "plan.keys").events) one.submit(key);
   one.advance(3.0);
-  EXPECT_EQ(hash_of(third), printed(one.hash())) << third.last_words();
+  EXPECT_EQ(hash_of(third), printed(one.hash())) << third.stderr_tail();
   EXPECT_GT(report_of(folder_ / "first.json")["view"]["in_view"], 0);
 }
 
@@ -88,7 +88,7 @@ TEST_F(Viewing, LetsNewcomersInWhoSeeAndAreSeen) {
     };
     const auto is_in = [&](const Process& peer) {
       return until([&] {
-               return peer.last_words().find(" is in from ") != std::string::npos || peer.ending();
+               return peer.stderr_tail().find(" is in from ") != std::string::npos || peer.ending();
              }) &&
              !peer.ending();
     };
@@ -96,9 +96,9 @@ TEST_F(Viewing, LetsNewcomersInWhoSeeAndAreSeen) {
     Process& first = found(1, "5", words(0, {"--scheme", scheme, "--record", record}));
     ASSERT_TRUE(are_playing({&first}));
     Process& second = join(first, words(1, {}));
-    ASSERT_TRUE(is_in(second)) << second.last_words();
+    ASSERT_TRUE(is_in(second)) << second.stderr_tail();
     Process& third = join(second, words(2, {}));
-    ASSERT_TRUE(is_in(third)) << third.last_words();
+    ASSERT_TRUE(is_in(third)) << third.stderr_tail();
     ASSERT_EQ(kill(second.id(), SIGINT), 0);
     ASSERT_TRUE(ends(second) && ends(first) && ends(third));
     const KeyLog log = read_key_log(std::filesystem::path(record));
@@ -139,29 +139,28 @@ TEST_F(Viewing, EvidenceAccountsForEveryByteAndAgreesWithTheKernel) {
   Process& third = join(first, words(2, {}));
   for (const Process* peer : {&first, &second, &third}) {
     ASSERT_TRUE(ends(*peer));
-    ASSERT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+    ASSERT_EQ(peer->ending()->exit_status, 0) << peer->stderr_tail();
   }
   std::uint64_t sent = 0, received = 0;
   std::vector<bool> is_there(3, false);
   for (int k = 0; k < 3; ++k) {
-    const PeerEvidence evidence = read_peer_evidence(file(k, ".jsonl"));
-    is_there[evidence.peer] = true;
+    const PeerTrace trace = read_peer_trace(file(k, ".jsonl"));
+    is_there[trace.peer] = true;
     const auto sum = [](const TrafficBytes& bytes) {
       return std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0});
     };
-    EXPECT_EQ(sum(evidence.end.bytes) - sum(evidence.begin.bytes),
-              evidence.end.bytes_sent - evidence.begin.bytes_sent);
-    EXPECT_NEAR(evidence.end.instant_s - evidence.begin.instant_s, 1.5, 0.5);
-    sent += evidence.end.bytes_sent - evidence.begin.bytes_sent,
-        received += evidence.end.bytes_received - evidence.begin.bytes_received;
-    ASSERT_TRUE(evidence.player) << "fewer players than are watched";
-    EXPECT_GE(evidence.player->samples.size(), 15u);
+    EXPECT_EQ(sum(trace.end.bytes) - sum(trace.begin.bytes),
+              trace.end.bytes_sent - trace.begin.bytes_sent);
+    EXPECT_NEAR(trace.end.instant_s - trace.begin.instant_s, 1.5, 0.5);
+    sent += trace.end.bytes_sent - trace.begin.bytes_sent,
+        received += trace.end.bytes_received - trace.begin.bytes_received;
+    ASSERT_TRUE(trace.player) << "fewer players than are watched";
+    EXPECT_GE(trace.player->samples.size(), 15u);
     const auto known = std::count_if(
-        evidence.events.begin(), evidence.events.end(),
-        [](const PeerEvidence::Event& event) { return event.kind == PeerEvidence::Kind::known; });
+        trace.events.begin(), trace.events.end(),
+        [](const PeerTrace::Event& event) { return event.kind == PeerTrace::Kind::known; });
     EXPECT_EQ(known, 40);
-    for (const PeerEvidence::Event& event : evidence.events)
-      EXPECT_GE(event.instant_s, event.due_s);
+    for (const PeerTrace::Event& event : trace.events) EXPECT_GE(event.instant_s, event.due_s);
     const nlohmann::json transport = report_of(file(k, ".json"))["transport"];
     EXPECT_NEAR(transport["bytes_sent"].get<double>(), transport["kernel_bytes_sent"].get<double>(),
                 400.0);
@@ -180,7 +179,7 @@ TEST_F(Viewing, RefusesWhatCannotBe) {
     const Process& peer = found(2, "1", std::move(words));
     EXPECT_TRUE(ends(peer));
     EXPECT_EQ(peer.ending()->exit_status, static_cast<int>(ExitStatus::bad_input));
-    return peer.last_words();
+    return peer.stderr_tail();
   };
   EXPECT_THAT(complaint({"--scheme", "regoin"}), HasSubstr("regoin"));
   EXPECT_THAT(complaint({"--scheme", "region", "--policy", "snapshot"}), HasSubstr("snapshot"));

@@ -11,17 +11,17 @@ namespace {
 /// Without drag, all the work of thrust is motion: m ((v + a t)^2 - v^2)/2.
 TEST(EnergyLedger, CountsThrustAsWork) {
   const Motion motion{1.0, {0.0, 0.0}, {2.0, 0.0}, {3.0, 0.0}, {0.0, 0.0}};
-  const Expense expense = expense_of(motion, 1.5, 4.0, nullptr);
-  EXPECT_NEAR(expense.work, 0.5 * 4.0 * (3.5 * 3.5 - 2.0 * 2.0), 1e-13);
-  EXPECT_NEAR(expense.loss, 0.0, 1e-15);
+  const EnergyTransfer transfer = energy_transfer_of(motion, 1.5, 4.0, nullptr);
+  EXPECT_NEAR(transfer.work, 0.5 * 4.0 * (3.5 * 3.5 - 2.0 * 2.0), 1e-13);
+  EXPECT_NEAR(transfer.loss, 0.0, 1e-15);
 }
 
 /// Drag alone takes m v^2 (1 - exp(-2 g t))/2.
 TEST(EnergyLedger, CountsDragAsLoss) {
   const Motion motion{0.0, {0.0, 0.0}, {2.0, 1.0}, {0.0, 0.0}, {0.5, 0.5}};
-  const Expense expense = expense_of(motion, 3.0, 2.0, nullptr);
-  EXPECT_EQ(expense.work, 0.0);
-  EXPECT_NEAR(expense.loss, 0.5 * 2.0 * 5.0 * (1.0 - std::exp(-3.0)), 1e-14);
+  const EnergyTransfer transfer = energy_transfer_of(motion, 3.0, 2.0, nullptr);
+  EXPECT_EQ(transfer.work, 0.0);
+  EXPECT_NEAR(transfer.loss, 0.5 * 2.0 * 5.0 * (1.0 - std::exp(-3.0)), 1e-14);
 }
 
 /// What friction takes is its part of the acceleration; nothing more after it has brought the body
@@ -30,9 +30,9 @@ TEST(EnergyLedger, CountsFrictionAsLossUntilTheBodyRests) {
   const Vector2 slowing(-2.0, 0.0);
   const Motion motion{0.0, {0.0, 0.0}, {4.0, 0.0}, slowing, {0.0, 0.0}, 2.0};
   for (const double time : {2.0, 5.0}) {
-    const Expense expense = expense_of(motion, time, 3.0, &slowing);
-    EXPECT_NEAR(expense.work, 0.0, 1e-14);
-    EXPECT_NEAR(expense.loss, 0.5 * 3.0 * 16.0, 1e-13);
+    const EnergyTransfer transfer = energy_transfer_of(motion, time, 3.0, &slowing);
+    EXPECT_NEAR(transfer.work, 0.0, 1e-14);
+    EXPECT_NEAR(transfer.loss, 0.5 * 3.0 * 16.0, 1e-13);
   }
 }
 

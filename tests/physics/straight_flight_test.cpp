@@ -42,13 +42,15 @@ TEST(FirstMeeting, HasTheSameBitsTwoOrFourAtATimeAsOneByOne) {
     near.resize(flight_max + 8);
     const double latest =
         round % 3 == 0 ? std::numeric_limits<double>::infinity() : uniform(random, 0.05, 0.4);
-    const Meeting expected = first_meeting_singly(discs.data(), 0, near.data(), count, latest);
-    const Meeting first = first_meeting(discs.data(), 0, near.data(), count, latest);
+    const FirstContact expected =
+        first_disc_contact_singly(discs.data(), 0, near.data(), count, latest);
+    const FirstContact first = first_disc_contact(discs.data(), 0, near.data(), count, latest);
     ASSERT_EQ(first.time, expected.time) << "round " << round;
     ASSERT_EQ(first.other, expected.other) << "round " << round;
     ASSERT_EQ(first.second_time, expected.second_time) << "round " << round;
 #if defined(__SSE2__)
-    const Meeting in_pairs = first_meeting_in_pairs(discs.data(), 0, near.data(), count, latest);
+    const FirstContact in_pairs =
+        first_disc_contact_in_pairs(discs.data(), 0, near.data(), count, latest);
     ASSERT_EQ(in_pairs.time, expected.time) << "round " << round;
     ASSERT_EQ(in_pairs.second_time, expected.second_time) << "round " << round;
 #endif
@@ -89,8 +91,9 @@ TEST(FirstMeeting, CountsThoseWhoTouchInTheSameBreath) {
                                          other.y + other.vy * (0.1 - other.time) - own.y);
       expected += k == 0 || distance <= own.radius + other.radius + clear_of_touching;
     }
-    const Meeting plain = first_meeting(discs.data(), 0, near.data(), count, 1.0),
-                  counting = first_meeting_counting(discs.data(), 0, near.data(), count, 1.0);
+    const FirstContact plain = first_disc_contact(discs.data(), 0, near.data(), count, 1.0),
+                       counting =
+                           first_disc_contact_counting(discs.data(), 0, near.data(), count, 1.0);
     ASSERT_EQ(counting.touching, expected) << "round " << round;
     ASSERT_EQ(counting.time, plain.time) << "round " << round;
     ASSERT_EQ(counting.other, plain.other) << "round " << round;
@@ -119,7 +122,7 @@ TEST(FirstMeeting, OfThoseWhoGrazeDoesNotDependOnHowFarOneLooks) {
         {0.5 + distance * x, 0.5 + distance * y, -along * y - across * x, along * x - across * y,
          0.3, 0.5 * reach}};
     std::vector<std::uint32_t> near{1, 0, 0, 0};
-    const Meeting ever = first_meeting_singly(discs.data(), 0, near.data(), 1, infinity);
+    const FirstContact ever = first_disc_contact_singly(discs.data(), 0, near.data(), 1, infinity);
     const double closing =
         (discs[1].x - discs[0].x) * discs[1].vx + (discs[1].y - discs[0].y) * discs[1].vy;
     if (!(ever.time < infinity && ever.time > 0.3 + 1e-12)) continue;
@@ -128,12 +131,12 @@ TEST(FirstMeeting, OfThoseWhoGrazeDoesNotDependOnHowFarOneLooks) {
     for (const double share : {0.5, 0.9, 1.1, 2.0, 1e3, 1e9}) {
       const double latest = 0.3 + share * wait,
                    expected = wait <= latest - 0.3 ? ever.time : infinity;
-      ASSERT_EQ(first_meeting_singly(discs.data(), 0, near.data(), 1, latest).time, expected)
+      ASSERT_EQ(first_disc_contact_singly(discs.data(), 0, near.data(), 1, latest).time, expected)
           << "round " << round << ", share " << share;
-      ASSERT_EQ(first_meeting(discs.data(), 0, near.data(), 1, latest).time, expected)
+      ASSERT_EQ(first_disc_contact(discs.data(), 0, near.data(), 1, latest).time, expected)
           << "round " << round << ", share " << share;
 #if defined(__SSE2__)
-      ASSERT_EQ(first_meeting_in_pairs(discs.data(), 0, near.data(), 1, latest).time, expected)
+      ASSERT_EQ(first_disc_contact_in_pairs(discs.data(), 0, near.data(), 1, latest).time, expected)
           << "round " << round << ", share " << share;
 #endif
     }
@@ -147,8 +150,8 @@ TEST(FirstMeeting, IsWhereTheDistanceIsTheSumOfTheRadii) {
   for (int round = 0; round < 2'000; ++round) {
     const std::vector<Flight> discs = crowd_of(random, 12);
     std::vector<std::uint32_t> near{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 0, 0};
-    const Meeting first =
-        first_meeting(discs.data(), 0, near.data(), 11, std::numeric_limits<double>::infinity());
+    const FirstContact first = first_disc_contact(discs.data(), 0, near.data(), 11,
+                                                  std::numeric_limits<double>::infinity());
     if (first.other > 11) continue;
     const Flight &a = discs[0], &b = discs[first.other];
     const double distance =

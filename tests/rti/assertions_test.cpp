@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rti/admission/token_bucket.h"
-#include "rti/buffering/said_lists.h"
+#include "rti/buffering/sent_records.h"
 #include "rti/buffering/update_runs.h"
 #include "rti/ownership/ownership.h"
 #include "rti/time/time_queue.h"
@@ -34,8 +34,8 @@ TEST(RtiDeathTest, NamesWhatIsWrongWithWhatIsWritten) {
   EXPECT_DEATH(BitReader(bytes, 1), "at <= 8");
   EXPECT_DEATH(Quantisation::of(0.0, 1.0, 0.1)->count(2.0), "contains");
   EXPECT_DEATH(UpdateRun().values(0), "index < records.size");
-  EXPECT_DEATH(SaidList().add(1), "has_group_");
-  EXPECT_DEATH(SaidLists().release(0), "is_held");
+  EXPECT_DEATH(SentRecord().add(1), "has_group_");
+  EXPECT_DEATH(SentRecordPool().release(0), "is_held");
 }
 
 TEST(RtiDeathTest, NamesWhatIsWrongWithTimesAndRings) {

@@ -114,7 +114,8 @@ TEST(Regions, OverThePlaneAloneNeedNoTestOutsideTheFilter) {
 class Deaf final : public Interest {
  public:
   using Interest::Interest;
-  bool hears(std::uint32_t, std::uint16_t, std::uint32_t, std::span<const RegionHandle>) override {
+  bool receives(std::uint32_t, std::uint16_t, std::uint32_t,
+                std::span<const RegionHandle>) override {
     return false;
   }
 };

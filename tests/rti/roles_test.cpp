@@ -45,7 +45,7 @@ struct FilteredHarbour {
   void tell(const Station& station, const im::Role& role) {
     rig.execution().set_federate_role(station.ambassador.federate(), role);
   }
-  bool hears(const Station& station, ObjectHandle object) {
+  bool receives(const Station& station, ObjectHandle object) {
     const auto known = station.heard.objects.find(object.value);
     const bool is_heard = known != station.heard.objects.end() && known->second.is_in_scope;
     EXPECT_EQ(is_heard, rig.execution().is_in_scope(station.ambassador.federate(), object));
@@ -65,17 +65,17 @@ TEST(Roles, DecideWhoHearsOfWhatWhereverBothAre) {
       harbour.tell(lighthouse, {.is_always_relevant = true});
   harbour.tell(watcher, {.team = 1}), harbour.tell(other, {.team = 2});
   harbour.rig.settle();
-  EXPECT_TRUE(harbour.hears(watcher, friendly) && harbour.hears(watcher, lighthouse) &&
-              !harbour.hears(watcher, foreign));
-  EXPECT_TRUE(harbour.hears(other, foreign) && harbour.hears(other, lighthouse) &&
-              !harbour.hears(other, friendly));
+  EXPECT_TRUE(harbour.receives(watcher, friendly) && harbour.receives(watcher, lighthouse) &&
+              !harbour.receives(watcher, foreign));
+  EXPECT_TRUE(harbour.receives(other, foreign) && harbour.receives(other, lighthouse) &&
+              !harbour.receives(other, friendly));
   EXPECT_EQ(watcher.heard.objects.at(friendly.value).values.at(speed.value), values_of(5.0f))
       << "with its state";
   harbour.tell(friendly, {.team = 2});
   harbour.tell(lighthouse, {});
   harbour.rig.settle();
-  EXPECT_TRUE(!harbour.hears(watcher, friendly) && !harbour.hears(watcher, lighthouse) &&
-              harbour.hears(other, friendly));
+  EXPECT_TRUE(!harbour.receives(watcher, friendly) && !harbour.receives(watcher, lighthouse) &&
+              harbour.receives(other, friendly));
 }
 
 TEST(Roles, MayBeSaidBeforeThereIsARegion) {
@@ -90,13 +90,13 @@ TEST(Roles, MayBeSaidBeforeThereIsARegion) {
   const RegionHandle view = watcher.ambassador.create_region();
   watcher.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{speed}, view);
   harbour.rig.settle();
-  EXPECT_FALSE(harbour.hears(watcher, object)) << "neither is committed";
+  EXPECT_FALSE(harbour.receives(watcher, object)) << "neither is committed";
   harbour.pilot.ambassador.set_region(late, {1.0, 1.0, 1.0, 1.0});
   harbour.pilot.ambassador.commit_region_modifications(late);
   watcher.ambassador.set_region(view, {90.0, 90.0, 91.0, 91.0});
   watcher.ambassador.commit_region_modifications(view);
   harbour.rig.settle();
-  EXPECT_TRUE(harbour.hears(watcher, object));
+  EXPECT_TRUE(harbour.receives(watcher, object));
 }
 
 TEST(Roles, OfObjectsThatShareARegionAreWhatTheyAgreeIn) {
@@ -108,16 +108,16 @@ TEST(Roles, OfObjectsThatShareARegionAreWhatTheyAgreeIn) {
   harbour.tell(watcher, {.team = 1});
   harbour.tell(one, {.team = 1});
   harbour.rig.settle();
-  EXPECT_FALSE(harbour.hears(watcher, one) || harbour.hears(watcher, other));
+  EXPECT_FALSE(harbour.receives(watcher, one) || harbour.receives(watcher, other));
   harbour.tell(other, {.team = 1});
   harbour.rig.settle();
-  EXPECT_TRUE(harbour.hears(watcher, one) && harbour.hears(watcher, other));
+  EXPECT_TRUE(harbour.receives(watcher, one) && harbour.receives(watcher, other));
   harbour.tell(other, {.team = 2});
   harbour.rig.settle();
-  EXPECT_FALSE(harbour.hears(watcher, one));
+  EXPECT_FALSE(harbour.receives(watcher, one));
   harbour.pilot.ambassador.delete_object_instance(other);
   harbour.rig.settle();
-  EXPECT_TRUE(harbour.hears(watcher, one)) << "it is alone now";
+  EXPECT_TRUE(harbour.receives(watcher, one)) << "it is alone now";
 }
 
 TEST(Roles, EndWithWhoHasThem) {
@@ -128,7 +128,7 @@ TEST(Roles, EndWithWhoHasThem) {
   harbour.tell(first, {.team = 1, .owner = 7});
   harbour.tell(object, {.team = 1, .owner = 7});
   harbour.rig.settle();
-  ASSERT_TRUE(harbour.hears(first, object));
+  ASSERT_TRUE(harbour.receives(first, object));
   const FederateHandle gone = first.ambassador.federate();
   first.ambassador.resign();
   harbour.rig.settle();
@@ -137,13 +137,13 @@ TEST(Roles, EndWithWhoHasThem) {
   harbour.rig.execution().set_object_role({4711}, {.team = 1});
   Station& second = harbour.add_watcher("second");
   harbour.rig.settle();
-  EXPECT_FALSE(harbour.hears(second, object)) << "in the place of the first, and of no team";
+  EXPECT_FALSE(harbour.receives(second, object)) << "in the place of the first, and of no team";
   harbour.tell(second, {.owner = 7});
   harbour.pilot.ambassador.delete_object_instance(object);
   harbour.rig.settle();
   const ObjectHandle next = harbour.add_vessel(10.0);
   harbour.rig.settle();
-  EXPECT_FALSE(harbour.hears(second, next));
+  EXPECT_FALSE(harbour.receives(second, next));
 }
 
 TEST(Roles, ShowAFederateWhatIsItsOwnUnderAnyFilter) {
@@ -157,8 +157,9 @@ TEST(Roles, ShowAFederateWhatIsItsOwnUnderAnyFilter) {
     harbour.tell(object, {.owner = 7});
     harbour.tell(other, {.owner = 8});
     harbour.rig.settle();
-    EXPECT_TRUE(harbour.hears(owner, object)) << filter;
-    EXPECT_EQ(harbour.hears(other, object), std::string(filter) == "none and not owner") << filter;
+    EXPECT_TRUE(harbour.receives(owner, object)) << filter;
+    EXPECT_EQ(harbour.receives(other, object), std::string(filter) == "none and not owner")
+        << filter;
     harbour.pilot.ambassador.update_attribute_values(object, AttributeSet{speed}, values_of(6.0f),
                                                      {});
     harbour.rig.settle();
@@ -166,7 +167,7 @@ TEST(Roles, ShowAFederateWhatIsItsOwnUnderAnyFilter) {
         << filter;
     harbour.tell(object, {.owner = 8});
     harbour.rig.settle();
-    EXPECT_TRUE(harbour.hears(other, object)) << filter;
+    EXPECT_TRUE(harbour.receives(other, object)) << filter;
   }
 }
 

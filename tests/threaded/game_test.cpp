@@ -98,13 +98,13 @@ TEST_P(ThreadedSockets, CarryTheVeryGameThatIsPlayedAlone) {
   const double give_up_s = now_s() + 20.0;
   while (!crowd.is_over() && now_s() < give_up_s) crowd.run_once();
   const loadgen::CrowdTraffic total = crowd.bots().traffic();
-  const std::string trouble = crowd.bots().first_trouble();
+  const std::string error = crowd.bots().first_error();
   crowd.resign();
   for (const double until_s = now_s() + 0.2; now_s() < until_s;) crowd.run_once();
   server.join();
 
   EXPECT_EQ(hash, alone.hash());
-  EXPECT_EQ(trouble, "");
+  EXPECT_EQ(error, "");
   EXPECT_GT(total.updates_received, 0u);
   EXPECT_LE(total.bytes_received,
             total.kernel_bytes_received);  // the rest lay in the sockets' buffers

@@ -10,15 +10,15 @@ namespace rink::peer::test {
 namespace {
 
 /// What each of the peers has at the end of so many windows of scene `number`.
-std::vector<Arrivals> play_in_threads(const SharedScene& scene, const Division& division,
+std::vector<Handover> play_in_threads(const SharedScene& scene, const Division& division,
                                       double window, int window_count) {
   const PeerNumber peer_count = division.peer_count();
-  std::vector<Arrivals> parts(peer_count);
+  std::vector<Handover> parts(peer_count);
   PostOffice office(peer_count);
   const auto play = [&](PeerNumber number) {
     Peer peer(scene.world.spec(), division, number, scene.world.body_count(), 0.2);
     for (std::uint32_t body = 0; body < scene.world.body_count(); ++body)
-      peer.consider(body, physics::Portion::state_in(scene.world, body));
+      peer.consider(body, physics::Subdomain::state_in(scene.world, body));
     for (const Key& key : scene.keys) peer.press_first(key);
     peer.begin(window);
     ThreadMail mail(office, number);
@@ -37,7 +37,7 @@ TEST(PeersThreaded, HaveTogetherTheHashOfOneEngine) {
     const int window_count = 20;
     SharedScene scene = shared_scene(number, window * window_count);
     Random random(number);
-    const std::vector<Arrivals> parts = play_in_threads(
+    const std::vector<Handover> parts = play_in_threads(
         scene, random_division(scene.world.spec().field, random, 4), window, window_count);
     for (const Key& key : scene.keys) {
       physics::test::RandomKeys::advance(scene.world, key.time);

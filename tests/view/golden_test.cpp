@@ -70,7 +70,7 @@ class GoldenImages : public ::testing::Test {
     try {
       context_ = std::make_unique<OffscreenContext>();
     } catch (const GraphicsError& error) {
-      trouble_ = error.what();
+      error_ = error.what();
       return;
     }
     interface_ = std::make_unique<Interface>();
@@ -82,7 +82,7 @@ class GoldenImages : public ::testing::Test {
     context_.reset();
   }
   void SetUp() override {
-    if (!context_) GTEST_SKIP() << trouble_;
+    if (!context_) GTEST_SKIP() << error_;
     resize(small);
     open(match_sight());
   }
@@ -114,19 +114,19 @@ class GoldenImages : public ::testing::Test {
   }
   void tap(const char* key) {
     for (const bool is_down : {true, false}) {
-      hear({.kind = WindowEvent::Kind::key,
-            .key = key_code_from_name(key).value(),
-            .is_down = is_down});
+      receive({.kind = WindowEvent::Kind::key,
+               .key = key_code_from_name(key).value(),
+               .is_down = is_down});
       for (int i = 0; i < 3; ++i) frame(false);
     }
   }
-  void hear(const WindowEvent& event) { application_->hear(event); }
+  void receive(const WindowEvent& event) { application_->receive(event); }
   /// Down and up before anything is drawn, as a person's tap is where a frame takes long.
   void tap_within_a_frame(const char* key) {
     for (const bool is_down : {true, false})
-      hear({.kind = WindowEvent::Kind::key,
-            .key = key_code_from_name(key).value(),
-            .is_down = is_down});
+      receive({.kind = WindowEvent::Kind::key,
+               .key = key_code_from_name(key).value(),
+               .is_down = is_down});
   }
 
   /// Other drivers round and sample otherwise: an edge here and there may differ, not a place or a
@@ -159,7 +159,7 @@ class GoldenImages : public ::testing::Test {
   static inline std::unique_ptr<OffscreenContext> context_;
   static inline std::unique_ptr<Interface> interface_;
   static inline std::unique_ptr<Renderer> renderer_;
-  static inline std::string trouble_;
+  static inline std::string error_;
   WindowSize size_;
   Target target_;
   std::unique_ptr<Application> application_;
@@ -200,10 +200,10 @@ TEST_F(GoldenImages, OfScreensThatAreReachedByTapsWithinOneFrame) {
 
 TEST_F(GoldenImages, AreLeftForAMatchByAClickWithinOneFrame) {
   for (int i = 0; i < 3; ++i) frame(false);
-  hear({.kind = WindowEvent::Kind::mouse_move, .x = 240.0, .y = 96.0});  // "Two players"
-  hear({.kind = WindowEvent::Kind::mouse_button, .is_down = true});
-  hear({.kind = WindowEvent::Kind::mouse_button, .is_down = false});
-  hear({.kind = WindowEvent::Kind::mouse_move, .x = 5.0, .y = 5.0});
+  receive({.kind = WindowEvent::Kind::mouse_move, .x = 240.0, .y = 96.0});  // "Two players"
+  receive({.kind = WindowEvent::Kind::mouse_button, .is_down = true});
+  receive({.kind = WindowEvent::Kind::mouse_button, .is_down = false});
+  receive({.kind = WindowEvent::Kind::mouse_move, .x = 5.0, .y = 5.0});
   for (int i = 0; i < 3; ++i) frame(false);
   EXPECT_FALSE(application_->is_in_menu());
 }
@@ -362,7 +362,7 @@ TEST_F(GoldenImages, GoBackToTheMenuWhenTheConnectionIsLost) {
                        [&](const MatchWish&) {
                          return std::make_unique<StillMatch>(made++ == 0 ? match_sight() : sight);
                        },
-                   .tell = [&](const std::string& words) { told = words; }},
+                   .notify = [&](const std::string& words) { told = words; }},
       Settings());
   application_->play({.kind = MatchWish::Kind::join, .address = "localhost:1"});
   frame();

@@ -154,7 +154,7 @@ TEST_F(PlayCommand, ShowsAWatcherEveryBatOfARunningServerWhereItIs) {
   std::optional<std::string> place;
   for (int i = 0; i < 500 && !place; ++i)
     server.attend(std::chrono::milliseconds(10)), place = server.line_after("listening on ");
-  ASSERT_TRUE(place) << server.last_words();
+  ASSERT_TRUE(place) << server.stderr_tail();
   ASSERT_EQ(play("--camera above --watch " + *place, "1.5 tap i\n2 picture watched.png\n2.1 end\n"),
             0)
       << said_;

@@ -25,7 +25,7 @@ TEST(Settings, ReadBackWhatTheyWrite) {
   settings.is_muted = true;
   settings.volume = 0.25;
   const ReadSettings read = parse_settings(settings_text(settings), "play.toml");
-  EXPECT_THAT(read.troubles, IsEmpty());
+  EXPECT_THAT(read.errors, IsEmpty());
   EXPECT_EQ(read.settings, settings);
 }
 
@@ -42,8 +42,8 @@ TEST(Settings, EveryKeyHasOneNameAndTheNameOneKey) {
 TEST(Settings, AnUnknownKeyNameIsSaidWithFileAndLineAndTheOthersCount) {
   const ReadSettings read =
       parse_settings("mute = true\n[keys.left]\nup = \"hyper\"\ndown = \"x\"\n", "my/play.toml");
-  EXPECT_THAT(read.troubles, ElementsAre(AllOf(HasSubstr("my/play.toml:3"), HasSubstr("'hyper'"),
-                                               HasSubstr("stays 'w'"))));
+  EXPECT_THAT(read.errors, ElementsAre(AllOf(HasSubstr("my/play.toml:3"), HasSubstr("'hyper'"),
+                                             HasSubstr("stays 'w'"))));
   EXPECT_TRUE(read.settings.is_muted);
   EXPECT_EQ(read.settings.keys[0][2], *key_code_from_name("w"));
   EXPECT_EQ(read.settings.keys[0][3], *key_code_from_name("x"));
@@ -54,7 +54,7 @@ TEST(Settings, TroublesComeInTheOrderOfTheirLinesAndNoMoreThanFitOnAScreen) {
       "zoom = 1\n[keys.left]\nup = 7\nleft = \"hyper\"\n[keys.right]\nup = \"?\"\nforward = "
       "1\nback = 1\n",
       "play.toml");
-  EXPECT_THAT(read.troubles,
+  EXPECT_THAT(read.errors,
               ElementsAre(HasSubstr("play.toml:1: there is no setting 'zoom'"),
                           AllOf(HasSubstr("play.toml:3: expected the name of a key in quotes"),
                                 HasSubstr("stays 'w'")),
@@ -66,26 +66,26 @@ TEST(Settings, AFileWithTroublesIsKeptWhenNewSettingsAreWritten) {
   const test::TemporaryFolder folder("settings");
   const std::string file = folder / "play.toml";
   std::ofstream(file) << "mute = true\nmute = true\n";
-  EXPECT_THAT(read_settings(file).troubles, ElementsAre(HasSubstr("play.toml:2")));
+  EXPECT_THAT(read_settings(file).errors, ElementsAre(HasSubstr("play.toml:2")));
   ASSERT_THAT(set_settings_aside(file), Optional(HasSubstr("play.toml.old")));
   EXPECT_FALSE(write_settings(Settings(), file));
   EXPECT_EQ(test::text_of(file + ".old"), "mute = true\nmute = true\n");
-  EXPECT_THAT(read_settings(file).troubles, IsEmpty());
+  EXPECT_THAT(read_settings(file).errors, IsEmpty());
   EXPECT_FALSE(std::filesystem::exists(file + ".new"));
 }
 
 TEST(Settings, WhatIsNoFileOrTooLargeIsNotRead) {
   const test::TemporaryFolder folder("settings");
-  EXPECT_THAT(read_settings(folder.path()).troubles, ElementsAre(HasSubstr("not a file")));
-  EXPECT_THAT(read_settings("/dev/zero").troubles, ElementsAre(HasSubstr("not a file")));
+  EXPECT_THAT(read_settings(folder.path()).errors, ElementsAre(HasSubstr("not a file")));
+  EXPECT_THAT(read_settings("/dev/zero").errors, ElementsAre(HasSubstr("not a file")));
   std::ofstream(folder / "large") << std::string(3 << 20, '#');
-  EXPECT_THAT(read_settings(folder / "large").troubles, ElementsAre(HasSubstr("larger than")));
-  EXPECT_THAT(read_settings(folder / "none").troubles, IsEmpty());
+  EXPECT_THAT(read_settings(folder / "large").errors, ElementsAre(HasSubstr("larger than")));
+  EXPECT_THAT(read_settings(folder / "none").errors, IsEmpty());
 }
 
 TEST(Settings, OneKeyCannotMeanTwoThings) {
   const ReadSettings read = parse_settings("[keys.left]\nup = \"down\"\n", "play.toml");
-  EXPECT_THAT(read.troubles, ElementsAre(HasSubstr("'down' is given two meanings")));
+  EXPECT_THAT(read.errors, ElementsAre(HasSubstr("'down' is given two meanings")));
   EXPECT_EQ(read.settings, Settings());
 }
 
@@ -94,7 +94,7 @@ TEST(Settings, WhatIsNoTomlOrNoSettingIsSaidAndDefaultsGoOn) {
        {"volume = ", "volume = 7\n", "mute = 1\n", "colour = \"red\"\n",
         "[keys.middle]\nup = \"a\"\n", "[keys.left]\nforward = \"a\"\n", "\xff\xfe"}) {
     const ReadSettings read = parse_settings(text, "play.toml");
-    EXPECT_THAT(read.troubles, ElementsAre(HasSubstr("play.toml:"))) << text;
+    EXPECT_THAT(read.errors, ElementsAre(HasSubstr("play.toml:"))) << text;
     EXPECT_EQ(read.settings, Settings()) << text;
   }
 }

@@ -27,7 +27,7 @@ class ThingsShown : public ::testing::Test {
     try {
       context_ = std::make_unique<OffscreenContext>();
     } catch (const GraphicsError& error) {
-      trouble_ = error.what();
+      error_ = error.what();
       return;
     }
     renderer_ = std::make_unique<Renderer>();
@@ -39,7 +39,7 @@ class ThingsShown : public ::testing::Test {
     context_.reset();
   }
   void SetUp() override {
-    if (!context_) GTEST_SKIP() << trouble_;
+    if (!context_) GTEST_SKIP() << error_;
   }
 
   Image drawn(const MatchSight& sight, const ViewChoice& choice) {
@@ -142,7 +142,7 @@ class ThingsShown : public ::testing::Test {
   static inline std::unique_ptr<OffscreenContext> context_;
   static inline std::unique_ptr<Renderer> renderer_;
   static inline std::unique_ptr<Target> target_;
-  static inline std::string trouble_;
+  static inline std::string error_;
 };
 
 TEST_F(ThingsShown, StandWhereTheyAreFromEveryViewpoint) {

@@ -15,7 +15,7 @@ MatchSight shared_sight() {
   sight.zones.emplace();
   sight.zones->own_peer = 1, sight.zones->halo = 0.25, sight.zones->own_count = 7;
   sight.zones->zones = {{0, 0.0, 0.0, 2.0, 2.0}, {1, 2.0, 0.0, 4.0, 2.0}};
-  sight.zones->ghosts = {1}, sight.zones->told = {0};
+  sight.zones->ghosts = {1}, sight.zones->received = {0};
   return sight;
 }
 

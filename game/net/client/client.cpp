@@ -9,8 +9,8 @@
 namespace rink::game {
 namespace {
 
-bool is_state_on_entry(const Mirror& mirror, rti::ObjectHandle object) {
-  const MirroredEntity* const entity = mirror.find(object);
+bool is_state_on_entry(const ReplicaSet& replicas, rti::ObjectHandle object) {
+  const EntityReplica* const entity = replicas.find(object);
   return entity != nullptr && !entity->is_placed;
 }
 
@@ -19,12 +19,12 @@ bool is_state_on_entry(const Mirror& mirror, rti::ObjectHandle object) {
 Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettings& settings)
     : model_(model),
       settings_(settings),
-      mirror_(model),
+      replicas_(model),
       ambassador_(fom, *this),
       view_({.fraction = settings.view_fraction,
              .area = settings.view_area,
              .margin = settings.view_margin}) {
-  if (settings.extrapolates) mirror_.extrapolate();
+  if (settings.extrapolates) replicas_.extrapolate();
   ambassador_.join(settings.federation, settings.name,
                    settings.only_watches ? watcher_federate_type : player_federate_type);
   // In one frame with the join, so that the server cannot offer a seat before we listen.
@@ -47,8 +47,8 @@ void Client::connection_lost(std::string_view why) { joining_.lose(why); }
 
 void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters,
                                  rti::FederateHandle, const rti::Stamp& stamp) {
-  if (remote_ && interaction == model_.pong) return remote_->hear({stamp.tag, stamp.time});
-  if (questions_ && interaction == model_.interest) return questions_->hear(parameters);
+  if (remote_ && interaction == model_.pong) return remote_->receive({stamp.tag, stamp.time});
+  if (questions_ && interaction == model_.interest) return questions_->receive(parameters);
   if (interaction == model_.pace) return receive_pace(parameters, stamp);
   SeatOffer offer;
   if (interaction != model_.seat || !decode(parameters, offer)) return;
@@ -59,7 +59,7 @@ void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::B
 /// Seat and field come by separate messages, in either order; who only watches waits for the field
 /// alone.
 void Client::subscribe_once_seated() {
-  if (state() != State::joining || !mirror_.field()) return;
+  if (state() != State::joining || !replicas_.field()) return;
   if (settings_.only_watches) joining_.watch();
   else if (joining_.seat()) joining_.sit_down();
   else return;
@@ -73,12 +73,12 @@ void Client::subscribe_once_seated() {
 }
 
 void Client::look_around(const Position& centre) {
-  ambassador_.set_region(region_, view_.look_around(centre, *mirror_.field()));
+  ambassador_.set_region(region_, view_.look_around(centre, *replicas_.field()));
   ambassador_.commit_region_modifications(region_);
 }
 
 void Client::follow_bat(double instant) {
-  const MirroredEntity* own = bat();
+  const EntityReplica* own = bat();
   if (!settings_.declares_regions || own == nullptr || !own->is_placed) return;
   if (state() >= State::refused || !ambassador_.is_joined()) return;
   const Position there = rounded(own->position_at(instant));
@@ -109,11 +109,11 @@ void Client::announce_synchronization_point(std::string_view label, rti::Bytes) 
 /// measured time. Who joined late, when ticks are due already, plays at once, and so does who takes
 /// part in a match, which waits for its players by itself.
 void Client::reach_barrier_once_ready() {
-  const MirroredEntity* own = bat();
+  const EntityReplica* own = bat();
   if (own != nullptr && own->in_scope && own->is_placed) joining_.see_bat();
   if (state() != State::ready || !is_time_kept()) return;
   if (joining_.take_call()) ambassador_.synchronization_point_achieved(start_barrier);
-  else if (mirror_.has_match() || (own != nullptr && own->stamp.tag != 0)) joining_.play();
+  else if (replicas_.has_match() || (own != nullptr && own->stamp.tag != 0)) joining_.play();
 }
 
 void Client::federation_synchronized(std::string_view label, std::span<const rti::FederateHandle>) {
@@ -122,36 +122,36 @@ void Client::federation_synchronized(std::string_view label, std::span<const rti
 
 void Client::discover_object_instance(rti::ObjectHandle object, rti::ObjectClassHandle object_class,
                                       std::string_view name) {
-  mirror_.discover(object, object_class);
+  replicas_.discover(object, object_class);
   const std::optional<SeatOffer>& seat = joining_.seat();
   if (seat && name == bat_name(seat->bat)) bat_ = object;
 }
 
 void Client::reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes,
                                       rti::Bytes values, const rti::Stamp& stamp) {
-  if (before_next_stamp && stamp != mirror_.newest()) before_next_stamp();
-  const bool is_news = on_news && stamp != news_ && !is_state_on_entry(mirror_, object);
-  mirror_.reflect(object, attributes, values, stamp);
+  if (before_next_stamp && stamp != replicas_.newest()) before_next_stamp();
+  const bool is_news = on_news && stamp != news_ && !is_state_on_entry(replicas_, object);
+  replicas_.reflect(object, attributes, values, stamp);
   if (is_news) on_news(news_ = stamp);
-  heard_.note_update(object, values.size());
+  received_.note_update(object, values.size());
   if (state() == State::joining) subscribe_once_seated();
   if ((state() == State::seated || state() == State::ready) && object == bat_)
     reach_barrier_once_ready();
 }
 
 void Client::attributes_in_scope(rti::ObjectHandle object) {
-  heard_.note_scope(object, true);
-  mirror_.set_scope(object, true);
+  received_.note_scope(object, true);
+  replicas_.set_scope(object, true);
 }
 
 void Client::attributes_out_of_scope(rti::ObjectHandle object) {
-  heard_.note_scope(object, false);
-  mirror_.set_scope(object, false);
+  received_.note_scope(object, false);
+  replicas_.set_scope(object, false);
 }
 
 void Client::remove_object_instance(rti::ObjectHandle object) {
-  heard_.note_scope(object, false);
-  mirror_.remove(object);
+  received_.note_scope(object, false);
+  replicas_.remove(object);
 }
 
 }  // namespace rink::game

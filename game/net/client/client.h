@@ -11,12 +11,12 @@
 
 #include "game/model/key.h"
 #include "game/net/client/following_view.h"
-#include "game/net/client/heard_log.h"
 #include "game/net/client/interest_questions.h"
 #include "game/net/client/joining.h"
 #include "game/net/client/match_remote.h"
+#include "game/net/client/receipt_log.h"
 #include "game/net/client/turn_taker.h"
-#include "game/replication/mirror.h"
+#include "game/replication/replica_set.h"
 #include "rti/ambassador.h"
 
 namespace rink::game {
@@ -66,7 +66,7 @@ class Client : public rti::FederateAmbassador {
   const TurnTaker& turns() const { return turns_; }
   /// Moves the interest region to where the bat was last seen; call it after each batch received.
   /// Sends nothing if the bat did not move (by half the margin).
-  void follow_bat() { follow_bat(mirror_.newest().time); }
+  void follow_bat() { follow_bat(replicas_.newest().time); }
   /// The same to where the bat is believed to be at simulated `instant` [s]: one on a trajectory
   /// moves without being heard of.
   void follow_bat(double instant);
@@ -82,7 +82,7 @@ class Client : public rti::FederateAmbassador {
   std::function<void(const rti::Stamp&)> on_news;
 
   /// What it hears, for who measures it; off at first.
-  HeardLog& heard() { return heard_; }
+  ReceiptLog& received() { return received_; }
   /// Null unless it plays hosted matches.
   MatchRemote* remote() { return remote_ ? &*remote_ : nullptr; }
   /// Null unless it only watches.
@@ -93,11 +93,12 @@ class Client : public rti::FederateAmbassador {
   /// The interest region as last declared; it follows the bat by one round trip.
   const im::Region& view() const { return view_.bounds(); }
   /// The own bat as last heard of; null before the first update.
-  const MirroredEntity* bat() const { return mirror_.find(bat_); }
-  const Mirror& mirror() const { return mirror_; }
+  const EntityReplica* bat() const { return replicas_.find(bat_); }
+  const ReplicaSet& replicas() const { return replicas_; }
   /// All that it keeps: itself, tables and buffers [bytes].
   std::size_t memory_bytes() const {
-    return sizeof *this + mirror_.memory_bytes() + ambassador_.memory_bytes() + encoded_.capacity();
+    return sizeof *this + replicas_.memory_bytes() + ambassador_.memory_bytes() +
+           encoded_.capacity();
   }
 
  private:
@@ -133,7 +134,7 @@ class Client : public rti::FederateAmbassador {
 
   const ObjectModel& model_;
   ClientSettings settings_;
-  Mirror mirror_;
+  ReplicaSet replicas_;
   rti::Ambassador ambassador_;
   Joining joining_;
   TurnTaker turns_;
@@ -145,7 +146,7 @@ class Client : public rti::FederateAmbassador {
   std::uint32_t keys_sent_ = 0;
   std::optional<MatchRemote> remote_;
   std::optional<InterestQuestions> questions_;
-  HeardLog heard_;
+  ReceiptLog received_;
 };
 
 }  // namespace rink::game

@@ -8,9 +8,9 @@
 namespace rink::game {
 
 void Client::receive_pace(rti::Bytes parameters, const rti::Stamp& stamp) {
-  Pace told;
-  if (!decode(parameters, told)) return;
-  const bool is_first = turns_.hear(told, stamp.time);
+  Pace received;
+  if (!decode(parameters, received)) return;
+  const bool is_first = turns_.receive(received, stamp.time);
   pass_if_absent();
   if (!is_first || !turns_.is_time_managed()) return;
   ambassador_.enable_asynchronous_delivery();  // discoveries and the RTI's own news need not wait
@@ -49,7 +49,7 @@ void Client::time_advance_grant(rti::LogicalTime now) {
 }
 
 void Client::time_bounds(double galt, double) {
-  if (turns_.hear_bounds(galt) && !ambassador_.clock().is_advancing()) ask_for_tick();
+  if (turns_.receive_bounds(galt) && !ambassador_.clock().is_advancing()) ask_for_tick();
 }
 
 /// Who came late and has not sat down yet keeps nobody waiting.

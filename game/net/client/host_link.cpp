@@ -35,7 +35,7 @@ void HostLink::converse(double now_s) {
   if (const auto pong = client_.remote()->take_pong())
     clock_.answered(pong->number, pong->server_s, now_s);
   clock_.advance(now_s);
-  if (!client_.ambassador().is_joined() || !client_.mirror().has_match()) return;
+  if (!client_.ambassador().is_joined() || !client_.replicas().has_match()) return;
   if (const auto question = clock_.ask(now_s)) client_.remote()->ping(*question);
 }
 
@@ -45,11 +45,11 @@ void HostLink::look_for_errors(double now_s) {
                                 : is_refused ? "the host refuses: "
                                              : "no answer from the host: ";
   if (is_refused || client_.state() == Client::State::lost)
-    lose(beginning + client_.joining().trouble());
+    lose(beginning + client_.joining().error());
   else if (link_.is_finished())
     lose(beginning + "the connection is closed: " + rti::to_string(link_.close_reason()));
   else if (is_player_ && joined_s_ && now_s > *joined_s_ + match_patience_s &&
-           !client_.mirror().has_match())
+           !client_.replicas().has_match())
     lose("no match is hosted there; what goes on can be watched");
 }
 

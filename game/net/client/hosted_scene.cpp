@@ -14,21 +14,21 @@ namespace {
 
 // What a match may say without being no match: beyond, an engine that takes its word would have no
 // end of impacts, or no next instant.
-constexpr double fastest_told = 100.0;  ///< m/s
-constexpr double latest_told = 1e9;     ///< s, as in scenes
+constexpr double fastest_received = 100.0;  ///< m/s
+constexpr double latest_received = 1e9;     ///< s, as in scenes
 
 /// Where a body is and how it moves, as of `time`.
-ToldBody told_of(const MirroredEntity& entity, double time) {
-  ToldBody body{.position = entity.position_at(time), .held = {}};
+ReceivedBody received_body(const EntityReplica& entity, double time) {
+  ReceivedBody body{.position = entity.position_at(time), .held = {}};
   if (entity.trajectory && !entity.trajectory->is_resting())
     body.velocity = entity.motion.at(std::max(time, entity.motion.time)).velocity;
-  body.velocity = body.velocity.cwiseMax(-fastest_told).cwiseMin(fastest_told);
+  body.velocity = body.velocity.cwiseMax(-fastest_received).cwiseMin(fastest_received);
   for (const Key key : all_keys)
     body.held.set(key, (entity.input.held >> static_cast<unsigned>(key) & 1u) != 0);
   return body;
 }
 
-bool is_kind(const MirroredEntity& entity, physics::BodyKind kind) {
+bool is_kind(const EntityReplica& entity, physics::BodyKind kind) {
   return entity.in_scope && entity.is_placed &&
          entity.shape.kind == static_cast<std::uint8_t>(kind);
 }
@@ -50,39 +50,42 @@ std::optional<std::string> HostedScene::read(const std::string& text) {
   return std::nullopt;
 }
 
-std::optional<ToldRink> HostedScene::told(const Mirror& mirror, const MirroredEntity* own) const {
+std::optional<ReceivedRink> HostedScene::received(const ReplicaSet& replicas,
+                                                  const EntityReplica* own) const {
   assert(scene_.has_value());
   const std::size_t bats = scene_->bodies.bats.size(), pucks = scene_->bodies.pucks.size();
-  ToldRink told{.time = mirror.newest().time, .bats = std::vector<ToldBody>(bats), .pucks = {}};
-  if (std::abs(told.time) > latest_told || add_bats(mirror, told) != bats ||
-      add_pucks(mirror, told) != pucks)
+  ReceivedRink received{
+      .time = replicas.newest().time, .bats = std::vector<ReceivedBody>(bats), .pucks = {}};
+  if (std::abs(received.time) > latest_received || add_bats(replicas, received) != bats ||
+      add_pucks(replicas, received) != pucks)
     return std::nullopt;
-  told.own_felt = own != nullptr ? own->input.count : 0;
-  return told;
+  received.own_felt = own != nullptr ? own->input.count : 0;
+  return received;
 }
 
 /// How many there are.
-std::size_t HostedScene::add_bats(const Mirror& mirror, ToldRink& told) const {
+std::size_t HostedScene::add_bats(const ReplicaSet& replicas, ReceivedRink& received) const {
   std::size_t count = 0;
-  for (const MirroredEntity& entity : mirror.entities()) {
-    if (!is_kind(entity, physics::BodyKind::bat) || entity.shape.team >= told.bats.size()) continue;
-    told.bats[entity.shape.team] = told_of(entity, told.time);
+  for (const EntityReplica& entity : replicas.entities()) {
+    if (!is_kind(entity, physics::BodyKind::bat) || entity.shape.team >= received.bats.size())
+      continue;
+    received.bats[entity.shape.team] = received_body(entity, received.time);
     ++count;
   }
   return count;
 }
 
 /// How many there are. They have no numbers, but are registered in their order.
-std::size_t HostedScene::add_pucks(const Mirror& mirror, ToldRink& told) const {
-  std::vector<const MirroredEntity*> found;
-  for (const MirroredEntity& entity : mirror.entities())
+std::size_t HostedScene::add_pucks(const ReplicaSet& replicas, ReceivedRink& received) const {
+  std::vector<const EntityReplica*> found;
+  for (const EntityReplica& entity : replicas.entities())
     if (is_kind(entity, physics::BodyKind::puck)) found.push_back(&entity);
-  std::ranges::sort(found, {}, &MirroredEntity::object);
-  for (const MirroredEntity* puck : found) {
-    ToldBody body = told_of(*puck, told.time);
+  std::ranges::sort(found, {}, &EntityReplica::object);
+  for (const EntityReplica* puck : found) {
+    ReceivedBody body = received_body(*puck, received.time);
     const double x = body.position.x();
     body.is_in_play = x > 0.0 && x < scene_->world.field.length;
-    told.pucks.push_back(body);
+    received.pucks.push_back(body);
   }
   return found.size();
 }

@@ -8,7 +8,7 @@
 #include "game/match/match_source.h"
 #include "game/match/predicted_world.h"
 #include "game/model/scene.h"
-#include "game/replication/mirror.h"
+#include "game/replication/replica_set.h"
 
 namespace rink::game {
 
@@ -24,11 +24,11 @@ class HostedScene {
   const std::vector<Thing>& things() const { return things_; }
   /// All that is known as of the newest stamp; nothing while a body is still missing, or of an
   /// instant that no match reaches. `own`: the own bat, if there is one. It must be read.
-  std::optional<ToldRink> told(const Mirror& mirror, const MirroredEntity* own) const;
+  std::optional<ReceivedRink> received(const ReplicaSet& replicas, const EntityReplica* own) const;
 
  private:
-  std::size_t add_bats(const Mirror& mirror, ToldRink& told) const;
-  std::size_t add_pucks(const Mirror& mirror, ToldRink& told) const;
+  std::size_t add_bats(const ReplicaSet& replicas, ReceivedRink& received) const;
+  std::size_t add_pucks(const ReplicaSet& replicas, ReceivedRink& received) const;
 
   std::optional<Scene> scene_;
   std::vector<Thing> things_;

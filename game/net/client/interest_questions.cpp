@@ -20,7 +20,7 @@ void InterestQuestions::ask(rti::ObjectHandle object) {
   ambassador_.send_interaction(model_.inspect, encode(bytes, inspection), {});
 }
 
-void InterestQuestions::hear(rti::Bytes answer) {
+void InterestQuestions::receive(rti::Bytes answer) {
   InterestSeen seen;
   if (decode(answer, seen)) answer_ = std::move(seen);
 }

@@ -18,7 +18,7 @@ class InterestQuestions {
   /// Asks what the server's filter decides of `object`.
   void ask(rti::ObjectHandle object);
   /// An answer as it came; what is none is not kept.
-  void hear(rti::Bytes answer);
+  void receive(rti::Bytes answer);
   /// The newest answer; given once.
   std::optional<InterestSeen> take() { return std::exchange(answer_, std::nullopt); }
 

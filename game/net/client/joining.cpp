@@ -8,19 +8,19 @@ namespace rink::game {
 void Joining::refuse(rti::Refusal refusal, std::string_view why) {
   state_ = State::refused;
   refusal_ = refusal;
-  trouble_ = why;
+  error_ = why;
 }
 
 void Joining::lose(std::string_view why) {
   state_ = State::lost;
-  trouble_ = why;
+  error_ = why;
 }
 
 bool Joining::offer(const SeatOffer& offer) {
   if (state_ != State::joining) return true;
   if (offer.bat == SeatOffer::no_bat) {
     state_ = State::refused;
-    trouble_ = "no bat is free";
+    error_ = "no bat is free";
     return false;
   }
   seat_ = offer;

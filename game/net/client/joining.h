@@ -18,7 +18,7 @@ class Joining {
 
   State state() const { return state_; }
   /// Why the state is refused or lost.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& error() const { return error_; }
   /// Why the RTI refused the join, if it did.
   const std::optional<rti::Refusal>& refusal() const { return refusal_; }
   const std::optional<SeatOffer>& seat() const { return seat_; }
@@ -46,7 +46,7 @@ class Joining {
   bool is_called_ = false;  ///< to the start barrier
   std::optional<SeatOffer> seat_;
   std::optional<rti::Refusal> refusal_;
-  std::string trouble_;
+  std::string error_;
 };
 
 }  // namespace rink::game

@@ -28,7 +28,7 @@ class MatchRemote {
   void ping(std::uint64_t number) {
     ambassador_.send_interaction(model_.ping, {}, {.time = 0.0, .tag = number});
   }
-  void hear(const Pong& pong) { pong_ = pong; }
+  void receive(const Pong& pong) { pong_ = pong; }
   /// Given once.
   std::optional<Pong> take_pong() { return std::exchange(pong_, std::nullopt); }
 

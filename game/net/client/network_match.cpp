@@ -1,4 +1,4 @@
-// Each frame: hear, foretell, press, show, say.
+// Each frame: hear, predict, press, show, say.
 #include "game/net/client/network_match.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace rink::game {
 namespace {
 
-constexpr double foretold_longest_s =
+constexpr double predicted_longest_s =
     60.0;  ///< without news, which come every few seconds while anything moves
 constexpr std::uint32_t caught_up_most =
     32;  ///< ticks heard of in one frame, each of which is worked out: half a second's; a host
@@ -32,7 +32,7 @@ NetworkMatch::NetworkMatch(const rti::Fom& fom, const ObjectModel& model, rti::T
       client_(fom, model, client_settings(settings)),
       host_(client_, transport, connection, !settings.only_watches) {
   client_.before_next_stamp = [this] {  // what came in between is a past that is still to be shown
-    if (caught_up_++ < caught_up_most) hear(now_s_);
+    if (caught_up_++ < caught_up_most) receive(now_s_);
   };
 }
 
@@ -60,7 +60,7 @@ void NetworkMatch::advance(double now_s) {
   if (!host_.is_lost()) {
     caught_up_ = 0;
     host_.converse(now_s);
-    hear(now_s);
+    receive(now_s);
     predict(now_s);
     host_.flush(now_s);
   }
@@ -68,18 +68,18 @@ void NetworkMatch::advance(double now_s) {
   now_s_ = now_s;
 }
 
-void NetworkMatch::hear(double now_s) {
-  const Mirror& mirror = client_.mirror();
-  if (mirror.counters().updates == heard_updates_) return;
-  heard_updates_ = mirror.counters().updates;
-  heard_s_ = now_s;
-  const double told_s = mirror.newest().time;
-  const bool did_run = state_.phase == MatchPhase::playing && told_s > state_.clock_simulated_s;
-  if (did_run && rink_ && rink_->has_heard() && match_number_ == mirror.match().number)
-    delay_.heard(rink_->now(), told_s - mirror.match_tick() - tick_grid);
-  state_ = mirror.match();
+void NetworkMatch::receive(double now_s) {
+  const ReplicaSet& replicas = client_.replicas();
+  if (replicas.counters().updates == received_updates_) return;
+  received_updates_ = replicas.counters().updates;
+  received_s_ = now_s;
+  const double received_s = replicas.newest().time;
+  const bool did_run = state_.phase == MatchPhase::playing && received_s > state_.clock_simulated_s;
+  if (did_run && rink_ && rink_->has_received() && match_number_ == replicas.match().number)
+    delay_.received(rink_->now(), received_s - replicas.match_tick() - tick_grid);
+  state_ = replicas.match();
   if (!read_scene()) return;
-  const std::optional<ToldRink> news = scene_.told(mirror, client_.bat());
+  const std::optional<ReceivedRink> news = scene_.received(replicas, client_.bat());
   if (!news) return;
   if (!rink_ || match_number_ != state_.number) {
     rink_.emplace(*scene_.scene(), player());
@@ -87,12 +87,12 @@ void NetworkMatch::hear(double now_s) {
     match_number_ = state_.number;
     delay_.begin();
   }
-  rink_->hear(*news);
+  rink_->receive(*news);
 }
 
 bool NetworkMatch::read_scene() {
   if (scene() != nullptr || host_.is_lost()) return scene() != nullptr;
-  const std::string& text = client_.mirror().match_scene();
+  const std::string& text = client_.replicas().match_scene();
   if (text.empty()) return false;
   if (const auto objection = scene_.read(text))
     host_.lose("the server's scene cannot be played: " + *objection);
@@ -106,8 +106,8 @@ void NetworkMatch::predict(double now_s) {
   const bool does_run =
       state_.phase == MatchPhase::playing || state_.phase == MatchPhase::countdown;
   if (!does_run && instant < rink_->now()) rink_->rewind(instant);
-  const double now = std::clamp(instant, rink_->now(),
-                                std::max(rink_->now(), rink_->told_time() + foretold_longest_s));
+  const double now = std::clamp(
+      instant, rink_->now(), std::max(rink_->now(), rink_->received_time() + predicted_longest_s));
   press_keys(now);
   move_delay(now_s - now_s_);
   rink_->advance(now, delay_.seconds());
@@ -127,7 +127,7 @@ void NetworkMatch::press_keys(double instant) {
 /// Where time stands everything is known, and the other need not be shown late.
 void NetworkMatch::move_delay(double dt) {
   if (state_.phase != MatchPhase::playing) return delay_.move(0.0, dt);
-  const double estimate = host_.clock().delay(client_.mirror().match_tick() + tick_grid);
+  const double estimate = host_.clock().delay(client_.replicas().match_tick() + tick_grid);
   delay_.move(delay_.measured_or(estimate), dt);
 }
 

@@ -25,7 +25,7 @@ struct NetworkMatchSettings {
                               ///< hosts no matches too
 };
 
-/// Owns the client federate and its link, and shows what they hear of as PredictedRink foretells it
+/// Owns the client federate and its link, and shows what they hear of as PredictedRink predicts it
 /// (docs/play.md). Reads no clock. A server that is gone, refuses, or says what is no match ends in
 /// the phase `lost`, with the reason as `notice`.
 class NetworkMatch final : public MatchSource {
@@ -65,7 +65,7 @@ class NetworkMatch final : public MatchSource {
   };
 
   static ClientSettings client_settings(const NetworkMatchSettings& settings);
-  void hear(double now_s);
+  void receive(double now_s);
   bool read_scene();
   void follow_state(double instant);
   void press_keys(double instant);
@@ -73,7 +73,7 @@ class NetworkMatch final : public MatchSource {
   void move_delay(double dt);
   void show(double now_s);
   void show_bodies();
-  void show_mirror(double now_s);
+  void show_replicas(double now_s);
   void show_state(double now_s);
   void show_interest(double now_s);
   void show_link(double now_s);
@@ -84,8 +84,8 @@ class NetworkMatch final : public MatchSource {
   HostedScene scene_;
   std::optional<PredictedRink> rink_;
   MatchState state_;                ///< as last heard
-  std::uint32_t match_number_ = 0;  ///< that rink_ foretells
-  std::uint64_t heard_updates_ = 0;
+  std::uint32_t match_number_ = 0;  ///< that rink_ predicts
+  std::uint64_t received_updates_ = 0;
   std::uint32_t caught_up_ = 0;  ///< stamps, in this frame
   std::vector<PressedKey> pressed_;
   ShownDelay delay_;
@@ -95,7 +95,7 @@ class NetworkMatch final : public MatchSource {
   InspectedInterest inspected_;
   TrafficRate traffic_;
   double now_s_ = 0.0;
-  double heard_s_ = 0.0;  ///< real time of the newest stamp
+  double received_s_ = 0.0;  ///< real time of the newest stamp
   bool has_left_ = false;
 };
 

@@ -1,4 +1,4 @@
-// What a network match shows, made of what is foretold, what is mirrored, and how the connection
+// What a network match shows, made of what is predicted, what is mirrored, and how the connection
 // does.
 #include <algorithm>
 
@@ -7,8 +7,8 @@
 namespace rink::game {
 
 void NetworkMatch::show(double now_s) {
-  if (rink_ && rink_->has_heard()) show_bodies();
-  else if (settings_.only_watches) show_mirror(now_s);
+  if (rink_ && rink_->has_received()) show_bodies();
+  else if (settings_.only_watches) show_replicas(now_s);
   show_state(now_s);
   show_interest(now_s);
   sight_.notice = !host_.is_lost() && !host_.has_joined() ? "connecting ..." : host_.error();
@@ -36,14 +36,14 @@ void NetworkMatch::show_bodies() {
 }
 
 /// A game that is no match: everything on its path, as far as it was told.
-void NetworkMatch::show_mirror(double now_s) {
-  const Mirror& mirror = client_.mirror();
-  if (!mirror.field()) return;
-  sight_.field.length = static_cast<double>(mirror.field()->length);
-  sight_.field.width = static_cast<double>(mirror.field()->width);
-  sight_.time = mirror.newest().time + (mirror.newest().time > 0.0 ? now_s - heard_s_ : 0.0);
+void NetworkMatch::show_replicas(double now_s) {
+  const ReplicaSet& replicas = client_.replicas();
+  if (!replicas.field()) return;
+  sight_.field.length = static_cast<double>(replicas.field()->length);
+  sight_.field.width = static_cast<double>(replicas.field()->width);
+  sight_.time = replicas.newest().time + (replicas.newest().time > 0.0 ? now_s - received_s_ : 0.0);
   sight_.things.clear();
-  for (const MirroredEntity& entity : mirror.entities()) {
+  for (const EntityReplica& entity : replicas.entities()) {
     if (!entity.in_scope || !entity.is_placed)
       continue;  // a budget may say later where it is, and what
     sight_.things.push_back({.id = entity.object.value,
@@ -56,13 +56,13 @@ void NetworkMatch::show_mirror(double now_s) {
 }
 
 void NetworkMatch::show_state(double now_s) {
-  const Goals& goals = client_.mirror().goals();
+  const Goals& goals = client_.replicas().goals();
   sight_.score = {goals.left, goals.right};
   sight_.winner = state_.winner;
   sight_.phase = state_.phase;
   if (host_.is_lost()) sight_.phase = MatchPhase::lost;
   else if (client_.state() != Client::State::playing) sight_.phase = MatchPhase::waiting;
-  else if (!client_.mirror().has_match()) sight_.phase = MatchPhase::playing;
+  else if (!client_.replicas().has_match()) sight_.phase = MatchPhase::playing;
   else if (state_.phase == MatchPhase::countdown && rink_ &&
            rink_->now() > state_.clock_simulated_s)
     sight_.phase = MatchPhase::playing;  // it is foreseen
@@ -81,7 +81,7 @@ void NetworkMatch::show_state(double now_s) {
 void NetworkMatch::show_interest(double now_s) {
   InterestQuestions* const questions = client_.questions();
   if (questions == nullptr) return;
-  const bool may_be_asked = sight_.phase == MatchPhase::playing && !client_.mirror().has_match();
+  const bool may_be_asked = sight_.phase == MatchPhase::playing && !client_.replicas().has_match();
   inspected_.show(*questions, may_be_asked, now_s, sight_.interest);
 }
 

@@ -18,7 +18,7 @@ bool TurnTaker::is_time_kept(bool is_constrained, bool is_regulating) const {
   return !is_time_managed() || (is_constrained && (!is_synchronous() || is_regulating));
 }
 
-bool TurnTaker::hear(const Pace& pace, double simulated_s) {
+bool TurnTaker::receive(const Pace& pace, double simulated_s) {
   const bool is_first = !pace_;
   if (is_first) pace_ = pace;
   if (is_synchronous() && !is_time_managed()) {
@@ -44,7 +44,7 @@ TurnTaker::Request TurnTaker::next(double granted) {
     asks_bounds = grants_ % ticks_per_question == 0;
     awaits_bounds_ = awaits_bounds_ || asks_bounds;
   }
-  return {grid().heard(tick), asks_bounds};
+  return {grid().received(tick), asks_bounds};
 }
 
 bool TurnTaker::grant(double granted) {
@@ -56,7 +56,7 @@ bool TurnTaker::grant(double granted) {
   return false;
 }
 
-bool TurnTaker::hear_bounds(double galt) {
+bool TurnTaker::receive_bounds(double galt) {
   if (!awaits_bounds_) return false;
   awaits_bounds_ = false;
   galt_ = std::isfinite(galt) ? galt : 0.0;

@@ -27,7 +27,7 @@ class TurnTaker {
   bool is_time_kept(bool is_constrained, bool is_regulating) const;
 
   /// The server told its pace at `simulated_s` [s]; true the first time, which is what counts.
-  bool hear(const Pace& pace, double simulated_s);
+  bool receive(const Pace& pace, double simulated_s);
   /// Logical time is kept from now on. True if the next tick is to be asked for; else it is this
   /// player's turn first.
   bool begin();
@@ -44,7 +44,7 @@ class TurnTaker {
   bool grant(double granted);
   /// The answer to `asks_bounds`, which comes after the grant if that could be given at once: when
   /// there may be more to ask for. False if nothing was asked.
-  bool hear_bounds(double galt);
+  bool receive_bounds(double galt);
 
  private:
   TickGrid grid() const { return {pace_->ticks_per_second}; }

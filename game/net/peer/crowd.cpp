@@ -1,4 +1,4 @@
-// From glimpses to keys.
+// From observations to keys.
 #include "game/net/peer/crowd.h"
 
 #include <algorithm>
@@ -48,42 +48,44 @@ std::uint32_t Crowd::pucks_wanted(const Scene& scene, const std::vector<std::str
 }
 
 void Crowd::act(peer::Session& session) {
-  for (const peer::Glimpse& glimpse : session.peer().glimpses()) {
+  for (const peer::Observation& observation : session.peer().observations()) {
     const auto bot = std::find_if(bots_.begin(), bots_.end(),
-                                  [&](const Bot& one) { return one.bat == glimpse.bat; });
-    if (bot == bots_.end() || glimpse.time <= bot->decided) continue;
-    bot->decided = glimpse.time;
-    decide(session, *bot, glimpse);
+                                  [&](const Bot& one) { return one.bat == observation.bat; });
+    if (bot == bots_.end() || observation.time <= bot->decided) continue;
+    bot->decided = observation.time;
+    decide(session, *bot, observation);
   }
 }
 
-void Crowd::decide(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse) {
+void Crowd::decide(peer::Session& session, Bot& bot, const peer::Observation& observation) {
   if (!bot.player) {
-    for (; bot.next < bot.plan.size() && bot.plan[bot.next].time <= glimpse.time; ++bot.next)
-      press(session, bot, glimpse, bot.plan[bot.next].key,
+    for (; bot.next < bot.plan.size() && bot.plan[bot.next].time <= observation.time; ++bot.next)
+      press(session, bot, observation, bot.plan[bot.next].key,
             bot.plan[bot.next].kind == InputKind::key_down);
     return;
   }
   seen_.clear();
-  const std::size_t count = std::min<std::size_t>(glimpse.pucks.size(), bot.player->pucks_wanted());
-  for (const peer::Glimpse::Puck& puck : std::span(glimpse.pucks).first(count))
+  const std::size_t count =
+      std::min<std::size_t>(observation.pucks.size(), bot.player->pucks_wanted());
+  for (const peer::Observation::Puck& puck : std::span(observation.pucks).first(count))
     seen_.push_back({.id = puck.number,
                      .kind = physics::BodyKind::puck,
                      .position = puck.position,
                      .velocity = puck.velocity,
                      .half_extent = Vector2::Constant(puck.radius)});
   const KeysHeld wanted = bot.player->decide(
-      {.position = glimpse.position, .velocity = glimpse.velocity, .pucks = seen_}, glimpse.time);
+      {.position = observation.position, .velocity = observation.velocity, .pucks = seen_},
+      observation.time);
   for (const Key key : all_keys)
     if (wanted.is_down(key) != bot.controller.keys().is_down(key))
-      press(session, bot, glimpse, key, wanted.is_down(key));
+      press(session, bot, observation, key, wanted.is_down(key));
 }
 
-void Crowd::press(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse, Key key,
+void Crowd::press(peer::Session& session, Bot& bot, const peer::Observation& observation, Key key,
                   bool is_down) {
   bot.controller.press(key, is_down);
   const InputEvent event{0.0, 0, is_down ? InputKind::key_down : InputKind::key_up, key};
-  session.press(glimpse, {bot.bat, bot.controller.thrust(), input_of(event)});
+  session.press(observation, {bot.bat, bot.controller.thrust(), input_of(event)});
   ++presses_;
 }
 

@@ -48,8 +48,9 @@ class Crowd {
     std::size_t next = 0;
     double decided = -1.0;  ///< the last instant [s]
   };
-  void press(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse, Key key, bool is_down);
-  void decide(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse);
+  void press(peer::Session& session, Bot& bot, const peer::Observation& observation, Key key,
+             bool is_down);
+  void decide(peer::Session& session, Bot& bot, const peer::Observation& observation);
 
   std::vector<Bot> bots_;
   std::vector<SeenEntity> seen_;

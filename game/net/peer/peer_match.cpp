@@ -1,4 +1,4 @@
-// Each frame: hear, foretell, press, show.
+// Each frame: hear, predict, press, show.
 #include "game/net/peer/peer_match.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace rink::game {
 namespace {
 
-constexpr double foretold_longest_s =
+constexpr double predicted_longest_s =
     0.5;  ///< without news, after which the picture stands and says so
 constexpr double notice_s = 8.0;
 /// m from the own bat: beyond, nothing can come near it before there is news. More than
@@ -33,9 +33,9 @@ Vector2 PeerMatch::Known::at(double instant) const {
   return before.time <= instant ? before.at(instant).position : motion.position;
 }
 
-PeerMatch::PeerMatch(const SharedGame& game, Hand& hand)
+PeerMatch::PeerMatch(const SharedGame& game, InputQueue& input)
     : game_(game),
-      hand_(hand),
+      input_(input),
       known_(game.start().world().body_count()),
       sight_(rink::game::sight_of(game.scene())) {
   std::uint32_t pucks = 0;
@@ -60,50 +60,50 @@ void PeerMatch::press(std::uint32_t, Key key, bool is_down) { pressed_.push_back
 
 void PeerMatch::advance(double now_s) {
   const PeerStage::Step before = stage_.step;
-  stage_ = hand_.stage();
+  stage_ = input_.stage();
   if (stage_.step != before) stage_s_ = now_s;
   if (stage_.notice_count != std::exchange(notice_count_, stage_.notice_count)) notice_s_ = now_s;
-  if (std::optional<PeerSight> news = hand_.look()) {
-    hear(std::move(*news));
-    heard_s_ = now_s;
+  if (std::optional<PeerSight> news = input_.look()) {
+    receive(std::move(*news));
+    received_s_ = now_s;
   }
-  if (const auto answer = hand_.take_answer())
+  if (const auto answer = input_.take_answer())
     clock_.answered(answer->number, answer->felt_at, now_s);
   clock_.advance(now_s);
   if (is_playing())
-    if (const auto question = clock_.ask(now_s)) hand_.ask(*question);
+    if (const auto question = clock_.ask(now_s)) input_.ask(*question);
   predict(now_s);
   show(now_s);
   now_s_ = now_s;
 }
 
-void PeerMatch::hear(PeerSight news) {
-  if (rink_) delay_.heard(rink_->now(), news.since);
+void PeerMatch::receive(PeerSight news) {
+  if (rink_) delay_.received(rink_->now(), news.since);
   news_ = std::move(news);
-  const ToldRink all = told();
+  const ReceivedRink all = received();
   if (!rink_) rink_.emplace(game_.scene(), stage_.player);
-  rink_->hear(all);
+  rink_->receive(all);
 }
 
-ToldRink PeerMatch::told() {
+ReceivedRink PeerMatch::received() {
   const Scene& scene = game_.scene();
-  ToldRink all{.time = news_->time,
-               .bats = std::vector<ToldBody>(scene.bodies.bats.size()),
-               .pucks = std::vector<ToldBody>(scene.bodies.pucks.size()),
-               .own_felt = news_->own_felt};
-  for (std::vector<ToldBody>* bodies : {&all.bats, &all.pucks})
-    for (ToldBody& body : *bodies) body.is_known = false;
-  for (const KnownBody& body : news_->bodies) tell(body, all);
+  ReceivedRink all{.time = news_->time,
+                   .bats = std::vector<ReceivedBody>(scene.bodies.bats.size()),
+                   .pucks = std::vector<ReceivedBody>(scene.bodies.pucks.size()),
+                   .own_felt = news_->own_felt};
+  for (std::vector<ReceivedBody>* bodies : {&all.bats, &all.pucks})
+    for (ReceivedBody& body : *bodies) body.is_known = false;
+  for (const KnownBody& body : news_->bodies) add_body(body, all);
   for (Known& known : known_)
     if (known.window != news_->window) known.is_near = false;
-  ToldBody& own = all.bats[known_[news_->own_bat].number];
+  ReceivedBody& own = all.bats[known_[news_->own_bat].number];
   if (!own.is_known)
     own = {.position = news_->own_position, .velocity = news_->own_velocity, .held = {}};
   own.held = news_->own_held;
   return all;
 }
 
-void PeerMatch::tell(const KnownBody& body, ToldRink& all) {
+void PeerMatch::add_body(const KnownBody& body, ReceivedRink& all) {
   Known& known = known_[body.body];
   known.before = known.motion;
   known.motion = body.motion;
@@ -113,21 +113,22 @@ void PeerMatch::tell(const KnownBody& body, ToldRink& all) {
   const bool is_own = body.body == news_->own_bat, was_near = known.is_near;
   known.is_near = is_own || (place - news_->own_position).cwiseAbs().maxCoeff() < near_reach;
   if (known.is_near && !was_near) known.near_since = news_->time;
-  ToldBody& told = (known.kind == physics::BodyKind::bat ? all.bats : all.pucks)[known.number];
+  ReceivedBody& received =
+      (known.kind == physics::BodyKind::bat ? all.bats : all.pucks)[known.number];
   const physics::Motion now = body.motion.at(std::max(news_->time, body.motion.time));
-  told = {.position = place,
-          .velocity = now.velocity,
-          .held = keys_of(body.thrust),
-          .is_in_play = body.is_in_play,
-          .is_known = known.is_near};
+  received = {.position = place,
+              .velocity = now.velocity,
+              .held = keys_of(body.thrust),
+              .is_in_play = body.is_in_play,
+              .is_known = known.is_near};
 }
 
 void PeerMatch::predict(double now_s) {
   if (!rink_) return;
   const bool does_run = is_playing() && clock_.is_set();
-  const double instant = does_run ? clock_.arrival(now_s) : rink_->told_time();
-  const double now = std::clamp(instant, rink_->now(),
-                                std::max(rink_->now(), rink_->told_time() + foretold_longest_s));
+  const double instant = does_run ? clock_.arrival(now_s) : rink_->received_time();
+  const double now = std::clamp(
+      instant, rink_->now(), std::max(rink_->now(), rink_->received_time() + predicted_longest_s));
   if (does_run) press_keys(now);
   move_delay(now_s - now_s_);
   rink_->advance(now, delay_.seconds());
@@ -136,7 +137,7 @@ void PeerMatch::predict(double now_s) {
 void PeerMatch::press_keys(double instant) {
   const double felt_at = next_on(key_grid, instant);
   for (const PressedKey& pressed : std::exchange(pressed_, {})) {
-    hand_.press({pressed.key, pressed.is_down, felt_at});
+    input_.press({pressed.key, pressed.is_down, felt_at});
     rink_->press(pressed.key, pressed.is_down, felt_at);
   }
 }
@@ -170,8 +171,8 @@ void PeerMatch::show_things() {
   sight_.score = {news_->goals_left, news_->goals_right};
 }
 
-/// Whoever is near is foretold; all others are on their paths, in the others' time, as far as these
-/// are known.
+/// Whoever is near is predicted; all others are on their paths, in the others' time, as far as
+/// these are known.
 void PeerMatch::show_thing(std::uint32_t body) {
   const Known& known = known_[body];
   const double others = rink_->now() - delay_.seconds();
@@ -211,8 +212,8 @@ void PeerMatch::show_stage(double now_s) {
   sight_.remaining_s = std::max(0.0, stage_.begins_in_s - (now_s - stage_s_));
   sight_.notice = stage_.words;
   if (is_playing() && now_s < notice_s_ + notice_s) sight_.notice = stage_.notice;
-  const double silent_s = now_s - std::max(heard_s_, stage_s_);
-  if (is_playing() && silent_s > foretold_longest_s) {
+  const double silent_s = now_s - std::max(received_s_, stage_s_);
+  if (is_playing() && silent_s > predicted_longest_s) {
     char words[96];
     std::snprintf(words, sizeof words,
                   "The game stands: for %.1f s no window has been agreed upon with the other peers",

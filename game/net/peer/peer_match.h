@@ -12,7 +12,7 @@
 #include "game/match/shown_delay.h"
 #include "game/match/sight.h"
 #include "game/match/traffic_rate.h"
-#include "game/net/peer/hand.h"
+#include "game/net/peer/input_queue.h"
 #include "game/net/peer/shared_game.h"
 
 namespace rink::game {
@@ -23,7 +23,7 @@ namespace rink::game {
 class PeerMatch final : public MatchSource {
  public:
   /// Both must outlive it.
-  PeerMatch(const SharedGame& game, Hand& hand);
+  PeerMatch(const SharedGame& game, InputQueue& input);
 
   void advance(double now_s) override;
   const MatchSight& sight() const override { return sight_; }
@@ -44,7 +44,7 @@ class PeerMatch final : public MatchSource {
     std::uint32_t number = 0;  ///< among its kind
     std::uint64_t window = 0;  ///< of the news that told of it last; 0: none yet
     bool is_in_play = true, is_near = false;
-    double near_since = 0.0;         ///< s: since then it is foretold
+    double near_since = 0.0;         ///< s: since then it is predicted
     physics::Motion motion, before;  ///< the newest, and that of the window before
     Vector2 at(double instant) const;
   };
@@ -53,9 +53,9 @@ class PeerMatch final : public MatchSource {
     bool is_down;
   };
 
-  void hear(PeerSight news);
-  ToldRink told();
-  void tell(const KnownBody& body, ToldRink& told);
+  void receive(PeerSight news);
+  ReceivedRink received();
+  void add_body(const KnownBody& body, ReceivedRink& received);
   void predict(double now_s);
   void press_keys(double instant);
   void move_delay(double dt);
@@ -67,7 +67,7 @@ class PeerMatch final : public MatchSource {
   bool is_playing() const { return stage_.step == PeerStage::Step::playing; }
 
   const SharedGame& game_;
-  Hand& hand_;
+  InputQueue& input_;
   PeerStage stage_;
   ServerClock clock_;
   ShownDelay delay_;
@@ -81,7 +81,7 @@ class PeerMatch final : public MatchSource {
   GoalWatch goals_;
   TrafficRate traffic_;
   double now_s_ = 0.0;
-  double heard_s_ = 0.0;  ///< real time of the newest news
+  double received_s_ = 0.0;  ///< real time of the newest news
   double stage_s_ = 0.0, notice_s_ = -1e9;
   std::uint32_t notice_count_ = 0;
 };

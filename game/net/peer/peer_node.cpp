@@ -15,11 +15,11 @@ PeerNode::PeerNode(const SharedGame& game, const InterestSettings& settings,
       peer_(game.peer(division, number, 1.0 / settings.rate_hz)),
       play_(*peer_, division.peer_count(),
             [this](peer::PeerNumber to, peer::Subject about, std::vector<std::uint8_t> bytes) {
-              say(to, traffic_of(about), std::move(bytes));
+              count_and_send(to, traffic_of(about), std::move(bytes));
             }),
       interest_(game.start(), settings, *peer_, division_,
                 [this](peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> bytes) {
-                  say(to, about, std::move(bytes));
+                  count_and_send(to, about, std::move(bytes));
                 }) {
   play_.on_final = [this] { finish(); };
   play_.on_commit = [this] {
@@ -31,7 +31,8 @@ PeerNode::PeerNode(const SharedGame& game, const InterestSettings& settings,
   interest_.note_places();
 }
 
-void PeerNode::say(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content) {
+void PeerNode::count_and_send(peer::PeerNumber to, Traffic about,
+                              std::vector<std::uint8_t> content) {
   sent_[static_cast<std::size_t>(about)] += content.size();
   ++messages_sent_[static_cast<std::size_t>(about)];
   send_(to, about, std::move(content));
@@ -56,11 +57,11 @@ void PeerNode::finish() {
   if (on_final) on_final();
 }
 
-bool PeerNode::hear(peer::PeerNumber from, Traffic about, std::vector<std::uint8_t> content) {
+bool PeerNode::receive(peer::PeerNumber from, Traffic about, std::vector<std::uint8_t> content) {
   const bool is_of_windows =
       about == Traffic::halo || about == Traffic::claims || about == Traffic::agreement;
-  if (!is_of_windows) return interest_.hear(from, about, std::as_bytes(std::span(content)));
-  play_.hear(from, std::move(content));
+  if (!is_of_windows) return interest_.receive(from, about, std::as_bytes(std::span(content)));
+  play_.receive(from, std::move(content));
   return true;
 }
 

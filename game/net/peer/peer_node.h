@@ -29,10 +29,10 @@ class PeerNode {
   std::function<void()> on_final, on_commit;
 
   /// The instant of the next window's end has come: it is played now, or as soon as the one before
-  /// it is done. Throws peer::ProtocolError, as `hear` does.
+  /// it is done. Throws peer::ProtocolError, as `receive` does.
   void due();
   /// False for what is no message of its kind.
-  bool hear(peer::PeerNumber from, Traffic about, std::vector<std::uint8_t> content);
+  bool receive(peer::PeerNumber from, Traffic about, std::vector<std::uint8_t> content);
   /// The own player pressed or released a key.
   void press() { interest_.press(); }
 
@@ -47,7 +47,7 @@ class PeerNode {
   const TrafficBytes& messages_sent() const { return messages_sent_; }
 
  private:
-  void say(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content);
+  void count_and_send(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content);
   void play_next();
   void finish();
   double end_of(std::uint64_t window) const { return static_cast<double>(window) / rate_hz_; }

@@ -9,9 +9,9 @@
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
 #include "game/net/interrupt.h"
-#include "game/net/peer/hand_player.h"
 #include "game/net/peer/interest/viewing_options.h"
-#include "game/net/peer/meeting/listening_place.h"
+#include "game/net/peer/local_player.h"
+#include "game/net/peer/network/listening_place.h"
 #include "im/basics/hexadecimal.h"
 
 namespace rink::game {
@@ -36,7 +36,7 @@ PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)())
       record_file_("--record", settings.record),
       now_s_(now_s),
       game_(scene_of(settings), {}),
-      match_(game_, hand_) {
+      match_(game_, input_) {
   settings_.terms.interest.always = relevant_kinds_of(game_.scene()).bits();
   if (game_.bat_count() == 0)
     throw SceneError("scene '" + settings.scene + "' has no bats: expected one that can be played");
@@ -47,48 +47,50 @@ PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)())
   Place place = listening_place(settings.listen, settings.join, true,
                                 {.listen = "--peer-listen", .join = "--peer"});
   place.port = sockets_.listen(place.address, place.port);
-  hand_.say("listening on " + place.text() + "\n");
+  input_.print("listening on " + place.text() + "\n");
   place_ = place;
   meet();
-  hand_.set_stage(PeerStage::Step::gathering, settings.join.empty()
-                                                  ? "this peer listens on " + place.text() +
-                                                        "; there will be " +
-                                                        std::to_string(settings.terms.peer_count)
-                                                  : "asking the peer at " + settings.join);
+  input_.set_stage(PeerStage::Step::gathering, settings.join.empty()
+                                                   ? "this peer listens on " + place.text() +
+                                                         "; there will be " +
+                                                         std::to_string(settings.terms.peer_count)
+                                                   : "asking the peer at " + settings.join);
   thread_ = std::thread([this] { run(); });
 }
 
 /// Among others anew: with another token.
 void PlayingPeer::meet() {
-  const Guest self{.place = place_, .bat_count = 1, .hand_count = 1, .token = unguessable_number()};
-  const auto must_end = [this] { return is_interrupted != 0 || hand_.wants_to_leave(); };
-  meeting_ = std::make_unique<Meeting>(sockets_,
-                                       MeetingSettings{.self = self,
-                                                       .bats = game_.bat_count(),
-                                                       .luggage = game_.luggage(),
-                                                       .session = unguessable_number(),
-                                                       .patience_s = settings_.patience_s,
-                                                       .must_end = must_end},
-                                       now_s_);
+  const PeerInfo self{
+      .place = place_, .bat_count = 1, .hand_count = 1, .token = unguessable_number()};
+  const auto must_end = [this] { return is_interrupted != 0 || input_.wants_to_leave(); };
+  network_ = std::make_unique<PeerNetwork>(
+      sockets_,
+      PeerNetworkSettings{.self = self,
+                          .bats = game_.bat_count(),
+                          .session_fingerprint = game_.session_fingerprint(),
+                          .session = unguessable_number(),
+                          .patience_s = settings_.patience_s,
+                          .must_end = must_end},
+      now_s_);
 }
 
 PlayingPeer::~PlayingPeer() {
-  hand_.leave();
+  input_.leave();
   thread_.join();
 }
 
 void PlayingPeer::run() {
   const auto end_badly = [this](FarewellKind kind, const std::string& why) {
-    meeting_->leave({kind, why});
-    hand_.set_stage(PeerStage::Step::lost, why);
+    network_->leave({kind, why});
+    input_.set_stage(PeerStage::Step::lost, why);
   };
   try {
     for (int tries = 1; !share_or_come_again(tries); ++tries) {
     }
-  } catch (const Parting& parting) {
-    end_badly(parting.status() == ExitStatus::interrupted ? FarewellKind::interrupted
-                                                          : FarewellKind::trouble,
-              parting.what());
+  } catch (const SessionError& error) {
+    end_badly(error.status() == ExitStatus::interrupted ? FarewellKind::interrupted
+                                                        : FarewellKind::trouble,
+              error.what());
   } catch (const std::exception& error) {  // peer::Halt, peer::ProtocolError, a transport's
     end_badly(FarewellKind::trouble, error.what());
   }
@@ -104,7 +106,7 @@ bool PlayingPeer::share_or_come_again(int tries) {
     return true;
   } catch (const peer::SentAway&) {
     if (tries == tries_max) throw;
-    meeting_->abandon();
+    network_->abandon();
     std::this_thread::sleep_for(pause);
     meet();
     return false;
@@ -113,70 +115,71 @@ bool PlayingPeer::share_or_come_again(int tries) {
 
 void PlayingPeer::share() {
   if (settings_.join.empty()) {
-    meeting_->found(settings_.terms);
+    network_->found(settings_.terms);
   } else {
     const auto [address, port] = address_and_port("--peer", settings_.join);
-    meeting_->join({address, port});
-    hand_.set_stage(PeerStage::Step::gathering, "peer " + std::to_string(meeting_->number()) +
-                                                    " of " +
-                                                    std::to_string(meeting_->terms().peer_count));
+    network_->join({address, port});
+    input_.set_stage(PeerStage::Step::gathering, "peer " + std::to_string(network_->number()) +
+                                                     " of " +
+                                                     std::to_string(network_->terms().peer_count));
   }
-  const bool is_late = !meeting_->members().empty();
-  if (!is_late) meeting_->gather();
-  const Terms& terms = meeting_->terms();
+  const bool is_late = !network_->members().empty();
+  if (!is_late) network_->gather();
+  const Terms& terms = network_->terms();
   if (terms.is_seated)
-    throw Parting(ExitStatus::not_admitted,
-                  "the peers there are seated, and their players' keys are known: nobody can play "
-                  "at a window");
-  const Viewing viewing = make_viewing(
-      game_, *meeting_, {.view_fraction = settings_.view_fraction, .evidence = {}, .always = {}},
-      now_s_);
-  const Guest self = meeting_->guests()[meeting_->number()];
-  hand_.set_player(self.first_bat);
-  if (!is_late) hand_.set_stage(PeerStage::Step::countdown, "", settings_.countdown_s);
-  meeting_->begin();
-  if (!is_late) meeting_->rest_until(now_s_() + settings_.countdown_s);
-  hand_.set_stage(PeerStage::Step::playing, "");
-  HandPlayer player(game_, self.first_bat, hand_);
+    throw SessionError(
+        ExitStatus::not_admitted,
+        "the peers there are seated, and their players' keys are known: nobody can play "
+        "at a window");
+  const Viewing viewing =
+      make_viewing(game_, *network_,
+                   {.view_fraction = settings_.view_fraction, .trace = {}, .always = {}}, now_s_);
+  const PeerInfo self = network_->peer_infos()[network_->number()];
+  input_.set_player(self.first_bat);
+  if (!is_late) input_.set_stage(PeerStage::Step::countdown, "", settings_.countdown_s);
+  network_->begin();
+  if (!is_late) network_->rest_until(now_s_() + settings_.countdown_s);
+  input_.set_stage(PeerStage::Step::playing, "");
+  LocalPlayer player(game_, self.first_bat, input_);
   player.viewer = viewing.viewer.get();
   if (player.viewer == nullptr)
-    hand_.notice(
+    input_.notice(
         "The first peer names no --scheme: what lies beyond the halo is not told, and not seen");
-  player.bytes_sent = [this] { return meeting_->bytes_sent(); };
-  Manner manner;
+  player.bytes_sent = [this] { return network_->bytes_sent(); };
+  PartOptions part_options;
   std::optional<double> start_s;  // of the simulated time
-  manner.before_window = [&](double time) {
+  part_options.before_window = [&](double time) {
     if (!start_s) start_s = now_s_() - time;
-    meeting_->note_window();
-    meeting_->rest_until(*start_s + time);
+    network_->note_window();
+    network_->rest_until(*start_s + time);
   };
-  manner.members = meeting_->members();
-  manner.wants_to_leave = [this] { return hand_.wants_to_leave() || is_interrupted != 0; };
-  manner.tell = [this](const std::string& what) { hand_.notice(what); };
-  manner.onlooker = &player;
-  manner.listener = viewing.viewer.get();
+  part_options.members = network_->members();
+  part_options.wants_to_leave = [this] { return input_.wants_to_leave() || is_interrupted != 0; };
+  part_options.notify = [this](const std::string& what) { input_.notice(what); };
+  part_options.participant = &player;
+  part_options.observer = viewing.viewer.get();
   const PlayedPart part =
-      game_.play(terms, meeting_->guests(), meeting_->number(), *meeting_, manner);
-  meeting_->leave({});
+      game_.play(terms, network_->peer_infos(), network_->number(), *network_, part_options);
+  network_->leave({});
   end(part);
 }
 
 void PlayingPeer::end(const PlayedPart& part) {
   if (part.has_left)
-    return hand_.set_stage(PeerStage::Step::over, part.was_last
-                                                      ? "nobody was left to go on"
-                                                      : "all that this peer had is with others");
+    return input_.set_stage(PeerStage::Step::over, part.was_last
+                                                       ? "nobody was left to go on"
+                                                       : "all that this peer had is with others");
   char words[160];
   std::snprintf(words, sizeof words, "The game is over at %g s: hash %s, %zu keys", part.time,
                 hexadecimal(part.hash).c_str(), part.keys.size());
-  std::string trouble;
+  std::string problem;
   try {
     write_record(part);
   } catch (const std::exception& error) {
-    trouble = std::string("; ") + error.what();
+    problem = std::string("; ") + error.what();
   }
-  hand_.say(words + trouble + "\n");
-  hand_.set_stage(PeerStage::Step::over, words + trouble);
+  input_.print(words + problem + "\n");
+  input_.set_stage(PeerStage::Step::over, words + problem);
 }
 
 void PlayingPeer::write_record(const PlayedPart& part) {

@@ -7,9 +7,9 @@
 #include <string>
 #include <thread>
 
-#include "game/net/peer/hand.h"
-#include "game/net/peer/meeting/greetings.h"
-#include "game/net/peer/meeting/meeting.h"
+#include "game/net/peer/input_queue.h"
+#include "game/net/peer/network/greetings.h"
+#include "game/net/peer/network/peer_network.h"
 #include "game/net/peer/peer_match.h"
 #include "game/net/peer/shared_game.h"
 #include "game/net/record_file.h"
@@ -48,7 +48,7 @@ class PlayingPeer final : public MatchSource {
   void rematch() override { match_.rematch(); }
 
   /// What is to be told on the standard output: where it listens, and how it ended.
-  std::string take_words() { return hand_.take_words(); }
+  std::string take_words() { return input_.take_words(); }
 
  private:
   void run();
@@ -62,11 +62,11 @@ class PlayingPeer final : public MatchSource {
   RecordFile record_file_;
   double (*now_s_)();
   SharedGame game_;
-  Hand hand_;
+  InputQueue input_;
   PeerMatch match_;
   Place place_;
   rti::SocketTransport sockets_{"tcp"};
-  std::unique_ptr<Meeting> meeting_;
+  std::unique_ptr<PeerNetwork> network_;
   std::thread thread_;
 };
 

@@ -13,7 +13,7 @@
 #include "game/control/free_place.h"
 #include "game/model/state_hash.h"
 #include "game/net/peer/crowd.h"
-#include "game/net/peer/meeting/seating.h"
+#include "game/net/peer/network/seating.h"
 
 namespace rink::game {
 
@@ -37,29 +37,29 @@ BatController controller_of(const Scene& scene, std::uint32_t player) {
 /// Tells the user who is gone, and who came.
 class Membership {
  public:
-  Membership(const peer::Session& session, const Manner& manner)
+  Membership(const peer::Session& session, const PartOptions& part_options)
       : session_(session),
-        manner_(manner),
+        options_(part_options),
         members_(session.members()),
         lost_(session.lost().size()) {}
 
-  void tell() {
-    if (!manner_.tell || session_.has_left() ||
+  void notify() {
+    if (!options_.notify || session_.has_left() ||
         (session_.members() == members_ && session_.lost().size() == lost_))
       return;
     for (const peer::PeerNumber peer : members_)
       if (!is_in(session_.members(), peer) && !is_in(session_.lost(), peer))
-        manner_.tell("peer " + std::to_string(peer) + " has left in good order");
+        options_.notify("peer " + std::to_string(peer) + " has left in good order");
     for (const peer::PeerNumber peer : session_.members())
       if (!is_in(members_, peer))
-        manner_.tell("peer " + std::to_string(peer) + " joins at " +
-                     std::to_string(session_.peer().now()) + " s");
+        options_.notify("peer " + std::to_string(peer) + " joins at " +
+                        std::to_string(session_.peer().now()) + " s");
     members_ = session_.members();
     const std::string who = members_.size() == 1 ? "this peer goes on alone"
                                                  : std::to_string(members_.size()) + " peers go on";
     if (std::exchange(lost_, session_.lost().size()) != session_.lost().size())
-      manner_.tell(session_.last_loss() + ": " + who + " from " +
-                   std::to_string(session_.peer().now()) + " s");
+      options_.notify(session_.last_loss() + ": " + who + " from " +
+                      std::to_string(session_.peer().now()) + " s");
   }
 
  private:
@@ -68,7 +68,7 @@ class Membership {
   }
 
   const peer::Session& session_;
-  const Manner& manner_;
+  const PartOptions& options_;
   std::vector<peer::PeerNumber> members_;
   std::size_t lost_;
 };
@@ -100,7 +100,7 @@ void SharedGame::forget_start() {
 #endif
 }
 
-Luggage SharedGame::luggage() const {
+Fingerprint SharedGame::session_fingerprint() const {
   StateHash keys;
   for (const InputEvent& key : keys_)
     keys.add(key.time),
@@ -179,18 +179,19 @@ std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> 
 
 /// Those who begin.
 std::vector<peer::Player> SharedGame::players(const Terms& terms,
-                                              std::span<const Guest> guests) const {
+                                              std::span<const PeerInfo> peer_infos) const {
   std::vector<peer::Player> players;
   std::vector<std::uint8_t> is_taken(start_.player_count(), 0);
-  for (peer::PeerNumber number = 0; number < std::min<std::size_t>(terms.peer_count, guests.size());
-       ++number) {
-    for (std::uint64_t player = guests[number].first_bat, end = player + guests[number].bat_count;
+  for (peer::PeerNumber number = 0;
+       number < std::min<std::size_t>(terms.peer_count, peer_infos.size()); ++number) {
+    for (std::uint64_t player = peer_infos[number].first_bat,
+                       end = player + peer_infos[number].bat_count;
          player < end; ++player)
       if (player >= is_taken.size() || std::exchange(is_taken[player], std::uint8_t{1}) != 0)
         throw peer::ProtocolError("peer " + std::to_string(number) + " plays bat " +
                                   std::to_string(player) + ", which is taken or not there");
-    players.push_back({number, guests[number].first_bat, guests[number].bat_count,
-                       guests[number].puck_count, guests[number].hand_count});
+    players.push_back({number, peer_infos[number].first_bat, peer_infos[number].bat_count,
+                       peer_infos[number].puck_count, peer_infos[number].hand_count});
   }
   return players;
 }
@@ -223,15 +224,15 @@ std::unique_ptr<peer::Peer> SharedGame::peer(const peer::Division& division,
                                            first_halo(window));
   peer->validate_by(peer::Validator(whole));
   for (std::uint32_t body = 0; body < whole.body_count(); ++body)
-    peer->consider(body, physics::Portion::state_in(whole, body));
+    peer->consider(body, physics::Subdomain::state_in(whole, body));
   for (const peer::Key& key : thrusts()) peer->press_first(key);
   return peer;
 }
 
 /// Everybody's together.
-std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Arrivals> logs) const {
+std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Handover> logs) const {
   std::vector<InputEvent> keys;
-  for (const peer::Arrivals& log : logs)
+  for (const peer::Handover& log : logs)
     for (const peer::Key& key : log.keys) {
       if (!start_.is_there({key.bat}) || !start_.entity({key.bat}).player || key.input == 0)
         throw peer::ProtocolError("a log has keys of body " + std::to_string(key.bat) +
@@ -241,12 +242,13 @@ std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Arrivals> lo
   return merged(keys_, keys);
 }
 
-PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests,
-                            peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const {
+PlayedPart SharedGame::play(const Terms& terms, std::span<const PeerInfo> peer_infos,
+                            peer::PeerNumber number, peer::Mail& mail,
+                            const PartOptions& part_options) const {
   peer::SessionSettings settings{.number = number,
                                  .peer_count = terms.peer_count,
                                  .halo = first_halo(terms.window),
-                                 .is_mirrored = terms.is_mirrored,
+                                 .is_replicated = terms.is_replicated,
                                  .end_of = {}};
   constexpr double rounding =
       1e-9;  // a third of a second is no whole number of windows of a thirtieth otherwise
@@ -264,50 +266,51 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests,
   settings.goals = goal_rules(terms.window);
   settings.bat_count = has_keys() ? 0 : start_.player_count();
   settings.seats_of = [this](const peer::Player& player) { return seats(player); };
-  if (manner.listener != nullptr) {
-    settings.hooks.when_played = [&manner] { manner.listener->when_played(); };
-    settings.hooks.when_told = [&manner] { manner.listener->when_told(); };
-    settings.hooks.when_sending = [&manner](peer::Subject about) {
-      manner.listener->when_sending(about);
+  if (part_options.observer != nullptr) {
+    settings.hooks.when_played = [&part_options] { part_options.observer->when_played(); };
+    settings.hooks.when_told = [&part_options] { part_options.observer->when_told(); };
+    settings.hooks.when_sending = [&part_options](peer::Subject about) {
+      part_options.observer->when_sending(about);
     };
   }
   if (terms.is_seated && terms.peer_count > start_.player_count())
     throw peer::ProtocolError(
         "there are more peers than bats, and each is to have one in its zone");
   // A copy: while a newcomer waits to be let in, others come, and the list grows.
-  const Guest self = guests[number];  // NOLINT(performance-unnecessary-copy-initialization)
-  if (manner.members.empty()) settings.players = players(terms, guests);
+  const PeerInfo self = peer_infos[number];  // NOLINT(performance-unnecessary-copy-initialization)
+  if (part_options.members.empty()) settings.players = players(terms, peer_infos);
   std::optional<peer::Session> made;
-  if (manner.members.empty())
+  if (part_options.members.empty())
     made.emplace(
         start_.world(),
         terms.is_seated ? seated_division(start_, terms.peer_count).cuts : cuts(terms.peer_count),
-        std::move(settings), mail, manner.when_taken);
-  else made.emplace(start_.world(), std::move(settings), mail, manner.members);
+        std::move(settings), mail, part_options.when_taken);
+  else made.emplace(start_.world(), std::move(settings), mail, part_options.members);
   peer::Session& session = *made;
   Crowd crowd(scene_, start_,
-              {.kinds = manner.players,
+              {.kinds = part_options.players,
                .seed = scene_.seed,
                .first = self.first_bat + self.hand_count,
                .count = self.bat_count - self.hand_count,
                .from = session.peer().now(),
                .until = terms.until});
-  Membership membership(session, manner);
-  if (!manner.members.empty() && manner.tell)
-    manner.tell("peer " + std::to_string(number) + " is in from " +
-                std::to_string(session.peer().now()) + " s");
-  if (manner.listener != nullptr) manner.listener->begin(session);
+  Membership membership(session, part_options);
+  if (!part_options.members.empty() && part_options.notify)
+    part_options.notify("peer " + std::to_string(number) + " is in from " +
+                        std::to_string(session.peer().now()) + " s");
+  if (part_options.observer != nullptr) part_options.observer->begin(session);
   while (!session.is_over()) {
-    if (manner.before_window) manner.before_window(session.peer().now());
-    if (manner.wants_to_leave && terms.is_mirrored && manner.wants_to_leave()) session.leave();
-    if (manner.onlooker != nullptr) manner.onlooker->before_window(session);
+    if (part_options.before_window) part_options.before_window(session.peer().now());
+    if (part_options.wants_to_leave && terms.is_replicated && part_options.wants_to_leave())
+      session.leave();
+    if (part_options.participant != nullptr) part_options.participant->before_window(session);
     session.advance();
-    membership.tell();
-    if (manner.listener != nullptr) manner.listener->when_stepped();
-    if (manner.onlooker != nullptr) manner.onlooker->after_window(session);
+    membership.notify();
+    if (part_options.observer != nullptr) part_options.observer->when_stepped();
+    if (part_options.participant != nullptr) part_options.participant->after_window(session);
     crowd.act(session);
   }
-  if (manner.listener != nullptr) manner.listener->end();
+  if (part_options.observer != nullptr) part_options.observer->end();
   PlayedPart part;
   part.has_left = session.has_left();
   // The members of the last window are without one who left in good order.
@@ -315,7 +318,7 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests,
       part.has_left && session.members().size() == 1 && session.members().front() == number;
   if (!session.has_left()) end(session, part);
   part.has_left = session.has_left();
-  membership.tell();
+  membership.notify();
   part.members = session.members().size();
   part.counters = session.counters();
   part.may_have_split = session.may_have_split();
@@ -343,7 +346,7 @@ KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_te
 
 /// Everybody has told everybody what it has, and what its players did.
 void SharedGame::end(peer::Session& session, PlayedPart& part) const {
-  std::vector<peer::Arrivals> parts = session.end();
+  std::vector<peer::Handover> parts = session.end();
   if (session.has_left()) return;
   const physics::World& own = session.peer().world();
   const auto world = peer::hash_of_whole(own.spec(), own.body_count(), parts);

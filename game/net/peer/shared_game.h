@@ -11,7 +11,7 @@
 
 #include "game/control/game.h"
 #include "game/control/key_log.h"
-#include "game/net/peer/meeting/greetings.h"
+#include "game/net/peer/network/greetings.h"
 #include "game/peer/session/session.h"
 
 namespace rink::game {
@@ -36,9 +36,9 @@ struct PlayedPart {
 };
 
 /// Who looks on while a peer plays, and may press keys of its bats.
-class Onlooker {
+class WindowParticipant {
  public:
-  virtual ~Onlooker() = default;
+  virtual ~WindowParticipant() = default;
   /// The time has come to play the window that is prepared; what is pressed now goes with its
   /// claims.
   virtual void before_window(peer::Session&) {}
@@ -47,9 +47,9 @@ class Onlooker {
 };
 
 /// Told of the windows of a session while they are played.
-class WindowListener {
+class WindowObserver {
  public:
-  virtual ~WindowListener() = default;
+  virtual ~WindowObserver() = default;
   /// Before the first window. The session's peer and division stay where they are, though they may
   /// be made anew there.
   virtual void begin(const peer::Session& session) = 0;
@@ -65,17 +65,17 @@ class WindowListener {
 
 /// How a peer plays: with which bots, and what it does before it plays a window from the simulated
 /// time that it is given, such as wait for the clock.
-struct Manner {
+struct PartOptions {
   std::vector<std::string> players{"chaser"};  ///< kinds, as rink simulate's
   std::function<void(double)> before_window;
   std::function<bool()> wants_to_leave;
-  std::function<void(const std::string&)> tell;  ///< the user, of losses and newcomers
-  Onlooker* onlooker = nullptr;                  ///< or nobody
+  std::function<void(const std::string&)> notify;  ///< the user, of losses and newcomers
+  WindowParticipant* participant = nullptr;        ///< or nobody
   std::vector<peer::PeerNumber>
       members{};                       ///< of a newcomer while others play: whom it was told of
   std::function<void()> when_taken{};  ///< where bodies are at the start is asked for no more:
                                        ///< SharedGame::forget_start may be called
-  WindowListener* listener = nullptr;
+  WindowObserver* observer = nullptr;
 };
 
 /// The same for all who are given the same scene and keys.
@@ -85,7 +85,7 @@ class SharedGame {
   /// players who enter or leave, and pucks that would come back sooner than agreed upon.
   SharedGame(Scene scene, const std::vector<InputEvent>& recorded);
 
-  Luggage luggage() const;
+  Fingerprint session_fingerprint() const;
   std::uint32_t bat_count() const { return start_.player_count(); }
   /// Whether all keys are known before the start; then nobody can play live.
   bool has_keys() const { return !keys_.empty(); }
@@ -93,11 +93,11 @@ class SharedGame {
   /// That all know.
   const std::vector<InputEvent>& keys() const { return keys_; }
   peer::Cuts cuts(peer::PeerNumber peer_count) const;
-  /// Plays the part of peer `number` of `guests` to the end of `terms`; of those who come later
-  /// `guests` need not tell. Throws peer::ProtocolError, peer::Halt (of a newcomer that is not in
-  /// yet peer::SentAway: it may ask again), and what `mail` throws.
-  PlayedPart play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number,
-                  peer::Mail& mail, const Manner& manner) const;
+  /// Plays the part of peer `number` of `peer_infos` to the end of `terms`; of those who come later
+  /// `peer_infos` need not tell. Throws peer::ProtocolError, peer::Halt (of a newcomer that is not
+  /// in yet peer::SentAway: it may ask again), and what `mail` throws.
+  PlayedPart play(const Terms& terms, std::span<const PeerInfo> peer_infos, peer::PeerNumber number,
+                  peer::Mail& mail, const PartOptions& part_options) const;
 
   /// Throws SceneError if windows are too long [s] for pucks that come back after a goal.
   void require_window(double window) const { goal_rules(window); }
@@ -124,9 +124,9 @@ class SharedGame {
   double first_halo(double window) const;
   std::optional<peer::GoalRules> goal_rules(double window) const;
   std::vector<peer::Key> thrusts() const;
-  std::vector<peer::Player> players(const Terms& terms, std::span<const Guest> guests) const;
+  std::vector<peer::Player> players(const Terms& terms, std::span<const PeerInfo> peer_infos) const;
   std::vector<peer::Seat> seats(const peer::Player& player) const;
-  std::vector<InputEvent> keys_with(std::span<const peer::Arrivals> logs) const;
+  std::vector<InputEvent> keys_with(std::span<const peer::Handover> logs) const;
   std::uint64_t hash(std::uint64_t world, std::span<const InputEvent> keys, double until,
                      const peer::Scoring& scoring) const;
   void end(peer::Session& session, PlayedPart& part) const;

@@ -23,7 +23,7 @@ inline Traffic traffic_of(peer::Subject about) {
       return Traffic::claims;
     case peer::Subject::verdict:
       return Traffic::agreement;
-    case peer::Subject::arrivals:
+    case peer::Subject::handover:
       break;
   }
   return Traffic::halo;

@@ -12,7 +12,7 @@ namespace rink::game {
 
 struct ServeOptions {
   std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region",
-              policy = "periodic", keys, record, report, evidence, status, pace = "realtime",
+              policy = "periodic", keys, record, report, trace, status, pace = "realtime",
               transport = "tcp", hosted;
   std::string key_file, from_state;
   std::vector<std::string> always{};   ///< kinds that are relevant to everybody; none: the scene's

@@ -107,13 +107,13 @@ void require_room(const ServeOptions& options, const Scene& scene) {
     throw std::runtime_error(
         "--spread staggers what goes by streams in real time: --pace synchronous and --transport "
         "udp can't be given with it");
-  if (!options.evidence.empty() && options.duration_s == 0.0)
+  if (!options.trace.empty() && options.duration_s == 0.0)
     throw std::runtime_error(
         "--evidence: what is to be sampled is drawn beforehand; it needs a --duration above 0");
   require_writable("--report", options.report);
   if (options.hosted.empty()) require_writable("--record", options.record);
   else require_match(options, scene);
-  require_writable("--evidence", options.evidence);
+  require_writable("--evidence", options.trace);
 }
 
 }  // namespace rink::game

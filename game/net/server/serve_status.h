@@ -13,7 +13,7 @@ namespace rink::game {
 
 struct StatusAnswer {
   std::optional<std::vector<rti::FederationReport>> reports;
-  std::string trouble;  ///< why there are none
+  std::string error;  ///< why there are none
 };
 
 /// How to reach a server: as its own flags say.

@@ -55,8 +55,8 @@ void Server::joined(rti::FederateHandle) {
   ambassador_.enable_time_constrained();
 }
 
-void Server::join_refused(rti::Refusal, std::string_view why) { trouble_ = why; }
-void Server::connection_lost(std::string_view why) { trouble_ = why; }
+void Server::join_refused(rti::Refusal, std::string_view why) { error_ = why; }
+void Server::connection_lost(std::string_view why) { error_ = why; }
 
 /// Those with a seat and the server: who only watches, or comes later, keeps nobody waiting.
 void Server::call_to_start() {
@@ -160,7 +160,7 @@ void Server::simulate(double until) {
 void Server::publish(const rti::Stamp& stamp) {
   publisher_->publish(game_, keys_.felt(), stamp);
   if (hosted_) board_->show(hosted_->state(), stamp);
-  if (turns_.take_step()) tell_pace({}, stamp.time);
+  if (turns_.take_step()) send_pace({}, stamp.time);
   ask_for_turns();
   seats_.offer([this](rti::FederateHandle federate, std::uint32_t player) {
     return offer_bat(federate, player);
@@ -172,7 +172,7 @@ void Server::publish(const rti::Stamp& stamp) {
 bool Server::offer_bat(rti::FederateHandle federate, std::uint32_t player) {
   const std::optional<EntityId> bat = game_.bat(player);
   if (!bat) return false;
-  if (turns_.concerns_players()) tell_pace(federate, game_.now());
+  if (turns_.concerns_players()) send_pace(federate, game_.now());
   offer_seat(federate, {.bat = player, .position = rounded(game_.position(*bat))});
   return true;
 }
@@ -190,7 +190,7 @@ rti::ObjectHandle Server::bat_of(rti::FederateHandle federate) const {
   return bat ? publisher_->object(*bat) : rti::ObjectHandle{};
 }
 
-void Server::tell_interest(rti::FederateHandle federate, InterestSeen seen) {
+void Server::send_interest(rti::FederateHandle federate, InterestSeen seen) {
   std::vector<std::byte> bytes;
   rti::Writer writer(bytes);
   exchange(writer, seen);

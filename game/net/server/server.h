@@ -114,11 +114,11 @@ class Server : public rti::FederateAmbassador {
   /// Who asked what interest management decided (interest_report.h). Players are not answered: they
   /// are to see what their filter lets them.
   Inspections& inspections() { return inspections_; }
-  void tell_interest(rti::FederateHandle federate, InterestSeen seen);
+  void send_interest(rti::FederateHandle federate, InterestSeen seen);
 
   const ServerCounters& counters() const { return counters_; }
   /// Why the RTI refused or left us; empty while all is well.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& error() const { return error_; }
 
  private:
   void joined(rti::FederateHandle federate) override;
@@ -138,7 +138,7 @@ class Server : public rti::FederateAmbassador {
   void time_regulation_enabled(rti::LogicalTime time) override;
 
   void ask_for_turns();
-  void tell_pace(std::optional<rti::FederateHandle> federate, double now);
+  void send_pace(std::optional<rti::FederateHandle> federate, double now);
   void offer_seat(rti::FederateHandle federate, const SeatOffer& offer);
   bool offer_bat(rti::FederateHandle federate, std::uint32_t player);
   void receive_key(std::uint32_t player, bool is_down, rti::Bytes parameters, double wanted_s);
@@ -161,7 +161,7 @@ class Server : public rti::FederateAmbassador {
   Inspections inspections_;
   RelevantKinds always_relevant_;
   bool hands_in_flights_ = false;
-  std::string trouble_;
+  std::string error_;
   ServerCounters counters_;
 };
 

@@ -24,7 +24,7 @@ bool Server::may_step() const {
          turns_.may_step(seats_.are_all_turns_done(), game_.now(), ambassador_.clock().time());
 }
 
-void Server::tell_pace(std::optional<rti::FederateHandle> federate, double now) {
+void Server::send_pace(std::optional<rti::FederateHandle> federate, double now) {
   std::vector<std::byte> bytes;
   encode(bytes, turns_.pace());
   const rti::Stamp stamp{.time = now, .tag = 0};

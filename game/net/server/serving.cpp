@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "game/net/server/acquaint.h"
 #include "game/net/server/interest_report.h"
+#include "game/net/server/push_filter_hints.h"
 
 namespace rink::game {
 namespace {
@@ -64,17 +64,17 @@ TickCosts Serving::tick(double simulated_s, double due_s) {
   watch.add_to(costs.physics_s);
   send(simulated_s, due_s, costs);
   for (const Inspections::Question& each : server_.inspections().take())
-    server_.tell_interest(each.federate, interest_report(server_, execution_, each.object));
-  if (witness_)
-    witness_->look(server_, execution_,
-                   {simulated_s, costs.physics_s, costs.filter_s, costs.send_s});
+    server_.send_interest(each.federate, interest_report(server_, execution_, each.object));
+  if (recorder_)
+    recorder_->look(server_, execution_,
+                    {simulated_s, costs.physics_s, costs.filter_s, costs.send_s});
   host_.advance_clock(now_s_());
   return costs;
 }
 
-std::optional<ServerEvidence> Serving::evidence() const {
-  if (!witness_) return std::nullopt;
-  return witness_->evidence(server_);
+std::optional<ServerTrace> Serving::trace() const {
+  if (!recorder_) return std::nullopt;
+  return recorder_->trace(server_);
 }
 
 void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
@@ -86,7 +86,7 @@ void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
                    .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
   link_.flush(now_s_());
   host_.poll({});
-  acquaint(server_, execution_);
+  push_filter_hints(server_, execution_);
   watch.add_to(costs.send_s);
   host_.match();
   watch.add_to(costs.filter_s);

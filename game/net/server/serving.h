@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "game/net/server/server.h"
-#include "game/net/server/server_witness.h"
+#include "game/net/server/server_recorder.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
@@ -51,12 +51,12 @@ class Serving {
   TickCosts tick(double simulated_s, double due_s);
 
   /// Watches every tick from now on.
-  void collect_evidence(const SamplingSettings& settings, double rate_hz) {
-    witness_.emplace(settings, rate_hz);
+  void collect_trace(const SamplingSettings& settings, double rate_hz) {
+    recorder_.emplace(settings, rate_hz);
   }
   /// What was seen, if evidence was asked for; scene, scheme and policy are its owner's to add.
-  std::optional<ServerEvidence> evidence() const;
-  std::size_t evidence_bytes() const { return witness_ ? witness_->memory_bytes() : 0; }
+  std::optional<ServerTrace> trace() const;
+  std::size_t evidence_bytes() const { return recorder_ ? recorder_->memory_bytes() : 0; }
 
   /// Publishes, matches and flushes what is there, without playing: what leaves the server in one
   /// tick, one write per destination.
@@ -71,7 +71,7 @@ class Serving {
   Server server_;
   rti::FederateLink link_;
   rti::FederateLinks links_;
-  std::optional<ServerWitness> witness_;
+  std::optional<ServerRecorder> recorder_;
 };
 
 /// A federation under the filter `scheme` over the scene's field and among its posts; `cell_size`

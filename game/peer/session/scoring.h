@@ -55,7 +55,7 @@ struct Scoring {
 struct FaceOffWord {
   std::uint32_t puck = 0;
   std::uint64_t taken = 0;  ///< bit k: the k-th place
-  std::vector<Arrivals::Body> body;
+  std::vector<Handover::Body> body;
 };
 
 template <class Stream>

@@ -39,14 +39,14 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
     now_.bats_taken = std::max(now_.bats_taken, player.first_bat + player.bat_count);
   before_ = now_;
   make_room(now_.slots);
-  std::vector<Arrivals::Body> near;
+  std::vector<Handover::Body> near;
   for (std::uint32_t body = 0; body < whole_.body_count; ++body)
     if (division_.is_near(settings_.number,
                           Box::around(whole.position({body}), whole.half_extent({body})),
                           settings_.halo) ||
         division_.owner_of(whole.position({body})) == settings_.number)
-      near.push_back({body, physics::Portion::state_in(whole, body)});
-  if (settings_.is_mirrored) keep_first_parts(whole);
+      near.push_back({body, physics::Subdomain::state_in(whole, body)});
+  if (settings_.is_replicated) keep_first_parts(whole);
   if (when_taken) when_taken();
   peer_.emplace(whole_.spec, division_, settings_.number, whole_.body_count, settings_.halo);
   peer_->validate_by(validator_);
@@ -54,15 +54,15 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
   for (const Key& key : settings_.keys) peer_->press_first(key);
   for (const Player& player : now_.players)
     for (const Seat& seat : settings_.seats_of(player)) peer_->seat(seat);
-  if (settings_.is_mirrored) peer_->keep_changes();
+  if (settings_.is_replicated) peer_->keep_changes();
   peer_->begin(settings_.end_of(1));
   if constexpr (checks_whole_structures) now_.check();
 }
 
 void Session::make_room(PeerNumber slots) {
-  assert(mirrors_.size() == losses_.size());
-  if (slots <= mirrors_.size()) return;
-  mirrors_.resize(slots);
+  assert(replicas_.size() == losses_.size());
+  if (slots <= replicas_.size()) return;
+  replicas_.resize(slots);
   losses_.resize(slots);
 }
 
@@ -74,24 +74,24 @@ void Session::halt(const std::string& what) const {
 /// Everybody knows how it begins.
 void Session::keep_first_parts(const physics::World& whole) {
   for (const PeerNumber peer : now_.members) {
-    if (peer != settings_.number && mirror_of(peer, now_) != settings_.number) continue;
+    if (peer != settings_.number && replica_of(peer, now_) != settings_.number) continue;
     PartChange part{.step = 0,
                     .time = 0.0,
                     .is_whole = true,
                     .bodies = {},
                     .gone = {},
-                    .holds = {},
+                    .rest_contacts = {},
                     .keys = {},
                     .log = {}};
     for (std::uint32_t body = 0; body < whole_.body_count; ++body)
       if (division_.owner_of(whole.position({body})) == peer)
-        part.bodies.push_back({body, physics::Portion::state_in(whole, body)});
-    mirrors_[peer].add(std::move(part));
+        part.bodies.push_back({body, physics::Subdomain::state_in(whole, body)});
+    replicas_[peer].add(std::move(part));
   }
 }
 
 /// The next one in the ring of those who have zones.
-std::optional<PeerNumber> Session::mirror_of(PeerNumber peer, const State& state) const {
+std::optional<PeerNumber> Session::replica_of(PeerNumber peer, const State& state) const {
   std::optional<PeerNumber> first;
   for (const PeerNumber other : state.cuts.peers()) {
     if (other == peer) continue;
@@ -102,13 +102,13 @@ std::optional<PeerNumber> Session::mirror_of(PeerNumber peer, const State& state
 }
 
 template <class Message>
-Message Session::heard(PeerNumber from) {
+Message Session::received(PeerNumber from) {
   for (;;) {
     const std::vector<std::uint8_t> bytes = mail_.receive(from);
     Message message;
     if (read(bytes, message)) return message;
     // Those of whom it tells are no news if we have recovered from their loss.
-    if (hears_loss(from, bytes)) throw PeerGone(losses_[from]->gone.front(), false, last_loss_);
+    if (learns_of_loss(from, bytes)) throw PeerGone(losses_[from]->gone.front(), false, last_loss_);
   }
 }
 
@@ -116,22 +116,22 @@ Message Session::heard(PeerNumber from) {
 /// to the own peer, it looks at itself.
 template <class Message>
 Message Session::checked(PeerNumber from, double now) {
-  Message message = heard<Message>(from);
+  Message message = received<Message>(from);
   if (const std::string fault = validator_.fault_of(message, now); !fault.empty())
     give_up(from, "peer " + std::to_string(from) + " " + fault);
   return message;
 }
 
 /// Nothing is played any more from the bodies in them, so their contacts are left out.
-Arrivals Session::last_words(PeerNumber from) {
-  Arrivals part = heard<Arrivals>(from);
+Handover Session::final_handover(PeerNumber from) {
+  Handover part = received<Handover>(from);
   if (const std::string fault = validator_.fault_of(part.keys); !fault.empty())
     give_up(from, "peer " + std::to_string(from) + " " + fault);
   return part;
 }
 
 template FaceOffWord Session::checked<FaceOffWord>(PeerNumber from, double now);
-template Arrivals Session::checked<Arrivals>(PeerNumber from, double now);
+template Handover Session::checked<Handover>(PeerNumber from, double now);
 
 /// What `make(to)` makes goes to all members, and what they made is heard.
 template <class Make>
@@ -140,13 +140,13 @@ void Session::exchange(Make&& make, const std::function<void()>& meanwhile) {
     if (to != settings_.number) mail_.send(to, written(make(to)));
   if (meanwhile) meanwhile();
   for (const PeerNumber from : now_.members)
-    if (from != settings_.number) peer_->hear(from, heard<decltype(make(from))>(from));
-  if (!peer_->accusation().empty()) give_up(peer_->accused(), peer_->accusation());
+    if (from != settings_.number) peer_->receive(from, received<decltype(make(from))>(from));
+  if (!peer_->accusation().empty()) give_up(peer_->reported(), peer_->accusation());
 }
 
 /// Whoever says what cannot be is lost to us.
 void Session::give_up(PeerNumber peer, const std::string& what) const {
-  if (!settings_.is_mirrored) throw ProtocolError(what);
+  if (!settings_.is_replicated) throw ProtocolError(what);
   throw PeerGone(peer, false, what);
 }
 
@@ -167,7 +167,7 @@ void Session::play_window() {
 
 void Session::play_stretch() {
   peer_->wish_to_leave(wishes_to_leave_);
-  if (settings_.is_mirrored) announce();
+  if (settings_.is_replicated) announce();
   assert(now_.has(settings_.number));
   State next = now_;
   double next_end = 0.0;
@@ -182,7 +182,7 @@ void Session::play_stretch() {
   // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way,
   // unless there are goals to tell of.
   const auto agree_all = [&] {
-    settings_.is_mirrored || settings_.goals
+    settings_.is_replicated || settings_.goals
         ? exchange([&](PeerNumber) { return peer_->verdict(); })
         : peer::agree(*peer_, settings_.peer_count, mail_);
   };
@@ -198,14 +198,14 @@ void Session::play_stretch() {
   // A puck that found no place is due again, where rounding can put that a little before the end of
   // the window.
   if (const double end = stretch_end(next); end != next_end) peer_->end_at(end);
-  if (settings_.is_mirrored) {
+  if (settings_.is_replicated) {
     PartChange change = peer_->change(false);
     for (const PeerNumber leaver : now_.members)
-      if (!next.has(leaver) && mirror_of(leaver, now_) == settings_.number) {
-        const std::vector<Key> log = mirrors_[leaver].log();
+      if (!next.has(leaver) && replica_of(leaver, now_) == settings_.number) {
+        const std::vector<Key> log = replicas_[leaver].log();
         change.log.insert(change.log.end(), log.begin(), log.end());
       }
-    mirror(next, std::move(change));
+    replica(next, std::move(change));
   } else {
     log_.insert(log_.end(), peer_->log().begin(), peer_->log().end());
   }
@@ -231,7 +231,7 @@ State Session::after_stretch() const {
         zoned.size() > 1)
       next.cuts = next.cuts.without(peer), ++next.zones;
   }
-  if (settings_.is_mirrored) admit(next);
+  if (settings_.is_replicated) admit(next);
   if (settings_.balance_windows > 0) balance(next);
   return next;
 }
@@ -257,27 +257,27 @@ void Session::balance(State& next) const {
 
 /// The own part is kept here and by another, and those of others here, as they are with the step
 /// that leads to `next`.
-void Session::mirror(const State& next, PartChange change) {
+void Session::replica(const State& next, PartChange change) {
   change.step = next.step;
-  [[maybe_unused]] const bool is_next = mirrors_[settings_.number].add(change);
+  [[maybe_unused]] const bool is_next = replicas_[settings_.number].add(change);
   assert(is_next);
-  const auto to = next.has(settings_.number) ? mirror_of(settings_.number, next) : std::nullopt;
+  const auto to = next.has(settings_.number) ? replica_of(settings_.number, next) : std::nullopt;
   if (to) {
     if (!change.is_whole &&
-        (to != mirror_of(settings_.number, now_) || now_.is_fresh(settings_.number))) {
+        (to != replica_of(settings_.number, now_) || now_.is_fresh(settings_.number))) {
       change = peer_->change(true);
       change.step = next.step;
-      change.log = mirrors_[settings_.number].log();
+      change.log = replicas_[settings_.number].log();
     }
     std::vector<std::uint8_t> bytes = written(std::move(change));
-    counters_.mirror_bytes += bytes.size();
+    counters_.replica_bytes += bytes.size();
     mail_.send(*to, std::move(bytes));
   }
   for (const PeerNumber from : next.members) {
-    if (from == settings_.number || !now_.has(from) || mirror_of(from, next) != settings_.number)
+    if (from == settings_.number || !now_.has(from) || replica_of(from, next) != settings_.number)
       continue;
     auto kept = checked<PartChange>(from, next.time);
-    if (kept.step != next.step || !mirrors_[from].add(std::move(kept)))
+    if (kept.step != next.step || !replicas_[from].add(std::move(kept)))
       give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " +
                         std::to_string(next.step));
   }
@@ -290,15 +290,15 @@ void Session::adopt(State next) {
       peer_->set_present(peer, false);
     }
   make_room(next.slots);
-  if (settings_.is_mirrored && next.has(settings_.number)) greet(next);
+  if (settings_.is_replicated && next.has(settings_.number)) greet(next);
   before_ = std::exchange(now_, std::move(next));
   if constexpr (checks_whole_structures) now_.check();
   std::erase_if(sent_, [&](const Sent& sent) { return sent.step + 2 <= now_.step; });
 }
 
-void Session::press(const Glimpse& seen, const Press& press) {
+void Session::press(const Observation& seen, const Press& press) {
   peer_->press(seen.owner, press);
-  if (settings_.is_mirrored) sent_.push_back({now_.step + 1, press});
+  if (settings_.is_replicated) sent_.push_back({now_.step + 1, press});
 }
 
 SessionCounters Session::counters() const {
@@ -307,27 +307,27 @@ SessionCounters Session::counters() const {
   return all;
 }
 
-std::vector<Arrivals> Session::end() {
+std::vector<Handover> Session::end() {
   wishes_to_leave_ = false;
   for (;;) try {
       if (must_recover_) recover();
       while (!is_over()) play_window();
       if (has_left_) return {};
-      Arrivals own = own_bodies(*peer_);
+      Handover own = own_bodies(*peer_);
       own.window = static_cast<std::uint32_t>(now_.window);
-      own.keys = settings_.is_mirrored ? mirrors_[settings_.number].log() : log_;
-      std::vector<Arrivals> parts(now_.slots);
+      own.keys = settings_.is_replicated ? replicas_[settings_.number].log() : log_;
+      std::vector<Handover> parts(now_.slots);
       for (const PeerNumber to : now_.members)
         if (to != settings_.number) mail_.send(to, written(own));
       for (const PeerNumber from : now_.members)
-        if (from != settings_.number) parts[from] = last_words(from);
+        if (from != settings_.number) parts[from] = final_handover(from);
       parts[settings_.number] = std::move(own);
       parts_ = std::move(parts);
       // Nobody goes before all have all.
       for (const PeerNumber to : now_.members)
-        if (to != settings_.number) mail_.send(to, written(Arrivals{}));
+        if (to != settings_.number) mail_.send(to, written(Handover{}));
       for (const PeerNumber from : now_.members)
-        if (from != settings_.number) heard<Arrivals>(from);
+        if (from != settings_.number) received<Handover>(from);
       return parts_;
     } catch (const PeerGone& gone) {
       if (!parts_.empty() && gone.has_finished()) return parts_;

@@ -22,7 +22,7 @@ namespace rink::peer {
 struct SessionSettings {
   PeerNumber number = 0, peer_count = 1;  ///< so many begin
   double halo = 1.0;                      ///< where it begins [m]
-  bool is_mirrored =
+  bool is_replicated =
       true;  ///< whether each part is kept by another peer, too; otherwise a loss ends all
   std::uint64_t window_count = 1;
   std::function<double(std::uint64_t)> end_of;  ///< window 1, 2, ..., `window_count` + 1 [s]
@@ -53,10 +53,10 @@ struct Whole {
 
 struct SessionCounters {
   PeerCounters peer;
-  std::uint64_t mirror_bytes = 0, recovery_bytes = 0;  ///< sent
-  std::uint64_t recoveries = 0;                        ///< that came to an end
-  std::uint64_t shifts = 0;                            ///< of zones, toward balance
-  std::uint64_t entry_bytes = 0;                       ///< sent to newcomers
+  std::uint64_t replica_bytes = 0, recovery_bytes = 0;  ///< sent
+  std::uint64_t recoveries = 0;                         ///< that came to an end
+  std::uint64_t shifts = 0;                             ///< of zones, toward balance
+  std::uint64_t entry_bytes = 0;                        ///< sent to newcomers
 };
 
 /// Plays in steps: a step ends a window, or a recovery. Nobody is more than one step ahead of
@@ -92,13 +92,13 @@ class Session {
   bool may_have_split() const { return may_have_split_; }
 
   /// An own player's key, as Peer::press.
-  void press(const Glimpse& seen, const Press& press);
+  void press(const Observation& seen, const Press& press);
   Peer& peer() { return *peer_; }
   const Peer& peer() const { return *peer_; }
   /// When all is over: everybody's bodies and, as keys, everybody's log, by peer. It is too late to
   /// leave then; but who had handed over its zone already may still do so on the way (then:
   /// nothing).
-  std::vector<Arrivals> end();
+  std::vector<Handover> end();
 
   SessionCounters counters() const;
   /// Who plays on.
@@ -123,10 +123,10 @@ class Session {
   template <class Make>
   void exchange(Make&& make, const std::function<void()>& meanwhile = {});
   template <class Message>
-  Message heard(PeerNumber from);
+  Message received(PeerNumber from);
   template <class Message>
   Message checked(PeerNumber from, double now);
-  Arrivals last_words(PeerNumber from);
+  Handover final_handover(PeerNumber from);
   [[noreturn]] void give_up(PeerNumber peer, const std::string& what) const;
   void play_window();
   void play_stretch();
@@ -136,8 +136,8 @@ class Session {
   }
   State after_stretch() const;
   void balance(State& next) const;
-  void mirror(const State& next, PartChange change);
-  std::optional<PeerNumber> mirror_of(PeerNumber peer, const State& state) const;
+  void replica(const State& next, PartChange change);
+  std::optional<PeerNumber> replica_of(PeerNumber peer, const State& state) const;
   void keep_first_parts(const physics::World& whole);
   void make_room(PeerNumber slots);
   void adopt(State next);
@@ -152,7 +152,7 @@ class Session {
   void enter_late(std::vector<PeerNumber> members);
   bool is_in_time(const State& state) const;
   std::optional<Entry> first_entry(std::vector<PeerNumber> from);
-  void hear_same(const Entry& entry);
+  void receive_same(const Entry& entry);
 
   // session_goals.cpp
   double stretch_end(const State& state) const;
@@ -165,16 +165,16 @@ class Session {
   void note_gone(PeerNumber peer, const std::string& what, bool has_finished = false);
   void recover();
   void agree();
-  bool hears_loss(PeerNumber from, std::span<const std::uint8_t> bytes);
+  bool learns_of_loss(PeerNumber from, std::span<const std::uint8_t> bytes);
   void go_back(PeerNumber as);
   void send_away(const State& state);
   enum class Majority : std::uint8_t { none, doubtful, sure };
   Majority majority_of(std::vector<PeerNumber> voters) const;
   void require_majority();
   std::vector<PeerNumber> stood_for() const;
-  Arrivals share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to);
+  Handover share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to);
   void rebuild();
-  void enter(const State& next, std::span<const Arrivals> shares);
+  void enter(const State& next, std::span<const Handover> shares);
   void press_again();
   bool is_gone(PeerNumber peer) const { return State::is_in(gone_, peer); }
 
@@ -185,13 +185,13 @@ class Session {
   State now_, before_;
   Division division_;
   std::optional<Peer> peer_;
-  std::vector<Mirror> mirrors_;  // by peer: of those that are mirrored here, and the own part
-  std::vector<Key> log_;         // of an own part that nobody mirrors
-  std::vector<Sent> sent_;       // of the last windows
+  std::vector<PartReplica> replicas_;  // by peer: of those that are mirrored here, and the own part
+  std::vector<Key> log_;               // of an own part that nobody mirrors
+  std::vector<Sent> sent_;             // of the last windows
   std::vector<PeerNumber> gone_, finished_;  // lost, sorted; and of these, who left in good order
   std::vector<std::optional<Loss>> losses_;  // the last that each peer told
   std::string last_loss_;
-  std::vector<Arrivals> parts_;   // everybody's, in the end
+  std::vector<Handover> parts_;   // everybody's, in the end
   PeerNumber teller_ = 0;         // of a newcomer: whose entry it took
   std::vector<Newcomer> asking_;  // here, of whom nothing was decided yet
   bool must_recover_ = false, wishes_to_leave_ = false, has_left_ = false, is_newcomer_ = false,

@@ -76,12 +76,14 @@ std::uint64_t Session::agree_on(FaceOffWord& word) {
   std::uint64_t taken = word.taken;
   for (const PeerNumber from : now_.members) {
     if (from == settings_.number) continue;
-    const auto told = checked<FaceOffWord>(from, peer_->now());
-    if (told.puck != word.puck || (!told.body.empty() && told.body.front().number != word.puck))
-      give_up(from, "peer " + std::to_string(from) + " tells of puck " + std::to_string(told.puck) +
-                        " where puck " + std::to_string(word.puck) + " is due");
-    taken |= told.taken;
-    if (word.body.empty()) word.body = told.body;
+    const auto word_received = checked<FaceOffWord>(from, peer_->now());
+    if (word_received.puck != word.puck ||
+        (!word_received.body.empty() && word_received.body.front().number != word.puck))
+      give_up(from, "peer " + std::to_string(from) + " tells of puck " +
+                        std::to_string(word_received.puck) + " where puck " +
+                        std::to_string(word.puck) + " is due");
+    taken |= word_received.taken;
+    if (word.body.empty()) word.body = word_received.body;
   }
   if (word.body.empty())
     throw ProtocolError("nobody has puck " + std::to_string(word.puck) + ", which is due");

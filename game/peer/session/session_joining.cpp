@@ -26,16 +26,16 @@ const Candidate* find(const std::vector<Candidate>& candidates, std::uint64_t to
 /// What is said of newcomers with this window's verdict.
 void Session::announce() {
   for (Newcomer& newcomer : mail_.callers()) asking_.push_back(std::move(newcomer));
-  Admission said;
-  said.asking.assign(asking_.begin(),
-                     asking_.begin() + static_cast<std::ptrdiff_t>(
-                                           std::min(asking_.size(), Admission::asking_max)));
+  Admission own_word;
+  own_word.asking.assign(asking_.begin(),
+                         asking_.begin() + static_cast<std::ptrdiff_t>(
+                                               std::min(asking_.size(), Admission::asking_max)));
   for (const Candidate& candidate : now_.candidates) {
-    if (mail_.reaches(candidate.number)) said.reached.push_back(candidate.number);
+    if (mail_.reaches(candidate.number)) own_word.reached.push_back(candidate.number);
     if (candidate.sponsor == settings_.number && mail_.has_given_up(candidate.number))
-      said.withdrawn.push_back(candidate.number);
+      own_word.withdrawn.push_back(candidate.number);
   }
-  peer_->announce(std::move(said));
+  peer_->announce(std::move(own_word));
 }
 
 /// To those who were let in: half of the zone of whoever had most to do since zones changed last.
@@ -148,7 +148,7 @@ Session::Session(const physics::World& whole, SessionSettings settings, Mail& ma
       before_(now_),
       division_(now_.division()),
       is_newcomer_(true) {
-  assert(settings_.is_mirrored && !members.empty());
+  assert(settings_.is_replicated && !members.empty());
   enter_late(std::move(members));
 }
 
@@ -194,7 +194,7 @@ std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
 
 /// All others tell the same, or have lost somebody; then there is a recovery, in which entries are
 /// of before.
-void Session::hear_same(const Entry& entry) try {
+void Session::receive_same(const Entry& entry) try {
   const std::vector<std::uint8_t> expected = written(entry);
   for (const PeerNumber from : now_.members) {
     if (from == settings_.number || from == teller_) continue;
@@ -204,7 +204,7 @@ void Session::hear_same(const Entry& entry) try {
       if (!read(bytes, loss))
         throw ProtocolError("peer " + std::to_string(from) +
                             " tells of another beginning than peer " + std::to_string(teller_));
-      if (hears_loss(from, bytes)) return;
+      if (learns_of_loss(from, bytes)) return;
     }
   }
 } catch (const PeerGone& gone) {
@@ -227,16 +227,16 @@ void Session::enter_late(std::vector<PeerNumber> members) {
       if (one.number != settings_.number) mail_.expect(one, false, now_);
   for (const PeerNumber peer : now_.members)
     if (peer != settings_.number && !is_gone(peer)) mail_.admit(peer, true);
-  if (!must_recover_) hear_same(*entry);
+  if (!must_recover_) receive_same(*entry);
   enter(now_, {});
-  mirrors_[settings_.number].add({.step = now_.step,
-                                  .time = peer_->now(),
-                                  .is_whole = true,
-                                  .bodies = {},
-                                  .gone = {},
-                                  .holds = {},
-                                  .keys = {},
-                                  .log = {}});
+  replicas_[settings_.number].add({.step = now_.step,
+                                   .time = peer_->now(),
+                                   .is_whole = true,
+                                   .bodies = {},
+                                   .gone = {},
+                                   .rest_contacts = {},
+                                   .keys = {},
+                                   .log = {}});
 }
 
 }  // namespace rink::peer

@@ -23,7 +23,7 @@ std::string listed(const std::vector<PeerNumber>& peers) {
 }  // namespace
 
 void Session::note_gone(PeerNumber peer, const std::string& what, bool has_finished) {
-  if (!settings_.is_mirrored) throw Halt(what);
+  if (!settings_.is_replicated) throw Halt(what);
   must_recover_ = true;
   if (has_finished && !State::is_in(finished_, peer))
     finished_.insert(std::upper_bound(finished_.begin(), finished_.end(), peer), peer);
@@ -34,18 +34,18 @@ void Session::note_gone(PeerNumber peer, const std::string& what, bool has_finis
 }
 
 /// Whether the message was one of loss, and told of somebody new.
-bool Session::hears_loss(PeerNumber from, std::span<const std::uint8_t> bytes) {
+bool Session::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> bytes) {
   Loss loss;
-  if (!settings_.is_mirrored || !read(bytes, loss))
+  if (!settings_.is_replicated || !read(bytes, loss))
     give_up(from, "peer " + std::to_string(from) + " sent what is no message");
   if (const std::string fault = validator_.fault_of(loss); !fault.empty())
     give_up(from, "peer " + std::to_string(from) + " " + fault);
   if (std::find(loss.gone.begin(), loss.gone.end(), settings_.number) != loss.gone.end())
     halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
-  const std::vector<PeerNumber> told = loss.gone, finished = loss.finished;
+  const std::vector<PeerNumber> word_received = loss.gone, finished = loss.finished;
   losses_[from] = std::move(loss);
   bool is_news = false;
-  for (const PeerNumber peer : told) {
+  for (const PeerNumber peer : word_received) {
     const bool is_new = !is_gone(peer);
     is_news = is_news || is_new;
     if (is_new)
@@ -59,8 +59,8 @@ bool Session::hears_loss(PeerNumber from, std::span<const std::uint8_t> bytes) {
 
 void Session::recover() {
   agree();
-  for (Mirror& mirror : mirrors_)
-    if (!mirror.rewind(now_.step)) mirror = Mirror();
+  for (PartReplica& replica : replicas_)
+    if (!replica.rewind(now_.step)) replica = PartReplica();
   send_away(now_);
   require_majority();
   rebuild();
@@ -81,7 +81,7 @@ void Session::agree() {
       while (is_agreed && !(losses_[from] && losses_[from]->gone == gone_)) {
         const std::vector<std::uint8_t> bytes = mail_.receive(from);
         Loss loss;
-        if (read(bytes, loss)) is_agreed = !hears_loss(from, bytes);  // all else is of before
+        if (read(bytes, loss)) is_agreed = !learns_of_loss(from, bytes);  // all else is of before
       }
       if (is_agreed && losses_[from]->step < now_.step) go_back(from), is_agreed = false;
       if (!is_agreed) break;
@@ -140,23 +140,23 @@ std::vector<PeerNumber> Session::stood_for() const {
   std::vector<PeerNumber> parts{settings_.number};
   for (const PeerNumber peer : now_.members) {
     if (!is_gone(peer) || now_.is_fresh(peer)) continue;
-    const auto mirror = mirror_of(peer, now_);
-    if (!mirror || is_gone(*mirror))
+    const auto replica = replica_of(peer, now_);
+    if (!replica || is_gone(*replica))
       halt("peers " + listed(gone_) + " are gone, and with them what peer " + std::to_string(peer) +
            " had");
-    if (mirror == settings_.number) parts.push_back(peer);
+    if (replica == settings_.number) parts.push_back(peer);
   }
   return parts;
 }
 
 /// All that `to` may need of these parts: what is in its zones or the halo, and whatever may act at
 /// a distance.
-Arrivals Session::share(std::span<const PeerNumber> parts, const Division& division,
+Handover Session::share(std::span<const PeerNumber> parts, const Division& division,
                         PeerNumber to) {
-  Arrivals message;
+  Handover message;
   message.window = static_cast<std::uint32_t>(now_.window);
   for (const PeerNumber peer : parts) {
-    const Part& part = mirrors_[peer].part();
+    const Part& part = replicas_[peer].part();
     std::vector<std::uint32_t> bodies;
     for (const auto& [body, state] : part.bodies) {
       const Box place =
@@ -165,7 +165,8 @@ Arrivals Session::share(std::span<const PeerNumber> parts, const Division& divis
     }
     std::sort(bodies.begin(), bodies.end());
     for (const std::uint32_t body : bodies) message.bodies.push_back({body, part.bodies.at(body)});
-    message.holds.insert(message.holds.end(), part.holds.begin(), part.holds.end());
+    message.rest_contacts.insert(message.rest_contacts.end(), part.rest_contacts.begin(),
+                                 part.rest_contacts.end());
     message.keys.insert(message.keys.end(), part.keys.begin(), part.keys.end());
   }
   return message;
@@ -187,7 +188,7 @@ void Session::rebuild() {
     if (is_gone(peer) && next.cuts.has(peer)) next.cuts = next.cuts.without(peer), ++next.zones;
   assert(next.has(settings_.number));
   division_ = next.division();
-  std::vector<Arrivals> shares(next.slots);
+  std::vector<Handover> shares(next.slots);
   for (const PeerNumber to : next.members) {
     if (to == settings_.number) continue;
     std::vector<std::uint8_t> bytes = written(share(parts, division_, to));
@@ -196,21 +197,21 @@ void Session::rebuild() {
   }
   shares[settings_.number] = share(parts, division_, settings_.number);
   for (const PeerNumber from : next.members)
-    if (from != settings_.number) shares[from] = checked<Arrivals>(from, next.time);
+    if (from != settings_.number) shares[from] = checked<Handover>(from, next.time);
   enter(next, shares);
   PartChange change = peer_->change(true);
   for (const PeerNumber peer : parts) {
-    const std::vector<Key> log = mirrors_[peer].log();
+    const std::vector<Key> log = replicas_[peer].log();
     change.log.insert(change.log.end(), log.begin(), log.end());
   }
-  mirror(next, std::move(change));
+  replica(next, std::move(change));
   before_ = std::exchange(now_, std::move(next));
   if constexpr (checks_whole_structures) now_.check();
   press_again();
 }
 
 /// A new peer in the place of the old one, from the shares of all.
-void Session::enter(const State& next, std::span<const Arrivals> shares) {
+void Session::enter(const State& next, std::span<const Handover> shares) {
   if (peer_) counters_.peer += peer_->counters();
   peer_.emplace(whole_.spec, division_, settings_.number, whole_.body_count, settings_.halo);
   peer_->validate_by(validator_);
@@ -221,7 +222,7 @@ void Session::enter(const State& next, std::span<const Arrivals> shares) {
   const double time = next.time;
   peer_->enter(static_cast<std::uint32_t>(next.step),
                time);  // it counts stretches, of which a window may have several
-  for (const Arrivals& share : shares) peer_->take(share);
+  for (const Handover& share : shares) peer_->take(share);
   for (const Key& key : settings_.keys)
     if (next.time == 0.0 || key.time > time) peer_->press_first(key);
   peer_->keep_changes();
@@ -230,24 +231,26 @@ void Session::enter(const State& next, std::span<const Arrivals> shares) {
 
 /// Keys whose window was undone. Bats have other owners now, who tell.
 void Session::press_again() {
-  std::vector<Glimpse> seen = peer_->glimpses_of_all(settings_.number);
+  std::vector<Observation> seen = peer_->observations_of_all(settings_.number);
   for (const PeerNumber to : now_.members) {
     if (to == settings_.number) continue;
-    Arrivals message;
-    message.glimpses = peer_->glimpses_of_all(to);
+    Handover message;
+    message.observations = peer_->observations_of_all(to);
     mail_.send(to, written(message));
   }
   for (const PeerNumber from : now_.members) {
     if (from == settings_.number) continue;
-    const auto message = checked<Arrivals>(from, now_.time);
-    seen.insert(seen.end(), message.glimpses.begin(), message.glimpses.end());
+    const auto message = checked<Handover>(from, now_.time);
+    seen.insert(seen.end(), message.observations.begin(), message.observations.end());
   }
   for (Sent& sent : sent_) {
-    const auto glimpse = std::find_if(
-        seen.begin(), seen.end(), [&](const Glimpse& one) { return one.bat == sent.press.bat; });
-    if (sent.step < now_.step || glimpse == seen.end() || glimpse->owner >= now_.slots) continue;
+    const auto observation = std::find_if(seen.begin(), seen.end(), [&](const Observation& one) {
+      return one.bat == sent.press.bat;
+    });
+    if (sent.step < now_.step || observation == seen.end() || observation->owner >= now_.slots)
+      continue;
     sent.step = now_.step + 1;
-    peer_->press(glimpse->owner, sent.press);
+    peer_->press(observation->owner, sent.press);
   }
 }
 

@@ -44,7 +44,7 @@ class BeforeImages final : public ChangeObserver {
 
   /// Whether the body has changed in this window; and by nothing but free impacts.
   bool has_changed(std::uint32_t body) const { return marks_[body].number >= number_; }
-  bool has_only_flown(std::uint32_t body) const { return marks_[body].number == number_; }
+  bool has_flown_freely(std::uint32_t body) const { return marks_[body].number == number_; }
   /// As it was when the window began.
   BodyState state(std::uint32_t body) const;
   std::uint8_t flags(std::uint32_t body) const;

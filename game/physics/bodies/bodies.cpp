@@ -30,7 +30,7 @@ void Bodies::add(const BodyState& s) {
   table_.bodies.push_back(
       {s.flight, s.inverse_mass, 0, s.kind, s.material, s.flags, Body::no_mouth});
   changes_.add(body);
-  table_.builds.push_back({s.mass, s.inverse_mass, s.half_extent, s.thrust, s.half});
+  table_.shapes.push_back({s.mass, s.inverse_mass, s.half_extent, s.thrust, s.half});
   table_.laws.push_back({RealVector(0.0, 0.0), RealVector::Constant(own_drag(body))});
   if (is_rough_) table_.spins.push_back(s.spin);
   if (is_slowed()) table_.rest_times.push_back(s.rest_time), table_.slowing.push_back(s.slowing);
@@ -39,7 +39,7 @@ void Bodies::add(const BodyState& s) {
 
 void Bodies::restore(BodyTable table) {
   table_ = std::move(table);
-  assert(table_.builds.size() == count() && table_.laws.size() == count());
+  assert(table_.shapes.size() == count() && table_.laws.size() == count());
   curved_count_ = 0;
   for (std::uint32_t body = 0; body < count(); ++body) {
     changes_.add(body);
@@ -49,7 +49,7 @@ void Bodies::restore(BodyTable table) {
 
 void Bodies::read(std::uint32_t body, BodyState& state) const {
   const Body& b = table_.bodies[body];
-  const Build& build = table_.builds[body];
+  const BodyShape& build = table_.shapes[body];
   state.flight = b;
   state.mass = build.mass, state.inverse_mass = build.inverse_mass,
   state.half_extent = build.half_extent, state.thrust = build.thrust, state.half = build.half;
@@ -67,7 +67,7 @@ void Bodies::write(std::uint32_t body, const BodyState& s) {
   b.flags = static_cast<std::uint8_t>((b.flags & (Body::curved | Body::pending)) | s.flags);
   ++b.version;
   changes_.note(body);
-  table_.builds[body] = {s.mass, s.inverse_mass, s.half_extent, s.thrust, s.half};
+  table_.shapes[body] = {s.mass, s.inverse_mass, s.half_extent, s.thrust, s.half};
   table_.laws[body] = {s.acceleration, s.drag};
   if (is_slowed()) table_.rest_times[body] = s.rest_time, table_.slowing[body] = s.slowing;
   if (is_rough_) table_.spins[body] = s.spin;
@@ -91,7 +91,7 @@ void Bodies::rebase(std::uint32_t body, Real time) {
   keep(body);
   if (b.time < time) {
     ++counters_.evaluations;
-    if (ledger_.is_kept()) ledger_.spend(expense_until(*this, body, time));
+    if (ledger_.is_kept()) ledger_.spend(energy_transfer_until(*this, body, time));
     const Real elapsed = time - b.time;
     if (b.is(Body::curved)) {
       const Motion there = motion(body).at(time);
@@ -156,10 +156,10 @@ Real energy_of(const Bodies& bodies, std::uint32_t body) {
   return bodies.build(body).mass * (0.5 * (b.vx * b.vx + b.vy * b.vy) + spin_energy);
 }
 
-Expense expense_until(const Bodies& bodies, std::uint32_t body, Real time) {
+EnergyTransfer energy_transfer_until(const Bodies& bodies, std::uint32_t body, Real time) {
   if (bodies.inverse_mass(body) == 0.0) return {0.0, 0.0};
-  return expense_of(bodies.motion(body), time, bodies.build(body).mass,
-                    bodies.is_slowed(body) ? &bodies.slowing(body) : nullptr);
+  return energy_transfer_of(bodies.motion(body), time, bodies.build(body).mass,
+                            bodies.is_slowed(body) ? &bodies.slowing(body) : nullptr);
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

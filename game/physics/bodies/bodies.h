@@ -24,8 +24,8 @@ namespace rink::physics::inline RINK_PRECISION {
 /// An array for each kind of record, by body.
 struct BodyTable {
   LargeArray<Body> bodies;
-  std::vector<Build> builds;
-  std::vector<Law> laws;
+  std::vector<BodyShape> shapes;
+  std::vector<ForceLaw> laws;
   std::vector<Real>
       rest_times;  ///< of worlds with friction: when it will have brought the body to rest [s]
   std::vector<RealVector> slowing;  ///< of worlds with friction: its part in the acceleration
@@ -43,8 +43,8 @@ class Bodies {
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(table_.bodies.size()); }
   const Body& operator[](std::uint32_t body) const { return table_.bodies[body]; }
-  const Build& build(std::uint32_t body) const { return table_.builds[body]; }
-  const Law& law(std::uint32_t body) const { return table_.laws[body]; }
+  const BodyShape& build(std::uint32_t body) const { return table_.shapes[body]; }
+  const ForceLaw& law(std::uint32_t body) const { return table_.laws[body]; }
   bool has_spins() const { return is_rough_; }
   /// Of worlds with surface friction.
   Real spin(std::uint32_t body) const { return table_.spins[body]; }
@@ -56,8 +56,8 @@ class Bodies {
   bool is_slowed(std::uint32_t body) const {
     return is_slowed() && table_.bodies[body].kind == BodyKind::puck;
   }
-  bool is_fixed(Partner p) const { return !is_body(p) || table_.builds[p].inverse_mass == 0.0; }
-  Real inverse_mass(Partner p) const { return is_body(p) ? table_.builds[p].inverse_mass : 0.0; }
+  bool is_fixed(Partner p) const { return !is_body(p) || table_.shapes[p].inverse_mass == 0.0; }
+  Real inverse_mass(Partner p) const { return is_body(p) ? table_.shapes[p].inverse_mass : 0.0; }
   Real own_drag(std::uint32_t body) const {
     return table_.bodies[body].kind == BodyKind::bat ? bat_drag_ : puck_drag_;
   }
@@ -117,7 +117,7 @@ class Bodies {
   }
   void set_spin(std::uint32_t body, Real spin) { table_.spins[body] = spin; }
   void set_thrust(std::uint32_t body, const RealVector& thrust) {
-    table_.builds[body].thrust = thrust;
+    table_.shapes[body].thrust = thrust;
   }
   void set_slowing(std::uint32_t body, const RealVector& slowing) {
     table_.slowing[body] = slowing;
@@ -163,7 +163,7 @@ inline RealVector acceleration_of(const Bodies& bodies, Partner p) {
 Real energy_of(const Bodies& bodies, std::uint32_t body);
 
 /// What the law of the body has cost since its last event, at `time`.
-Expense expense_until(const Bodies& bodies, std::uint32_t body, Real time);
+EnergyTransfer energy_transfer_until(const Bodies& bodies, std::uint32_t body, Real time);
 
 /// Half extents and radii of both, as one shape around the centre of one.
 inline RoundedBox shape_of(const Bodies& bodies, std::uint32_t a, std::uint32_t b) {

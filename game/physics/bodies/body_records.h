@@ -40,7 +40,7 @@ struct alignas(64) Body : Flight {
 };
 
 /// What the body is, and the thrust on it.
-struct Build {
+struct BodyShape {
   Real mass, inverse_mass;
   RealVector half_extent;  // of the rectangle itself: 0 for discs
   RealVector thrust;
@@ -48,12 +48,12 @@ struct Build {
 };
 
 /// What its velocity changes by until its next event.
-struct Law {
+struct ForceLaw {
   RealVector acceleration, drag;
 };
 
 /// How often something came at the last instant at which it did.
-struct Tally {
+struct RepeatCount {
   Real instant = -1.0;
   std::uint32_t count = 0;
   /// Once more at `time`; answers how often now.
@@ -65,16 +65,17 @@ struct Tally {
 };
 
 /// How densely impacts follow each other; part of the physical history.
-struct Rhythm {
+struct ImpactCounts {
   Real window_start = -1.0, last_hop = -1.0;
   std::uint32_t impacts = 0, hops = 0;
-  Tally repeats;   // impacts where bodies may start in overlap, attempts at rest of pucks
-                   // that friction slows
-  Tally meetings;  // impacts that are not simple ones, at instants within roundings of the clock
+  RepeatCount repeats;  // impacts where bodies may start in overlap, attempts at rest of pucks
+                        // that friction slows
+  RepeatCount first_contacts;  // impacts that are not simple ones, at instants within roundings of
+                               // the clock
 };
 
 /// Its next impact, and its next crossing into another cell of the grid.
-struct Slot {
+struct NextEvent {
   Real impact_time, crossing_time;
   Partner partner;
   std::uint32_t partner_version;

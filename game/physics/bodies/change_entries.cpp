@@ -9,7 +9,7 @@ namespace rink::physics::inline RINK_PRECISION {
 namespace {
 
 /// A digest of all but the flight, the same whichever way an impact took. The rhythm of impacts
-/// follows from their list, where `stirred` stands for it.
+/// follows from their list, where `mixed_digest` stands for it.
 std::uint64_t conditions_of(const Bodies& bodies, std::uint32_t body) {
   const Body& b = bodies[body];
   std::uint64_t digest = b.mouth;
@@ -39,7 +39,7 @@ std::uint64_t conditions_of(const Bodies& bodies, std::uint32_t body) {
 void enter_changes(Journal& journal, const Bodies& bodies) {
   assert(journal.rooms_of.size() == bodies.count());
   const auto enter = [&](std::uint32_t body) {
-    journal.enter({body, bodies[body], conditions_of(bodies, body) ^ journal.stirred});
+    journal.enter({body, bodies[body], conditions_of(bodies, body) ^ journal.mixed_digest});
     if ((bodies[body].flags & (Body::curved | Body::held | Body::frozen | Body::gone)) == 0) return;
     journal.changes.back().motion = static_cast<std::uint32_t>(journal.motions.size());
     journal.motions.push_back(bodies.motion(body));
@@ -48,7 +48,7 @@ void enter_changes(Journal& journal, const Bodies& bodies) {
   for (const std::uint32_t body : journal.looked_at)
     if ((bodies[body].flags & Body::touched) == 0) enter(body);
   journal.looked_at.clear();
-  journal.stirred = 0;
+  journal.mixed_digest = 0;
   ++journal.event;
 }
 

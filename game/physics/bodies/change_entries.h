@@ -1,4 +1,4 @@
-// What the event at hand has changed, entered into the journal of a portion of a world.
+// What the event at hand has changed, entered into the journal of a subdomain of a world.
 #pragma once
 
 #include "game/physics/bodies/bodies.h"

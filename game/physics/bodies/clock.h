@@ -18,9 +18,9 @@ struct Clock {
   Real now = 0.0;             ///< s
   Real instant_begin = -1.0;  ///< of the events counted as coming at once [s]
   std::uint64_t events_at_once = 0;
-  bool is_played = false;    ///< advance() has been to now: what happens to bodies from outside at
-                             ///< this instant takes effect beyond it
-  bool is_hopeless = false;  ///< no joint impact could be solved at this instant
+  bool is_played = false;  ///< advance() has been to now: what happens to bodies from outside at
+                           ///< this instant takes effect beyond it
+  bool solver_failed = false;  ///< no joint impact could be solved at this instant
 
   /// Whether so many events have come at this instant that all that touch shall yield as one.
   bool is_endless() const { return events_at_once % endless_events == 0; }
@@ -37,7 +37,7 @@ struct Clock {
     if (time > instant_begin + 16.0 * std::numeric_limits<Real>::epsilon() * (1.0 + time)) {
       instant_begin = time;
       events_at_once = 0;
-      is_hopeless = false;
+      solver_failed = false;
     }
     ++events_at_once;
   }

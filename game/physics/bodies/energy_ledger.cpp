@@ -8,7 +8,8 @@ namespace rink::physics::inline RINK_PRECISION {
 /// Along each axis the integrals of a v and g v^2, with v = v0 e + a s (docs/physics.md, "Energy").
 /// Of the acceleration, friction takes its part; all else is thrust: the body's own, or its share
 /// in that of those who press on it.
-Expense expense_of(const Motion& m, Real time, Real mass, const RealVector* slowing) {
+EnergyTransfer energy_transfer_of(const Motion& m, Real time, Real mass,
+                                  const RealVector* slowing) {
   const Real elapsed = std::min(time, m.rest_time) - m.time;
   if (elapsed <= 0.0) return {0.0, 0.0};
   Real pushed = 0.0, dragged = 0.0, rubbed = 0.0;

@@ -12,13 +12,14 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-struct Expense {
+struct EnergyTransfer {
   Real work, loss;  ///< of thrust; by drag and friction [J]
 };
 
 /// What the law of a body of `mass` [kg] has cost since its last event, at `time`, from the closed
 /// forms. `slowing` is friction's part in its acceleration, nothing for what it does not slow.
-Expense expense_of(const Motion& motion, Real time, Real mass, const RealVector* slowing);
+EnergyTransfer energy_transfer_of(const Motion& motion, Real time, Real mass,
+                                  const RealVector* slowing);
 
 /// Three sums, and the energies that bodies had before the event at hand. Nothing is entered where
 /// no books are kept.
@@ -31,10 +32,10 @@ class EnergyLedger {
   void introduce(Real energy) {
     if (is_kept_) introduced_.add(energy);
   }
-  void spend(const Expense& expense) {
+  void spend(const EnergyTransfer& transfer) {
     assert(is_kept_);
-    work_.add(expense.work);
-    loss_.add(expense.loss);
+    work_.add(transfer.work);
+    loss_.add(transfer.loss);
   }
 
   /// A body's energy before the event at hand touches it. Bodies are numbered in this order.

@@ -16,7 +16,7 @@ constexpr std::uint32_t impacts_max = 24;      // of impacts at any speed, where
 /// that lies in two fixed ones at once never would.
 constexpr std::uint32_t repeats_max = 100;
 /// Impacts within roundings of the clock: more than an elastic series takes, masses 1e12 apart.
-constexpr std::uint32_t hemmed_in_min = 10'000;
+constexpr std::uint32_t jammed_min = 10'000;
 constexpr std::uint32_t rests_max = 8;  // at one instant
 
 }  // namespace
@@ -28,30 +28,30 @@ ImpactHistory::ImpactHistory(const WorldSpec& spec, Bodies& bodies, const Observ
       rest_speed_(rest_speed(spec)) {}
 
 void ImpactHistory::read(std::uint32_t body, BodyState& state) const {
-  const Rhythm& rhythm = rhythms_[body];
-  state.impacts_begin = rhythm.window_start, state.last_hop = rhythm.last_hop,
-  state.impacts = rhythm.impacts, state.hops = rhythm.hops;
-  state.repeats = rhythm.repeats.count, state.repeats_instant = rhythm.repeats.instant;
+  const ImpactCounts& counts = impact_counts_[body];
+  state.impacts_begin = counts.window_start, state.last_hop = counts.last_hop,
+  state.impacts = counts.impacts, state.hops = counts.hops;
+  state.repeats = counts.repeats.count, state.repeats_instant = counts.repeats.instant;
 }
 
 void ImpactHistory::write(std::uint32_t body, const BodyState& state) {
-  Rhythm& rhythm = rhythms_[body];
-  rhythm.window_start = state.impacts_begin, rhythm.last_hop = state.last_hop,
-  rhythm.impacts = state.impacts, rhythm.hops = state.hops;
-  rhythm.repeats = {state.repeats_instant, state.repeats};
-  rhythm.meetings = {};  // counted anew: they matter from thousands on, when the count of events at
-                         // one instant has long had its say
+  ImpactCounts& counts = impact_counts_[body];
+  counts.window_start = state.impacts_begin, counts.last_hop = state.last_hop,
+  counts.impacts = state.impacts, counts.hops = state.hops;
+  counts.repeats = {state.repeats_instant, state.repeats};
+  counts.first_contacts = {};  // counted anew: they matter from thousands on, when the count of
+                               // events at one instant has long had its say
 }
 
 void ImpactHistory::note_impact(std::uint32_t body, Real time) {
   bodies_.keep(body);
-  Rhythm& rhythm = rhythms_[body];
-  if (time - rhythm.window_start > contact_time_) {
-    rhythm.window_start = time;
-    rhythm.impacts = 0;
+  ImpactCounts& counts = impact_counts_[body];
+  if (time - counts.window_start > contact_time_) {
+    counts.window_start = time;
+    counts.impacts = 0;
   }
-  ++rhythm.impacts;
-  if (observers_.journal != nullptr) observers_.journal->stir(body, rhythm.impacts);
+  ++counts.impacts;
+  if (observers_.journal != nullptr) observers_.journal->mix_digest(body, counts.impacts);
 }
 
 bool ImpactHistory::is_pressed_hard(const Contact& c, Real approach, Real time) const {
@@ -60,42 +60,44 @@ bool ImpactHistory::is_pressed_hard(const Contact& c, Real approach, Real time) 
 }
 
 bool ImpactHistory::is_worn(std::uint32_t body, Real approach, Real time) const {
-  const Rhythm& rhythm = rhythms_[body];
-  if (rhythm.impacts >= impacts_max) return true;
+  const ImpactCounts& counts = impact_counts_[body];
+  if (counts.impacts >= impacts_max) return true;
   return approach < rest_speed_ &&
-         (rhythm.impacts >= slow_impacts_max ||
-          (rhythm.last_hop >= 0.0 && time - rhythm.last_hop < 4.0 * contact_time_));
+         (counts.impacts >= slow_impacts_max ||
+          (counts.last_hop >= 0.0 && time - counts.last_hop < 4.0 * contact_time_));
 }
 
 void ImpactHistory::note_hop(std::span<const std::uint32_t> members, Real time) {
   for (const std::uint32_t body : members) {
-    Rhythm& rhythm = rhythms_[body];
-    if (time - rhythm.last_hop > 8.0 * contact_time_) rhythm.hops = 0;
-    rhythm.last_hop = time;
-    ++rhythm.hops;
-    if (observers_.journal != nullptr) observers_.journal->stir(body, 0x80000000u | rhythm.hops);
+    ImpactCounts& counts = impact_counts_[body];
+    if (time - counts.last_hop > 8.0 * contact_time_) counts.hops = 0;
+    counts.last_hop = time;
+    ++counts.hops;
+    if (observers_.journal != nullptr)
+      observers_.journal->mix_digest(body, 0x80000000u | counts.hops);
   }
 }
 
 void ImpactHistory::count_meeting(const Contact& c, Real instant_begin) {
   for (const Partner p : {c.body, c.partner})
-    if (!bodies_.is_fixed(p)) rhythms_[p].meetings.add(instant_begin);
+    if (!bodies_.is_fixed(p)) impact_counts_[p].first_contacts.add(instant_begin);
 }
 
-std::uint32_t ImpactHistory::meetings(const Contact& c) const {
-  return std::max(rhythms_[c.body].meetings.count,
-                  bodies_.is_fixed(c.partner) ? 0u : rhythms_[c.partner].meetings.count);
+std::uint32_t ImpactHistory::first_contacts(const Contact& c) const {
+  return std::max(
+      impact_counts_[c.body].first_contacts.count,
+      bodies_.is_fixed(c.partner) ? 0u : impact_counts_[c.partner].first_contacts.count);
 }
 
-bool ImpactHistory::is_hemmed_in(const Contact& c) const { return meetings(c) > hemmed_in_min; }
+bool ImpactHistory::is_jammed(const Contact& c) const { return first_contacts(c) > jammed_min; }
 
-bool ImpactHistory::is_beyond_hope(const Contact& c) const {
-  return meetings(c) > 2 * hemmed_in_min;
+bool ImpactHistory::is_stalled(const Contact& c) const {
+  return first_contacts(c) > 2 * jammed_min;
 }
 
 bool ImpactHistory::is_stuck(const Contact& c, Real time) {
   const auto has_had_enough = [&](std::uint32_t body) {
-    return rhythms_[body].repeats.add(time) > repeats_max;
+    return impact_counts_[body].repeats.add(time) > repeats_max;
   };
   const bool is_own = has_had_enough(c.body),
              is_other = !bodies_.is_fixed(c.partner) && has_had_enough(c.partner);
@@ -103,7 +105,7 @@ bool ImpactHistory::is_stuck(const Contact& c, Real time) {
 }
 
 bool ImpactHistory::has_rested_enough(std::uint32_t body, Real time) {
-  return rhythms_[body].repeats.add(time) > rests_max;
+  return impact_counts_[body].repeats.add(time) > rests_max;
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -23,10 +23,12 @@ class ImpactHistory {
   ImpactHistory& operator=(const ImpactHistory&) = delete;
 
   /// Of the next body, by number.
-  void add() { rhythms_.emplace_back(); }
+  void add() { impact_counts_.emplace_back(); }
   /// All of them at once.
-  const std::vector<Rhythm>& rhythms() const { return rhythms_; }
-  void restore(std::vector<Rhythm> rhythms) { rhythms_ = std::move(rhythms); }
+  const std::vector<ImpactCounts>& impact_counts() const { return impact_counts_; }
+  void restore(std::vector<ImpactCounts> impact_counts) {
+    impact_counts_ = std::move(impact_counts);
+  }
   void read(std::uint32_t body, BodyState& state) const;
   void write(std::uint32_t body, const BodyState& state);
 
@@ -37,16 +39,16 @@ class ImpactHistory {
   /// All `members` take part in a hop.
   void note_hop(std::span<const std::uint32_t> members, Real time);
   /// In the present series, the last one included.
-  std::uint32_t hops(std::uint32_t body) const { return rhythms_[body].hops; }
-  void forget_hops(std::uint32_t body) { rhythms_[body].hops = 0; }
+  std::uint32_t hops(std::uint32_t body) const { return impact_counts_[body].hops; }
+  void forget_hops(std::uint32_t body) { impact_counts_[body].hops = 0; }
 
   /// Counts the impacts of both at an instant that began at `instant_begin`.
   void count_meeting(const Contact& contact, Real instant_begin);
   /// Whether one of the two has so little room that even lossless impacts at one instant do not
   /// end: elastic series between unequal masses take fewer.
-  bool is_hemmed_in(const Contact& contact) const;
+  bool is_jammed(const Contact& contact) const;
   /// Whether nothing that parts them has helped.
-  bool is_beyond_hope(const Contact& contact) const;
+  bool is_stalled(const Contact& contact) const;
 
   /// Where bodies may start in overlap: counts the impact at `time`; whether one of the two has had
   /// its fill.
@@ -56,12 +58,12 @@ class ImpactHistory {
 
  private:
   bool is_worn(std::uint32_t body, Real approach, Real time) const;
-  std::uint32_t meetings(const Contact& contact) const;
+  std::uint32_t first_contacts(const Contact& contact) const;
 
   Bodies& bodies_;
   const Observers& observers_;
   Real contact_time_, rest_speed_;
-  std::vector<Rhythm> rhythms_;
+  std::vector<ImpactCounts> impact_counts_;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

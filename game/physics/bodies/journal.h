@@ -23,7 +23,7 @@ struct Change {
   std::uint32_t motion;       ///< in Journal::motions; `straight` if it flies freely
 };
 
-/// Kept by a world for the portion that looks at it (portion.h).
+/// Kept by a world for the subdomain that looks at it (subdomain.h).
 struct Journal {
   /// A rectangle, sides included [m].
   struct Room {
@@ -38,12 +38,13 @@ struct Journal {
       motions;  ///< of those that went on along a curve, or have companions, or are out of play
   std::vector<std::uint32_t> looked_at;  ///< by the event at hand
   std::uint32_t event = 0;
-  std::uint64_t stirred = 0;  ///< a digest of what the event at hand does to the rhythm of impacts
-  Real time = 0.0;            ///< of it
-  Real played = -1.0;         ///< the instant at which advance() began, if it had been there
-  std::uint64_t at_once_max = 0;  ///< the most events at one instant
-  std::vector<Real> times;        ///< of all events that are counted so
-  bool was_hopeless = false;      ///< a joint impact could not be solved
+  std::uint64_t mixed_digest =
+      0;               ///< a digest of what the event at hand does to the rhythm of impacts
+  Real time = 0.0;     ///< of it
+  Real played = -1.0;  ///< the instant at which advance() began, if it had been there
+  std::uint64_t at_once_max = 0;   ///< the most events at one instant
+  std::vector<Real> times;         ///< of all events that are counted so
+  bool had_solver_failed = false;  ///< a joint impact could not be solved
   // Free impacts of bodies that stay far from all that the reader cares for are counted, not
   // entered.
   std::vector<std::uint8_t>
@@ -54,7 +55,7 @@ struct Journal {
   std::uint64_t quiet_events = 0;      ///< in this window
   std::vector<std::uint32_t> entered;  ///< bodies that were in a room until something was entered
                                        ///< of them: from then on all is
-  HoldAge age;
+  RestContactAge age;
 
   /// A body as an event leaves it.
   struct Entry {
@@ -82,14 +83,14 @@ struct Journal {
   }
   /// The event that is about to be processed.
   void begin_event(Real at, std::uint32_t lower, std::uint32_t higher) {
-    const HoldAge next{static_cast<double>(at), at <= played, lower, higher, 0};
+    const RestContactAge next{static_cast<double>(at), at <= played, lower, higher, 0};
     age = next.time == age.time ? std::max(age, next) : next;
     time = at;
   }
-  void stir(std::uint32_t body, std::uint32_t count) {
-    stirred += ((std::uint64_t{body} << 32 | count) + 1) * 0x9e3779b97f4a7c15ULL;
+  void mix_digest(std::uint32_t body, std::uint32_t count) {
+    mixed_digest += ((std::uint64_t{body} << 32 | count) + 1) * 0x9e3779b97f4a7c15ULL;
   }
-  HoldAge next_age() {
+  RestContactAge next_age() {
     ++age.rank;
     return age;
   }

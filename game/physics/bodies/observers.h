@@ -21,7 +21,7 @@ class ChangeObserver {
   ~ChangeObserver() = default;
 };
 
-/// Nobody, or a portion of a world (portion.h), which may want to undo a window and tells other
+/// Nobody, or a subdomain of a world (subdomain.h), which may want to undo a window and tells other
 /// worlds what happened in it. Nothing that they are told changes the motion.
 struct Observers {
   ChangeObserver* before = nullptr;

@@ -12,7 +12,7 @@
 namespace rink::physics::inline RINK_PRECISION {
 
 struct WorldMark {
-  std::vector<Hold> holds;
+  std::vector<RestContact> rest_contacts;
   std::vector<std::uint32_t> frozen;  ///< bodies in jams
   Clock clock;
   std::uint32_t jam_count = 0;

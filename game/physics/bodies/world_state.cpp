@@ -75,24 +75,25 @@ bool exchange(Stream& stream, Counters& counters) {
 
 /// Of one body, in all the arrays that have an entry for it.
 template <class Stream>
-bool exchange_body(Stream& stream, Body& body, Build& build, Law& law, Rhythm& rhythm) {
+bool exchange_body(Stream& stream, Body& body, BodyShape& build, ForceLaw& law,
+                   ImpactCounts& counts) {
   auto& [x, y, vx, vy, time, radius] = static_cast<Flight&>(body);
   auto& [mass, inverse_mass, half_extent, thrust, half] = build;
   auto& [acceleration, drag] = law;
-  auto& [window_start, last_hop, impacts, hops, repeats, meetings] = rhythm;
+  auto& [window_start, last_hop, impacts, hops, repeats, first_contacts] = counts;
   return stream.numbers(x, y, vx, vy, time, radius, body.inverse_mass, body.version) &&
          stream.choice(body.kind, BodyKind::post) &&
          stream.numbers(body.material, body.flags, body.mouth, mass, inverse_mass) &&
          stream.numbers(half_extent.x(), half_extent.y(), thrust.x(), thrust.y()) &&
          stream.choice(half, Half::both) &&
          stream.numbers(acceleration.x(), acceleration.y(), drag.x(), drag.y(), window_start,
-                        last_hop, impacts, hops, repeats.instant, repeats.count, meetings.instant,
-                        meetings.count);
+                        last_hop, impacts, hops, repeats.instant, repeats.count,
+                        first_contacts.instant, first_contacts.count);
 }
 
 template <class Stream>
-bool exchange_hold(Stream& stream, Hold& hold) {
-  auto& [low, high, axis, pull_time, force, turn_time, age] = hold;
+bool exchange_hold(Stream& stream, RestContact& rest) {
+  auto& [low, high, axis, pull_time, force, turn_time, age] = rest;
   static_cast<void>(age);  // they stand in order of it
   return stream.numbers(low, high, axis, pull_time, force, turn_time);
 }
@@ -100,17 +101,18 @@ bool exchange_hold(Stream& stream, Hold& hold) {
 /// The specification apart, which comes first.
 template <class Stream>
 bool exchange_state(Stream& stream, WorldState& state) {
-  auto& [spec, clock, counters, table, rhythms, jams, ledger, holds] = state;
+  auto& [spec, clock, counters, table, impact_counts, jams, ledger, rest_contacts] = state;
   if (!stream.numbers(clock.now, jams.count, clock.instant_begin, clock.events_at_once) ||
-      !stream.truth(clock.is_played) || !stream.truth(clock.is_hopeless) ||
+      !stream.truth(clock.is_played) || !stream.truth(clock.solver_failed) ||
       !exchange(stream, counters))
     return false;
-  auto& [bodies, builds, laws, rest_times, slowings, spins] = table;
-  if (!stream.size(bodies) || !stream.size(holds) || !stream.size(jams.frozen)) return false;
+  auto& [bodies, shapes, laws, rest_times, slowings, spins] = table;
+  if (!stream.size(bodies) || !stream.size(rest_contacts) || !stream.size(jams.frozen))
+    return false;
   const std::size_t count = bodies.size();
-  builds.resize(count), laws.resize(count), rhythms.resize(count), jams.numbers.resize(count);
+  shapes.resize(count), laws.resize(count), impact_counts.resize(count), jams.numbers.resize(count);
   for (std::size_t body = 0; body < count; ++body)
-    if (!exchange_body(stream, bodies[body], builds[body], laws[body], rhythms[body]) ||
+    if (!exchange_body(stream, bodies[body], shapes[body], laws[body], impact_counts[body]) ||
         !stream.number(jams.numbers[body]))
       return false;
   if (spec.puck_friction > 0.0) rest_times.resize(count), slowings.resize(count);
@@ -122,14 +124,14 @@ bool exchange_state(Stream& stream, WorldState& state) {
   for (Real& spin : spins)
     if (!stream.number(spin)) return false;
   if (!ledger.exchange(stream)) return false;
-  for (Hold& hold : holds)
-    if (!exchange_hold(stream, hold)) return false;
+  for (RestContact& rest : rest_contacts)
+    if (!exchange_hold(stream, rest)) return false;
   for (std::uint32_t& body : jams.frozen)
     if (!stream.number(body)) return false;
   return true;
 }
 
-bool is_sound(const Body& b, const Build& build, const Law& law, const WorldState& state) {
+bool is_sound(const Body& b, const BodyShape& build, const ForceLaw& law, const WorldState& state) {
   const auto is_finite = [](const RealVector& v) { return v.allFinite(); };
   return is_finite({b.x, b.y}) && is_finite({b.vx, b.vy}) && is_finite(law.acceleration) &&
          is_finite(build.half_extent) && is_finite(build.thrust) && b.time <= state.clock.now &&
@@ -143,21 +145,22 @@ bool is_sound(const WorldState& state) {
   const BodyTable& table = state.bodies;
   const auto count = static_cast<std::uint32_t>(table.bodies.size());
   for (std::uint32_t body = 0; body < count; ++body)
-    if (!is_sound(table.bodies[body], table.builds[body], table.laws[body], state)) return false;
+    if (!is_sound(table.bodies[body], table.shapes[body], table.laws[body], state)) return false;
   const auto is_partner = [&](Partner p) {
     return p < count || (p >= partner::field_parts && p <= partner::halfway);
   };
   const auto is_fixed = [&](Partner p) {
-    return !is_body(p) || table.builds[p].inverse_mass == 0.0;
+    return !is_body(p) || table.shapes[p].inverse_mass == 0.0;
   };
   return std::isfinite(state.clock.now) &&
          std::all_of(state.jams.frozen.begin(), state.jams.frozen.end(),
                      [&](std::uint32_t body) { return body < count; }) &&
-         std::all_of(state.holds.begin(), state.holds.end(), [&](const Hold& hold) {
-           return is_partner(hold.low) && is_partner(hold.high) &&
-                  !(is_fixed(hold.low) && is_fixed(hold.high)) &&
-                  (hold.axis == 0 || hold.axis == 1);
-         });
+         std::all_of(state.rest_contacts.begin(), state.rest_contacts.end(),
+                     [&](const RestContact& rest) {
+                       return is_partner(rest.low) && is_partner(rest.high) &&
+                              !(is_fixed(rest.low) && is_fixed(rest.high)) &&
+                              (rest.axis == 0 || rest.axis == 1);
+                     });
 }
 
 }  // namespace

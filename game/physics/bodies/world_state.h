@@ -24,10 +24,10 @@ struct WorldState {
   Clock clock;
   Counters counters;
   BodyTable bodies;
-  std::vector<Rhythm> rhythms;
+  std::vector<ImpactCounts> impact_counts;
   JamTable jams;
   EnergyLedger ledger{false};
-  std::vector<Hold> holds;
+  std::vector<RestContact> rest_contacts;
 };
 
 /// The same bytes on every machine for the same bits.

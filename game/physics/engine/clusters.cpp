@@ -39,7 +39,7 @@ bool Clusters::hop(const Contact& c, Real approach, Real pressing, Real time) {
     given_back = std::min(given_back, contact.restitution);
   const Real pressure = std::max(thrust, pressing);
   if (problem_.touches.size() < 2 && (pressure <= 0.0 || approach >= rest_speed_)) return false;
-  if (pressure <= 0.0 && given_back == 1.0 && !is_rattling(approach) && !history_.is_hemmed_in(c))
+  if (pressure <= 0.0 && given_back == 1.0 && !is_rattling(approach) && !history_.is_jammed(c))
     return false;
   record_.note(EventKind::hop, time, c.body, c.partner);
   history_.note_hop(members_, time);

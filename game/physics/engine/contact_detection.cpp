@@ -23,7 +23,7 @@ Contact ContactDetection::contact(std::uint32_t body, Partner p, Real time) cons
   const Real radius = bodies_[body].radius;
   if (p >= partner::edge_left_low && p <= partner::edge_right_high)
     return {body, p, RoundedBox{{0.0, 0.0}, radius}.gap(position - goal_edge(spec_.field, p))};
-  const Build& build = bodies_.build(body);
+  const BodyShape& build = bodies_.build(body);
   const RealVector extent = build.half_extent + RealVector::Constant(radius);
   return {body, p, plane_of(spec_.field, p, extent, build.half).gap(position)};
 }

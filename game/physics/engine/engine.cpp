@@ -86,8 +86,9 @@ BodyId Engine::add(BodyState state) {
 }
 
 WorldState Engine::state() const {
-  WorldState state{spec_,         clock_,  record_.counters(), bodies_.table(), history_.rhythms(),
-                   jams_.table(), ledger_, rests_.holds()};
+  WorldState state{
+      spec_,         clock_,  record_.counters(),    bodies_.table(), history_.impact_counts(),
+      jams_.table(), ledger_, rests_.rest_contacts()};
   for (Body& b : state.bodies.bodies) b.flags = static_cast<std::uint8_t>(b.flags & ~Body::pending);
   return state;
 }
@@ -96,9 +97,9 @@ void Engine::restore(WorldState state) {
   assert(bodies_.count() == 0);
   clock_ = state.clock, record_.counters() = state.counters, ledger_ = state.ledger;
   bodies_.restore(std::move(state.bodies));
-  history_.restore(std::move(state.rhythms));
+  history_.restore(std::move(state.impact_counts));
   jams_.restore(std::move(state.jams));
-  rests_.restore(std::move(state.holds));
+  rests_.restore(std::move(state.rest_contacts));
   rebuild_from_state();
 }
 
@@ -231,7 +232,7 @@ std::optional<Goal> Engine::advance(Real until) {
 
 void Engine::process(std::uint32_t body, Real time) {
   clock_.reach(time);
-  const Slot& slot = events_[body];
+  const NextEvent& slot = events_[body];
   if (slot.crossing_time < slot.impact_time) return cross_cell(body);
   const Partner p = slot.partner;
   if (is_body(p) && bodies_[p].version != slot.partner_version) {

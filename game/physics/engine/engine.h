@@ -60,7 +60,7 @@ class Engine {
   EventRecord& record() { return record_; }
   ChangeLog& changes() { return bodies_.changes(); }
 
-  // engine_slots.cpp: for a portion of a world (portion.h), between its windows
+  // engine_slots.cpp: for a subdomain of a world (subdomain.h), between its windows
   /// These are told from now on, and must outlive the engine or be replaced.
   void observe(const Observers& observers) { observers_ = observers; }
   BeforeImages images(std::uint32_t body_count) const {
@@ -71,9 +71,9 @@ class Engine {
   void put(std::uint32_t body, const BodyState& state);
   /// The slot is blank from now on.
   void drop(std::uint32_t body);
-  const std::vector<Hold>& holds() const { return rests_.holds(); }
+  const std::vector<RestContact>& rest_contacts() const { return rests_.rest_contacts(); }
   /// In any order; whoever is in one must be there.
-  void set_holds(std::vector<Hold> holds);
+  void set_rest_contacts(std::vector<RestContact> rest_contacts);
   /// All in rest contact or in one jam with `body`, directly or through others, itself first.
   std::vector<std::uint32_t> group_of(std::uint32_t body) const;
   WorldMark mark() const;

@@ -1,4 +1,4 @@
-// What a portion of a world asks of its engine: bodies put into their slots and taken from them,
+// What a subdomain of a world asks of its engine: bodies put into their slots and taken from them,
 // and the way back to an earlier instant.
 #include <algorithm>
 #include <cassert>
@@ -48,32 +48,32 @@ void Engine::drop(std::uint32_t body) {
 
 /// When a contact ends follows from both sides' states and from itself, and no version tells of
 /// that: whoever has a new one, or one with a body that was put, is predicted anew.
-void Engine::set_holds(std::vector<Hold> holds) {
-  std::stable_sort(holds.begin(), holds.end(),
-                   [](const Hold& a, const Hold& b) { return a.age < b.age; });
+void Engine::set_rest_contacts(std::vector<RestContact> rest_contacts) {
+  std::stable_sort(rest_contacts.begin(), rest_contacts.end(),
+                   [](const RestContact& a, const RestContact& b) { return a.age < b.age; });
   const auto is_pending = [&](Partner p) {
     return p < bodies_.count() && (bodies_[p].flags & Body::pending) != 0;
   };
-  const auto are_same = [](const Hold& a, const Hold& b) {
+  const auto are_same = [](const RestContact& a, const RestContact& b) {
     return a.low == b.low && a.high == b.high && a.axis == b.axis && a.pull_time == b.pull_time &&
            a.turn_time == b.turn_time;
   };
-  const auto is_in = [&](const std::vector<Hold>& list, const Hold& hold) {
+  const auto is_in = [&](const std::vector<RestContact>& list, const RestContact& rest) {
     return std::any_of(list.begin(), list.end(),
-                       [&](const Hold& other) { return are_same(hold, other); });
+                       [&](const RestContact& other) { return are_same(rest, other); });
   };
   std::vector<Partner> concerned;
-  const auto concern = [&](const Hold& hold) {
-    concerned.insert(concerned.end(), {hold.low, hold.high});
+  const auto concern = [&](const RestContact& rest) {
+    concerned.insert(concerned.end(), {rest.low, rest.high});
   };
-  for (const Hold& hold : holds)
-    if (is_pending(hold.low) || is_pending(hold.high) || !is_in(rests_.holds(), hold))
-      concern(hold);
-  for (const Hold& hold : rests_.holds())
-    if (!is_in(holds, hold)) concern(hold);
+  for (const RestContact& rest : rest_contacts)
+    if (is_pending(rest.low) || is_pending(rest.high) || !is_in(rests_.rest_contacts(), rest))
+      concern(rest);
+  for (const RestContact& rest : rests_.rest_contacts())
+    if (!is_in(rest_contacts, rest)) concern(rest);
   for (const Partner p : concerned)
     if (p < bodies_.count() && !bodies_[p].is(Body::removed)) require_prediction(p);
-  rests_.restore(std::move(holds));
+  rests_.restore(std::move(rest_contacts));
 }
 
 std::vector<std::uint32_t> Engine::group_of(std::uint32_t body) const {
@@ -84,7 +84,8 @@ std::vector<std::uint32_t> Engine::group_of(std::uint32_t body) const {
 }
 
 WorldMark Engine::mark() const {
-  return {rests_.holds(), jams_.table().frozen, clock_, jams_.table().count, record_.counters()};
+  return {rests_.rest_contacts(), jams_.table().frozen, clock_, jams_.table().count,
+          record_.counters()};
 }
 
 void Engine::undo(const WorldMark& mark, const BeforeImages& before) {
@@ -97,7 +98,7 @@ void Engine::undo(const WorldMark& mark, const BeforeImages& before) {
     const Flight& f = kept.flight;
     bodies_.put(kept.body, {f.x, f.y}, {f.vx, f.vy}, f.time);
   }
-  rests_.restore(mark.holds);
+  rests_.restore(mark.rest_contacts);
   jams_.restore(mark.frozen, mark.jam_count);
   clock_ = mark.clock;
   record_.counters() = mark.counters;

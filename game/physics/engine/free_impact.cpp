@@ -23,8 +23,8 @@ FreeImpact::FreeImpact(const WorldSpec& spec, const Uses& uses)
       is_wanted_(spec.puck_drag == 0.0 && !(spec.puck_friction > 0.0) && !spec.surface_friction &&
                  !spec.accounts_energy && !spec.allow_overlap) {}
 
-void FreeImpact::tell(std::uint32_t low, const Flight& before_low, std::uint32_t high,
-                      const Flight& before_high, Real time) {
+void FreeImpact::notify(std::uint32_t low, const Flight& before_low, std::uint32_t high,
+                        const Flight& before_high, Real time) {
   record_.note(EventKind::puck_puck, time, low, high);
   bodies_.changes().note(low), bodies_.changes().note(high);
   record_.counters().evaluations += (before_low.time < time) + (before_high.time < time);
@@ -66,7 +66,7 @@ bool FreeImpact::collide(std::uint32_t body, Partner p, Real time, bool is_crowd
     bodies_.take_back(low, before_a), bodies_.take_back(high, before_b);
     return false;
   }
-  tell(low, before_a, high, before_b, time);
+  notify(low, before_a, high, before_b, time);
   if (is_counting) {
     events_.schedule(low);
     events_.schedule(high);
@@ -80,7 +80,7 @@ bool FreeImpact::collide(std::uint32_t body, Partner p, Real time, bool is_crowd
 /// Their next events, but for telling the schedule. False, with nothing predicted, if a third one
 /// touches one of them.
 bool FreeImpact::predict_alone(std::uint32_t low, std::uint32_t high) {
-  const Slot slot_low = events_[low], slot_high = events_[high];
+  const NextEvent slot_low = events_[low], slot_high = events_[high];
   const std::uint64_t predictions = record_.counters().predictions;
   if (prediction_.predict_counting(low) == 2 && prediction_.predict_counting(high) == 2)
     return true;  // each itself and the other

@@ -43,8 +43,9 @@ class FreeImpact {
            is_wanted_ && restitution_(a.material, b.material) == 1.0;
   }
   bool predict_alone(std::uint32_t low, std::uint32_t high);
-  [[gnu::always_inline]] inline void tell(std::uint32_t low, const Flight& before_low,
-                                          std::uint32_t high, const Flight& before_high, Real time);
+  [[gnu::always_inline]] inline void notify(std::uint32_t low, const Flight& before_low,
+                                            std::uint32_t high, const Flight& before_high,
+                                            Real time);
 
   const RestitutionTable& restitution_;
   Bodies& bodies_;

@@ -74,7 +74,7 @@ void Friction::slide(std::uint32_t body, std::optional<int> pushed_axis) {
   }
 }
 
-void Friction::calm(int axis, const std::vector<std::uint32_t>& members) {
+void Friction::reset_friction(int axis, const std::vector<std::uint32_t>& members) {
   const bool is_group_calm = std::abs(bodies_.velocity(members.front())[axis]) <= calm_speed;
   for (const std::uint32_t member : members) {
     bodies_.keep(member);

@@ -28,7 +28,7 @@ class Friction {
   void slide(std::uint32_t body, std::optional<int> pushed_axis);
 
   /// Stops what friction has slowed down to nothing.
-  void calm(int axis, const std::vector<std::uint32_t>& members);
+  void reset_friction(int axis, const std::vector<std::uint32_t>& members);
   /// Against the velocities of the pucks as they are; of those at rest along the axis of a group
   /// that may stand, it remains to be found, by resist().
   void face(const std::vector<std::uint32_t>& members);

@@ -57,14 +57,14 @@ void Impact::collide_ordered(std::uint32_t body, Partner p, Real time, bool is_c
   const Contact c = detection_.contact(body, p, time);
   if (allows_overlap_ && history_.is_stuck(c, time)) return clusters_.stop_around(c, time);
   history_.count_meeting(c, clock_.instant_begin);
-  if (history_.is_beyond_hope(c)) return clusters_.stop_around(c, time);
+  if (history_.is_stalled(c)) return clusters_.stop_around(c, time);
   const Real approach = c.gap.normal.dot(bodies_.velocity(p) - bodies_.velocity(body)),
              given_back = detection_.restitution(body, p);
-  if ((approach < rest_speed_ || given_back < 1.0 || history_.is_hemmed_in(c)) &&
+  if ((approach < rest_speed_ || given_back < 1.0 || history_.is_jammed(c)) &&
       rest_or_hop(c, approach, time))
     return;
   if (is_crowded && joint_impacts_.collide(c, time)) return;
-  if (!is_crowded) joint_impacts_.look_at_touching(c, time);
+  if (!is_crowded) joint_impacts_.record_dependencies(c, time);
   bounce_.apply(c, given_back, time);
 }
 
@@ -79,7 +79,7 @@ bool Impact::rest_or_hop(const Contact& c, Real approach, Real time) {
     return rests_.join(c, time), true;
   history_.note_impact(c.body, time);
   if (!bodies_.is_fixed(c.partner)) history_.note_impact(c.partner, time);
-  return (history_.is_hemmed_in(c) || history_.is_pressed_hard(c, approach, time)) &&
+  return (history_.is_jammed(c) || history_.is_pressed_hard(c, approach, time)) &&
          clusters_.hop(c, approach, pressing, time);
 }
 

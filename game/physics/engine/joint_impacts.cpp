@@ -42,27 +42,28 @@ JointImpacts::JointImpacts(const WorldSpec& spec, const Uses& uses)
 bool JointImpacts::collide(const Contact& c, Real time) {
   if (!is_wanted()) return false;
   const bool is_joint = gather(c, time) || clock_.is_endless();
-  note_looked_at();
+  record_dependency();
   if (!is_joint) return false;
   assert(problem_.body_count() == members_.size() && problem_.touches.size() == partners_.size());
   velocities_before_ = problem_.velocities;
-  clock_.is_hopeless = !solver_.solve(problem_, clock_.is_endless());
-  if (clock_.is_hopeless && observers_.journal != nullptr) observers_.journal->was_hopeless = true;
-  if (clock_.is_hopeless) return false;
+  clock_.solver_failed = !solver_.solve(problem_, clock_.is_endless());
+  if (clock_.solver_failed && observers_.journal != nullptr)
+    observers_.journal->had_solver_failed = true;
+  if (clock_.solver_failed) return false;
   ++record_.counters().joint_impacts;
   apply(c, time);
   return true;
 }
 
-void JointImpacts::look_at_touching(const Contact& c, Real time) {
+void JointImpacts::record_dependencies(const Contact& c, Real time) {
   if (observers_.journal == nullptr || !is_wanted() ||
       !detection_.has_company(c.body, c.partner, time))
     return;
   gather(c, time);
-  note_looked_at();
+  record_dependency();
 }
 
-void JointImpacts::note_looked_at() {
+void JointImpacts::record_dependency() {
   if (observers_.journal == nullptr) return;
   std::vector<std::uint32_t>& looked_at = observers_.journal->looked_at;
   looked_at.insert(looked_at.end(), members_.begin(), members_.end());

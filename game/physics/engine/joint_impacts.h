@@ -43,16 +43,16 @@ class JointImpacts {
   /// An impact that comes alone here would be joint if any of those who touch were hit at this
   /// instant, however far away, by somebody whom this world does not have. So it concerns all of
   /// them, and the journal says so, if there is one; nothing else changes.
-  void look_at_touching(const Contact& contact, Real time);
+  void record_dependencies(const Contact& contact, Real time);
 
  private:
   /// Whether joint impacts are looked for at all.
-  bool is_wanted() const { return !is_rough_ && !clock_.is_hopeless; }
+  bool is_wanted() const { return !is_rough_ && !clock_.solver_failed; }
   bool gather(const Contact& contact, Real time);
   std::uint32_t place_of(std::uint32_t body, Real time);
   void add_touch(std::uint32_t place, Partner partner, const Contact& at_hand, Real time);
   bool does_another_close(const Contact& at_hand) const;
-  void note_looked_at();
+  void record_dependency();
   void apply(const Contact& at_hand, Real time);
   void count_further(std::uint32_t body, Partner partner, Real time);
 

@@ -20,12 +20,12 @@ namespace rink::physics::inline RINK_PRECISION {
 class NextEvents {
  public:
   static constexpr std::uint32_t none = EventSchedule::none;
-  static constexpr Slot no_event{std::numeric_limits<Real>::infinity(),
-                                 std::numeric_limits<Real>::infinity(),
-                                 partner::none,
-                                 0,
-                                 CellGrid::left,
-                                 false};
+  static constexpr NextEvent no_event{std::numeric_limits<Real>::infinity(),
+                                      std::numeric_limits<Real>::infinity(),
+                                      partner::none,
+                                      0,
+                                      CellGrid::left,
+                                      false};
 
   explicit NextEvents(QueuePolicy policy) : policy_(policy), schedule_(policy) {}
   NextEvents(const NextEvents&) = delete;
@@ -43,11 +43,11 @@ class NextEvents {
     schedule_.resize(count);
   }
 
-  const Slot& operator[](std::uint32_t body) const { return slots_[body]; }
-  Slot& slot(std::uint32_t body) { return slots_[body]; }
+  const NextEvent& operator[](std::uint32_t body) const { return slots_[body]; }
+  NextEvent& slot(std::uint32_t body) { return slots_[body]; }
   /// The body's event is what its slot says.
   void schedule(std::uint32_t body) {
-    const Slot& slot = slots_[body];
+    const NextEvent& slot = slots_[body];
     if (slot.crossing_time < slot.impact_time) schedule_.set(body, slot.crossing_time, body, body);
     else
       schedule_.set(body, slot.impact_time, std::min(body, slot.partner),
@@ -74,7 +74,7 @@ class NextEvents {
 
  private:
   QueuePolicy policy_;
-  LargeArray<Slot> slots_;
+  LargeArray<NextEvent> slots_;
   EventSchedule schedule_;
 };
 

@@ -24,7 +24,7 @@ Prediction::Prediction(const WorldSpec& spec, const Uses& uses)
 /// Ties break by (time, lower id, higher id); parts of the field count as higher than every body.
 /// Whether another impact follows within the instant does not depend on the order of the offers.
 void Prediction::offer(std::uint32_t body, Real time, Partner p) {
-  Slot& slot = events_.slot(body);
+  NextEvent& slot = events_.slot(body);
   if (time > slot.impact_time + Real(instant)) return;
   slot.is_tied = time >= slot.impact_time - Real(instant);
   if (time > slot.impact_time) return;
@@ -50,7 +50,7 @@ void Prediction::predict_beyond(std::uint32_t body, CellGrid::Direction directio
 /// Forgets what was known, asks the field, and makes all who are near candidates; returns how many,
 /// the body itself among them.
 std::uint32_t Prediction::begin(std::uint32_t body) {
-  Slot& slot = events_.slot(body);
+  NextEvent& slot = events_.slot(body);
   slot.impact_time = infinity;
   slot.partner = partner::none;
   slot.is_tied = false;
@@ -81,7 +81,7 @@ void Prediction::predict_field(std::uint32_t body) {
 /// any other cell a crossing comes first.
 void Prediction::predict_flight(std::uint32_t body) {
   const Body& b = bodies_[body];
-  Slot& slot = events_.slot(body);
+  NextEvent& slot = events_.slot(body);
   slot.crossing_time = infinity;
   if (b.vx == 0.0 && b.vy == 0.0) return;
   const CellGrid::Place place = grid_.place(body);
@@ -195,22 +195,23 @@ void Prediction::predict_pairs(std::uint32_t body, std::uint32_t count) {
 template <bool counts>
 std::uint32_t Prediction::predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
                                                  std::uint32_t count) {
-  Slot& slot = events_.slot(body);
+  NextEvent& slot = events_.slot(body);
   std::uint32_t touching = 0;
   for (std::uint32_t begin = 0; begin < count; begin += flight_max) {
     const std::uint32_t asked = std::min(flight_max, count - begin);
     // The slack keeps those that come within the same instant.
     const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness) + Real(instant);
-    const Meeting first =
-        counts ? first_meeting_counting(bodies_.table().bodies.data(), body, near + begin, asked,
-                                        latest)
-               : first_meeting(bodies_.table().bodies.data(), body, near + begin, asked, latest);
+    const FirstContact first =
+        counts
+            ? first_disc_contact_counting(bodies_.table().bodies.data(), body, near + begin, asked,
+                                          latest)
+            : first_disc_contact(bodies_.table().bodies.data(), body, near + begin, asked, latest);
     touching += first.touching;
     const bool is_tied = first.second_time <= first.time + Real(instant) ||
                          std::abs(first.time - slot.impact_time) <= Real(instant);
     if (first.time < infinity && is_tied) {
       for (std::uint32_t k = begin; k < begin + asked; ++k)
-        if (const auto time = meeting_time(bodies_[body], bodies_[near[k]], latest))
+        if (const auto time = disc_contact_time(bodies_[body], bodies_[near[k]], latest))
           offer(body, *time, near[k]);
       continue;
     }
@@ -260,7 +261,7 @@ void Prediction::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
   const Real start = std::max(a.time, b.time);
   // What comes after the next crossing of a body on a curve is looked for then, when everybody in
   // sight is looked at anew.
-  const Slot& slot = events_[body];
+  const NextEvent& slot = events_[body];
   const Real limit = (bodies_[body].flags & Body::curved) != 0
                          ? std::min(slot.impact_time, slot.crossing_time)
                          : slot.impact_time;
@@ -272,7 +273,7 @@ void Prediction::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
 /// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as
 /// well, so the present may be used.
 void Prediction::predict_curved_crossing(std::uint32_t body) {
-  Slot& slot = events_.slot(body);
+  NextEvent& slot = events_.slot(body);
   slot.crossing_time = infinity;
   const CellGrid::Place place = grid_.place(body);
   const Motion still, moving = bodies_.motion(body);

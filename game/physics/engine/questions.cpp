@@ -54,7 +54,7 @@ Real work_of_thrust(const EnergyLedger& ledger, const Bodies& bodies, Real now) 
   if (!ledger.is_kept()) return 0.0;
   Sum sum = ledger.work();
   for (std::uint32_t body = 0; body < bodies.count(); ++body)
-    if (!bodies[body].is(Body::gone)) sum.add(expense_until(bodies, body, now).work);
+    if (!bodies[body].is(Body::gone)) sum.add(energy_transfer_until(bodies, body, now).work);
   return sum.value();
 }
 
@@ -62,7 +62,7 @@ Real dissipated(const EnergyLedger& ledger, const Bodies& bodies, Real now) {
   if (!ledger.is_kept()) return 0.0;
   Sum sum = ledger.loss();
   for (std::uint32_t body = 0; body < bodies.count(); ++body)
-    if (!bodies[body].is(Body::gone)) sum.add(expense_until(bodies, body, now).loss);
+    if (!bodies[body].is(Body::gone)) sum.add(energy_transfer_until(bodies, body, now).loss);
   return sum.value();
 }
 
@@ -97,7 +97,7 @@ std::uint64_t hash_of(const Bodies& bodies) {
   for (std::uint32_t body = 0; body < bodies.count(); ++body) {
     const Body& b = bodies[body];
     const bool is_curved = b.is(Body::curved);
-    const Law& law = bodies.law(body);
+    const ForceLaw& law = bodies.law(body);
     hash.add(b, is_curved ? &law.acceleration : nullptr, is_curved ? &law.drag : nullptr,
              b.flags & Body::lasting,
              spins.empty() ? std::nullopt : std::optional<Real>(spins[body]));

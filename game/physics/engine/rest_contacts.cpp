@@ -29,8 +29,8 @@ RestContacts::RestContacts(const WorldSpec& spec, Bodies& bodies, Jams& jams, Ev
       contact_time_(spec.contact_time) {}
 
 bool RestContacts::are_joined(std::uint32_t a, std::uint32_t b) const {
-  return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
-    return (hold.low == a && hold.high == b) || (hold.low == b && hold.high == a);
+  return std::any_of(rest_contacts_.begin(), rest_contacts_.end(), [&](const RestContact& rest) {
+    return (rest.low == a && rest.high == b) || (rest.low == b && rest.high == a);
   });
 }
 
@@ -41,10 +41,10 @@ std::vector<std::uint32_t> RestContacts::group(std::uint32_t body, std::uint8_t 
       found.push_back(p);
   };
   for (std::size_t i = 0; i < found.size(); ++i)
-    for (const Hold& hold : holds_) {
-      if ((axes & Body::held_along(hold.axis)) == 0) continue;
-      if (hold.low == found[i]) include(hold.high);
-      else if (hold.high == found[i]) include(hold.low);
+    for (const RestContact& rest : rest_contacts_) {
+      if ((axes & Body::held_along(rest.axis)) == 0) continue;
+      if (rest.low == found[i]) include(rest.high);
+      else if (rest.high == found[i]) include(rest.low);
     }
   return found;
 }
@@ -52,7 +52,8 @@ std::vector<std::uint32_t> RestContacts::group(std::uint32_t body, std::uint8_t 
 void RestContacts::rebase_group(std::uint32_t body, Real time) {
   bodies_.rebase(body, time);
   if (!bodies_[body].is(Body::held)) return;
-  for (const std::uint32_t companion : group(body, Body::held)) bodies_.rebase(companion, time);
+  for (const std::uint32_t group_member : group(body, Body::held))
+    bodies_.rebase(group_member, time);
 }
 
 void RestContacts::free(std::uint32_t body, Real time) {
@@ -108,9 +109,9 @@ void RestContacts::join(const Contact& c, Real time) {
   record_.note(EventKind::rest, time, c.body, c.partner);
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
-  holds_.push_back({is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis,
-                    infinity, 0.0, infinity,
-                    observers_.journal ? observers_.journal->next_age() : HoldAge{}});
+  rest_contacts_.push_back(
+      {is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis, infinity, 0.0,
+       infinity, observers_.journal ? observers_.journal->next_age() : RestContactAge{}});
   for (const Partner p : {c.body, c.partner})
     if (!bodies_.is_fixed(p)) bodies_.set_flags(p, Body::held_along(axis));
   const std::vector<std::uint32_t> members = group(c.body, Body::held_along(axis));
@@ -125,17 +126,17 @@ void RestContacts::join(const Contact& c, Real time) {
   share(axis, members, time);
 }
 
-bool RestContacts::is_in_group(const Hold& hold, int axis,
+bool RestContacts::is_in_group(const RestContact& rest, int axis,
                                const std::vector<std::uint32_t>& members) const {
-  if (hold.axis != axis) return false;
-  const Partner inside = bodies_.is_fixed(hold.low) ? hold.high : hold.low;
+  if (rest.axis != axis) return false;
+  const Partner inside = bodies_.is_fixed(rest.low) ? rest.high : rest.low;
   return std::find(members.begin(), members.end(), inside) != members.end();
 }
 
 bool RestContacts::is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const {
-  return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) {
-    return is_in_group(hold, axis, members) &&
-           (bodies_.is_fixed(hold.low) || bodies_.is_fixed(hold.high));
+  return std::any_of(rest_contacts_.begin(), rest_contacts_.end(), [&](const RestContact& rest) {
+    return is_in_group(rest, axis, members) &&
+           (bodies_.is_fixed(rest.low) || bodies_.is_fixed(rest.high));
   });
 }
 
@@ -151,8 +152,8 @@ void RestContacts::solve_forces(int axis, const std::vector<std::uint32_t>& memb
     accelerations_[member] = friction_.own_push(member, axis) - bodies_.own_drag(member) * speed;
     scale = std::max(scale, std::abs(accelerations_[member]));
   }
-  for (Hold& hold : holds_)
-    if (is_in_group(hold, axis, members)) hold.force = 0.0;
+  for (RestContact& rest : rest_contacts_)
+    if (is_in_group(rest, axis, members)) rest.force = 0.0;
   const bool may_stick =
       bodies_.is_slowed() && only_push && speed == 0.0 && !is_group_fixed(axis, members);
   for (int sweep = 0; sweep < 2000; ++sweep) {
@@ -166,19 +167,19 @@ void RestContacts::solve_forces(int axis, const std::vector<std::uint32_t>& memb
 Real RestContacts::sweep_forces(int axis, const std::vector<std::uint32_t>& members,
                                 bool only_push) {
   Real change = 0.0;
-  for (Hold& hold : holds_) {
-    if (!is_in_group(hold, axis, members)) continue;
-    const Real low = bodies_.is_fixed(hold.low) ? Real(0.0) : accelerations_[hold.low],
-               high = bodies_.is_fixed(hold.high) ? Real(0.0) : accelerations_[hold.high];
-    const Real yielding = bodies_.inverse_mass(hold.low) + bodies_.inverse_mass(hold.high);
-    Real force = hold.force + (low - high) / yielding;
+  for (RestContact& rest : rest_contacts_) {
+    if (!is_in_group(rest, axis, members)) continue;
+    const Real low = bodies_.is_fixed(rest.low) ? Real(0.0) : accelerations_[rest.low],
+               high = bodies_.is_fixed(rest.high) ? Real(0.0) : accelerations_[rest.high];
+    const Real yielding = bodies_.inverse_mass(rest.low) + bodies_.inverse_mass(rest.high);
+    Real force = rest.force + (low - high) / yielding;
     if (only_push) force = std::max<Real>(0.0, force);
-    const Real step = force - hold.force;
-    hold.force = force;
-    if (!bodies_.is_fixed(hold.low))
-      accelerations_[hold.low] -= step * bodies_.inverse_mass(hold.low);
-    if (!bodies_.is_fixed(hold.high))
-      accelerations_[hold.high] += step * bodies_.inverse_mass(hold.high);
+    const Real step = force - rest.force;
+    rest.force = force;
+    if (!bodies_.is_fixed(rest.low))
+      accelerations_[rest.low] -= step * bodies_.inverse_mass(rest.low);
+    if (!bodies_.is_fixed(rest.high))
+      accelerations_[rest.high] += step * bodies_.inverse_mass(rest.high);
     change = std::max(change, std::abs(step) * yielding);
   }
   return change;
@@ -192,19 +193,19 @@ void RestContacts::share(int axis, const std::vector<std::uint32_t>& members, Re
   for (const std::uint32_t member : members) {
     if (std::find(done.begin(), done.end(), member) != done.end()) continue;
     const std::vector<std::uint32_t> part = group(member, Body::held_along(axis));
-    const auto is_in_part = [&](const Hold& hold) { return is_in_group(hold, axis, part); };
+    const auto is_in_part = [&](const RestContact& rest) { return is_in_group(rest, axis, part); };
     if (part.size() > 1 && is_pushed_twice(axis, part)) {
-      for (const Hold& hold : holds_)
-        if (is_in_part(hold)) note_release(hold, time);
-      std::erase_if(holds_, is_in_part);
+      for (const RestContact& rest : rest_contacts_)
+        if (is_in_part(rest)) note_release(rest, time);
+      std::erase_if(rest_contacts_, is_in_part);
       for (const std::uint32_t alone : part) share_part(axis, {alone}, time);
     } else {
       const Real turn_time = bodies_.is_slowed() && !is_group_fixed(axis, part)
                                  ? friction_.aim(axis, part, time)
                                  : Real(infinity);
       share_part(axis, part, time);
-      for (Hold& hold : holds_)
-        if (is_in_part(hold)) hold.turn_time = turn_time;
+      for (RestContact& rest : rest_contacts_)
+        if (is_in_part(rest)) rest.turn_time = turn_time;
     }
     done.insert(done.end(), part.begin(), part.end());
   }
@@ -214,17 +215,17 @@ void RestContacts::let_go_what_is_pulled(int axis, const std::vector<std::uint32
                                          Real time) {
   // Who is pulled is judged by the friction of this instant, as the next impact is, and not by that
   // of an arc.
-  if (bodies_.is_slowed()) friction_.calm(axis, members), friction_.face(members);
+  if (bodies_.is_slowed()) friction_.reset_friction(axis, members), friction_.face(members);
   solve_forces(axis, members, bodies_.velocity(members.front())[axis], true);
-  const auto is_pulled = [&](const Hold& hold) {
-    if (!is_in_group(hold, axis, members) || hold.force > 0.0) return false;
-    const Real low = bodies_.is_fixed(hold.low) ? Real(0.0) : accelerations_[hold.low],
-               high = bodies_.is_fixed(hold.high) ? Real(0.0) : accelerations_[hold.high];
+  const auto is_pulled = [&](const RestContact& rest) {
+    if (!is_in_group(rest, axis, members) || rest.force > 0.0) return false;
+    const Real low = bodies_.is_fixed(rest.low) ? Real(0.0) : accelerations_[rest.low],
+               high = bodies_.is_fixed(rest.high) ? Real(0.0) : accelerations_[rest.high];
     return high - low > pull_min;
   };
-  for (const Hold& hold : holds_)
-    if (is_pulled(hold)) note_release(hold, time);
-  std::erase_if(holds_, is_pulled);
+  for (const RestContact& rest : rest_contacts_)
+    if (is_pulled(rest)) note_release(rest, time);
+  std::erase_if(rest_contacts_, is_pulled);
 }
 
 void RestContacts::push_again() {
@@ -275,29 +276,29 @@ void RestContacts::share_part(int axis, const std::vector<std::uint32_t>& part, 
 /// one that would be negative there vanishes on the way.
 void RestContacts::set_pull_times(int axis, const std::vector<std::uint32_t>& part,
                                   Real terminal_speed, Real drag, Real time) {
-  for (Hold& hold : holds_)
-    if (is_in_group(hold, axis, part)) hold.pull_time = infinity;
+  for (RestContact& rest : rest_contacts_)
+    if (is_in_group(rest, axis, part)) rest.pull_time = infinity;
   if (drag == 0.0) return;
   const Real speed = bodies_.velocity(part.front())[axis];
   solve_forces(axis, part, speed, false);
   std::vector<Real> forces;
-  for (const Hold& hold : holds_)
-    if (is_in_group(hold, axis, part)) forces.push_back(std::max<Real>(0.0, hold.force));
+  for (const RestContact& rest : rest_contacts_)
+    if (is_in_group(rest, axis, part)) forces.push_back(std::max<Real>(0.0, rest.force));
   solve_forces(axis, part, terminal_speed, false);
   std::size_t i = 0;
-  for (Hold& hold : holds_) {
-    if (!is_in_group(hold, axis, part)) continue;
-    const Real now = forces[i++], finally = hold.force;
+  for (RestContact& rest : rest_contacts_) {
+    if (!is_in_group(rest, axis, part)) continue;
+    const Real now = forces[i++], finally = rest.force;
     Real scale = 0.0;
     for (const std::uint32_t member : part)
       scale += bodies_.build(member).mass * (std::abs(bodies_.build(member).thrust[axis]) +
                                              bodies_.own_drag(member) * std::abs(speed));
     if (finally >= -1e-12 * scale) continue;
-    hold.pull_time = time - log1p_of(-now / (now - finally)) / drag;
+    rest.pull_time = time - log1p_of(-now / (now - finally)) / drag;
     // An arc's friction is not quite that of its beginning: a contact that is pressed now and
     // pulled along the arc would come and go at one instant.
     if (bodies_.is_slowed() && friction_.has_sliders(axis, part))
-      hold.pull_time = std::max(hold.pull_time, time + contact_time_);
+      rest.pull_time = std::max(rest.pull_time, time + contact_time_);
   }
 }
 
@@ -305,22 +306,23 @@ void RestContacts::dissolve(std::uint32_t body, int axis, Real time) {
   if (!bodies_[body].is(Body::held_along(axis))) return;
   const std::vector<std::uint32_t> members = group(body, Body::held_along(axis));
   for (const std::uint32_t member : members) rebase_group(member, time);
-  std::erase_if(holds_, [&](const Hold& hold) { return is_in_group(hold, axis, members); });
+  std::erase_if(rest_contacts_,
+                [&](const RestContact& rest) { return is_in_group(rest, axis, members); });
   for (const std::uint32_t member : members) share_part(axis, {member}, time);
 }
 
 /// When the contact reaches the end of its face [s]; infinite if it never does. Judged from the two
 /// last-event states, like any event.
-Real RestContacts::slide_time(const Hold& hold) const {
-  if (!is_body(hold.low) || !is_body(hold.high)) return infinity;
-  const int along = 1 - hold.axis;
-  const Real extent = shape_of(bodies_, hold.low, hold.high).half_extent[along];
-  const Motion low = bodies_.motion(hold.low), high = bodies_.motion(hold.high);
+Real RestContacts::slide_time(const RestContact& rest) const {
+  if (!is_body(rest.low) || !is_body(rest.high)) return infinity;
+  const int along = 1 - rest.axis;
+  const Real extent = shape_of(bodies_, rest.low, rest.high).half_extent[along];
+  const Motion low = bodies_.motion(rest.low), high = bodies_.motion(rest.high);
   const Real start = std::max(low.time, high.time);
   if (extent == 0.0) {
     const bool is_still =
-        bodies_.velocity(hold.low)[along] == bodies_.velocity(hold.high)[along] &&
-        acceleration_of(bodies_, hold.low)[along] == acceleration_of(bodies_, hold.high)[along];
+        bodies_.velocity(rest.low)[along] == bodies_.velocity(rest.high)[along] &&
+        acceleration_of(bodies_, rest.low)[along] == acceleration_of(bodies_, rest.high)[along];
     return is_still ? infinity : start;
   }
   Real earliest = infinity;
@@ -335,24 +337,24 @@ Real RestContacts::slide_time(const Hold& hold) const {
 }
 
 void RestContacts::release(std::uint32_t body, Real time) {
-  for (std::size_t i = 0; i < holds_.size(); ++i) {
-    const Hold hold = holds_[i];
-    if (hold.low != body && hold.high != body) continue;
-    const bool ends = std::min(hold.pull_time, slide_time(hold)) <= time;
-    if (!ends && hold.turn_time > time) continue;
-    if (ends) note_release(hold, time);
+  for (std::size_t i = 0; i < rest_contacts_.size(); ++i) {
+    const RestContact rest = rest_contacts_[i];
+    if (rest.low != body && rest.high != body) continue;
+    const bool ends = std::min(rest.pull_time, slide_time(rest)) <= time;
+    if (!ends && rest.turn_time > time) continue;
+    if (ends) note_release(rest, time);
     else record_.note(EventKind::turn, time, body);
-    const Partner inside = bodies_.is_fixed(hold.low) ? hold.high : hold.low;
-    const std::vector<std::uint32_t> members = group(inside, Body::held_along(hold.axis));
+    const Partner inside = bodies_.is_fixed(rest.low) ? rest.high : rest.low;
+    const std::vector<std::uint32_t> members = group(inside, Body::held_along(rest.axis));
     for (const std::uint32_t member : members) rebase_group(member, time);
-    if (ends) holds_.erase(holds_.begin() + static_cast<std::ptrdiff_t>(i));
-    return share(hold.axis, members, time);
+    if (ends) rest_contacts_.erase(rest_contacts_.begin() + static_cast<std::ptrdiff_t>(i));
+    return share(rest.axis, members, time);
   }
 }
 
-void RestContacts::note_release(const Hold& hold, Real time) {
-  bodies_.is_fixed(hold.low) ? record_.note(EventKind::release, time, hold.high, hold.low)
-                             : record_.note(EventKind::release, time, hold.low, hold.high);
+void RestContacts::note_release(const RestContact& rest, Real time) {
+  bodies_.is_fixed(rest.low) ? record_.note(EventKind::release, time, rest.high, rest.low)
+                             : record_.note(EventKind::release, time, rest.low, rest.high);
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -30,8 +30,10 @@ class RestContacts {
 
   /// A body has come into the world, without contacts.
   void add(std::uint32_t body) { friction_.slide(body, std::nullopt); }
-  const std::vector<Hold>& holds() const { return holds_; }
-  void restore(std::vector<Hold> holds) { holds_ = std::move(holds); }
+  const std::vector<RestContact>& rest_contacts() const { return rest_contacts_; }
+  void restore(std::vector<RestContact> rest_contacts) {
+    rest_contacts_ = std::move(rest_contacts);
+  }
 
   bool are_joined(std::uint32_t a, std::uint32_t b) const;
   /// The bodies in rest contact with `body`, directly or through others, along any of `axes`
@@ -67,9 +69,9 @@ class RestContacts {
   /// group is to be aimed anew [s]; infinite if never.
   template <class Visit>
   void for_each_end(std::uint32_t body, Visit&& visit) const {
-    for (const Hold& hold : holds_)
-      if (hold.low == body || hold.high == body)
-        visit(std::min({hold.pull_time, hold.turn_time, slide_time(hold)}));
+    for (const RestContact& rest : rest_contacts_)
+      if (rest.low == body || rest.high == body)
+        visit(std::min({rest.pull_time, rest.turn_time, slide_time(rest)}));
   }
   /// The rest contacts of `body` that end at `time` do so; or the friction in its group is aimed
   /// anew.
@@ -84,13 +86,14 @@ class RestContacts {
   Real sweep_forces(int axis, const std::vector<std::uint32_t>& members, bool only_push);
   void set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed,
                       Real drag, Real time);
-  bool is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const;
+  bool is_in_group(const RestContact& rest, int axis,
+                   const std::vector<std::uint32_t>& members) const;
   bool is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const;
   std::optional<int> pushed_axis(std::uint32_t body) const;
   bool is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const;
   bool would_push_twice(const Contact& contact) const;
-  Real slide_time(const Hold& hold) const;
-  void note_release(const Hold& hold, Real time);
+  Real slide_time(const RestContact& rest) const;
+  void note_release(const RestContact& rest, Real time);
 
   Bodies& bodies_;
   Friction friction_;
@@ -98,7 +101,7 @@ class RestContacts {
   EventRecord& record_;
   const Observers& observers_;
   Real tolerance_, contact_time_;
-  std::vector<Hold> holds_;
+  std::vector<RestContact> rest_contacts_;
   std::vector<Real> accelerations_;  // by body, of the problem at hand [m/s^2]
 };
 

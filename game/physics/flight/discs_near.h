@@ -17,7 +17,7 @@ struct Neighbourhood {
 
 /// How many of `count` discs of `near` (ids in `discs`), all in straight flight without drag, have
 /// their centres no farther from the place than their radius and `least`. Four at a time and
-/// without a branch, as first_meeting_in_fours(), whose reading and room it shares: places
+/// without a branch, as first_disc_contact_in_fours(), whose reading and room it shares: places
 /// beyond the end are filled with `filler`, and counted.
 template <class Disc>
 [[gnu::target("avx2")]] std::uint32_t count_near_in_fours(const Disc* discs, std::uint32_t* near,

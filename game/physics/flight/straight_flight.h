@@ -22,8 +22,8 @@ struct Flight {
   Real time;          ///< of the event [s]
   Real radius;        ///< m
 
-  /// Two numbers at a time where the machine can: first_meeting() reads them in twos, and what was
-  /// written by ones would make that wait.
+  /// Two numbers at a time where the machine can: first_disc_contact() reads them in twos, and what
+  /// was written by ones would make that wait.
   void restart(Real new_x, Real new_y, Real new_vx, Real new_vy, Real new_time) {
 #if defined(RINK_PAIRS_SCALARS)
     _mm_storeu_pd(&x, _mm_setr_pd(new_x, new_y));
@@ -36,7 +36,7 @@ struct Flight {
 };
 
 /// Whom a disc meets first and when, and when the second.
-struct Meeting {
+struct FirstContact {
   Real time = std::numeric_limits<Real>::infinity();
   std::uint32_t other = 0xffffffff;
   Real second_time = std::numeric_limits<Real>::infinity();
@@ -46,7 +46,7 @@ struct Meeting {
 
 /// When the two first touch, both taken at the later of their two events; nothing if they never do,
 /// or only after `latest`, unless they touch at that event already.
-inline std::optional<Real> meeting_time(const Flight& a, const Flight& b, Real latest) {
+inline std::optional<Real> disc_contact_time(const Flight& a, const Flight& b, Real latest) {
   const Real time = std::max(a.time, b.time), ahead_a = time - a.time, ahead_b = time - b.time;
   const RealVector offset(b.x - a.x + (b.vx * ahead_b - a.vx * ahead_a),
                           b.y - a.y + (b.vy * ahead_b - a.vy * ahead_a));
@@ -62,14 +62,15 @@ constexpr double clear_of_touching = 1e-6;
 constexpr std::uint32_t flight_max = 32;
 
 /// Whom of `count` discs of `near` (ids in `discs`) the disc `own` meets first, as of
-/// meeting_time(); the first of them in `near` if several come at that time. `near` must be
+/// disc_contact_time(); the first of them in `near` if several come at that time. `near` must be
 /// writable three places beyond its end. Meetings after `latest` are left out, as there.
 template <class Disc>
-Meeting first_meeting_singly(const Disc* discs, std::uint32_t own, const std::uint32_t* near,
-                             std::uint32_t count, Real latest) {
-  Meeting first;
+FirstContact first_disc_contact_singly(const Disc* discs, std::uint32_t own,
+                                       const std::uint32_t* near, std::uint32_t count,
+                                       Real latest) {
+  FirstContact first;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const auto time = meeting_time(discs[own], discs[near[k]], latest);
+    const auto time = disc_contact_time(discs[own], discs[near[k]], latest);
     if (!time) continue;
     first.second_time = std::min(first.second_time, std::max(first.time, *time));
     if (*time < first.time) first.time = *time, first.other = near[k];
@@ -84,8 +85,8 @@ Meeting first_meeting_singly(const Disc* discs, std::uint32_t own, const std::ui
 /// rules a meeting out without a root, then those left over are solved; mostly these are no more
 /// than two.
 template <class Disc>
-Meeting first_meeting_in_pairs(const Disc* discs, std::uint32_t own, std::uint32_t* near,
-                               std::uint32_t count, double latest) {
+FirstContact first_disc_contact_in_pairs(const Disc* discs, std::uint32_t own, std::uint32_t* near,
+                                         std::uint32_t count, double latest) {
   const auto both = [](double value) { return _mm_set1_pd(value); };
   const auto pair = [](const double& low, const double& high) {
     return _mm_loadh_pd(_mm_load_sd(&low), &high);
@@ -140,7 +141,7 @@ Meeting first_meeting_in_pairs(const Disc* discs, std::uint32_t own, std::uint32
   times.at[end] = openings.at[end] = squares.at[end] = reaches.at[end] = 0.0;
   gaps.at[end] = misses.at[end] = 1.0;
   const __m128d never = both(std::numeric_limits<double>::infinity());
-  Meeting first;
+  FirstContact first;
   std::uint32_t m = 0;
   do {
     const std::uint32_t j = left[m], k = left[m + 1];
@@ -186,9 +187,8 @@ struct FourPlaces {
 /// The same bits four at a time, in one pass: so many roots cost less than to find out who needs
 /// one. Who touches is told, and places that fill up fours are not counted, if `counts`.
 template <bool counts, class Disc>
-[[gnu::target("avx2")]] Meeting first_meeting_in_fours(const Disc* discs, std::uint32_t own,
-                                                       std::uint32_t* near, std::uint32_t count,
-                                                       double latest) {
+[[gnu::target("avx2")]] FirstContact first_disc_contact_in_fours(
+    const Disc* discs, std::uint32_t own, std::uint32_t* near, std::uint32_t count, double latest) {
   const Disc& a = discs[own];
   if ((count & 3) != 0)
     near[count] = near[count + 1] = near[count + 2] = own;  // nobody closes on himself
@@ -263,22 +263,22 @@ template <bool counts, class Disc>
   const int lanes = _mm256_movemask_pd(_mm256_cmp_pd(first, first_one, _CMP_EQ_OQ));
   alignas(32) std::int64_t place_of[4];
   _mm256_store_si256(reinterpret_cast<__m256i*>(place_of), others);
-  Meeting meeting;
-  meeting.time = _mm256_cvtsd_f64(first_one), meeting.second_time = _mm256_cvtsd_f64(second_one);
+  FirstContact contact;
+  contact.time = _mm256_cvtsd_f64(first_one), contact.second_time = _mm256_cvtsd_f64(second_one);
   if constexpr (counts) {
     alignas(32) std::int64_t counted[4];
     _mm256_store_si256(reinterpret_cast<__m256i*>(counted), touching);
-    meeting.touching =
+    contact.touching =
         static_cast<std::uint32_t>(-(counted[0] + counted[1] + counted[2] + counted[3])) -
         ((0u - count) & 3u);
   }
-  if (!(meeting.time < std::numeric_limits<double>::infinity())) return meeting;
+  if (!(contact.time < std::numeric_limits<double>::infinity())) return contact;
   std::int64_t place = place_of[__builtin_ctz(static_cast<unsigned>(lanes))];
-  if (meeting.second_time == meeting.time)
+  if (contact.second_time == contact.time)
     for (int lane = 0; lane < 4; ++lane)
       if ((lanes >> lane & 1) != 0) place = std::min(place, place_of[lane]);
-  meeting.other = near[place];
-  return meeting;
+  contact.other = near[place];
+  return contact;
 }
 
 /// Whether this machine can do more than its baseline says.
@@ -286,19 +286,19 @@ inline const bool has_fours = __builtin_cpu_supports("avx2") != 0;
 
 #endif
 
-/// As first_meeting_singly(), the quickest way that this machine's baseline allows.
+/// As first_disc_contact_singly(), the quickest way that this machine's baseline allows.
 template <class Disc>
-Meeting first_meeting(const Disc* discs, std::uint32_t own, std::uint32_t* near,
-                      std::uint32_t count, Real latest) {
+FirstContact first_disc_contact(const Disc* discs, std::uint32_t own, std::uint32_t* near,
+                                std::uint32_t count, Real latest) {
 #if defined(RINK_PAIRS_SCALARS)
-  return has_fours ? first_meeting_in_fours<false>(discs, own, near, count, latest)
-                   : first_meeting_in_pairs(discs, own, near, count, latest);
+  return has_fours ? first_disc_contact_in_fours<false>(discs, own, near, count, latest)
+                   : first_disc_contact_in_pairs(discs, own, near, count, latest);
 #else
-  return first_meeting_singly(discs, own, near, count, latest);
+  return first_disc_contact_singly(discs, own, near, count, latest);
 #endif
 }
 
-/// Whether first_meeting_counting() is there.
+/// Whether first_disc_contact_counting() is there.
 inline bool counts_touching() {
 #if defined(RINK_PAIRS_SCALARS)
   return has_fours;
@@ -307,16 +307,16 @@ inline bool counts_touching() {
 #endif
 }
 
-/// As first_meeting(), and who touches is counted as well: asked in the same breath, that takes
-/// four instructions more per four discs.
+/// As first_disc_contact(), and who touches is counted as well: asked in the same breath, that
+/// takes four instructions more per four discs.
 template <class Disc>
-Meeting first_meeting_counting(const Disc* discs, std::uint32_t own, std::uint32_t* near,
-                               std::uint32_t count, Real latest) {
+FirstContact first_disc_contact_counting(const Disc* discs, std::uint32_t own, std::uint32_t* near,
+                                         std::uint32_t count, Real latest) {
   assert(counts_touching());
 #if defined(RINK_PAIRS_SCALARS)
-  return first_meeting_in_fours<true>(discs, own, near, count, latest);
+  return first_disc_contact_in_fours<true>(discs, own, near, count, latest);
 #else
-  return first_meeting(discs, own, near, count, latest);
+  return first_disc_contact(discs, own, near, count, latest);
 #endif
 }
 

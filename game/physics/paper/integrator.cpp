@@ -30,7 +30,7 @@ Step semi_implicit(const Vector2& v, const Force& force, double h) {
 }
 
 /// Velocity Verlet (Swope et al. 1982). Drag depends on the velocity that is sought, so the force
-/// at the end is taken at a velocity foretold by Euler, which keeps the second order.
+/// at the end is taken at a velocity predicted by Euler, which keeps the second order.
 Step verlet(const Vector2& v, const Force& force, double h) {
   const Vector2 before = force.acceleration(v), after = force.acceleration(v + h * before);
   return {h * (v + 0.5 * h * before), v + 0.5 * h * (before + after)};

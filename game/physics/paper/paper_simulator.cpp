@@ -18,7 +18,7 @@ using Box = collision::Box<double>;
 }  // namespace
 
 /// A heap's order: the event that comes first is the greatest.
-bool PaperSimulator::is_later(const Meeting& a, const Meeting& b) {
+bool PaperSimulator::is_later(const PredictedImpact& a, const PredictedImpact& b) {
   return std::tie(a.time, a.body, a.partner) > std::tie(b.time, b.body, b.partner);
 }
 
@@ -37,7 +37,7 @@ Disc PaperSimulator::swept_circle(const Body& body) const {
 
 void PaperSimulator::begin() {
   grid_.clear(spec_.field, body_count());
-  meetings_.clear();
+  impacts_.clear();
   for (std::uint32_t index = 0; index < bodies_.size(); ++index)
     if (bodies_[index].is_in_play && !bodies_[index].can_move())
       grid_.insert(index, swept_box(bodies_[index]));
@@ -159,57 +159,57 @@ void PaperSimulator::test_goal_edges(std::uint32_t index) {
 void PaperSimulator::expect(std::uint32_t body, Partner partner, double start,
                             const collision::Contact<double>& contact) {
   const double time = std::min(start + contact.time, steps_.frame_end());
-  meetings_.push_back({time, body, partner, bodies_[body].version,
-                       is_body(partner) ? bodies_[partner].version : 0, contact.normal});
-  std::push_heap(meetings_.begin(), meetings_.end(), is_later);
+  impacts_.push_back({time, body, partner, bodies_[body].version,
+                      is_body(partner) ? bodies_[partner].version : 0, contact.normal});
+  std::push_heap(impacts_.begin(), impacts_.end(), is_later);
 }
 
-bool PaperSimulator::is_stale(const Meeting& meeting) const {
-  return bodies_[meeting.body].version != meeting.body_version ||
-         (is_body(meeting.partner) && bodies_[meeting.partner].version != meeting.partner_version);
+bool PaperSimulator::is_stale(const PredictedImpact& impact) const {
+  return bodies_[impact.body].version != impact.body_version ||
+         (is_body(impact.partner) && bodies_[impact.partner].version != impact.partner_version);
 }
 
 std::optional<Goal> PaperSimulator::play(double until) {
-  while (!meetings_.empty() && meetings_.front().time <= until) {
-    const Meeting meeting = meetings_.front();
-    std::pop_heap(meetings_.begin(), meetings_.end(), is_later);
-    meetings_.pop_back();
-    if (is_stale(meeting)) {
+  while (!impacts_.empty() && impacts_.front().time <= until) {
+    const PredictedImpact impact = impacts_.front();
+    std::pop_heap(impacts_.begin(), impacts_.end(), is_later);
+    impacts_.pop_back();
+    if (is_stale(impact)) {
       ++record_.counters().stale_events;
       continue;
     }
-    now_ = std::max(now_, meeting.time);
-    if (meeting.partner != goal_line) {
-      meet(meeting);
+    now_ = std::max(now_, impact.time);
+    if (impact.partner != goal_line) {
+      meet(impact);
       continue;
     }
-    rebase(bodies_[meeting.body], meeting.time);
-    return score(meeting.body);
+    rebase(bodies_[impact.body], impact.time);
+    return score(impact.body);
   }
   return std::nullopt;
 }
 
 /// Rolls those who meet back from the frame's end to the time of impact, responds, and spends the
 /// remainder.
-void PaperSimulator::meet(const Meeting& meeting) {
-  Body& body = bodies_[meeting.body];
-  Body* const other = is_body(meeting.partner) && bodies_[meeting.partner].inverse_mass > 0.0
-                          ? &bodies_[meeting.partner]
+void PaperSimulator::meet(const PredictedImpact& impact) {
+  Body& body = bodies_[impact.body];
+  Body* const other = is_body(impact.partner) && bodies_[impact.partner].inverse_mass > 0.0
+                          ? &bodies_[impact.partner]
                           : nullptr;
-  rebase(body, meeting.time);
-  if (other != nullptr) rebase(*other, meeting.time);
+  rebase(body, impact.time);
+  if (other != nullptr) rebase(*other, impact.time);
   bool is_stop = body.is_stopped || ++body.impacts > impact_max;
   if (other != nullptr) is_stop = other->is_stopped || ++other->impacts > impact_max || is_stop;
   if (is_stop) {
     body.is_stopped = true;
     if (other != nullptr) other->is_stopped = true;
   } else {
-    respond(meeting.body, meeting.partner, meeting.normal, meeting.time);
+    respond(impact.body, impact.partner, impact.normal, impact.time);
   }
   plan(body);
   if (other != nullptr) plan(*other);
-  turned(meeting.body);
-  if (other != nullptr) turned(meeting.partner);
+  turned(impact.body);
+  if (other != nullptr) turned(impact.partner);
 }
 
 }  // namespace rink::physics::paper

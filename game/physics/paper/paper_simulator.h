@@ -23,14 +23,14 @@ class PaperSimulator final : public FrameSimulator {
   static constexpr std::uint32_t impact_max = 20;
 
  private:
-  struct Meeting {
+  struct PredictedImpact {
     double time;
     std::uint32_t body;
     Partner partner;
     std::uint32_t body_version, partner_version;
     Vector2 normal;  ///< from the partner to the body
   };
-  static bool is_later(const Meeting& a, const Meeting& b);
+  static bool is_later(const PredictedImpact& a, const PredictedImpact& b);
 
   void begin() override;
   void turned(std::uint32_t body) override;
@@ -47,12 +47,12 @@ class PaperSimulator final : public FrameSimulator {
   void test_goal_edges(std::uint32_t body);
   void expect(std::uint32_t body, Partner partner, double start,
               const collision::Contact<double>& contact);
-  bool is_stale(const Meeting& meeting) const;
-  void meet(const Meeting& meeting);
+  bool is_stale(const PredictedImpact& impact) const;
+  void meet(const PredictedImpact& impact);
 
   Corners corners_;
   FrameGrid grid_;
-  std::vector<Meeting> meetings_;  ///< of this frame: a heap, earliest first
+  std::vector<PredictedImpact> impacts_;  ///< of this frame: a heap, earliest first
 };
 
 }  // namespace rink::physics::paper

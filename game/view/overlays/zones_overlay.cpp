@@ -48,9 +48,9 @@ void add_lines(const ZonesSeen& seen, Overlay& overlay) {
                 seen.own_peer, static_cast<unsigned long long>(seen.own_count), seen.ghosts.size(),
                 seen.halo);
   overlay.lines.emplace_back(words);
-  if (!seen.told.empty()) {
+  if (!seen.received.empty()) {
     std::snprintf(words, sizeof words, "its player is told of %zu beyond (green)",
-                  seen.told.size());
+                  seen.received.size());
     overlay.lines.emplace_back(words);
   }
   overlay.lines.emplace_back("I hides this");
@@ -62,7 +62,7 @@ Overlay zones_overlay(const MatchSight& sight, bool is_shown) {
   Overlay overlay;
   if (!sight.zones) return overlay;
   const ZonesSeen& seen = *sight.zones;
-  assert(std::ranges::is_sorted(seen.ghosts) && std::ranges::is_sorted(seen.told));
+  assert(std::ranges::is_sorted(seen.ghosts) && std::ranges::is_sorted(seen.received));
   if (is_shown) add_zones(sight, seen, overlay);
   for (const Thing& thing : sight.things) {
     const auto ring = [&](const Colour& colour, double room) {
@@ -71,7 +71,7 @@ Overlay zones_overlay(const MatchSight& sight, bool is_shown) {
     };
     if (sight.own_thing == thing.id && !sight.own_team) ring(own, 0.06);
     if (is_shown && std::ranges::binary_search(seen.ghosts, thing.id)) ring(ghost, 0.02);
-    if (is_shown && std::ranges::binary_search(seen.told, thing.id)) ring(told, 0.02);
+    if (is_shown && std::ranges::binary_search(seen.received, thing.id)) ring(told, 0.02);
   }
   if (is_shown) add_lines(seen, overlay);
   return overlay;

@@ -241,7 +241,7 @@ void LineIndex::visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& vi
 
 /// Writes what a comparison said; returns the next place if it said anything.
 inline LineIndex::Hit* LineIndex::list(Hit* hit, const Line& line, std::uint32_t asker,
-                                       const LineOutcome& outcome) {
+                                       const LineHits& outcome) {
   *hit = {&line, asker, static_cast<std::uint8_t>(outcome.changed),
           static_cast<std::uint8_t>(outcome.entered), static_cast<std::uint8_t>(outcome.tied)};
   return hit + ((outcome.changed | outcome.tied) != 0 ? 1 : 0);

@@ -16,7 +16,7 @@
 
 namespace rink::im {
 
-struct LineOutcome;
+struct LineHits;
 
 /// What a load beyond the caches costs, 100 ns and more, is what a mover costs; so who asks reads
 /// one line for each cell, and who moves finds his own without being told where it is: his cell
@@ -110,7 +110,7 @@ class LineIndex {
   template <class Compare>
   void find_changes(const Inquiry& inquiry, Answers& answers) const;
   void visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& visits) const;
-  static Hit* list(Hit* hit, const Line& line, std::uint32_t asker, const LineOutcome& outcome);
+  static Hit* list(Hit* hit, const Line& line, std::uint32_t asker, const LineHits& outcome);
   template <class Compare>
   void read_lines(Answers& answers) const;
   template <class Compare>

@@ -12,7 +12,7 @@
 namespace rink::im {
 
 /// What came of it, a bit for each lane. Where `tied`, the others say nothing.
-struct LineOutcome {
+struct LineHits {
   unsigned changed, entered, tied;
 };
 
@@ -22,8 +22,8 @@ class OneByOne {
  public:
   explicit OneByOne(std::uint64_t asking) : asking_(asking) {}
 
-  LineOutcome operator()(const Line& line) const {
-    LineOutcome outcome{0, 0, 0};
+  LineHits operator()(const Line& line) const {
+    LineHits outcome{0, 0, 0};
     for (unsigned lane = 0; lane < Line::lanes; ++lane) {
       bool is_in[2] = {true, true}, is_tied[2] = {false, false};
       for (unsigned i = 0; i < 8; ++i) {
@@ -55,7 +55,7 @@ class BySse2 {
     then_low_ = _mm_shuffle_epi32(then, 0x50), then_high_ = _mm_shuffle_epi32(then, 0xFA);
   }
 
-  LineOutcome operator()(const Line& line) const {
+  LineHits operator()(const Line& line) const {
     const __m128i low = _mm_load_si128(reinterpret_cast<const __m128i*>(line.edges[0])),
                   high = _mm_load_si128(reinterpret_cast<const __m128i*>(line.edges[2]));
     const auto reaches = [](__m128i edge, __m128i held) {

@@ -17,7 +17,7 @@ inline float clearance(const BoxColumns& boxes, std::size_t i, const FloatBox& p
 }
 
 /// What a pair comes to; `is_tie` if that is in doubt.
-struct Outcome {
+struct Hits {
   bool is_match, is_entered, is_tie;
 };
 
@@ -35,7 +35,7 @@ std::size_t scan(const Candidates& candidates, const ProbeBlock& block, const Ti
            eight += candidates.stride)
         for (std::size_t i = eight;
              i < std::min<std::size_t>(eight + scan_width, stretches[stretch].end); ++i) {
-          Outcome outcome = compare(i, probe);
+          Hits outcome = compare(i, probe);
           if (judge.is_needed && outcome.is_tie) {
             const Verdict verdict = judge(probe.id, candidates.ids[i]);
             outcome = {verdict != Verdict::no, verdict == Verdict::entered, false};
@@ -52,7 +52,7 @@ std::size_t scan_overlaps(const Candidates& candidates, const ProbeBlock& block,
                           const TieJudge& judge, const ScanOutput& output) {
   return scan(candidates, block, judge, output, [&](std::size_t i, const Probe& probe) {
     const float now = clearance(candidates.now, i, probe.now);
-    return Outcome{now >= 0.0f, false, now == 0.0f};
+    return Hits{now >= 0.0f, false, now == 0.0f};
   });
 }
 
@@ -61,7 +61,7 @@ std::size_t scan_changes(const Candidates& candidates, const ProbeBlock& block,
   return scan(candidates, block, judge, output, [&](std::size_t i, const Probe& probe) {
     const float before = clearance(candidates.before, i, probe.before),
                 now = clearance(candidates.now, i, probe.now);
-    return Outcome{(before >= 0.0f) != (now >= 0.0f), now >= 0.0f, before == 0.0f || now == 0.0f};
+    return Hits{(before >= 0.0f) != (now >= 0.0f), now >= 0.0f, before == 0.0f || now == 0.0f};
   });
 }
 
@@ -101,8 +101,8 @@ std::size_t scan_discs(const Candidates& candidates, const ProbeBlock& block, co
     const Nearness before =
                        is_of_askers ? nearness(probe.before, was) : nearness(was, probe.before),
                    now = is_of_askers ? nearness(probe.now, is) : nearness(is, probe.now);
-    return Outcome{before.is_inside != now.is_inside, now.is_inside,
-                   before.is_doubtful || now.is_doubtful};
+    return Hits{before.is_inside != now.is_inside, now.is_inside,
+                before.is_doubtful || now.is_doubtful};
   });
 }
 

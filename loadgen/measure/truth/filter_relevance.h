@@ -13,9 +13,10 @@
 
 namespace rink::loadgen {
 
-/// A filter of its own that is handed what a server would hand in (game/net/server/acquaint.h), but
-/// of the game played again and at each look: true bounding boxes, the view around the true centre
-/// of each bat without any margin, roles, and where players look.
+/// A filter of its own that is handed what a server would hand in
+/// (game/net/server/push_filter_hints.h), but of the game played again and at each look: true
+/// bounding boxes, the view around the true centre of each bat without any margin, roles, and where
+/// players look.
 class FilterRelevance {
  public:
   using Centres = std::span<const std::optional<Vector2>>;  ///< by entity

@@ -11,40 +11,38 @@
 #include <utility>
 
 #include "game/control/game_state.h"
-#include "game/net/evidence_lines.h"
+#include "game/net/trace_lines.h"
 
 namespace rink::loadgen {
 
-Replay::Replay(const game::ServerEvidence& evidence, const RelevanceArea& area)
-    : Replay(game::chosen_scene(evidence.choice), evidence, area) {}
+Replay::Replay(const game::ServerTrace& trace, const RelevanceArea& area)
+    : Replay(game::chosen_scene(trace.choice), trace, area) {}
 
-Replay::Replay(const game::Scene& scene, const game::ServerEvidence& evidence,
-               const RelevanceArea& area)
-    : game_(evidence.state_file.empty()
-                ? game::Game(scene)
-                : game::game_in_state(evidence.state, scene, evidence.state_file)),
+Replay::Replay(const game::Scene& scene, const game::ServerTrace& trace, const RelevanceArea& area)
+    : game_(trace.state_file.empty() ? game::Game(scene)
+                                     : game::game_in_state(trace.state, scene, trace.state_file)),
       begin_s_(game_.now()),
       area_(area),
       surroundings_(area, scene.world.field.length, scene.world.field.width),
       puck_reach_(area.contact_s, scene.world.puck_drag, scene.world.puck_friction),
       bat_reach_(area.contact_s, scene.world.bat_drag, 0.0),
       encounters_(scene.world.field.length, scene.world.field.width),
-      rate_hz_(evidence.rate_hz) {
+      rate_hz_(trace.rate_hz) {
   for (const game::Bat& bat : scene.bodies.bats)
     thrust_max_.push_back(std::numbers::sqrt2 * bat.thrust);  // two neighbouring keys
   if (area.shape == RelevanceArea::Shape::filter) filter_.emplace(area, scene);
   game_.record_events(true);
-  for (const game::InputEvent& event : evidence.keys) {
+  for (const game::InputEvent& event : trace.keys) {
     if (event.player >= game_.player_count())
-      throw game::EvidenceError("the server's evidence has keys of player " +
-                                std::to_string(event.player) + ", but its scene has " +
-                                std::to_string(game_.player_count()) + " bats");
+      throw game::TraceError("the server's evidence has keys of player " +
+                             std::to_string(event.player) + ", but its scene has " +
+                             std::to_string(game_.player_count()) + " bats");
     if (event.time < begin_s_)
-      throw game::EvidenceError("the server's evidence has keys from before " +
-                                evidence.state_file + ", which it began from");
+      throw game::TraceError("the server's evidence has keys from before " + trace.state_file +
+                             ", which it began from");
     game_.submit(event);
   }
-  for (const game::ServerEvidence::Naming& naming : evidence.objects)
+  for (const game::ServerTrace::Naming& naming : trace.objects)
     entities_[naming.object] = naming.body;
 }
 

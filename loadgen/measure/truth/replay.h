@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "game/control/game.h"
-#include "game/net/evidence.h"
-#include "game/net/evidence_lines.h"
+#include "game/net/server_trace.h"
+#include "game/net/trace_lines.h"
 #include "loadgen/measure/truth/encounters.h"
 #include "loadgen/measure/truth/filter_relevance.h"
 #include "loadgen/measure/truth/reach.h"
@@ -20,17 +20,17 @@ namespace rink::loadgen {
 
 /// The game played again from the evidence is not the one that the server played: nothing that was
 /// measured in it can be trusted.
-class DifferentGame : public game::EvidenceError {
+class DifferentGame : public game::TraceError {
  public:
-  using game::EvidenceError::EvidenceError;
+  using game::TraceError::TraceError;
 };
 
 /// Entities are named by the numbers of their bodies. Instants never decrease.
 class Replay {
  public:
-  /// Throws game::EvidenceError if the evidence speaks of players that the scene lacks,
+  /// Throws game::TraceError if the evidence speaks of players that the scene lacks,
   /// game::SceneError if there is no such scene or its saved game is none of it.
-  Replay(const game::ServerEvidence& evidence, const RelevanceArea& area);
+  Replay(const game::ServerTrace& trace, const RelevanceArea& area);
 
   /// Of the game: 0, or where its saved state stands [s].
   double begin_s() const { return begin_s_; }
@@ -79,7 +79,7 @@ class Replay {
     Vector2 centre;                 ///< where it left play
     std::optional<double> until_s;  ///< the first tick after it was put back, once it was
   };
-  Replay(const game::Scene& scene, const game::ServerEvidence& evidence, const RelevanceArea& area);
+  Replay(const game::Scene& scene, const game::ServerTrace& trace, const RelevanceArea& area);
   Vector2 announced_centre(game::EntityId entity);
   double reach(const game::Entity& entity) const;
   std::optional<double> depth_before(std::uint32_t a, std::uint32_t b) const;

@@ -20,10 +20,10 @@ std::optional<double> ratio(double part, double whole) {
 
 }  // namespace
 
-ReplayJudgement::ReplayJudgement(const game::ServerEvidence& server, const BotsEvidence& bots,
+ReplayJudgement::ReplayJudgement(const game::ServerTrace& server, const BotsTrace& bots,
                                  const RelevanceArea& area, Entries entries)
     : server_(server), bots_(bots), area_(area), entries_(entries), replay_(server, area) {
-  for (const BotsEvidence::Bot& bot : bots.bots) add_player(bot);
+  for (const BotsTrace::Bot& bot : bots.bots) add_player(bot);
   plan_looks();
 }
 
@@ -49,9 +49,9 @@ void ReplayJudgement::look_around(double instant_s) {
   if (trace_) trace_->look(instant_s, replay_);
 }
 
-void ReplayJudgement::add_player(const BotsEvidence::Bot& bot) {
+void ReplayJudgement::add_player(const BotsTrace::Bot& bot) {
   std::vector<ScopeStep> steps;
-  for (const BotsEvidence::ScopeChange& change : bot.changes)
+  for (const BotsTrace::ScopeChange& change : bot.changes)
     if (const auto entity = replay_.entity_of_object(change.object))
       steps.push_back({change.instant_s, *entity, change.is_in});
   std::stable_sort(steps.begin(), steps.end(), [](const ScopeStep& a, const ScopeStep& b) {
@@ -103,16 +103,16 @@ void ReplayJudgement::judge_entries(double instant_s) {
     if (!is_present(player)) continue;
     replay_.find(*player.bat, relevant_);
     player.delivered.advance(instant_s);
-    player.stays.look(instant_s, relevant_, player.delivered,
-                      [&](const Relevant& now) { return replay_.passed(*player.bat, now); });
+    player.intervals.look(instant_s, relevant_, player.delivered,
+                          [&](const Relevant& now) { return replay_.passed(*player.bat, now); });
   }
   replay_.remember();
 }
 
-void ReplayJudgement::judge_decision(const game::ServerEvidence::Decision& decision) {
+void ReplayJudgement::judge_decision(const game::ServerTrace::Decision& decision) {
   if (decision.player >= replay_.player_count())
-    throw game::EvidenceError("the server's evidence has a decision for player " +
-                              std::to_string(decision.player) + ", who is not in its scene");
+    throw game::TraceError("the server's evidence has a decision for player " +
+                           std::to_string(decision.player) + ", who is not in its scene");
   const auto bat = replay_.bat_of(decision.player);
   if (!bat) return;
   chosen_.clear();
@@ -135,30 +135,30 @@ bool ReplayJudgement::is_relevant(std::uint32_t entity) const {
 /// Whether `entity` was put back at a face-off that the mirror of `sample` had no news of: the
 /// mirror's newest stamp is from before, or nothing came about the entity within a window that
 /// reaches back before it, be it an update or the state on an entry.
-bool ReplayJudgement::is_replaced_unheard(const BotsEvidence::Sample& sample,
-                                          const BotsEvidence::Belief& belief,
+bool ReplayJudgement::is_replaced_unheard(const BotsTrace::Sample& sample,
+                                          const BotsTrace::Replica& replica,
                                           std::uint32_t entity) const {
   constexpr double rounding_s = 1e-6;
   const std::optional<double> replaced_s = replay_.replaced_s(entity);
   if (!replaced_s) return false;
   if (sample.matched_s < *replaced_s - rounding_s) return true;
-  if (belief.bytes > 0 || *replaced_s <= sample.displayed_s - sample.window_s) return false;
+  if (replica.bytes > 0 || *replaced_s <= sample.displayed_s - sample.window_s) return false;
   return std::ranges::none_of(players_[sample.bot].steps, [&](const ScopeStep& step) {
     return step.is_in && step.entity == entity && step.instant_s >= *replaced_s &&
            step.instant_s <= sample.displayed_s;
   });
 }
 
-void ReplayJudgement::add_error(PositionErrors& errors, const BotsEvidence::Sample& sample,
-                                const BotsEvidence::Belief& belief, std::uint32_t entity,
+void ReplayJudgement::add_error(PositionErrors& errors, const BotsTrace::Sample& sample,
+                                const BotsTrace::Replica& replica, std::uint32_t entity,
                                 const Vector2& believed) {
   const double distance = (believed - replay_.centre(entity)).norm();
-  if (is_replaced_unheard(sample, belief, entity)) errors.add_replaced(distance);
+  if (is_replaced_unheard(sample, replica, entity)) errors.add_replaced(distance);
   else errors.add(distance);
 }
 
-void ReplayJudgement::judge_displayed(const BotsEvidence::Sample& sample) {
-  assert(sample.bot < players_.size() && sample.last <= bots_.beliefs.size());
+void ReplayJudgement::judge_displayed(const BotsTrace::Sample& sample) {
+  assert(sample.bot < players_.size() && sample.last <= bots_.replicas.size());
   Player& player = players_[sample.bot];
   if (!is_present(player)) return;
   replay_.find(*player.bat, relevant_);
@@ -166,26 +166,27 @@ void ReplayJudgement::judge_displayed(const BotsEvidence::Sample& sample) {
   player.delivered.list(*player.bat, chosen_);
   delivered_.add(chosen_, relevant_);
   for (std::size_t i = sample.first; i < sample.last; ++i) {
-    const BotsEvidence::Belief& belief = bots_.beliefs[i];
-    const auto entity = replay_.entity_of_object(belief.object);
+    const BotsTrace::Replica& replica = bots_.replicas[i];
+    const auto entity = replay_.entity_of_object(replica.object);
     if (!entity || *entity == *player.bat) continue;
-    bytes_ += belief.bytes;
-    if (!is_relevant(*entity)) wasted_bytes_ += belief.bytes;
-    else if (belief.is_in_scope)
-      add_error(displayed_error_, sample, belief, *entity, belief.displayed);
+    bytes_ += replica.bytes;
+    if (!is_relevant(*entity)) wasted_bytes_ += replica.bytes;
+    else if (replica.is_in_scope)
+      add_error(displayed_error_, sample, replica, *entity, replica.displayed);
   }
 }
 
-void ReplayJudgement::judge_matched(const BotsEvidence::Sample& sample) {
-  assert(sample.bot < players_.size() && sample.last <= bots_.beliefs.size());
+void ReplayJudgement::judge_matched(const BotsTrace::Sample& sample) {
+  assert(sample.bot < players_.size() && sample.last <= bots_.replicas.size());
   const Player& player = players_[sample.bot];
   if (!is_present(player)) return;
   replay_.find(*player.bat, relevant_);
   for (std::size_t i = sample.first; i < sample.last; ++i) {
-    const BotsEvidence::Belief& belief = bots_.beliefs[i];
-    const auto entity = replay_.entity_of_object(belief.object);
-    if (!belief.is_in_scope || !entity || *entity == *player.bat || !is_relevant(*entity)) continue;
-    add_error(matched_error_, sample, belief, *entity, belief.matched);
+    const BotsTrace::Replica& replica = bots_.replicas[i];
+    const auto entity = replay_.entity_of_object(replica.object);
+    if (!replica.is_in_scope || !entity || *entity == *player.bat || !is_relevant(*entity))
+      continue;
+    add_error(matched_error_, sample, replica, *entity, replica.matched);
   }
 }
 
@@ -222,8 +223,9 @@ void ReplayJudgement::judge_contact(Player& player, std::uint32_t entity, double
 Percentiles ReplayJudgement::late_entries() {
   std::vector<double> late_s;
   for (Player& player : players_) {
-    player.stays.end();
-    late_s.insert(late_s.end(), player.stays.lateness_s().begin(), player.stays.lateness_s().end());
+    player.intervals.end();
+    late_s.insert(late_s.end(), player.intervals.lateness_s().begin(),
+                  player.intervals.lateness_s().end());
   }
   return percentiles_ms(std::move(late_s));
 }
@@ -232,9 +234,9 @@ Discoveries ReplayJudgement::discoveries() const {
   Discoveries result;
   if (!bots_.is_complete) return result;
   for (const Player& player : players_) {
-    for (const double delay_s : player.stays.delivered_after_s())
+    for (const double delay_s : player.intervals.delivered_after_s())
       result.late_discovery.add(delay_s);
-    for (std::uint64_t i = 0; i < player.stays.never_delivered(); ++i)
+    for (std::uint64_t i = 0; i < player.intervals.never_delivered(); ++i)
       result.late_discovery.add_never();
   }
   result.missed_contact = missed_;

@@ -8,16 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "game/net/evidence.h"
+#include "game/net/server_trace.h"
 #include "loadgen/measure/statistics/histogram.h"
 #include "loadgen/measure/statistics/sample_distribution.h"
-#include "loadgen/measure/truth/bots_evidence.h"
+#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/measure/truth/classification.h"
 #include "loadgen/measure/truth/discovery.h"
 #include "loadgen/measure/truth/relevance.h"
+#include "loadgen/measure/truth/relevance_intervals.h"
 #include "loadgen/measure/truth/replay.h"
 #include "loadgen/measure/truth/scope_history.h"
-#include "loadgen/measure/truth/stays.h"
 #include "loadgen/measure/truth/trace.h"
 #include "loadgen/measure/truth/truth_figures.h"
 
@@ -25,8 +25,8 @@ namespace rink::loadgen {
 
 class ReplayJudgement {
  public:
-  ReplayJudgement(const game::ServerEvidence& server, const BotsEvidence& bots,
-                  const RelevanceArea& area, Entries entries = Entries::found);
+  ReplayJudgement(const game::ServerTrace& server, const BotsTrace& bots, const RelevanceArea& area,
+                  Entries entries = Entries::found);
 
   /// Keeps in it where everything was; before `figures`.
   void trace_to(TruthTrace& trace) {
@@ -47,7 +47,7 @@ class ReplayJudgement {
     std::optional<std::uint32_t> bat;
     std::vector<ScopeStep> steps;
     ScopeHistory delivered, at_contacts;
-    Stays stays;
+    RelevanceIntervals intervals;
   };
 
   /// Something to be judged at an instant; `index` is into what its kind is about.
@@ -59,28 +59,28 @@ class ReplayJudgement {
   };
 
   void look_around(double instant_s);
-  void add_player(const BotsEvidence::Bot& bot);
+  void add_player(const BotsTrace::Bot& bot);
   void plan_looks();
   void judge(const Look& look);
   bool is_present(const Player& player) const {
     return player.bat && replay_.is_there(*player.bat);
   }
   void judge_entries(double instant_s);
-  void judge_decision(const game::ServerEvidence::Decision& decision);
+  void judge_decision(const game::ServerTrace::Decision& decision);
   bool is_relevant(std::uint32_t entity) const;
-  bool is_replaced_unheard(const BotsEvidence::Sample& sample, const BotsEvidence::Belief& belief,
+  bool is_replaced_unheard(const BotsTrace::Sample& sample, const BotsTrace::Replica& replica,
                            std::uint32_t entity) const;
-  void add_error(PositionErrors& errors, const BotsEvidence::Sample& sample,
-                 const BotsEvidence::Belief& belief, std::uint32_t entity, const Vector2& believed);
-  void judge_displayed(const BotsEvidence::Sample& sample);
-  void judge_matched(const BotsEvidence::Sample& sample);
+  void add_error(PositionErrors& errors, const BotsTrace::Sample& sample,
+                 const BotsTrace::Replica& replica, std::uint32_t entity, const Vector2& believed);
+  void judge_displayed(const BotsTrace::Sample& sample);
+  void judge_matched(const BotsTrace::Sample& sample);
   void judge_contacts();
   void judge_contact(Player& player, std::uint32_t entity, double instant_s);
   TruthFigures sums();
   Percentiles late_entries();
 
-  const game::ServerEvidence& server_;
-  const BotsEvidence& bots_;
+  const game::ServerTrace& server_;
+  const BotsTrace& bots_;
   RelevanceArea area_;
   Entries entries_;
   Replay replay_;

@@ -4,13 +4,13 @@
 
 #include <string>
 
-#include "game/net/evidence_lines.h"
+#include "game/net/trace_lines.h"
 #include "loadgen/measure/truth/relevance.h"
 #include "loadgen/measure/truth/replay.h"
 
 namespace rink::loadgen {
 
-/// docs/metrics.md describes the file. Throws game::EvidenceError if it cannot be written.
+/// docs/metrics.md describes the file. Throws game::TraceError if it cannot be written.
 class TruthTrace {
  public:
   explicit TruthTrace(const std::string& file) : writer_(file) {}
@@ -24,7 +24,7 @@ class TruthTrace {
   void finish() { writer_.finish(); }
 
  private:
-  game::EvidenceWriter writer_;
+  game::TraceWriter writer_;
 };
 
 }  // namespace rink::loadgen

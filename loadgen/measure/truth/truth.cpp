@@ -5,7 +5,7 @@
 #include <optional>
 #include <system_error>
 
-#include "game/net/evidence_lines.h"
+#include "game/net/trace_lines.h"
 #include "game/net/view.h"
 #include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/truth/classification.h"
@@ -14,7 +14,7 @@
 
 namespace rink::loadgen {
 
-TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots,
+TruthFigures truth_of(const game::ServerTrace& server, const BotsTrace& bots,
                       const RelevanceArea& area, Discoveries* discoveries, Entries entries) {
   ReplayJudgement judgement(server, bots, area, entries);
   const TruthFigures figures = judgement.figures();
@@ -22,8 +22,8 @@ TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bo
   return figures;
 }
 
-void write_trace(const std::string& file, const game::ServerEvidence& server,
-                 const BotsEvidence& bots, const RelevanceArea& area) {
+void write_trace(const std::string& file, const game::ServerTrace& server, const BotsTrace& bots,
+                 const RelevanceArea& area) {
   TruthTrace trace(file);
   ReplayJudgement judgement(server, bots, area);
   judgement.trace_to(trace);
@@ -53,8 +53,8 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell,
 
 namespace {
 
-void judge(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server,
-           const BotsEvidence& bots, Discoveries* discoveries) {
+void judge(RunRecord& record, const Experiment& experiment, const game::ServerTrace& server,
+           const BotsTrace& bots, Discoveries* discoveries) {
   const Entries entries = discoveries ? Entries::found : Entries::passed_over;
   const RelevanceArea area =
       relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
@@ -65,9 +65,9 @@ void judge(RunRecord& record, const Experiment& experiment, const game::ServerEv
 }
 
 /// Under a virtual clock nothing takes time.
-void add_tick_costs(RunRecord& record, const game::ServerEvidence& server) {
+void add_tick_costs(RunRecord& record, const game::ServerTrace& server) {
   std::vector<double> ticks_s;
-  for (const game::ServerEvidence::Tick& tick : server.ticks)
+  for (const game::ServerTrace::Tick& tick : server.ticks)
     ticks_s.push_back(tick.physics_s + tick.filter_s + tick.send_s);
   if (std::any_of(ticks_s.begin(), ticks_s.end(), [](double tick_s) { return tick_s > 0.0; }))
     record.tick_us = percentiles_us(std::move(ticks_s));
@@ -75,14 +75,14 @@ void add_tick_costs(RunRecord& record, const game::ServerEvidence& server) {
 
 /// What goes wrong in `act` is why there are no figures, or why the run does not count.
 template <class Act>
-void record_trouble(RunRecord& record, const Act& act) {
+void record_error(RunRecord& record, const Act& act) {
   try {
     act();
   } catch (const DifferentGame& error) {
     record.valid = false;
     record.why_invalid += (record.why_invalid.empty() ? "" : "; ") + std::string(error.what());
   } catch (const std::exception& error) {
-    record.truth.trouble = error.what();
+    record.truth.error = error.what();
   }
 }
 
@@ -91,11 +91,11 @@ const char* const too_many_changes =
 
 }  // namespace
 
-void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server,
-               const BotsEvidence& bots) {
-  record_trouble(record, [&] {
+void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerTrace& server,
+               const BotsTrace& bots) {
+  record_error(record, [&] {
     judge(record, experiment, server, bots, nullptr);
-    if (!bots.is_complete) record.truth.trouble = too_many_changes;
+    if (!bots.is_complete) record.truth.error = too_many_changes;
   });
 }
 
@@ -105,16 +105,16 @@ void add_truth(RunRecord& record, const Experiment& experiment, const std::strin
   std::error_code ignored;
   if (!discovery_file.empty())
     std::filesystem::remove(discovery_file, ignored);  // of an earlier run
-  record_trouble(record, [&] {
-    const game::ServerEvidence server = game::read_server_evidence(server_file);
+  record_error(record, [&] {
+    const game::ServerTrace server = game::read_server_trace(server_file);
     record.truth.relevance =
         text_of(relevance_of(experiment, record.cell, game::chosen_scene(server.choice)));
     add_tick_costs(record, server);
-    const BotsEvidence bots = read_bots_evidence(bots_file);
+    const BotsTrace bots = read_bots_trace(bots_file);
     Discoveries found;
     judge(record, experiment, server, bots, &found);
     if (bots.is_complete) discoveries = found;
-    if (!bots.is_complete) record.truth.trouble = bots_file + ": " + too_many_changes;
+    if (!bots.is_complete) record.truth.error = bots_file + ": " + too_many_changes;
   });
   if (discoveries && !discovery_file.empty()) write_discoveries(discovery_file, *discoveries);
 }

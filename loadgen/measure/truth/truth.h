@@ -6,28 +6,28 @@
 #include <filesystem>
 #include <string>
 
-#include "game/net/evidence.h"
-#include "game/net/evidence_lines.h"
+#include "game/net/server_trace.h"
+#include "game/net/trace_lines.h"
 #include "loadgen/measure/run_record.h"
-#include "loadgen/measure/truth/bots_evidence.h"
+#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/measure/truth/discovery.h"
 #include "loadgen/measure/truth/relevance.h"
 
 namespace rink::loadgen {
 
 /// All figures but fairness and control bytes, which are counts of the reports. Definitions:
-/// docs/metrics.md. Throws game::EvidenceError if the game played again does not end in the
+/// docs/metrics.md. Throws game::TraceError if the game played again does not end in the
 /// server's state (DifferentGame), or if the evidence contradicts itself; game::SceneError if the
 /// scene cannot be read. To who asks, `discoveries` too: none if the bots' evidence is incomplete.
-TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots,
+TruthFigures truth_of(const game::ServerTrace& server, const BotsTrace& bots,
                       const RelevanceArea& area, Discoveries* discoveries = nullptr,
                       Entries entries = Entries::found);
 
 /// Writes where everything was whenever `truth_of` looks (loadgen/measure/truth/trace.h), for
 /// programs that judge again. Throws what `truth_of` does, and std::runtime_error if `file` cannot
 /// be written.
-void write_trace(const std::string& file, const game::ServerEvidence& server,
-                 const BotsEvidence& bots, const RelevanceArea& area);
+void write_trace(const std::string& file, const game::ServerTrace& server, const BotsTrace& bots,
+                 const RelevanceArea& area);
 
 /// What `experiment` calls relevant in `cell`, which plays `scene`.
 RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell,
@@ -42,6 +42,6 @@ void add_truth(RunRecord& record, const Experiment& experiment, const std::strin
                const std::string& bots_file, const std::filesystem::path& discovery_file = {});
 /// The same of evidence that is in memory, which should be `rounded` so that files say the same.
 /// Entries are passed over.
-void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server,
-               const BotsEvidence& bots);
+void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerTrace& server,
+               const BotsTrace& bots);
 }  // namespace rink::loadgen

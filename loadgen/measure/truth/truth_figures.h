@@ -30,7 +30,7 @@ struct TruthFigures {
   std::string relevance;  ///< what truth calls relevant, for a reader, e.g. "square of 3.16 m
                           ///< around the bat, touched by the entity's box"
   std::string
-      trouble;  ///< why the figures are absent; empty if they are not, or if no evidence was taken
+      error;  ///< why the figures are absent; empty if they are not, or if no evidence was taken
 };
 
 }  // namespace rink::loadgen

@@ -92,17 +92,17 @@ void BotCrowd::note_news(Bot& bot, const rti::Stamp& stamp) {
 }
 
 void BotCrowd::after_receiving(Bot& bot) {
-  const game::MirroredEntity* const bat = bot.client.bat();
+  const game::EntityReplica* const bat = bot.client.bat();
   if (bat != nullptr && bot.client.state() == game::Client::State::playing)
     bot.probe.keys_felt(now_s_(), bat->input.count);
-  if (witness_ && witness_->watches(bot.number))
-    witness_->listen(bot.number,
-                     has_started() ? std::optional(clock_.simulated_s(now_s_())) : std::nullopt);
+  if (recorder_ && recorder_->watches(bot.number))
+    recorder_->listen(bot.number,
+                      has_started() ? std::optional(clock_.simulated_s(now_s_())) : std::nullopt);
   sample_when_due();
   take_turn(bot);
   act_when_due();  // between two bots' batches too: with many bots a tick's batches take longer
                    // than a key may be late
-  const game::MirroredEntity* own = bot.client.bat();
+  const game::EntityReplica* own = bot.client.bat();
   if (own != nullptr && !clock_.is_synchronous() && !(own->trajectory && has_started()))
     bot.client.follow_bat();
   lose_if_over(bot);
@@ -113,10 +113,10 @@ void BotCrowd::lose_if_over(Bot& bot) {
   const game::Joining& joining = bot.client.joining();
   const std::optional<rti::Refusal>& refusal = joining.refusal();
   if (joining.state() == game::Client::State::refused)
-    crowd_.lose(bot, joining.trouble(),
+    crowd_.lose(bot, joining.error(),
                 refusal ? game::exit_status(*refusal) : game::ExitStatus::not_admitted);
   if (joining.state() == game::Client::State::lost)
-    crowd_.lose(bot, joining.trouble(), game::ExitStatus::connection_lost);
+    crowd_.lose(bot, joining.error(), game::ExitStatus::connection_lost);
 }
 
 void BotCrowd::run_once() {
@@ -127,7 +127,7 @@ void BotCrowd::run_once() {
   if (clock_.runs()) {
     if (const auto next_s = keys_.next_s()) wait_until(*next_s, longest_wait_s);
     if (!decisions_.is_empty()) wait_until(decisions_.next_s(), longest_wait_s);
-    if (witness_) wait_until(witness_->next_sample_s(), wait_s);
+    if (recorder_) wait_until(recorder_->next_sample_s(), wait_s);
   }
   transport_.poll(std::chrono::nanoseconds(static_cast<std::int64_t>(wait_s * 1e9)), *this);
   advance_clocks();
@@ -145,7 +145,7 @@ void BotCrowd::follow_bats() {
   if (clock_.is_synchronous() || now < bats_followed_s_ + follow_period_s) return;
   bats_followed_s_ = now;
   crowd_.for_each_present([&](Bot& bot) {
-    const game::MirroredEntity* bat = bot.client.bat();
+    const game::EntityReplica* bat = bot.client.bat();
     if (bat == nullptr || !bat->trajectory) return;
     bot.client.follow_bat(clock_.simulated_s(now));
     crowd_.send(bot);
@@ -161,7 +161,7 @@ std::optional<double> BotCrowd::next_due_s() const {
   if (const auto key_s = keys_.next_s()) consider(*key_s);
   if (!decisions_.is_empty() && decisions_.next_s() < settings_.duration_s)
     consider(decisions_.next_s());
-  if (witness_ && std::isfinite(witness_->next_sample_s())) consider(witness_->next_sample_s());
+  if (recorder_ && std::isfinite(recorder_->next_sample_s())) consider(recorder_->next_sample_s());
   if (!meter_.has_begun()) consider(settings_.warm_up_s);
   if (!meter_.has_ended()) consider(settings_.duration_s);
   return next_s;
@@ -255,26 +255,26 @@ void BotCrowd::measure_span() {
     meter_.end(now_s_(), crowd_.carried());
 }
 
-void BotCrowd::collect_evidence(std::uint64_t seed) {
+void BotCrowd::collect_trace(std::uint64_t seed) {
   std::vector<game::Client*> clients;
   crowd_.for_each_present([&](Bot& bot) { clients.push_back(&bot.client); });
-  witness_.emplace(game::SamplingSettings{.seed = seed,
-                                          .clients = crowd_.size(),
-                                          .from_s = settings_.warm_up_s,
-                                          .until_s = settings_.duration_s},
-                   clients);
+  recorder_.emplace(game::SamplingSettings{.seed = seed,
+                                           .clients = crowd_.size(),
+                                           .from_s = settings_.warm_up_s,
+                                           .until_s = settings_.duration_s},
+                    clients);
 }
 
-std::optional<BotsEvidence> BotCrowd::evidence() const {
-  if (!witness_) return std::nullopt;
-  return witness_->evidence();
+std::optional<BotsTrace> BotCrowd::trace() const {
+  if (!recorder_) return std::nullopt;
+  return recorder_->trace();
 }
 
 void BotCrowd::sample_when_due() {
-  if (!witness_ || !has_started()) return;
+  if (!recorder_ || !has_started()) return;
   if (const double simulated_s = clock_.simulated_s(now_s_());
-      simulated_s >= witness_->next_sample_s())
-    witness_->sample(simulated_s);
+      simulated_s >= recorder_->next_sample_s())
+    recorder_->sample(simulated_s);
 }
 
 }  // namespace rink::loadgen

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "game/model/key.h"
-#include "loadgen/run/bots/bots_witness.h"
+#include "loadgen/run/bots/bots_recorder.h"
 #include "loadgen/run/bots/crowd.h"
 #include "loadgen/run/bots/crowd_clock.h"
 #include "loadgen/run/bots/decision_schedule.h"
@@ -48,10 +48,10 @@ class BotCrowd : public rti::TransportListener {
            const std::vector<game::InputEvent>& plan, Clock now_s);
 
   /// Watches some of the bots, drawn from `seed`; to be called before `connect`.
-  void collect_evidence(std::uint64_t seed);
+  void collect_trace(std::uint64_t seed);
   /// What they heard and believed, if it was asked for.
-  std::optional<BotsEvidence> evidence() const;
-  std::size_t evidence_bytes() const { return witness_ ? witness_->memory_bytes() : 0; }
+  std::optional<BotsTrace> trace() const;
+  std::size_t evidence_bytes() const { return recorder_ ? recorder_->memory_bytes() : 0; }
 
   /// Opens the connections and sends the joins.
   void connect(const Crowd::Connect& connect) { crowd_.connect(connect); }
@@ -104,7 +104,7 @@ class BotCrowd : public rti::TransportListener {
   CrowdClock clock_;
   KeySchedule keys_;
   DecisionSchedule decisions_;
-  std::optional<BotsWitness> witness_;
+  std::optional<BotsRecorder> recorder_;
   double clocks_advanced_s_ = 0.0, bats_followed_s_ = 0.0;
 };
 

@@ -33,8 +33,8 @@ void Crowd::lose(Bot& bot, const std::string& why, game::ExitStatus status) {
   if (bot.is_lost) return;
   bot.is_lost = true;
   ++lost_;
-  if (!first_trouble_.empty()) return;
-  first_trouble_ = why;
+  if (!first_error_.empty()) return;
+  first_error_ = why;
   first_status_ = status;
 }
 
@@ -78,7 +78,7 @@ CrowdTraffic Crowd::traffic() const {
     sum.kernel_segments_sent += counters.kernel_segments_sent.value_or(counters.segments_sent);
     sum.kernel_bytes_sent += counters.kernel_bytes_sent.value_or(counters.bytes_sent);
     sum.kernel_bytes_received += counters.kernel_bytes_received.value_or(counters.bytes_received);
-    sum.updates_received += bot->client.mirror().counters().updates;
+    sum.updates_received += bot->client.replicas().counters().updates;
   }
   return sum;
 }

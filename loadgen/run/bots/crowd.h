@@ -66,7 +66,7 @@ class Crowd {
   std::uint32_t lost_count() const { return lost_; }
   bool are_all_lost() const { return lost_ == bots_.size(); }
   /// Why the first bot that was lost or refused was; empty if none was.
-  const std::string& first_trouble() const { return first_trouble_; }
+  const std::string& first_error() const { return first_error_; }
   game::ExitStatus first_status() const { return first_status_; }
 
   /// Since the start, now.
@@ -83,7 +83,7 @@ class Crowd {
   std::vector<std::unique_ptr<Bot>> bots_;
   std::vector<std::uint32_t> bot_of_connection_;
   std::uint32_t lost_ = 0;
-  std::string first_trouble_;
+  std::string first_error_;
   game::ExitStatus first_status_ = game::ExitStatus::no_server;
 };
 

@@ -32,38 +32,38 @@ bool is_playable(const game::Extent& extent, const game::Shape& bat) {
 }
 
 game::KeysHeld LivePlayer::decide(const game::Client& client, double instant) {
-  const game::MirroredEntity* bat = client.bat();
-  if (bat == nullptr || !client.mirror().field()) return {};
-  if (!player_ && !is_playable(*client.mirror().field(), bat->shape)) return {};
+  const game::EntityReplica* bat = client.bat();
+  if (bat == nullptr || !client.replicas().field()) return {};
+  if (!player_ && !is_playable(*client.replicas().field(), bat->shape)) return {};
   if (!player_) take_seat(client, *bat);
   const game::SeenEntity own = seen(*bat, own_, instant);
-  if (decisions_++ % game::look_about_interval == 0) look_about(client.mirror(), own.position);
+  if (decisions_++ % game::look_about_interval == 0) look_about(client.replicas(), own.position);
   pucks_.clear();
   for (Track& track : watched_) {
-    const game::MirroredEntity* puck = client.mirror().find(track.object);
+    const game::EntityReplica* puck = client.replicas().find(track.object);
     if (puck != nullptr && puck->in_scope) pucks_.push_back(seen(*puck, track, instant));
   }
   return player_->decide({.position = own.position, .velocity = own.velocity, .pucks = pucks_},
                          instant);
 }
 
-void LivePlayer::take_seat(const game::Client& client, const game::MirroredEntity& bat) {
+void LivePlayer::take_seat(const game::Client& client, const game::EntityReplica& bat) {
   const game::PlayerSeat seat{.number = number_,
                               .team = static_cast<game::Team>(bat.shape.team),
                               .half_extent = {static_cast<double>(bat.shape.half_length),
                                               static_cast<double>(bat.shape.half_width)}};
-  player_ = game::make_player(players_.kind, rules_on(players_.rules, *client.mirror().field()),
+  player_ = game::make_player(players_.kind, rules_on(players_.rules, *client.replicas().field()),
                               seat, players_.seed);
 }
 
-void LivePlayer::look_about(const game::Mirror& mirror, const game::Vector2& from) {
+void LivePlayer::look_about(const game::ReplicaSet& replica_set, const game::Vector2& from) {
   const std::uint32_t wanted = player_->pucks_wanted();
   if (wanted == 0) return;
   nearest_.clear(wanted);
-  for (const game::MirroredEntity& entity : mirror.entities()) {
+  for (const game::EntityReplica& entity : replica_set.entities()) {
     if (!entity.in_scope || entity.shape.kind != static_cast<std::uint8_t>(physics::BodyKind::puck))
       continue;
-    const game::Vector2 there = entity.position_at(mirror.newest().time);
+    const game::Vector2 there = entity.position_at(replica_set.newest().time);
     nearest_.show(entity.object, (there - from).squaredNorm());
   }
   watched_before_.swap(watched_);
@@ -76,8 +76,7 @@ void LivePlayer::look_about(const game::Mirror& mirror, const game::Vector2& fro
   }
 }
 
-game::SeenEntity LivePlayer::seen(const game::MirroredEntity& entity, Track& track,
-                                  double instant) {
+game::SeenEntity LivePlayer::seen(const game::EntityReplica& entity, Track& track, double instant) {
   constexpr double step_s = 1e-3;
   game::Vector2 position = entity.position_at(instant);
   const game::Vector2 along = (entity.position_at(instant + step_s) - position) / step_s;

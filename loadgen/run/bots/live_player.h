@@ -48,9 +48,9 @@ class LivePlayer {
     double stamp_s = -1.0;  ///< of the position; below 0: never seen
   };
 
-  void take_seat(const game::Client& client, const game::MirroredEntity& bat);
-  void look_about(const game::Mirror& mirror, const game::Vector2& from);
-  static game::SeenEntity seen(const game::MirroredEntity& entity, Track& track, double instant);
+  void take_seat(const game::Client& client, const game::EntityReplica& bat);
+  void look_about(const game::ReplicaSet& replica_set, const game::Vector2& from);
+  static game::SeenEntity seen(const game::EntityReplica& entity, Track& track, double instant);
 
   const LivePlayers& players_;
   std::uint32_t number_;

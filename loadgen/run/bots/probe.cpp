@@ -25,13 +25,13 @@ void Probe::key_sent(double due_s, double sent_s, bool is_counted) {
 }
 
 void Probe::news_applied(double due_s, double now_s, bool is_counted) {
-  if (is_counted) measurements_.update_age.record(now_s - due_s);
+  if (is_counted) measurements_.update_latency.record(now_s - due_s);
 }
 
 void Probe::keys_felt(double now_s, std::uint32_t felt) {
   for (; answered_ < felt && !waiting_.empty(); ++answered_) {
     if (waiting_.front().is_counted)
-      measurements_.key_to_effect.record(now_s - waiting_.front().due_s);
+      measurements_.input_latency.record(now_s - waiting_.front().due_s);
     waiting_.pop_front();
   }
 }

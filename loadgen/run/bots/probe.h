@@ -13,7 +13,7 @@ namespace rink::loadgen {
 /// The histograms of all bots of a process, and the span of simulated time in which they count.
 struct Measurements {
   double from_s = 0.0, until_s = 0.0;  ///< simulated time [s]; what falls outside is not counted
-  Histogram update_age, key_to_effect, send_lateness;
+  Histogram update_latency, input_latency, send_lateness;
   std::uint64_t keys_due = 0, keys_sent = 0, keys_unanswered = 0, late_sends = 0;
 
   bool is_counted(double simulated_s) const {

@@ -12,10 +12,10 @@
 
 namespace rink::loadgen {
 
-game::ServerEvidence evidence_of(const Experiment& experiment, const Cell& cell,
-                                 const game::Game& start, const std::vector<game::InputEvent>& keys,
-                                 const std::string& state_hash) {
-  game::ServerEvidence server;
+game::ServerTrace trace_of(const Experiment& experiment, const Cell& cell, const game::Game& start,
+                           const std::vector<game::InputEvent>& keys,
+                           const std::string& state_hash) {
+  game::ServerTrace server;
   server.choice = choice_of(experiment, cell);
   server.scheme = cell.scheme, server.policy = cell.policy;
   server.clients = cell.clients;
@@ -30,31 +30,31 @@ game::ServerEvidence evidence_of(const Experiment& experiment, const Cell& cell,
   return server;
 }
 
-BotsEvidence bots_evidence_of(const game::ServerEvidence& server) {
-  BotsEvidence bots;
+BotsTrace bots_trace_of(const game::ServerTrace& server) {
+  BotsTrace bots;
   bots.clients = server.clients;
   bots.from_s = server.from_s, bots.until_s = server.until_s;
   return bots;
 }
 
-void add_player(BotsEvidence& bots, const game::PlayerEvidence& player) {
-  const std::size_t before = bots.beliefs.size();
-  for (const game::PlayerEvidence::Belief& belief : player.beliefs)
-    bots.beliefs.push_back({.object = belief.body,
-                            .bytes = belief.bytes,
-                            .is_in_scope = belief.is_in_scope,
-                            .matched = belief.matched,
-                            .displayed = belief.displayed});
-  for (const game::PlayerEvidence::Sample& sample : player.samples)
+void add_player(BotsTrace& bots, const game::PlayerTrace& player) {
+  const std::size_t before = bots.replicas.size();
+  for (const game::PlayerTrace::Replica& replica : player.replicas)
+    bots.replicas.push_back({.object = replica.body,
+                             .bytes = replica.bytes,
+                             .is_in_scope = replica.is_in_scope,
+                             .matched = replica.matched,
+                             .displayed = replica.displayed});
+  for (const game::PlayerTrace::Sample& sample : player.samples)
     bots.samples.push_back({.bot = static_cast<std::uint32_t>(bots.bots.size()),
                             .displayed_s = sample.displayed_s,
                             .matched_s = sample.matched_s,
                             .window_s = sample.window_s,
                             .first = before + sample.first,
                             .last = before + sample.last});
-  BotsEvidence::Bot& bot = bots.bots.emplace_back();
+  BotsTrace::Bot& bot = bots.bots.emplace_back();
   bot.object = player.bat;
-  for (const game::PlayerEvidence::ScopeChange& change : player.changes)
+  for (const game::PlayerTrace::ScopeChange& change : player.changes)
     bot.changes.push_back({change.instant_s, change.body, change.is_in});
 }
 
@@ -69,8 +69,8 @@ void judge_peers(const RunnerSettings& settings, const Experiment& experiment, R
   if (settings.wants_truth) {
     std::stable_sort(bots.samples.begin(), bots.samples.end(),
                      [](const auto& a, const auto& b) { return a.displayed_s < b.displayed_s; });
-    game::write_evidence(server_file, server);
-    write_evidence(bots_file, bots);
+    game::write_trace(server_file, server);
+    write_trace(bots_file, bots);
   }
   write_json(settings.directory / (name + ".peers.json"), peers);
   write_json(settings.directory / (name + ".bots.json"), players);

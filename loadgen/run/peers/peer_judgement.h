@@ -6,29 +6,29 @@
 #include <vector>
 
 #include "game/control/game.h"
-#include "game/net/evidence.h"
-#include "game/net/peer/player_witness.h"
-#include "loadgen/measure/truth/bots_evidence.h"
+#include "game/net/peer/player_recorder.h"
+#include "game/net/server_trace.h"
+#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/run/cell_runner.h"
 #include "loadgen/run/peers/peer_report.h"
 
 namespace rink::loadgen {
 
 /// Of a run under recorded `keys` up to its last window; decisions are still to be added.
-game::ServerEvidence evidence_of(const Experiment& experiment, const Cell& cell,
-                                 const game::Game& start, const std::vector<game::InputEvent>& keys,
-                                 const std::string& state_hash);
+game::ServerTrace trace_of(const Experiment& experiment, const Cell& cell, const game::Game& start,
+                           const std::vector<game::InputEvent>& keys,
+                           const std::string& state_hash);
 /// Without bots.
-BotsEvidence bots_evidence_of(const game::ServerEvidence& server);
+BotsTrace bots_trace_of(const game::ServerTrace& server);
 /// The next watched player.
-void add_player(BotsEvidence& bots, const game::PlayerEvidence& player);
+void add_player(BotsTrace& bots, const game::PlayerTrace& player);
 
 /// What peers say together.
 struct PeersFindings {
   const PeerTotals& totals;
   const Measurements& measured;
-  const game::ServerEvidence& server;
-  BotsEvidence bots;
+  const game::ServerTrace& server;
+  BotsTrace bots;
 };
 
 /// Writes NAME.peers.json, NAME.bots.json and, where truth is wanted, both kinds of evidence; and

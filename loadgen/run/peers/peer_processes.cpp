@@ -11,9 +11,9 @@
 #include <system_error>
 
 #include "game/model/report_fields.h"
-#include "game/net/evidence_lines.h"
-#include "game/net/peer/meeting/seating.h"
-#include "game/net/peer/peer_evidence.h"
+#include "game/net/peer/network/seating.h"
+#include "game/net/peer/peer_trace.h"
+#include "game/net/trace_lines.h"
 #include "game/process/process.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/peers/peer_judgement.h"
@@ -52,7 +52,7 @@ class PeerProcesses {
   void read();
   void replay(Measurements& measured, PeerTotals& totals) const;
   PeerTotals totals() const;
-  void add_decisions(game::ServerEvidence& server, const game::Game& start) const;
+  void add_decisions(game::ServerTrace& server, const game::Game& start) const;
 
   const RunnerSettings& settings_;
   const Experiment& experiment_;
@@ -62,7 +62,7 @@ class PeerProcesses {
   std::vector<game::InputEvent> keys_;
   std::deque<game::Process> processes_;
   std::vector<nlohmann::json> reports_;  ///< by process
-  std::vector<game::PeerEvidence> evidence_;
+  std::vector<game::PeerTrace> trace_;
 };
 
 /// The first peer, or if `first` is not empty one that joins the peer there (ADDRESS:PORT).
@@ -123,7 +123,7 @@ std::string PeerProcesses::address_of_first() {
     if (const auto address = first.line_after("listening on ")) return *address;
     if (first.ending())
       throw Failure{"the first peer " + first.ending()->text() + " before it listened" +
-                    (first.last_words().empty() ? "" : ", saying: " + first.last_words())};
+                    (first.stderr_tail().empty() ? "" : ", saying: " + first.stderr_tail())};
     if (Clock::now() > deadline)
       throw Failure{"the first peer did not listen within " + decimal(settings_.listen_limit_s) +
                     " s"};
@@ -170,7 +170,7 @@ void PeerProcesses::name_failures() {
         ++others;
         continue;
       }
-      const std::string words = processes_[k].last_words();
+      const std::string words = processes_[k].stderr_tail();
       why = "peer process " + std::to_string(k) + " " + ending->text() +
             (words.empty() ? "" : ", saying: " + words);
     }
@@ -191,8 +191,8 @@ void PeerProcesses::read() {
     if (reports_.back()[game::report::hash.key] != reports_.front()[game::report::hash.key])
       throw Failure{"peer processes 0 and " + std::to_string(k) + " end in different states"};
     try {
-      evidence_.push_back(game::read_peer_evidence(file_of(k, ".jsonl")));
-    } catch (const game::EvidenceError& error) {
+      trace_.push_back(game::read_peer_trace(file_of(k, ".jsonl")));
+    } catch (const game::TraceError& error) {
       throw Failure{error.what()};
     }
     std::error_code ignored;
@@ -204,10 +204,10 @@ void PeerProcesses::read() {
 /// Latencies, from the instants that each peer noted.
 void PeerProcesses::replay(Measurements& measured, PeerTotals& totals) const {
   const double window_s = 1.0 / cell_.parameters.tick_rate_hz;
-  using Kind = game::PeerEvidence::Kind;
-  for (const game::PeerEvidence& peer : evidence_) {
+  using Kind = game::PeerTrace::Kind;
+  for (const game::PeerTrace& peer : trace_) {
     Probe probe(measured);
-    for (const game::PeerEvidence::Event& event : peer.events) {
+    for (const game::PeerTrace::Event& event : peer.events) {
       const bool is_counted = measured.is_counted(event.due_s);
       if (event.kind == Kind::key)
         measured.keys_due += is_counted, probe.key_sent(event.due_s, event.instant_s, is_counted);
@@ -229,11 +229,11 @@ PeerTotals PeerProcesses::totals() const {
   TrafficTotals begin;
   std::uint64_t kernel_sent = 0, kernel_received = 0, busiest_rss = 0;
   bool has_kernel = true;
-  for (std::size_t k = 0; k < evidence_.size(); ++k) {
-    const game::PeerEvidence& own = evidence_[k];
+  for (std::size_t k = 0; k < trace_.size(); ++k) {
+    const game::PeerTrace& own = trace_[k];
     totals.measured.add(own.end), begin.add(own.begin);
     totals.measured_s +=
-        (own.end.instant_s - own.begin.instant_s) / static_cast<double>(evidence_.size());
+        (own.end.instant_s - own.begin.instant_s) / static_cast<double>(trace_.size());
     const nlohmann::json &report = reports_[k], &transport = report.at(game::report::transport);
     peer::PeerCounters counters;
     counters.windows = report.at(game::report::windows.key),
@@ -265,11 +265,11 @@ PeerTotals PeerProcesses::totals() const {
 }
 
 /// What each owner decided of its own bodies, together.
-void PeerProcesses::add_decisions(game::ServerEvidence& server, const game::Game& start) const {
+void PeerProcesses::add_decisions(game::ServerTrace& server, const game::Game& start) const {
   const std::vector<std::uint32_t> bats = game::seated_division(start, cell_.clients).bats;
   std::map<std::pair<double, std::uint32_t>, std::vector<std::uint32_t>> scopes;
-  for (const game::PeerEvidence& peer : evidence_)
-    for (const game::PeerEvidence::Decision& decision : peer.decisions) {
+  for (const game::PeerTrace& peer : trace_)
+    for (const game::PeerTrace::Decision& decision : peer.decisions) {
       if (decision.peer >= bats.size())
         throw Failure{"peer " + std::to_string(peer.peer) + " decided for peer " +
                       std::to_string(decision.peer) + ", who is not there"};
@@ -305,10 +305,10 @@ void PeerProcesses::run(RunRecord& record) {
     sum_s += process.ending()->cpu_s, busiest_s = std::max(busiest_s, process.ending()->cpu_s);
   record.nodes.busiest_cpu_s = busiest_s,
   record.nodes.mean_cpu_s = sum_s / static_cast<double>(processes_.size());
-  game::ServerEvidence server = evidence_of(experiment_, cell_, start, keys_, sums.state_hash);
+  game::ServerTrace server = trace_of(experiment_, cell_, start, keys_, sums.state_hash);
   add_decisions(server, start);
-  BotsEvidence bots = bots_evidence_of(server);
-  for (const game::PeerEvidence& peer : evidence_)
+  BotsTrace bots = bots_trace_of(server);
+  for (const game::PeerTrace& peer : trace_)
     if (peer.player) add_player(bots, *peer.player);
   judge_peers(settings_, experiment_, record,
               {.totals = sums, .measured = measured, .server = server, .bots = std::move(bots)});

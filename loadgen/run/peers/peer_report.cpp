@@ -138,8 +138,8 @@ Json players_report(const Cell& cell, const PeerTotals& totals, const Measuremen
           {game::report::segments_sent, totals.measured.segments},
           {game::report::acknowledgements_sent, totals.measured.acknowledgements},
           {game::report::kernel_segments_sent, totals.measured.kernel_segments},
-          {game::report::update_age_ms, measured.update_age.to_json()},
-          {game::report::key_to_effect_ms, measured.key_to_effect.to_json()},
+          {game::report::update_age_ms, measured.update_latency.to_json()},
+          {game::report::key_to_effect_ms, measured.input_latency.to_json()},
           {game::report::keys_due, measured.keys_due},
           {game::report::keys_sent, measured.keys_sent},
           {game::report::keys_unanswered, totals.keys_unanswered},
@@ -154,8 +154,8 @@ Json players_report(const Cell& cell, const PeerTotals& totals, const Measuremen
           {game::report::total_bytes_sent, totals.whole.bytes},
           {game::report::kernel_bytes_received, or_null(totals.kernel_received)},
           {game::report::kernel_bytes_sent, or_null(totals.kernel_sent)},
-          {game::report::valid, totals.trouble.empty()},
-          {game::report::why_invalid, totals.trouble}};
+          {game::report::valid, totals.error.empty()},
+          {game::report::why_invalid, totals.error}};
 }
 
 }  // namespace rink::loadgen

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "game/net/peer/peer_evidence.h"
 #include "game/net/peer/peer_node.h"
+#include "game/net/peer/peer_trace.h"
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/run/bots/probe.h"
 #include "rti/transport/transport.h"
@@ -45,7 +45,7 @@ struct PeerTotals {
   peer::PeerCounters counters;       ///< of all peers, from start to end
   std::uint64_t whole_received = 0;  ///< bytes; and what the kernel counted, if there is one:
   std::optional<std::uint64_t> kernel_sent, kernel_received, busiest_rss;  ///< bytes
-  std::string trouble;  ///< why the players' part of the run does not count
+  std::string error;  ///< why the players' part of the run does not count
   std::string state_hash;
 };
 

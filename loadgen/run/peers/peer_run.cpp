@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "game/control/key_log.h"
-#include "game/net/peer/meeting/seating.h"
+#include "game/net/peer/network/seating.h"
 #include "game/net/relevant_kinds.h"
 #include "game/net/view.h"
 #include "im/basics/hexadecimal.h"
@@ -39,7 +39,7 @@ class NetworkedStation : private rti::TransportListener {
       note(end_.connect(name_of(other)), other);
   }
   bool is_connected() const { return open_ + 1 == connections_.size(); }
-  const std::string& trouble() const { return trouble_; }
+  const std::string& error() const { return error_; }
   rti::TransportCounters totals() const { return end_.totals(); }
 
   void run_once() {
@@ -82,16 +82,16 @@ class NetworkedStation : private rti::TransportListener {
       bytes = bytes.subspan(sizeof other);
     }
     try {
-      if (!bytes.empty()) station_.hear(others_[connection], bytes);
+      if (!bytes.empty()) station_.receive(others_[connection], bytes);
     } catch (const peer::ProtocolError& error) {
-      if (trouble_.empty()) trouble_ = "peer " + std::to_string(number_) + ": " + error.what();
+      if (error_.empty()) error_ = "peer " + std::to_string(number_) + ": " + error.what();
     }
   }
   void on_close(rti::ConnectionId connection, rti::CloseReason reason,
                 const std::string&) override {
-    if (trouble_.empty())
-      trouble_ = "peer " + std::to_string(number_) + ": connection to peer " +
-                 std::to_string(others_[connection]) + " is closed: " + rti::to_string(reason);
+    if (error_.empty())
+      error_ = "peer " + std::to_string(number_) + ": connection to peer " +
+               std::to_string(others_[connection]) + " is closed: " + rti::to_string(reason);
   }
 
   rti::VirtualEndpoint end_;
@@ -100,7 +100,7 @@ class NetworkedStation : private rti::TransportListener {
   std::vector<rti::ConnectionId> connections_;  ///< by peer
   std::vector<peer::PeerNumber> others_;        ///< by connection
   std::size_t open_ = 0;
-  std::string trouble_;
+  std::string error_;
 };
 
 class PeerRun {
@@ -139,7 +139,7 @@ class PeerRun {
   PeerSchedule schedule_;
   std::vector<peer::PeerNumber> node_of_player_;
   std::vector<std::uint32_t> players_;  ///< that are watched
-  game::ServerEvidence evidence_;
+  game::ServerTrace trace_;
   TrafficTotals begin_, measured_;
   double measured_s_ = 0.0;
   bool has_started_ = false;
@@ -187,7 +187,7 @@ PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, c
     return node_of_player_[key.player] == cell.clients || key.time >= played_s();
   });
   schedule_.plan_keys(std::move(played));
-  evidence_.keys = keys;
+  trace_.keys = keys;
   if (!settings.wants_truth) return;
   const game::SamplingSettings sampling{.seed = cell.seed,
                                         .clients = cell.clients,
@@ -201,7 +201,7 @@ PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, c
 void PeerRun::flush() {
   for (NetworkedStation& end : ends_) {
     end.flush();
-    if (!end.trouble().empty()) throw Failure{end.trouble()};
+    if (!end.error().empty()) throw Failure{end.error()};
   }
 }
 
@@ -299,20 +299,19 @@ TrafficTotals PeerRun::traffic() const {
 void PeerRun::note_decisions(double instant_s) {
   for (const std::uint32_t player : players_) {
     const peer::PeerNumber node = node_of_player_[player];
-    const std::size_t first = evidence_.in_scope.size();
+    const std::size_t first = trace_.in_scope.size();
     for (const PeerStation& station : stations_) {
       const std::vector<std::uint32_t>& scope = station.node().interest().sender().scope_of(node);
       for (const std::uint32_t body : scope)
-        if (station.node().interest().owns(body)) evidence_.in_scope.push_back(body);
+        if (station.node().interest().owns(body)) trace_.in_scope.push_back(body);
     }
-    std::sort(evidence_.in_scope.begin() + static_cast<std::ptrdiff_t>(first),
-              evidence_.in_scope.end());
-    evidence_.decisions.push_back({instant_s, player, first, evidence_.in_scope.size()});
+    std::sort(trace_.in_scope.begin() + static_cast<std::ptrdiff_t>(first), trace_.in_scope.end());
+    trace_.decisions.push_back({instant_s, player, first, trace_.in_scope.size()});
   }
 }
 
 std::string PeerRun::state_hash() const {
-  std::vector<peer::Arrivals> parts;
+  std::vector<peer::Handover> parts;
   for (const PeerStation& station : stations_)
     parts.push_back(peer::own_bodies(station.node().peer()));
   const auto world =
@@ -341,12 +340,12 @@ PeerTotals PeerRun::totals() const {
 
 void PeerRun::judge(RunRecord& record) const {
   const PeerTotals sums = totals();
-  game::ServerEvidence server =
-      evidence_of(experiment_, cell_, game_.start(), evidence_.keys, sums.state_hash);
-  server.decisions = evidence_.decisions, server.in_scope = evidence_.in_scope;
-  BotsEvidence bots = bots_evidence_of(server);
+  game::ServerTrace server =
+      trace_of(experiment_, cell_, game_.start(), trace_.keys, sums.state_hash);
+  server.decisions = trace_.decisions, server.in_scope = trace_.in_scope;
+  BotsTrace bots = bots_trace_of(server);
   for (const std::uint32_t player : players_)
-    add_player(bots, stations_[node_of_player_[player]].evidence());
+    add_player(bots, stations_[node_of_player_[player]].trace());
   judge_peers(
       settings_, experiment_, record,
       {.totals = sums, .measured = measurements_, .server = server, .bots = std::move(bots)});

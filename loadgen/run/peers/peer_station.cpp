@@ -30,7 +30,7 @@ PeerStation::PeerStation(const game::SharedGame& game, const game::InterestSetti
   node_.on_commit = [this] { note_commit(); };
 }
 
-void PeerStation::watch() { witness_.emplace(node_.interest()); }
+void PeerStation::watch() { recorder_.emplace(node_.interest()); }
 
 void PeerStation::press(double instant) {
   const bool is_counted = measurements_.is_counted(instant);
@@ -39,15 +39,15 @@ void PeerStation::press(double instant) {
   probe_.key_sent(clock_.start_s + instant, clock_.now_s, is_counted);
 }
 
-void PeerStation::hear(peer::PeerNumber from, rti::Bytes bytes) {
+void PeerStation::receive(peer::PeerNumber from, rti::Bytes bytes) {
   game::FrameReader& reader = readers_[from];
   reader.add(bytes);
   while (auto frame = reader.next(game::peer_frame_max)) {
     const bool is_mail = frame->kind == game::FrameKind::mail && !frame->content.empty() &&
                          frame->content[0] < game::traffic_count;
     if (!is_mail ||
-        !node_.hear(from, static_cast<game::Traffic>(frame->content[0]),
-                    std::vector<std::uint8_t>(frame->content.begin() + 1, frame->content.end())))
+        !node_.receive(from, static_cast<game::Traffic>(frame->content[0]),
+                       std::vector<std::uint8_t>(frame->content.begin() + 1, frame->content.end())))
       throw peer::ProtocolError("peer " + std::to_string(from) + " sent what is no message");
   }
   if (reader.is_broken())
@@ -64,7 +64,7 @@ void PeerStation::note_commit() {
   known_ += measurements_.is_counted(simulated_s);
   on_time_ += measurements_.is_counted(simulated_s) &&
               clock_.simulated_s() <= simulated_s + 1.0 / rate_hz_ + rounding_s;
-  if (witness_) witness_->note_commit(clock_.simulated_s(), simulated_s);
+  if (recorder_) recorder_->note_commit(clock_.simulated_s(), simulated_s);
 }
 
 }  // namespace rink::loadgen

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "game/net/peer/meeting/frames.h"
+#include "game/net/peer/network/frames.h"
 #include "game/net/peer/peer_node.h"
-#include "game/net/peer/player_witness.h"
+#include "game/net/peer/player_recorder.h"
 #include "loadgen/run/bots/probe.h"
 
 namespace rink::loadgen {
@@ -44,11 +44,11 @@ class PeerStation {
   void press(double instant);
   /// Bytes of another peer's stream, cut anywhere. Throws peer::ProtocolError for what no peer
   /// says.
-  void hear(peer::PeerNumber from, rti::Bytes bytes);
+  void receive(peer::PeerNumber from, rti::Bytes bytes);
   /// What is to be sent to `to`; the caller takes it.
   std::vector<std::uint8_t>& outbox(peer::PeerNumber to) { return outboxes_[to]; }
   /// Takes a sample of what the player believes now.
-  void sample() { witness_->sample(clock_.simulated_s()); }
+  void sample() { recorder_->sample(clock_.simulated_s()); }
 
   game::PeerNode& node() { return node_; }
   const game::PeerNode& node() const { return node_; }
@@ -58,7 +58,7 @@ class PeerStation {
   std::uint64_t windows_known() const { return known_; }
   std::uint64_t windows_on_time() const { return on_time_; }
   /// Of a watched one.
-  const game::PlayerEvidence& evidence() const { return witness_->evidence(); }
+  const game::PlayerTrace& trace() const { return recorder_->trace(); }
 
  private:
   void note_commit();
@@ -70,7 +70,7 @@ class PeerStation {
   std::vector<std::vector<std::uint8_t>> outboxes_;  ///< likewise
   Probe probe_;
   game::PeerNode node_;
-  std::optional<game::PlayerWitness> witness_;
+  std::optional<game::PlayerRecorder> recorder_;
   std::uint64_t known_ = 0, on_time_ = 0;
 };
 

@@ -44,7 +44,7 @@ class SaturationSearch {
       if (record.cell.clients == found_.search.failed && judgement.verdict != Verdict::holds)
         found_.why = judgement.why;
     }
-    foretell();
+    predict();
     return std::move(found_);
   }
 
@@ -74,14 +74,14 @@ class SaturationSearch {
 
   /// The edge itself and what lies beyond it are left out: a fit through them would know the
   /// answer.
-  void foretell() {
+  void predict() {
     std::vector<RunRecord> below;
     std::ranges::copy_if(records_, std::back_inserter(below), [this](const RunRecord& record) {
       return record.cell.clients < found_.search.held.value_or(0);
     });
     for (const Capacity& capacity : capacities_of(growths_of(below))) {
-      found_.foretold = capacity.clients;
-      found_.foretold_from = static_cast<std::uint32_t>(capacity.growth.most);
+      found_.predicted = capacity.clients;
+      found_.predicted_from = static_cast<std::uint32_t>(capacity.growth.most);
     }
   }
 

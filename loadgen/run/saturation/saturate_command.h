@@ -23,9 +23,9 @@ struct Saturation {
   std::string why;  ///< why `search.failed` clients did not hold, as its last run said; empty if
                     ///< none failed
   std::optional<double>
-      foretold;  ///< clients by the cost of the probes below the edge (capacities_of); nothing if
-                 ///< they are of fewer than three numbers
-  std::uint32_t foretold_from = 0;  ///< the largest number of clients among those probes
+      predicted;  ///< clients by the cost of the probes below the edge (capacities_of); nothing if
+                  ///< they are of fewer than three numbers
+  std::uint32_t predicted_from = 0;  ///< the largest number of clients among those probes
 };
 
 /// Runs `cell` and keeps its record. Nothing if it was interrupted. Throws OutputError if the
@@ -73,8 +73,8 @@ Outcome run_saturation(const Campaign& campaign, const SaturateOptions& options,
 /// What was found in words, e.g. "at least 400", "905", "none".
 std::string held_text(const Search& search);
 
-/// The clients foretold and from how many, e.g. "850 (400)"; "-" if nothing is.
-std::string foretold_text(const Saturation& saturation);
+/// The clients predicted and from how many, e.g. "850 (400)"; "-" if nothing is.
+std::string predicted_text(const Saturation& saturation);
 
 /// saturation.csv (RFC 4180): a line per search, with cost per tick by part and bytes at the edge.
 std::string to_csv(std::span<const Saturation> found);

@@ -90,9 +90,9 @@ std::string held_text(const Search& search) {
   return held;
 }
 
-std::string foretold_text(const Saturation& saturation) {
-  return saturation.foretold
-             ? formatted("%.0f (%u)", *saturation.foretold, saturation.foretold_from)
+std::string predicted_text(const Saturation& saturation) {
+  return saturation.predicted
+             ? formatted("%.0f (%u)", *saturation.predicted, saturation.predicted_from)
              : "-";
 }
 
@@ -109,8 +109,8 @@ std::string to_csv(std::span<const Saturation> found) {
     for (const ParameterKind& kind : parameter_kinds())
       csv += "," + csv_number(kind.of(cell.parameters));
     csv += std::string(",") + name_of(saturation.search.end) + "," + whole(saturation.search.held) +
-           "," + whole(saturation.search.failed) + "," + csv_number(saturation.foretold) + "," +
-           (saturation.foretold ? std::to_string(saturation.foretold_from) : "") + "," +
+           "," + whole(saturation.search.failed) + "," + csv_number(saturation.predicted) + "," +
+           (saturation.predicted ? std::to_string(saturation.predicted_from) : "") + "," +
            quoted(saturation.why) + "," + std::to_string(saturation.search.trials.size());
     for (const Figure& figure : edge_figures) csv += "," + csv_number(at_edge(saturation, figure));
     csv += "\n";
@@ -144,7 +144,7 @@ std::string to_json_text(std::span<const Saturation> found, const ServiceLevel& 
     search.update(Json{{"end", name_of(saturation.search.end)},
                        {"held_clients", or_null(saturation.search.held)},
                        {"failed_clients", or_null(saturation.search.failed)},
-                       {"foretold_clients", or_null(saturation.foretold)},
+                       {"foretold_clients", or_null(saturation.predicted)},
                        {"why", saturation.why},
                        {"edge", edge},
                        {"probes", probes}});
@@ -174,7 +174,7 @@ std::string table_of(std::span<const Saturation> found, const ServiceLevel& leve
     text += formatted("%-12.12s %-13.13s %5u %13s %6s %15s %7s %7s %7s %9s\n",
                       saturation.cell.scheme.c_str(), saturation.cell.policy.c_str(),
                       saturation.cell.server_cores, held_text(saturation.search).c_str(),
-                      whole(saturation.search.failed).c_str(), foretold_text(saturation).c_str(),
+                      whole(saturation.search.failed).c_str(), predicted_text(saturation).c_str(),
                       part(2).c_str(), part(3).c_str(), part(4).c_str(), part(5).c_str());
   }
   for (const Saturation& saturation : found)

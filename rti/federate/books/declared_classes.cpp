@@ -12,7 +12,7 @@ void DeclaredClasses::publish(ObjectClassHandle object_class, AttributeSet attri
   if (attributes.is_empty()) declared.is_relevant = false;
   declared.others = {attributes.is_empty()
                          ? AttributeSet(~0u)
-                         : AttributeSet(declared.others.heard.bits | ~attributes.bits),
+                         : AttributeSet(declared.others.subscribed.bits | ~attributes.bits),
                      declared.others.active & attributes};
 }
 
@@ -26,7 +26,7 @@ void DeclaredClasses::publish(InteractionClassHandle interaction_class, bool is_
 void DeclaredClasses::set_others(ObjectClassHandle object_class, const Subscription& others) {
   assert(!published(object_class).is_empty());
   Class& declared = objects_[object_class.value];
-  declared.others = {AttributeSet(others.heard.bits | ~declared.published.bits),
+  declared.others = {AttributeSet(others.subscribed.bits | ~declared.published.bits),
                      others.active & declared.published};
 }
 
@@ -34,7 +34,7 @@ void DeclaredClasses::set_others(InteractionClassHandle interaction_class,
                                  const Subscription& others) {
   assert(is_published(interaction_class));
   Class& declared = interactions_[interaction_class.value];
-  declared.others = {others.heard, others.active & declared.published};
+  declared.others = {others.subscribed, others.active & declared.published};
 }
 
 std::optional<bool> DeclaredClasses::turn(Class& declared, bool is_on) {

@@ -29,9 +29,11 @@ class DeclaredClasses {
   }
   /// What others hear, as the RTI told; all until then, and what is not published: whoever sends
   /// that shall be told so.
-  AttributeSet heard(ObjectClassHandle object_class) const { return at(object_class).others.heard; }
+  AttributeSet subscribed(ObjectClassHandle object_class) const {
+    return at(object_class).others.subscribed;
+  }
   bool is_heard(InteractionClassHandle interaction_class) const {
-    return !at(interaction_class).others.heard.is_empty();
+    return !at(interaction_class).others.subscribed.is_empty();
   }
 
   void publish(ObjectClassHandle object_class, AttributeSet attributes);

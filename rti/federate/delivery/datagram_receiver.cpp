@@ -16,7 +16,7 @@ void DatagramReceiver::receive(Bytes datagram, bool is_gate_open) {
     ++basis_.counters.datagrams_ignored;
     return;
   }
-  if (is_gate_open && head.frames <= uses_.arrivals.frames_heard()) apply(datagram);
+  if (is_gate_open && head.frames <= uses_.arrivals.frames_received()) apply(datagram);
   else if (held_.size() < held_max) held_.emplace_back(datagram.begin(), datagram.end());
   else ++basis_.counters.datagrams_ignored;
 }
@@ -42,7 +42,7 @@ void DatagramReceiver::apply_held() {
     DatagramHead head;
     Reader reader(held_[i]);
     exchange(reader, head);
-    if (head.frames > uses_.arrivals.frames_heard()) {
+    if (head.frames > uses_.arrivals.frames_received()) {
       ++i;
       continue;
     }

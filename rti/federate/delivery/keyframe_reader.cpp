@@ -57,9 +57,9 @@ std::optional<bool> KeyframeReader::read_records(BitReader& bits, const Block& b
     const bool is_gone = known == nullptr && objects_.is_gone({object});
     if (!is_gone && (known == nullptr || known->object_class != block.object_class))
       return std::nullopt;
-    const Outcome outcome = read_record(bits, block, object);
-    if (outcome == Outcome::malformed) return std::nullopt;
-    if (outcome == Outcome::no_baseline) {
+    const Status status = read_record(bits, block, object);
+    if (status == Status::malformed) return std::nullopt;
+    if (status == Status::no_baseline) {
       has_baselines = false;
       ++basis_.counters.differences_refused;
     } else if (!is_gone) {
@@ -77,41 +77,41 @@ void KeyframeReader::reflect(const Block& block, ObjectHandle object) {
 }
 
 /// Decodes one record into `decoded_` and keeps it if a keyframe is being told.
-KeyframeReader::Outcome KeyframeReader::read_record(BitReader& bits, const Block& block,
-                                                    std::uint32_t object) {
+KeyframeReader::Status KeyframeReader::read_record(BitReader& bits, const Block& block,
+                                                   std::uint32_t object) {
   bool is_absolute = false;
   if (!bits.flag(is_absolute) || (!is_absolute && !block.header.has_baseline))
-    return Outcome::malformed;
+    return Status::malformed;
   decoded_.clear();
   QuantisedCodec::Counts counts{};
   if (is_absolute) {
     const std::optional<bool> is_quantised = block.codec.decode(bits, counts, decoded_);
-    if (!is_quantised) return Outcome::malformed;
-    if (!*is_quantised) return Outcome::decoded;  // in full: nobody's baseline
+    if (!is_quantised) return Status::malformed;
+    if (!*is_quantised) return Status::decoded;  // in full: nobody's baseline
   } else {
-    const Outcome outcome = read_differences(bits, block, object, counts);
-    if (outcome != Outcome::decoded) return outcome;
+    const Status status = read_differences(bits, block, object, counts);
+    if (status != Status::decoded) return status;
   }
   if (keyframes_.is_open())
     keyframes_.add(object, block.stamp.time, std::span(counts).first(block.codec.fields().size()));
-  return Outcome::decoded;
+  return Status::decoded;
 }
 
-KeyframeReader::Outcome KeyframeReader::read_differences(BitReader& bits, const Block& block,
-                                                         std::uint32_t object,
-                                                         QuantisedCodec::Counts& counts) {
+KeyframeReader::Status KeyframeReader::read_differences(BitReader& bits, const Block& block,
+                                                        std::uint32_t object,
+                                                        QuantisedCodec::Counts& counts) {
   assert(block.header.has_baseline);
   const std::optional<KeyframeMemory::Baseline> baseline =
       keyframes_.find(block.header.baseline, object);
   if (!baseline || baseline->counts.size() != block.codec.fields().size())
-    return skip_differences(bits, block.codec, block.header.orders) ? Outcome::no_baseline
-                                                                    : Outcome::malformed;
+    return skip_differences(bits, block.codec, block.header.orders) ? Status::no_baseline
+                                                                    : Status::malformed;
   QuantisedCodec::Counts predicted{};
   predict(block.codec, baseline->counts, block.stamp.time - baseline->time, predicted);
   if (!exchange_differences(bits, block.codec, block.header.orders, predicted, counts))
-    return Outcome::malformed;
+    return Status::malformed;
   block.codec.append_value(counts, decoded_);
-  return Outcome::decoded;
+  return Status::decoded;
 }
 
 }  // namespace rink::rti

@@ -31,7 +31,7 @@ class KeyframeReader {
   std::size_t memory_bytes() const { return keyframes_.memory_bytes() + decoded_.capacity(); }
 
  private:
-  enum class Outcome : std::uint8_t { decoded, no_baseline, malformed };
+  enum class Status : std::uint8_t { decoded, no_baseline, malformed };
   /// What the records of one message have in common.
   struct Block {
     std::uint16_t object_class;
@@ -41,9 +41,9 @@ class KeyframeReader {
     Stamp stamp;
   };
   std::optional<bool> read_records(BitReader& bits, const Block& block);
-  Outcome read_record(BitReader& bits, const Block& block, std::uint32_t object);
-  Outcome read_differences(BitReader& bits, const Block& block, std::uint32_t object,
-                           QuantisedCodec::Counts& counts);
+  Status read_record(BitReader& bits, const Block& block, std::uint32_t object);
+  Status read_differences(BitReader& bits, const Block& block, std::uint32_t object,
+                          QuantisedCodec::Counts& counts);
   void reflect(const Block& block, ObjectHandle object);
 
   AmbassadorBasis basis_;

@@ -10,28 +10,28 @@ namespace rink::rti {
 /// Follows the clock that is handed in; what happens between two advances counts as of the later.
 class LinkWatch {
  public:
-  explicit LinkWatch(const Patience& patience) : patience_(patience) {}
+  explicit LinkWatch(const Timeouts& timeouts) : timeouts_(timeouts) {}
 
   double now() const { return now_; }  ///< as the clock was last advanced [s]
-  void heard() { has_heard_ = true; }
+  void received() { has_received_ = true; }
   void sent() { has_sent_ = true; }
   /// `is_sending`: something waits to go out.
   void advance(double now, bool is_sending) {
     now_ = now;
-    if (!has_clock_) last_heard_ = last_sent_ = now;
+    if (!has_clock_) last_received_ = last_sent_ = now;
     has_clock_ = true;
-    if (has_heard_) last_heard_ = now;
+    if (has_received_) last_received_ = now;
     if (has_sent_ || is_sending) last_sent_ = now;
-    has_heard_ = has_sent_ = false;
+    has_received_ = has_sent_ = false;
   }
-  bool is_rti_lost() const { return now_ - last_heard_ > patience_.lost_after_s; }
-  bool is_heartbeat_due() const { return now_ - last_sent_ >= patience_.heartbeat_s; }
+  bool is_rti_lost() const { return now_ - last_received_ > timeouts_.lost_after_s; }
+  bool is_heartbeat_due() const { return now_ - last_sent_ >= timeouts_.heartbeat_s; }
   void beat() { last_sent_ = now_; }
 
  private:
-  Patience patience_;
-  double now_ = 0.0, last_heard_ = 0.0, last_sent_ = 0.0;
-  bool has_clock_ = false, has_heard_ = false, has_sent_ = false;
+  Timeouts timeouts_;
+  double now_ = 0.0, last_received_ = 0.0, last_sent_ = 0.0;
+  bool has_clock_ = false, has_received_ = false, has_sent_ = false;
 };
 
 }  // namespace rink::rti

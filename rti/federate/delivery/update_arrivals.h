@@ -16,21 +16,21 @@ class UpdateArrivals {
 
   const ArrivalOrder& order() const { return order_; }
   /// From the one that let us in, which is the first.
-  std::uint32_t frames_heard() const { return frames_heard_; }
-  void count_frame() { ++frames_heard_; }
+  std::uint32_t frames_received() const { return frames_received_; }
+  void count_frame() { ++frames_received_; }
   /// The federate has joined, by this frame.
-  void begin() { frames_heard_ = 1; }
+  void begin() { frames_received_ = 1; }
   /// A datagram may come: from now on the order of frames matters too.
   void expect_datagrams() { has_datagrams_ = true; }
 
   void enter(ObjectHandle object, std::uint16_t object_class) {
-    order_.enter(object, object_class, order_of_frame(frames_heard_));
+    order_.enter(object, object_class, order_of_frame(frames_received_));
   }
   void leave(ObjectHandle object) { order_.leave(object); }
   /// Values that came in the frame at hand, which are newer than any before.
   void note_from_frame(ObjectHandle object, std::uint16_t object_class, AttributeSet attributes) {
     if (has_datagrams_)
-      order_.accept(object, object_class, attributes, order_of_frame(frames_heard_));
+      order_.accept(object, object_class, attributes, order_of_frame(frames_received_));
   }
   /// Those of the attributes that are not older than what is known.
   AttributeSet accept(ObjectHandle object, std::uint16_t object_class, AttributeSet attributes,
@@ -41,7 +41,7 @@ class UpdateArrivals {
 
  private:
   ArrivalOrder order_;
-  std::uint32_t frames_heard_ = 0;
+  std::uint32_t frames_received_ = 0;
   bool has_datagrams_ = false;
 };
 

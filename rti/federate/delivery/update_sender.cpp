@@ -65,7 +65,7 @@ AttributeSet UpdateSender::send_by_datagram(const UpdateHeader& header, ObjectHa
     });
     sent = best_effort_values_;
   }
-  if (!outbox_->say(object, header.object_class, best_effort, header.stamp, sent))
+  if (!outbox_->enqueue(object, header.object_class, best_effort, header.stamp, sent))
     return header.attributes;
   uses_.sent.note({header.object_class, best_effort, header.stamp});
   ++basis_.counters.updates_sent;
@@ -139,9 +139,9 @@ void UpdateSender::repair() {
       const BestEffortOutbox::Value& value = newest.values[one.value];
       const UpdateHeader header{{newest.object_class}, AttributeSet{one}, value.stamp};
       ++basis_.counters.updates_repaired;
-      const bool is_sent =
-          by_datagram(object, header.object_class).contains(one) &&
-          outbox_->say(object, header.object_class, header.attributes, value.stamp, value.coded);
+      const bool is_sent = by_datagram(object, header.object_class).contains(one) &&
+                           outbox_->enqueue(object, header.object_class, header.attributes,
+                                            value.stamp, value.coded);
       if (!is_sent) send_by_stream(header, object, value.coded);
     });
   }

@@ -126,7 +126,7 @@ void FederateDeclarations::advise(InteractionClassHandle interaction_class) {
 bool FederateDeclarations::handle_class_relevance(Reader& reader) {
   ClassRelevanceMessage message;
   if (!exchange(reader, message)) return false;
-  const Subscription others{AttributeSet(message.heard), AttributeSet(message.active)};
+  const Subscription others{AttributeSet(message.subscribed), AttributeSet(message.active)};
   if (message.is_interaction != 0) {
     const InteractionClassHandle interaction_class{message.number};
     if (message.number >= uses_.classes.interaction_class_count()) return false;
@@ -139,7 +139,7 @@ bool FederateDeclarations::handle_class_relevance(Reader& reader) {
   if (message.number >= uses_.classes.object_class_count()) return false;
   if (uses_.classes.published(object_class).is_empty()) return true;
   uses_.classes.set_others(object_class, others);
-  uses_.sparing.release(object_class, others.heard);
+  uses_.sparing.release(object_class, others.subscribed);
   advise(object_class);
   return true;
 }

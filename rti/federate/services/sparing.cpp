@@ -20,7 +20,7 @@ bool Sparing::spares(InteractionClassHandle interaction_class) {
 
 bool Sparing::spares(const UpdateHeader& header, ObjectHandle object, bool is_own, Bytes values) {
   const AttributeSet attributes = header.attributes;
-  if (!(attributes & uses_.classes.heard(header.object_class)).is_empty() || !is_own ||
+  if (!(attributes & uses_.classes.subscribed(header.object_class)).is_empty() || !is_own ||
       !may_spare()) {
     values_.forget(object, attributes);
     return false;
@@ -37,9 +37,9 @@ bool Sparing::spares(const UpdateHeader& header, ObjectHandle object, bool is_ow
   return true;
 }
 
-void Sparing::release(ObjectClassHandle object_class, AttributeSet heard) {
+void Sparing::release(ObjectClassHandle object_class, AttributeSet subscribed) {
   if (values_.is_empty()) return;
-  for (const ObjectHandle object : values_.list(object_class, heard)) release(object);
+  for (const ObjectHandle object : values_.list(object_class, subscribed)) release(object);
 }
 
 void Sparing::release(ObjectHandle object) {
@@ -48,12 +48,12 @@ void Sparing::release(ObjectHandle object) {
   const SparedValues::Spared kept = *spared;
   values_.forget(object);
   const ObjectClass& object_class = basis_.fom.at(kept.object_class);
-  AttributeSet said;
+  AttributeSet group;
   const auto send_all = [&] {
-    if (!said.is_empty())
-      uses_.sender.send_by_stream({kept.object_class, said, uses_.sent.newest()}, object, coded_);
+    if (!group.is_empty())
+      uses_.sender.send_by_stream({kept.object_class, group, uses_.sent.newest()}, object, coded_);
     coded_.clear();
-    said = {};
+    group = {};
   };
   coded_.clear();
   for (std::uint32_t bits = kept.attributes.bits; bits != 0; bits &= bits - 1) {
@@ -64,7 +64,7 @@ void Sparing::release(ObjectHandle object) {
       value.clear(), encode(object_class, one, kept.values[index], kept.times[index], value);
     if (coded_.size() + value.size() > values_max) send_all();
     coded_.insert(coded_.end(), value.begin(), value.end());
-    said = said | one;
+    group = group | one;
   }
   send_all();
 }

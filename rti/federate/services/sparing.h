@@ -27,17 +27,17 @@ class Sparing {
   /// Before each update: false, and nothing else is to be done, if somebody hears it and nothing of
   /// it is kept back.
   bool concerns(ObjectClassHandle object_class, AttributeSet attributes) const {
-    return (attributes & uses_.classes.heard(object_class)).is_empty() ||
+    return (attributes & uses_.classes.subscribed(object_class)).is_empty() ||
            !(attributes & values_.in_class(object_class)).is_empty();
   }
   /// False if the update is to be sent: then what was kept back of it is out of date. `values` are
   /// as the federate gave them.
   bool spares(const UpdateHeader& header, ObjectHandle object, bool is_own, Bytes values);
   bool spares(InteractionClassHandle interaction_class);
-  /// Sends what was kept back: of an object; of objects of a class of which `heard` is a part; of
-  /// all. As the newest state, with the newest stamp.
+  /// Sends what was kept back: of an object; of objects of a class of which `subscribed` is a part;
+  /// of all. As the newest state, with the newest stamp.
   void release(ObjectHandle object);
-  void release(ObjectClassHandle object_class, AttributeSet heard);
+  void release(ObjectClassHandle object_class, AttributeSet subscribed);
   void release_all() { release(ObjectClassHandle{}, AttributeSet(~0u)); }
   /// While bytes wait unread, nobody would tell that somebody listens.
   void gate_closed() {

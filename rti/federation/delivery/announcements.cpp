@@ -8,7 +8,7 @@ namespace rink::rti {
 namespace {
 
 template <class Message>
-void say(std::vector<std::byte>& bytes, Message message) {
+void enqueue(std::vector<std::byte>& bytes, Message message) {
   write(bytes, message);
 }
 
@@ -37,13 +37,13 @@ void Announcements::write_postponed(FlushContext& context, std::size_t end) {
 void Announcements::write_event(FlushContext& context, const ScopeEvent& event, std::size_t end) {
   FederateInterest& interest = context.interest;
   const Object& object = basis_.objects[event.slot];
-  if (!object.is_alive || std::ranges::binary_search(interest.pressing, event.slot))
+  if (!object.is_alive || std::ranges::binary_search(interest.sent_now, event.slot))
     return;  // it came and went between two flushes, or its removal is on its way
   if (is_too_late(interest, event.slot)) return interest.unannounced.erase(event.slot);
   if (event.transition == im::Transition::left) {
     if (interest.unannounced.contains(event.slot)) interest.unannounced.erase(event.slot);
     else if (interest.known.contains(event.slot))
-      context.frame.say(OutOfScopeMessage{object.handle.value});
+      context.frame.enqueue(OutOfScopeMessage{object.handle.value});
   } else if (context.frame.size() < end) {
     announce(context.slot, event.slot, context.frame.bytes());
   } else {
@@ -57,23 +57,23 @@ void Announcements::announce(std::uint32_t slot, ObjectSlot at, std::vector<std:
   FederateInterest& interest = uses_.distribution.of(slot);
   const Object& object = basis_.objects[at];
   if (!interest.known.contains(at)) {
-    say(bytes, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
+    enqueue(bytes, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
     ++basis_.federates[slot].objects_discovered;
-    uses_.requests.discovered(slot, at, interest.told(at, object.object_class));
+    uses_.requests.discovered(slot, at, interest.attributes_in_scope(at, object.object_class));
     uses_.owners.discovered(slot, at);
   }
   interest.known.insert(at);
   interest.unannounced.erase(at);
-  say(bytes, InScopeMessage{object.handle.value});
+  enqueue(bytes, InScopeMessage{object.handle.value});
 }
 
-void Announcements::press(std::uint32_t slot, ObjectSlot object) {
+void Announcements::send_state_now(std::uint32_t slot, ObjectSlot object) {
   FederateInterest& interest = uses_.distribution.of(slot);
   announce(slot, object, basis_.federates[slot].outbox.head());
-  uses_.owners.say_state(slot, object, uses_.newest.of(object));
-  interest.fresh.erase(object);
-  interest.has_fresh = true;
-  interest.pressing.push_back(object);
+  uses_.owners.send_state(slot, object, uses_.newest.of(object));
+  interest.needs_full_state.erase(object);
+  interest.needs_any_full_state = true;
+  interest.sent_now.push_back(object);
 }
 
 }  // namespace rink::rti

@@ -28,7 +28,7 @@ class Announcements {
   void write(FlushContext& context, std::size_t end);
   /// A message in time-stamp order is about to speak of it: it is announced, and its state told,
   /// before all else that the next flush says.
-  void press(std::uint32_t slot, ObjectSlot object);
+  void send_state_now(std::uint32_t slot, ObjectSlot object);
 
  private:
   void write_postponed(FlushContext& context, std::size_t end);

@@ -21,9 +21,9 @@ class ArrivalOrders {
     federates_[slot] = {};
   }
   void left(std::uint32_t slot) { federates_[slot] = {}; }
-  void hear_frame(std::uint32_t slot) { ++federates_[slot].frames; }
+  void count_frame(std::uint32_t slot) { ++federates_[slot].frames; }
   /// After the one that asked to join.
-  std::uint32_t frames_heard(std::uint32_t slot) const { return federates_[slot].frames; }
+  std::uint32_t frames_received(std::uint32_t slot) const { return federates_[slot].frames; }
 
   /// Its first datagram has come. What was said before is not known, so that a datagram which is
   /// older is as good as lost.

@@ -28,7 +28,7 @@ bool BestEffortReceiver::admit(std::uint32_t slot, const DatagramHead& head, Byt
     uses_.arrivals.begin(slot);
   }
   if (!federates_[slot] || head.frames < uses_.arrivals.first_frames(slot)) return false;
-  if (head.frames <= uses_.arrivals.frames_heard(slot)) return take(slot, datagram);
+  if (head.frames <= uses_.arrivals.frames_received(slot)) return take(slot, datagram);
   std::vector<std::vector<std::byte>>& held = federates_[slot]->held;
   if (held.size() >= held_max) return false;
   held.emplace_back(datagram.begin(), datagram.end());
@@ -48,13 +48,13 @@ bool BestEffortReceiver::take(std::uint32_t slot, Bytes datagram) {
   std::optional<Stamp> stamp;
   while (!reader.is_at_end()) {
     if (std::to_integer<std::uint8_t>(reader.rest().front()) == datagram_end) return true;
-    if (!take_message(slot, head, stamp, reader)) return false;
+    if (!handle_message(slot, head, stamp, reader)) return false;
   }
   return true;
 }
 
-bool BestEffortReceiver::take_message(std::uint32_t slot, const DatagramHead& head,
-                                      std::optional<Stamp>& stamp, Reader& reader) {
+bool BestEffortReceiver::handle_message(std::uint32_t slot, const DatagramHead& head,
+                                        std::optional<Stamp>& stamp, Reader& reader) {
   std::uint8_t kind = 0;
   reader.number(kind);
   switch (static_cast<MessageKind>(kind)) {
@@ -67,14 +67,14 @@ bool BestEffortReceiver::take_message(std::uint32_t slot, const DatagramHead& he
       return true;
     }
     case MessageKind::updates:
-      return head.number != 0 && stamp && take_updates(slot, head, *stamp, reader);
+      return head.number != 0 && stamp && handle_updates(slot, head, *stamp, reader);
     default:
       return false;
   }
 }
 
-bool BestEffortReceiver::take_updates(std::uint32_t slot, const DatagramHead& head,
-                                      const Stamp& stamp, Reader& reader) {
+bool BestEffortReceiver::handle_updates(std::uint32_t slot, const DatagramHead& head,
+                                        const Stamp& stamp, Reader& reader) {
   UpdatesMessage message;
   if (!exchange(reader, message) || message.object_class >= basis_.fom.object_classes().size())
     return false;
@@ -88,7 +88,7 @@ bool BestEffortReceiver::take_updates(std::uint32_t slot, const DatagramHead& he
     if (basis_.objects[object].object_class != message.object_class) return false;
     const AttributeSet accepted = accept(slot, head, object, attributes);
     if (accepted.is_empty()) return ++basis_.counters.updates_outdated, true;
-    uses_.newest.say_unless_older(slot, stamp);
+    uses_.newest.note_unless_older(slot, stamp);
     if (accepted == attributes)
       return uses_.updates.store(slot, object, accepted, stamp, values), true;
     std::vector<std::byte> cut;
@@ -105,19 +105,19 @@ AttributeSet BestEffortReceiver::accept(std::uint32_t slot, const DatagramHead& 
                                         ObjectSlot object, AttributeSet attributes) {
   const AttributeSet owned = attributes & uses_.ownership.owned_by(slot, object);
   if (owned.is_empty()) return owned;
-  const Object& said = basis_.objects[object];
-  return uses_.arrivals.accept(slot, said.handle, said.object_class, owned,
+  const Object& target = basis_.objects[object];
+  return uses_.arrivals.accept(slot, target.handle, target.object_class, owned,
                                order_of_datagram(head));
 }
 
-void BestEffortReceiver::take_held(std::uint32_t slot) {
+void BestEffortReceiver::handle_held(std::uint32_t slot) {
   if (!federates_[slot] || federates_[slot]->held.empty()) return;
   std::vector<std::vector<std::byte>>& held = federates_[slot]->held;
   for (std::size_t i = 0; i < held.size();) {
     DatagramHead head;
     Reader reader(held[i]);
     exchange(reader, head);
-    if (head.frames > uses_.arrivals.frames_heard(slot)) {
+    if (head.frames > uses_.arrivals.frames_received(slot)) {
       ++i;
       continue;
     }

@@ -36,7 +36,7 @@ class BestEffortReceiver {
 
   void receive(std::uint32_t slot, Bytes datagram);
   /// Those that spoke of what a frame said which came after them.
-  void take_held(std::uint32_t slot);
+  void handle_held(std::uint32_t slot);
   /// When many are due, one is missing, or the first has waited for long enough.
   void acknowledge(std::uint32_t slot, Outlet& outlet);
   void joined(std::uint32_t slot);
@@ -52,10 +52,10 @@ class BestEffortReceiver {
   };
   bool admit(std::uint32_t slot, const DatagramHead& head, Bytes datagram);
   bool take(std::uint32_t slot, Bytes datagram);
-  bool take_message(std::uint32_t slot, const DatagramHead& head, std::optional<Stamp>& stamp,
-                    Reader& reader);
-  bool take_updates(std::uint32_t slot, const DatagramHead& head, const Stamp& stamp,
-                    Reader& reader);
+  bool handle_message(std::uint32_t slot, const DatagramHead& head, std::optional<Stamp>& stamp,
+                      Reader& reader);
+  bool handle_updates(std::uint32_t slot, const DatagramHead& head, const Stamp& stamp,
+                      Reader& reader);
   /// What of them is newer than what is known of an object of the block's class.
   AttributeSet accept(std::uint32_t slot, const DatagramHead& head, ObjectSlot object,
                       AttributeSet attributes);

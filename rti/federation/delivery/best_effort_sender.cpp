@@ -31,7 +31,7 @@ void BestEffortSender::append(std::uint32_t slot, ObjectSlot object, AttributeSe
                             .attributes = attributes,
                             .stamp = stamp,
                             .values = values};
-  if (has_ways_) append_apart(update);
+  if (has_channels_) append_apart(update);
   else buffering_.append(update);
 }
 
@@ -51,46 +51,48 @@ void BestEffortSender::append_apart(const ObjectUpdate& update) {
 }
 
 /// Where nothing is best-effort this is one comparison per federate and flush.
-DatagramChannel BestEffortSender::begin(JoinedFederate& federate, Outlet& outlet) {
+DatagramPath BestEffortSender::begin(JoinedFederate& federate, Outlet& outlet) {
   if (!types_.has_best_effort()) return {};
   const std::size_t size_max =
       federate.has_stream_only ? 0 : outlet.datagram_max(federate.connection);
   const bool is_open = size_max >= 256;  // less is no use
-  if (!federate.way && !is_open) return {};
+  if (!federate.channel && !is_open) return {};
   if (!is_usable(federate, is_open, outlet)) return {};
-  const DatagramChannel channel{federate.way.get(), size_max - DatagramHead::size};
-  batch_.begin(channel.size_max);
-  return channel;
+  const DatagramPath path{federate.channel.get(), size_max - DatagramHead::size};
+  batch_.begin(path.size_max);
+  return path;
 }
 
 /// Falls back to the stream where nobody answers, and asks now and then if somebody does again.
 bool BestEffortSender::is_usable(JoinedFederate& federate, bool is_open, Outlet& outlet) {
-  if (!federate.way) {
-    federate.way = std::make_unique<DatagramWay>(batch_.lists());
-    has_ways_ = true;
+  if (!federate.channel) {
+    federate.channel = std::make_unique<DatagramChannel>(batch_.lists());
+    has_channels_ = true;
   }
-  DatagramWay& way = *federate.way;
-  way.ledger.expire(basis_.now, way.due);
-  const std::optional<double> silent_since = way.ledger.unanswered_since();
-  const bool is_silent = silent_since && basis_.now - *silent_since > DatagramWay::fallback_after_s;
-  if (!way.has_fallen_back && (!is_open || is_silent)) {
-    way.has_fallen_back = true;
-    way.probed_s = basis_.now;
-    way.ledger.abandon(way.due);
+  DatagramChannel& channel = *federate.channel;
+  channel.ledger.expire(basis_.now, channel.due);
+  const std::optional<double> silent_since = channel.ledger.unanswered_since();
+  const bool is_silent =
+      silent_since && basis_.now - *silent_since > DatagramChannel::fallback_after_s;
+  if (!channel.has_fallen_back && (!is_open || is_silent)) {
+    channel.has_fallen_back = true;
+    channel.probed_s = basis_.now;
+    channel.ledger.abandon(channel.due);
     ++basis_.counters.datagram_fallbacks;
   }
-  if (way.has_fallen_back && is_open && basis_.now - way.probed_s >= DatagramWay::probe_period_s)
+  if (channel.has_fallen_back && is_open &&
+      basis_.now - channel.probed_s >= DatagramChannel::probe_period_s)
     probe(federate, outlet);
-  return !way.has_fallen_back;
+  return !channel.has_fallen_back;
 }
 
 void BestEffortSender::probe(JoinedFederate& federate, Outlet& outlet) {
   std::vector<std::byte> bytes;
-  DatagramHead head{federate.way->ledger.note(basis_.now), federate.frames};
+  DatagramHead head{federate.channel->ledger.note(basis_.now), federate.frames};
   Writer writer(bytes);
   exchange(writer, head);
   const Datagram empty{bytes, {}};
-  federate.way->probed_s = basis_.now;
+  federate.channel->probed_s = basis_.now;
   ++basis_.counters.datagrams_sent;
   basis_.counters.bytes_sent += bytes.size();
   outlet.send_datagrams(federate.connection, std::span(&empty, 1));
@@ -98,27 +100,28 @@ void BestEffortSender::probe(JoinedFederate& federate, Outlet& outlet) {
 
 bool BestEffortSender::add(const FlushContext& context, ObjectSlot object, AttributeSet set,
                            const Stamp& stamp, Bytes values) {
-  const Object& told = basis_.objects[object];
-  return context.channel.way != nullptr &&
-         batch_.add(told.object_class, set, stamp, told.handle.value, values);
+  const Object& source = basis_.objects[object];
+  return context.path.channel != nullptr &&
+         batch_.add(source.object_class, set, stamp, source.handle.value, values);
 }
 
 bool BestEffortSender::gather(std::size_t index, FlushContext& context) {
   const UpdateRun& run = context.runs[index];
   const FederateInterest& interest = context.interest;
   if (!types_.best_effort(run.object_class).includes(run.attributes)) return false;
-  const CutRun& cut = batch_.cut(index, run, context.channel.size_max);
+  const CutRun& cut = batch_.cut(index, run, context.path.size_max);
   if (!cut.fits) return false;
   const bool has_changed = types_.has_changed();
-  const bool is_whole = !has_changed && interest.is_uniform && !interest.has_fresh &&
+  const bool is_whole = !has_changed && interest.is_uniform && !interest.needs_any_full_state &&
                         interest.by_class[run.object_class].includes(run.attributes);
-  if (is_whole && is_all_in_scope(run, interest.heard())) {
+  if (is_whole && is_all_in_scope(run, interest.reflected())) {
     batch_.add(cut);
     basis_.counters.updates_sent += run.slots.size();
     return true;
   }
   for_each_record(run, interest, [&](std::size_t record) {
-    const AttributeSet wanted = interest.told(run.slots[record], run.object_class) & run.attributes;
+    const AttributeSet wanted =
+        interest.attributes_in_scope(run.slots[record], run.object_class) & run.attributes;
     if (wanted.is_empty()) return;
     Bytes values = run.values(record);
     if (wanted != run.attributes) {
@@ -132,7 +135,7 @@ bool BestEffortSender::gather(std::size_t index, FlushContext& context) {
       return void(
           batch_.add(run.object_class, wanted, run.stamp, run.records[record].handle, values));
     context.frame.write_stamp(run.stamp);
-    context.frame.say(UpdatesMessage{run.object_class, wanted.bits});
+    context.frame.enqueue(UpdatesMessage{run.object_class, wanted.bits});
     RecordWriter(context.frame.bytes()).add(run.records[record].handle, values);
   });
   return true;
@@ -140,10 +143,10 @@ bool BestEffortSender::gather(std::size_t index, FlushContext& context) {
 
 void BestEffortSender::send(FlushContext& context, Outlet& outlet) {
   JoinedFederate& federate = context.federate;
-  DatagramWay* way = context.channel.way;
-  if (way == nullptr || batch_.is_empty()) return;
+  DatagramChannel* channel = context.path.channel;
+  if (channel == nullptr || batch_.is_empty()) return;
   const std::span<const Datagram> datagrams =
-      batch_.finish(federate.frames, way->ledger, basis_.now);
+      batch_.finish(federate.frames, channel->ledger, basis_.now);
   std::size_t size = 0;
   for (const Datagram& each : datagrams) size += each.head.size() + each.body.size();
   basis_.counters.bytes_sent += size;
@@ -151,20 +154,20 @@ void BestEffortSender::send(FlushContext& context, Outlet& outlet) {
   basis_.counters.datagrams_sent += datagrams.size();
   federate.counts.bytes_received += size;
   // Who hears of us by datagrams, as its answers tell, needs no heartbeat beside them.
-  if (const auto since = way->ledger.unanswered_since();
-      !since || basis_.now - *since < basis_.settings.patience.heartbeat_s)
-    federate.last_said = basis_.now;
+  if (const auto since = channel->ledger.unanswered_since();
+      !since || basis_.now - *since < basis_.settings.timeouts.heartbeat_s)
+    federate.last_sent = basis_.now;
   outlet.send_datagrams(federate.connection, datagrams);
 }
 
 bool BestEffortSender::acknowledge(std::uint32_t slot, Reader& reader) {
-  DatagramWay* way = basis_.federates[slot].way.get();
+  DatagramChannel* channel = basis_.federates[slot].channel.get();
   AcknowledgeDatagramsMessage message;
-  if (way == nullptr || !exchange(reader, message) ||
-      !way->ledger.acknowledge(message, basis_.now, way->due))
+  if (channel == nullptr || !exchange(reader, message) ||
+      !channel->ledger.acknowledge(message, basis_.now, channel->due))
     return false;
-  basis_.counters.datagram_recoveries += way->has_fallen_back ? 1u : 0u;
-  way->has_fallen_back = false;
+  basis_.counters.datagram_recoveries += channel->has_fallen_back ? 1u : 0u;
+  channel->has_fallen_back = false;
   return true;
 }
 

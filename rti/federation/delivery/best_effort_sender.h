@@ -21,7 +21,7 @@ class BestEffortSender {
       : basis_(basis), types_(types), buffering_(buffering) {}
   /// Federates' ways go with it, for what they have sent is noted in its lists.
   ~BestEffortSender() {
-    for (JoinedFederate& each : basis_.federates) each.way.reset();
+    for (JoinedFederate& each : basis_.federates) each.channel.reset();
   }
   BestEffortSender(const BestEffortSender&) = delete;
   BestEffortSender& operator=(const BestEffortSender&) = delete;
@@ -34,7 +34,7 @@ class BestEffortSender {
 
   void begin_flush() { batch_.begin_tick(); }
   /// The way for the federate's datagrams in this flush, null if it has none.
-  DatagramChannel begin(JoinedFederate& federate, Outlet& outlet);
+  DatagramPath begin(JoinedFederate& federate, Outlet& outlet);
   /// A state that was lost, or false if it does not go by datagram.
   bool add(const FlushContext& context, ObjectSlot object, AttributeSet set, const Stamp& stamp,
            Bytes values);
@@ -50,7 +50,7 @@ class BestEffortSender {
   FederationBasis basis_;
   const TransportationTypes& types_;
   Buffering& buffering_;
-  bool has_ways_ = false;  ///< some federate had one
+  bool has_channels_ = false;  ///< some federate had one
   DatagramBatch batch_;
   std::vector<std::byte> values_;  ///< of the record at hand
 };

@@ -14,8 +14,8 @@
 namespace rink::rti {
 
 /// A federate's way for datagrams while it is used, and what fits into one of them.
-struct DatagramChannel {
-  DatagramWay* way = nullptr;
+struct DatagramPath {
+  DatagramChannel* channel = nullptr;
   std::size_t size_max = 0;
 };
 
@@ -26,9 +26,9 @@ struct FlushContext {
   FederateInterest& interest;
   std::span<const UpdateRun> runs;  ///< all that this flush tells of
   GatheredFrame& frame;
-  std::vector<ObjectSlot>& told_whole;  ///< their states on entry are in the frame
-  DatagramChannel channel{};
-  bool is_all_told = false;  ///< nothing stays fresh beyond this flush
+  std::vector<ObjectSlot>& full_state_sent;  ///< their states on entry are in the frame
+  DatagramPath path{};
+  bool is_all_sent = false;  ///< nothing stays fresh beyond this flush
 };
 
 }  // namespace rink::rti

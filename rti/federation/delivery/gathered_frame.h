@@ -34,14 +34,14 @@ class GatheredFrame {
   std::vector<std::byte>& bytes() { return bytes_; }
   void append(Bytes bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
   template <class Message>
-  void say(Message message) {
+  void enqueue(Message message) {
     write(bytes_, message);
   }
   /// Of the updates that follow. Said where it differs from what was said before.
   void write_stamp(const Stamp& stamp) {
     if (stamp_ == stamp) return;
     stamp_ = stamp;
-    say(StampMessage{stamp});
+    enqueue(StampMessage{stamp});
   }
   bool is_stamped(const Stamp& stamp) const { return stamp_ == stamp; }
   /// True for the first who asks: what follows is to be kept, which is said once in a frame.

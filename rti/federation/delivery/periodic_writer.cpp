@@ -13,16 +13,17 @@ namespace {
 class Wanted {
  public:
   Wanted(const UpdateRun& run, const FederateInterest& interest)
-      : run_(run), interest_(interest), heard_(interest.heard()) {}
+      : run_(run), interest_(interest), reflected_(interest.reflected()) {}
 
   std::uint64_t word(std::size_t i) const {
-    std::uint64_t bits = run_.members.word(i) & heard_.word(i) & ~interest_.fresh.word(i);
+    std::uint64_t bits =
+        run_.members.word(i) & reflected_.word(i) & ~interest_.needs_full_state.word(i);
     if (interest_.is_uniform)
       return (interest_.by_class[run_.object_class] & run_.attributes).is_empty() ? 0 : bits;
     for (std::uint64_t left = bits; left != 0; left &= left - 1) {
       const auto bit = static_cast<unsigned>(std::countr_zero(left));
       const auto slot = static_cast<ObjectSlot>(i * 64 + bit);
-      if ((interest_.told(slot, run_.object_class) & run_.attributes).is_empty())
+      if ((interest_.attributes_in_scope(slot, run_.object_class) & run_.attributes).is_empty())
         bits &= ~(std::uint64_t{1} << bit);
     }
     return bits;
@@ -48,7 +49,7 @@ class Wanted {
  private:
   const UpdateRun& run_;
   const FederateInterest& interest_;
-  const Bitmap& heard_;
+  const Bitmap& reflected_;
 };
 
 }  // namespace
@@ -65,7 +66,7 @@ void PeriodicWriter::gather(std::size_t index, FlushContext& context) {
     if (!is_any && baselines_.keyframe()) begin_keyframe(run.stamp, context.frame);
     is_any = true;
     knows_all = knows_all && (block.differences.word(i) & bits & ~baselines_.known(slot, i)) == 0;
-    if (baselines_.keyframe()) baselines_.tell(slot, i, bits);
+    if (baselines_.keyframe()) baselines_.note_sent(slot, i, bits);
   }
   if (!is_any) return;
   context.frame.write_stamp(run.stamp);
@@ -78,7 +79,7 @@ void PeriodicWriter::gather(std::size_t index, FlushContext& context) {
 /// The records in the federate's interest, bit by bit; those whose baseline it lacks are absolute.
 void PeriodicWriter::cut(const UpdateRun& run, const DeltaBlock& block, FlushContext& context) {
   const std::uint32_t slot = context.slot;
-  context.frame.say(DeltasMessage{run.object_class});
+  context.frame.enqueue(DeltasMessage{run.object_class});
   BitWriter bits(context.frame.bytes());
   DeltaHeader header = block.header;
   exchange(bits, header, baselines_.codec(block.run).fields().size());
@@ -108,17 +109,17 @@ void PeriodicWriter::count(std::size_t records, std::size_t differences) {
 void PeriodicWriter::begin_keyframe(const Stamp& stamp, GatheredFrame& frame) {
   if (!frame.begins_keyframe()) return;
   frame.write_stamp(stamp);
-  frame.say(BeginKeyframeMessage{*baselines_.keyframe()});
+  frame.enqueue(BeginKeyframeMessage{*baselines_.keyframe()});
 }
 
-Outcome PeriodicWriter::handle_acknowledgement(std::uint32_t slot, Reader& reader) {
+Status PeriodicWriter::handle_acknowledgement(std::uint32_t slot, Reader& reader) {
   AcknowledgeKeyframeMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   baselines_.acknowledge(slot, message.number);
   return std::nullopt;
 }
 
-Outcome PeriodicWriter::handle_refusal(std::uint32_t slot, Reader& reader) {
+Status PeriodicWriter::handle_refusal(std::uint32_t slot, Reader& reader) {
   RefuseKeyframeMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   baselines_.refuse(slot);

@@ -8,7 +8,7 @@
 #include "rti/baselines/baselines.h"
 #include "rti/federation/delivery/flush_context.h"
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
+#include "rti/federation/status.h"
 #include "rti/wire/bytes.h"
 
 namespace rink::rti {
@@ -18,8 +18,8 @@ class PeriodicWriter {
   explicit PeriodicWriter(const FederationBasis& basis)
       : basis_(basis), baselines_(basis.fom, basis.settings.keyframe_period) {}
 
-  Outcome handle_acknowledgement(std::uint32_t slot, Reader& reader);
-  Outcome handle_refusal(std::uint32_t slot, Reader& reader);
+  Status handle_acknowledgement(std::uint32_t slot, Reader& reader);
+  Status handle_refusal(std::uint32_t slot, Reader& reader);
   void left(std::uint32_t slot) { baselines_.forget(slot); }
 
   void begin_flush(std::span<const UpdateRun> runs) {

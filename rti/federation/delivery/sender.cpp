@@ -31,9 +31,9 @@ void Sender::flush(Outlet& outlet) {
   for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot) {
     look_ahead(slot);
     if (!basis_.federates[slot].is_joined) continue;
-    told_whole_.clear();
-    FlushContext context{
-        slot, basis_.federates[slot], uses_.distribution.of(slot), runs, frame_, told_whole_};
+    full_state_sent_.clear();
+    FlushContext context{slot,   basis_.federates[slot], uses_.distribution.of(slot), runs,
+                         frame_, full_state_sent_};
     flush_federate(context, outlet);
   }
   uses_.periodic.end_flush();
@@ -46,7 +46,7 @@ void Sender::look_ahead(std::uint32_t slot) const {
   if (slot + 3 < basis_.federates.size()) fetch(basis_.federates[slot + 3]);
   if (slot + 2 < basis_.federates.size() && basis_.federates[slot + 2].is_joined) {
     fetch(uses_.distribution.of(slot + 2));
-    if (basis_.federates[slot + 2].way) fetch(*basis_.federates[slot + 2].way);
+    if (basis_.federates[slot + 2].channel) fetch(*basis_.federates[slot + 2].channel);
   }
   if (slot + 1 < basis_.federates.size() && basis_.federates[slot + 1].is_joined) {
     const FederateInterest& interest = uses_.distribution.of(slot + 1);
@@ -61,34 +61,35 @@ void Sender::flush_federate(FlushContext& context, Outlet& outlet) {
   GatheredFrame& frame = context.frame;
   const std::uint64_t before = basis_.counters.updates_sent;
   frame.begin();
-  std::ranges::sort(interest.pressing);
-  for (const ObjectSlot each : interest.pressing)
-    interest.fresh.insert(each);  // what this flush's runs say of them is part of what was told
-  context.channel = uses_.datagrams.begin(federate, outlet);
+  std::ranges::sort(interest.sent_now);
+  for (const ObjectSlot each : interest.sent_now)
+    interest.needs_full_state.insert(
+        each);  // what this flush's runs say of them is part of what was told
+  context.path = uses_.datagrams.begin(federate, outlet);
   uses_.received.acknowledge(context.slot, outlet);
   frame.append(federate.outbox.head());
-  tell(context, outlet);
+  write_content(context, outlet);
   federate.counts.reflections_received += basis_.counters.updates_sent - before;
   frame.append(federate.outbox.tail());
   federate.outbox.clear();
   settle_interest(context);
   if (frame.is_empty()) {
-    if (basis_.now - federate.last_said < basis_.settings.patience.heartbeat_s) return;
-    frame.say(HeartbeatMessage{});
+    if (basis_.now - federate.last_sent < basis_.settings.timeouts.heartbeat_s) return;
+    frame.enqueue(HeartbeatMessage{});
   }
   send_frame(context, outlet);
 }
 
 /// Who is in scope, and what is new of them.
-void Sender::tell(FlushContext& context, Outlet& outlet) {
+void Sender::write_content(FlushContext& context, Outlet& outlet) {
   FederateInterest& interest = context.interest;
   const std::size_t entry_end = context.frame.size() + entry_room(context, outlet);
   uses_.announcements.write(context, entry_end);
   if (holds_back(context, outlet)) return hold_back(context);
-  if (interest.turns) uses_.turns.take_turns(context);
-  write_fresh_states(context, entry_end);
+  if (interest.turns) uses_.turns.apply_turns(context);
+  write_full_states(context, entry_end);
   if (interest.turns) uses_.turns.catch_up(context);
-  if (context.federate.way && !context.federate.way->due.empty()) write_due_states(context);
+  if (context.federate.channel && !context.federate.channel->due.empty()) write_due_states(context);
   gather_runs(context);
   uses_.datagrams.send(context, outlet);
 }
@@ -98,12 +99,12 @@ void Sender::tell(FlushContext& context, Outlet& outlet) {
 void Sender::settle_interest(FlushContext& context) {
   FederateInterest& interest = context.interest;
   interest.events.clear();
-  if (context.is_all_told) interest.has_fresh = false;
-  for (const ObjectSlot told : interest.pressing) interest.fresh.erase(told);
-  interest.pressing.clear();
-  for (const ObjectSlot told : context.told_whole) {
-    interest.fresh.erase(told);
-    if (interest.turns) interest.turns->late.told(told);
+  if (context.is_all_sent) interest.needs_any_full_state = false;
+  for (const ObjectSlot each : interest.sent_now) interest.needs_full_state.erase(each);
+  interest.sent_now.clear();
+  for (const ObjectSlot each : context.full_state_sent) {
+    interest.needs_full_state.erase(each);
+    if (interest.turns) interest.turns->late.sent(each);
   }
 }
 
@@ -111,7 +112,8 @@ void Sender::settle_interest(FlushContext& context) {
 /// what does not fit is told by the next flushes.
 std::size_t Sender::entry_room(const FlushContext& context, const Outlet& outlet) const {
   const FederateInterest& interest = context.interest;
-  if (interest.events.empty() && !interest.has_fresh && !interest.has_unannounced) return 0;
+  if (interest.events.empty() && !interest.needs_any_full_state && !interest.has_unannounced)
+    return 0;
   return basis_.settings.entry_bytes_per_flush_max -
          std::min(basis_.settings.entry_bytes_per_flush_max,
                   outlet.waiting_bytes(context.federate.connection));
@@ -119,48 +121,47 @@ std::size_t Sender::entry_room(const FlushContext& context, const Outlet& outlet
 
 /// Up to `end` bytes in the frame. Their stamp is their owner's newest, not that of the update
 /// which said it: what they are was not changed until then.
-void Sender::write_fresh_states(FlushContext& context, std::size_t end) {
+void Sender::write_full_states(FlushContext& context, std::size_t end) {
   FederateInterest& interest = context.interest;
   GatheredFrame& frame = context.frame;
-  if (!interest.has_fresh) return;
+  if (!interest.needs_any_full_state) return;
   bool is_whole = !interest.has_unannounced;
   const std::size_t before = frame.size();
   std::optional<UpdatesBlock> block;
-  interest.told_to = interest.fresh.visit_from(interest.told_to, [&](ObjectSlot fresh) {
-    if (interest.unannounced.contains(fresh) ||
-        std::ranges::binary_search(interest.pressing, fresh))
+  interest.sent_to = interest.needs_full_state.visit_from(interest.sent_to, [&](ObjectSlot due) {
+    if (interest.unannounced.contains(due) || std::ranges::binary_search(interest.sent_now, due))
       return true;
     if (frame.size() >= end) {
       is_whole = false;
       return false;
     }
-    if (interest.turns && interest.turns->waiting.contains(fresh)) {
+    if (interest.turns && interest.turns->waiting.contains(due)) {
       is_whole = false;
       return true;
     }
-    context.told_whole.push_back(fresh);
-    const Object& object = basis_.objects[fresh];
+    context.full_state_sent.push_back(due);
+    const Object& object = basis_.objects[due];
     if (!object.is_alive) return true;
-    const AttributeSet set = interest.told(fresh, object.object_class) & object.valued;
+    const AttributeSet set = interest.attributes_in_scope(due, object.object_class) & object.valued;
     if (set.is_empty()) return true;
-    const Stamp stamp = uses_.newest.of(fresh);
+    const Stamp stamp = uses_.newest.of(due);
     if (!block || !frame.is_stamped(stamp)) {
       block.reset();
       frame.write_stamp(stamp);
       block.emplace(frame.bytes());
     }
     block->append(object.object_class, set, object.handle,
-                  [&] { basis_.objects.append(fresh, set, frame.bytes()); });
+                  [&] { basis_.objects.append(due, set, frame.bytes()); });
     ++basis_.counters.updates_sent;
     return true;
   });
   block.reset();
-  context.is_all_told = is_whole;
+  context.is_all_sent = is_whole;
   basis_.counters.entry_bytes_sent += frame.size() - before;
 }
 
 bool Sender::holds_back(const FlushContext& context, const Outlet& outlet) {
-  if (context.runs.empty() && !context.interest.has_fresh) return false;
+  if (context.runs.empty() && !context.interest.needs_any_full_state) return false;
   return uses_.buffering.holds_back(context.slot,
                                     outlet.waiting_bytes(context.federate.connection));
 }
@@ -174,10 +175,10 @@ void Sender::hold_back(FlushContext& context) {
         (interest.is_uniform && (interest.by_class[run.object_class] & run.attributes).is_empty()))
       continue;
     for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
-      const std::uint64_t heard = run.members.word(i) & interest.in_scope.word(i);
-      interest.fresh.insert_word(i, heard);
-      interest.has_fresh |= heard != 0;
-      basis_.counters.updates_held_back += static_cast<std::uint64_t>(std::popcount(heard));
+      const std::uint64_t due_of_run = run.members.word(i) & interest.in_scope.word(i);
+      interest.needs_full_state.insert_word(i, due_of_run);
+      interest.needs_any_full_state |= due_of_run != 0;
+      basis_.counters.updates_held_back += static_cast<std::uint64_t>(std::popcount(due_of_run));
     }
   }
 }
@@ -189,7 +190,7 @@ void Sender::gather_runs(FlushContext& context) {
   for (const UpdateRun& run : context.runs) {
     if (run.owner == context.slot) continue;
     const auto index = static_cast<std::size_t>(&run - context.runs.data());
-    if (context.channel.way != nullptr && uses_.datagrams.gather(index, context)) continue;
+    if (context.path.channel != nullptr && uses_.datagrams.gather(index, context)) continue;
     if (uses_.periodic.covers(index)) {
       uses_.periodic.gather(index, context);
       continue;
@@ -201,7 +202,7 @@ void Sender::gather_runs(FlushContext& context) {
     const AttributeSet wanted = interest.by_class[run.object_class] & run.attributes;
     if (wanted.is_empty()) continue;
     if (wanted != run.attributes) gather_cut_run(run, context);
-    else if (!interest.has_fresh && is_all_in_scope(run, interest.heard())) {
+    else if (!interest.needs_any_full_state && is_all_in_scope(run, interest.reflected())) {
       frame.write_stamp(run.stamp);
       frame.add_shared(run.message);
       basis_.counters.updates_sent += run.slots.size();
@@ -218,7 +219,7 @@ void Sender::gather_run(const UpdateRun& run, FlushContext& context) {
   for_each_record(run, context.interest, [&](std::size_t index) {
     if (!writer) {
       frame.write_stamp(run.stamp);
-      frame.say(UpdatesMessage{run.object_class, run.attributes.bits});
+      frame.enqueue(UpdatesMessage{run.object_class, run.attributes.bits});
       writer.emplace(frame.bytes());
     }
     writer->add(run.records[index].handle, run.values(index));
@@ -232,7 +233,8 @@ void Sender::gather_cut_run(const UpdateRun& run, FlushContext& context) {
   const ObjectClass& object_class = basis_.fom.at(ObjectClassHandle{run.object_class});
   std::optional<UpdatesBlock> block;
   for_each_record(run, interest, [&](std::size_t index) {
-    const AttributeSet wanted = interest.told(run.slots[index], run.object_class) & run.attributes;
+    const AttributeSet wanted =
+        interest.attributes_in_scope(run.slots[index], run.object_class) & run.attributes;
     if (wanted.is_empty()) return;
     if (!block) {
       context.frame.write_stamp(run.stamp);
@@ -251,15 +253,16 @@ void Sender::gather_cut_run(const UpdateRun& run, FlushContext& context) {
 
 /// What was lost goes out as it is now, by datagram again or, after a fallback, by the stream.
 void Sender::write_due_states(FlushContext& context) {
-  DatagramWay& way = *context.federate.way;
+  DatagramChannel& channel = *context.federate.channel;
   const FederateInterest& interest = context.interest;
   GatheredFrame& frame = context.frame;
-  for (const DatagramLedger::Lost& each : way.due) {
+  for (const DatagramLedger::Lost& each : channel.due) {
     const ObjectSlot object = basis_.objects.find({each.handle});
-    if (object == no_object || interest.fresh.contains(object))
+    if (object == no_object || interest.needs_full_state.contains(object))
       continue;  // gone, or told as a whole anyway
-    const AttributeSet set = interest.told(object, basis_.objects[object].object_class) &
-                             basis_.objects[object].valued & each.attributes;
+    const AttributeSet set =
+        interest.attributes_in_scope(object, basis_.objects[object].object_class) &
+        basis_.objects[object].valued & each.attributes;
     if (set.is_empty()) continue;
     values_.clear();
     basis_.objects.append(object, set, values_);
@@ -268,10 +271,10 @@ void Sender::write_due_states(FlushContext& context) {
     ++basis_.counters.updates_repaired;
     if (uses_.datagrams.add(context, object, set, stamp, values_)) continue;
     frame.write_stamp(stamp);
-    frame.say(UpdatesMessage{basis_.objects[object].object_class, set.bits});
+    frame.enqueue(UpdatesMessage{basis_.objects[object].object_class, set.bits});
     RecordWriter(frame.bytes()).add(each.handle, values_);
   }
-  way.due.clear();
+  channel.due.clear();
 }
 
 void Sender::send_frame(FlushContext& context, Outlet& outlet) {
@@ -280,7 +283,7 @@ void Sender::send_frame(FlushContext& context, Outlet& outlet) {
   if (size - frame_header_size > frame_max_to_federate)
     return expel_(context.slot, Violation::over_limit, ResignReason::lost,
                   "more to tell in one tick than a frame holds");
-  federate.last_said = basis_.now;
+  federate.last_sent = basis_.now;
   basis_.counters.bytes_sent += size;
   federate.counts.bytes_received += size;
   ++basis_.counters.frames_sent;

@@ -41,12 +41,12 @@ class Sender final {
  private:
   void look_ahead(std::uint32_t slot) const;
   void flush_federate(FlushContext& context, Outlet& outlet);
-  void tell(FlushContext& context, Outlet& outlet);
+  void write_content(FlushContext& context, Outlet& outlet);
   void settle_interest(FlushContext& context);
   std::size_t entry_room(const FlushContext& context, const Outlet& outlet) const;
   bool holds_back(const FlushContext& context, const Outlet& outlet);
   void hold_back(FlushContext& context);
-  void write_fresh_states(FlushContext& context, std::size_t end);
+  void write_full_states(FlushContext& context, std::size_t end);
   void write_due_states(FlushContext& context);
   void gather_runs(FlushContext& context);
   void gather_run(const UpdateRun& run, FlushContext& context);
@@ -56,9 +56,9 @@ class Sender final {
   FederationBasis basis_;
   Uses uses_;
   Expulsion expel_;
-  GatheredFrame frame_;                 ///< lent to the flush at hand
-  std::vector<ObjectSlot> told_whole_;  ///< likewise
-  std::vector<std::byte> values_;       ///< of the record at hand
+  GatheredFrame frame_;                      ///< lent to the flush at hand
+  std::vector<ObjectSlot> full_state_sent_;  ///< likewise
+  std::vector<std::byte> values_;            ///< of the record at hand
 };
 
 }  // namespace rink::rti

@@ -22,7 +22,7 @@ class TurnWriter {
   /// Decides for the flush at hand. Of whom it is the turn, that goes out by this flush's updates
   /// if they say all that is late of him, so that it is shared, goes by datagram or as a difference
   /// like anybody's; else by `catch_up`.
-  void take_turns(FlushContext& context);
+  void apply_turns(FlushContext& context);
   /// The newest state of whom has waited, as far as it is late.
   void catch_up(FlushContext& context);
 

@@ -27,11 +27,11 @@ FederateReport FederationCensus::report_of(std::uint32_t slot, const Outlet* out
   FederateReport report{federate.handle, federate.name, federate.type, federate.counts};
   distribution_.of(slot).in_scope.for_each([&](ObjectSlot) { ++report.counts.objects_in_scope; });
   report.counts.queue_bytes = outlet != nullptr ? outlet->waiting_bytes(federate.connection) : 0;
-  if (time_.management() != nullptr) tell_time(slot, report.counts);
+  if (time_.management() != nullptr) report_time(slot, report.counts);
   return report;
 }
 
-void FederationCensus::tell_time(std::uint32_t slot, FederateCounts& counts) const {
+void FederationCensus::report_time(std::uint32_t slot, FederateCounts& counts) const {
   const TimeManagement& management = *time_.management();
   counts.is_time_regulating = management.is_regulating(slot);
   counts.is_time_constrained = management.is_constrained(slot);

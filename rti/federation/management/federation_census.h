@@ -26,7 +26,7 @@ class FederationCensus {
 
  private:
   FederateReport report_of(std::uint32_t slot, const Outlet* outlet) const;
-  void tell_time(std::uint32_t slot, FederateCounts& counts) const;
+  void report_time(std::uint32_t slot, FederateCounts& counts) const;
   std::vector<std::uint32_t> count_owned() const;
   void count_owners(ObjectSlot object, std::vector<std::uint32_t>& owned) const;
 

@@ -11,7 +11,7 @@ constexpr std::size_t label_bytes_max = 30'000;
 }  // namespace
 
 /// An interaction whose receiver is the RTI itself; others may listen too.
-Outcome ManagementInteractions::take(std::uint32_t slot, const InteractionMessage& message) {
+Status ManagementInteractions::take(std::uint32_t slot, const InteractionMessage& message) {
   const InteractionClassHandle asked{message.interaction_class};
   ManagementReader reader(message.parameters);
   if (asked == handles_.set_switches) {
@@ -46,7 +46,7 @@ void ManagementInteractions::report_classes(std::uint32_t asking, std::uint32_t 
   std::vector<std::uint32_t> classes;
   for (std::uint32_t i = 0; i < basis_.fom.object_classes().size(); ++i)
     if (!set_of(i).is_empty()) classes.push_back(i);
-  const auto tell = [&](std::uint32_t object_class, AttributeSet set) {
+  const auto notify = [&](std::uint32_t object_class, AttributeSet set) {
     std::vector<std::uint32_t> attributes;
     set.for_each([&](AttributeHandle each) { attributes.push_back(each.value); });
     std::vector<std::byte> parameters;
@@ -58,8 +58,8 @@ void ManagementInteractions::report_classes(std::uint32_t asking, std::uint32_t 
     writer.handles(attributes);
     uses_.interactions.report(asking, report, parameters);
   };
-  for (const std::uint32_t each : classes) tell(each, set_of(each));
-  if (classes.empty()) tell(ObjectClassHandle::none, {});
+  for (const std::uint32_t each : classes) notify(each, set_of(each));
+  if (classes.empty()) notify(ObjectClassHandle::none, {});
 }
 
 template <class IsNamed>
@@ -87,16 +87,16 @@ void ManagementInteractions::report_publications(std::uint32_t asking, std::uint
 
 /// What it hears of each class, by that or a superclass, in whatever region.
 void ManagementInteractions::report_subscriptions(std::uint32_t asking, std::uint32_t about) {
-  const auto heard = [&](std::uint32_t i) {
+  const auto subscribed = [&](std::uint32_t i) {
     return i < basis_.fom.object_classes().size()
                ? uses_.distribution.subscribed_anywhere(about, static_cast<std::uint16_t>(i))
                : Subscription();
   };
   report_classes(
       asking, about, handles_.report_object_subscription,
-      [&](std::uint32_t i) { return heard(i).heard; },
+      [&](std::uint32_t i) { return subscribed(i).subscribed; },
       [&](ManagementWriter& writer, std::uint32_t i) {
-        writer.count(heard(i).active.is_empty() ? 0 : 1);
+        writer.count(subscribed(i).active.is_empty() ? 0 : 1);
       });
   report_interactions(asking, about, handles_.report_interaction_subscription,
                       [&](std::uint32_t i) {

@@ -7,11 +7,11 @@
 #include "rti/distribution/data_distribution.h"
 #include "rti/federation/federation_basis.h"
 #include "rti/federation/management/management_objects.h"
-#include "rti/federation/outcome.h"
 #include "rti/federation/services/interactions.h"
 #include "rti/federation/services/publications.h"
 #include "rti/federation/services/synchronization.h"
 #include "rti/federation/services/update_requests.h"
+#include "rti/federation/status.h"
 #include "rti/management/management_handles.h"
 
 namespace rink::rti {
@@ -31,7 +31,7 @@ class ManagementInteractions {
       : basis_(basis), uses_(uses), handles_(handles) {}
 
   /// An interaction whose receiver is the RTI itself; others may listen too.
-  Outcome take(std::uint32_t slot, const InteractionMessage& message);
+  Status take(std::uint32_t slot, const InteractionMessage& message);
 
  private:
   template <class SetOf, class Write>

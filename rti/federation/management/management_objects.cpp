@@ -8,100 +8,101 @@
 
 namespace rink::rti {
 
-bool ManagementObjects::is_any_heard() const {
-  const auto is_heard = [&](ObjectClassHandle each) {
-    return each && uses_.declarations.is_heard(each);
+bool ManagementObjects::is_any_subscribed() const {
+  const auto is_subscribed = [&](ObjectClassHandle each) {
+    return each && uses_.declarations.is_subscribed(each);
   };
-  return is_heard(federation_class_) || is_heard(federate_class_);
+  return is_subscribed(federation_class_) || is_subscribed(federate_class_);
 }
 
-bool ManagementObjects::hears(std::uint32_t slot) const {
-  const auto hears = [&](ObjectClassHandle each) {
+bool ManagementObjects::receives(std::uint32_t slot) const {
+  const auto receives = [&](ObjectClassHandle each) {
     return !uses_.distribution.subscribed_anywhere(slot, static_cast<std::uint16_t>(each.value))
-                .heard.is_empty();
+                .subscribed.is_empty();
   };
-  return hears(federation_class_) || hears(federate_class_);
+  return receives(federation_class_) || receives(federate_class_);
 }
 
-ManagementObjects::Told& ManagementObjects::told_of(std::uint32_t slot) {
+ManagementObjects::ReportedObject& ManagementObjects::reported_of(std::uint32_t slot) {
   if (slot >= federates_.size()) federates_.resize(slot + 1);
   return federates_[slot];
 }
 
 void ManagementObjects::subscribed(std::uint32_t slot) {
-  const bool was_heard = std::exchange(is_heard_, is_any_heard());
-  if (is_heard_ && !was_heard) begin();
-  if (!is_heard_ && was_heard) end();
-  if (!is_heard_ || !basis_.federates[slot].is_joined || !hears(slot)) return;
+  const bool was_subscribed = std::exchange(is_subscribed_, is_any_subscribed());
+  if (is_subscribed_ && !was_subscribed) begin();
+  if (!is_subscribed_ && was_subscribed) end();
+  if (!is_subscribed_ || !basis_.federates[slot].is_joined || !receives(slot)) return;
   federation_.is_due = true;
-  for (Told& each : federates_) each.is_due = static_cast<bool>(each.object);
+  for (ReportedObject& each : federates_) each.is_due = static_cast<bool>(each.object);
 }
 
 void ManagementObjects::timed(std::uint32_t slot, double period) {
   periods_[slot] = period;
-  told_of(slot).due_at = basis_.now + period;
+  reported_of(slot).due_at = basis_.now + period;
 }
 
 void ManagementObjects::begin() {
   if (!slot_) slot_ = basis_.federates.add();
   add(federation_, federation_class_);
   for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot)
-    if (basis_.federates[slot].is_joined) add(told_of(slot), federate_class_);
+    if (basis_.federates[slot].is_joined) add(reported_of(slot), federate_class_);
 }
 
 void ManagementObjects::end() {
   remove(federation_);
-  for (Told& each : federates_) remove(each);
+  for (ReportedObject& each : federates_) remove(each);
 }
 
-void ManagementObjects::add(Told& told, ObjectClassHandle object_class) {
-  told = {};
-  told.object = uses_.objects.register_own(*slot_, object_class);
-  told.is_due = true;
-  if (&told != &federation_)
-    slots_[told.object.value] = static_cast<std::uint32_t>(&told - federates_.data());
+void ManagementObjects::add(ReportedObject& reported, ObjectClassHandle object_class) {
+  reported = {};
+  reported.object = uses_.objects.register_own(*slot_, object_class);
+  reported.is_due = true;
+  if (&reported != &federation_)
+    slots_[reported.object.value] = static_cast<std::uint32_t>(&reported - federates_.data());
 }
 
-void ManagementObjects::remove(Told& told) {
-  if (told.object) uses_.objects.remove(basis_.objects.find(told.object));
-  slots_.erase(told.object.value);
-  told = {};
+void ManagementObjects::remove(ReportedObject& reported) {
+  if (reported.object) uses_.objects.remove(basis_.objects.find(reported.object));
+  slots_.erase(reported.object.value);
+  reported = {};
 }
 
 void ManagementObjects::joined(std::uint32_t slot) {
   if (slot >= periods_.size()) periods_.resize(slot + 1);
   periods_[slot] = 0.0;
-  if (!is_heard_) return;
-  add(told_of(slot), federate_class_);
+  if (!is_subscribed_) return;
+  add(reported_of(slot), federate_class_);
   federation_.is_due = true;
 }
 
 void ManagementObjects::left(std::uint32_t slot) {
-  if (!is_heard_) return;
-  remove(told_of(slot));
+  if (!is_subscribed_) return;
+  remove(reported_of(slot));
   federation_.is_due = true;
 }
 
 void ManagementObjects::ask(ObjectHandle object, AttributeSet attributes) {
   const auto slot = slots_.find(object.value);
-  Told& told = slot == slots_.end() ? federation_ : federates_[slot->second];
-  if (told.object == object) told.asked = told.asked | attributes;
+  ReportedObject& reported = slot == slots_.end() ? federation_ : federates_[slot->second];
+  if (reported.object == object) reported.asked = reported.asked | attributes;
 }
 
-void ManagementObjects::tell() {
+void ManagementObjects::notify() {
   for (const UpdateRequests::Asked& each : uses_.requests.take_asked_of_rti())
     ask(each.object, each.attributes);
-  if (!is_heard_) return;
+  if (!is_subscribed_) return;
   has_counted_ = false;
-  if (federation_.is_due || !federation_.asked.is_empty()) tell_federation();
+  if (federation_.is_due || !federation_.asked.is_empty()) report_federation();
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot) {
-    Told& told = federates_[slot];
-    if (!told.object) continue;
+    ReportedObject& reported = federates_[slot];
+    if (!reported.object) continue;
     const double period = slot < periods_.size() ? periods_[slot] : 0.0;
-    const bool is_time = period > 0.0 && basis_.now >= told.due_at;
-    if (is_time) told.due_at = basis_.now + period;
-    if (is_time || told.is_due || !told.asked.is_empty() || told.state != state_of(slot))
-      tell_federate(slot, told);
+    const bool is_time = period > 0.0 && basis_.now >= reported.due_at;
+    if (is_time) reported.due_at = basis_.now + period;
+    if (is_time || reported.is_due || !reported.asked.is_empty() ||
+        reported.state != state_of(slot))
+      report_federate(slot, reported);
   }
 }
 
@@ -125,7 +126,7 @@ void ManagementObjects::value(Write write) {
 }
 
 /// In the order of the class's attributes (management_classes.cpp).
-void ManagementObjects::tell_federation() {
+void ManagementObjects::report_federation() {
   std::vector<std::uint32_t> joined;
   for (const JoinedFederate& each : basis_.federates)
     if (each.is_joined) joined.push_back(each.handle.value);
@@ -140,18 +141,18 @@ void ManagementObjects::tell_federation() {
   update(federation_);
 }
 
-void ManagementObjects::tell_federate(std::uint32_t slot, Told& told) {
+void ManagementObjects::report_federate(std::uint32_t slot, ReportedObject& reported) {
   if (!std::exchange(has_counted_, true)) deletable_ = count_deletable();
   const JoinedFederate& federate = basis_.federates[slot];
-  told.state = state_of(slot);
+  reported.state = state_of(slot);
   begin_values(federate_class_);
   value([&](ManagementWriter to) { to.handle(federate.handle.value); });
   value([&](ManagementWriter to) { to.text(federate.name); });
   value([&](ManagementWriter to) { to.text(federate.type); });
   value([&](ManagementWriter to) { to.text(rti_version()); });
-  value_times(slot, told.state);
+  value_times(slot, reported.state);
   value_counts(slot);
-  update(told);
+  update(reported);
 }
 
 void ManagementObjects::value_times(std::uint32_t slot, unsigned state) {
@@ -193,8 +194,8 @@ std::vector<std::uint32_t> ManagementObjects::count_deletable() const {
   return deletable;
 }
 
-void ManagementObjects::update(Told& told) {
-  const ObjectSlot slot = basis_.objects.find(told.object);
+void ManagementObjects::update(ReportedObject& reported) {
+  const ObjectSlot slot = basis_.objects.find(reported.object);
   const Object& object = basis_.objects[slot];
   changed_.clear();
   AttributeSet set;
@@ -205,12 +206,12 @@ void ManagementObjects::update(Told& told) {
     before_.clear();
     const AttributeSet one{AttributeHandle{k}};
     if (object.valued.contains({k})) basis_.objects.append(slot, one, before_);
-    if (!told.asked.contains({k}) && std::ranges::equal(before_, now)) continue;
+    if (!reported.asked.contains({k}) && std::ranges::equal(before_, now)) continue;
     set = set | one;
     changed_.insert(changed_.end(), now.begin(), now.end());
   }
-  told.asked = {};
-  told.is_due = false;
+  reported.asked = {};
+  reported.is_due = false;
   if (set.is_empty()) return;
   basis_.objects.store(slot, set, changed_);
   uses_.buffering.append({.owner = *slot_,

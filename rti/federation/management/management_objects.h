@@ -12,8 +12,8 @@
 #include "rti/federation/federation_basis.h"
 #include "rti/federation/services/declarations.h"
 #include "rti/federation/services/object_service.h"
-#include "rti/federation/time/time_service.h"
 #include "rti/federation/services/update_requests.h"
+#include "rti/federation/time/time_service.h"
 #include "rti/management/management_handles.h"
 #include "rti/management/management_values.h"
 #include "rti/ownership/ownership.h"
@@ -53,11 +53,11 @@ class ManagementObjects {
   /// HLAautoProvide has changed.
   void switched() { federation_.is_due = static_cast<bool>(federation_.object); }
   /// Once per flush, before it.
-  void tell();
+  void notify();
 
  private:
   /// One object of ours.
-  struct Told {
+  struct ReportedObject {
     ObjectHandle object;  ///< none: not registered
     AttributeSet asked;
     bool is_due = false;
@@ -66,22 +66,22 @@ class ManagementObjects {
   };
   void begin();
   void end();
-  void add(Told& told, ObjectClassHandle object_class);
-  void remove(Told& told);
+  void add(ReportedObject& reported, ObjectClassHandle object_class);
+  void remove(ReportedObject& reported);
   /// They are told whether they have changed or not.
   void ask(ObjectHandle object, AttributeSet attributes);
-  Told& told_of(std::uint32_t slot);
-  void tell_federation();
-  void tell_federate(std::uint32_t slot, Told& told);
+  ReportedObject& reported_of(std::uint32_t slot);
+  void report_federation();
+  void report_federate(std::uint32_t slot, ReportedObject& reported);
   unsigned state_of(std::uint32_t slot) const;
   std::vector<std::uint32_t> count_deletable() const;
-  bool is_any_heard() const;
-  bool hears(std::uint32_t slot) const;
+  bool is_any_subscribed() const;
+  bool receives(std::uint32_t slot) const;
   void value_counts(std::uint32_t slot);
   void value_times(std::uint32_t slot, unsigned state);
   /// The values of the class's attributes are in `values_`, those of attribute k up to `ends_[k]`:
   /// tells those that differ from what was told, and those asked for.
-  void update(Told& told);
+  void update(ReportedObject& reported);
   void begin_values(ObjectClassHandle object_class);
   template <class Write>
   void value(Write write);
@@ -90,16 +90,16 @@ class ManagementObjects {
   Uses uses_;
   ObjectClassHandle federation_class_, federate_class_;
   std::optional<std::uint32_t> slot_;  ///< once it has one
-  bool is_heard_ = false;
-  Told federation_;
-  std::vector<Told> federates_;  ///< by slot
-  std::vector<double> periods_;  ///< likewise, of their reports [s]; 0: none
+  bool is_subscribed_ = false;
+  ReportedObject federation_;
+  std::vector<ReportedObject> federates_;  ///< by slot
+  std::vector<double> periods_;            ///< likewise, of their reports [s]; 0: none
   std::unordered_map<std::uint32_t, std::uint32_t>
       slots_;  ///< by object, of the federates that they are about
   std::vector<std::byte> values_, before_, changed_;
   std::vector<std::size_t> ends_;
   std::vector<std::uint32_t> deletable_;  ///< by slot: objects that it may delete, worked out once
-                                          ///< per `tell` that needs it
+                                          ///< per `notify` that needs it
   bool has_counted_ = false;
 };
 

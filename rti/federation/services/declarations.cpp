@@ -12,12 +12,12 @@ Declarations::Declarations(const FederationBasis& basis, const Uses& uses)
       relevance_(basis.fom.object_classes().size() + basis.fom.interaction_classes().size()) {}
 
 void Declarations::joined(std::uint32_t slot) {
-  if (slot >= told_.size()) told_.resize(slot + 1);
-  told_[slot] = {};
-  told_[slot].classes.resize(relevance_.row_count());
+  if (slot >= advised_.size()) advised_.resize(slot + 1);
+  advised_[slot] = {};
+  advised_[slot].classes.resize(relevance_.row_count());
 }
 
-Outcome Declarations::handle_publish_class(std::uint32_t slot, Reader& reader) {
+Status Declarations::handle_publish_class(std::uint32_t slot, Reader& reader) {
   PublishObjectClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= basis_.fom.object_classes().size()) return Violation::unknown_name;
@@ -27,11 +27,11 @@ Outcome Declarations::handle_publish_class(std::uint32_t slot, Reader& reader) {
   if (basis_.fom.is_management(object_class)) return Violation::not_owned;
   const AttributeSet before = uses_.publications.set_class(slot, message.object_class, attributes);
   uses_.owners.published_changed(slot, message.object_class, before);
-  tell_relevance(slot, message.object_class);
+  advise(slot, message.object_class);
   return std::nullopt;
 }
 
-Outcome Declarations::handle_subscribe_class(std::uint32_t slot, Reader& reader) {
+Status Declarations::handle_subscribe_class(std::uint32_t slot, Reader& reader) {
   SubscribeObjectClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= basis_.fom.object_classes().size()) return Violation::unknown_name;
@@ -41,11 +41,11 @@ Outcome Declarations::handle_subscribe_class(std::uint32_t slot, Reader& reader)
   const Subscription subscription{attributes,
                                   message.is_passive != 0 ? AttributeSet() : attributes};
   return uses_.distribution.subscribe(slot, message.object_class, subscription, {message.region})
-             ? Outcome()
+             ? Status()
              : Violation::unknown_name;
 }
 
-Outcome Declarations::handle_publish_interaction(std::uint32_t slot, Reader& reader) {
+Status Declarations::handle_publish_interaction(std::uint32_t slot, Reader& reader) {
   PublishInteractionClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.interaction_class >= basis_.fom.interaction_classes().size())
@@ -55,14 +55,15 @@ Outcome Declarations::handle_publish_interaction(std::uint32_t slot, Reader& rea
   if (basis_.fom.is_management(interaction_class) && !basis_.fom.is_for_rti(interaction_class))
     return Violation::not_owned;
   uses_.publications.set_interaction(slot, message.interaction_class, message.is_declared != 0);
-  tell_relevance(slot, basis_.fom.object_classes().size() + message.interaction_class);
+  advise(slot, basis_.fom.object_classes().size() + message.interaction_class);
   return std::nullopt;
 }
 
-Outcome Declarations::handle_advisory_switch(std::uint32_t slot, Reader& reader) {
+Status Declarations::handle_advisory_switch(std::uint32_t slot, Reader& reader) {
   AdvisorySwitchMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  told_[slot].objects = message.is_on != 0 ? std::make_unique<ObjectMap<AttributeSet>>() : nullptr;
+  advised_[slot].objects =
+      message.is_on != 0 ? std::make_unique<ObjectMap<AttributeSet>>() : nullptr;
   if (message.is_on == 0) return std::nullopt;
   uses_.distribution.watch_scope(true);
   uses_.owners.for_each_owned(
@@ -74,7 +75,7 @@ void Declarations::subscriptions_changed(std::uint32_t slot) {
   const bool is_joined = basis_.federates[slot].is_joined;
   for (std::size_t row = 0; row < relevance_.row_count(); ++row)
     if (relevance_.set(slot, row, is_joined ? subscribed(slot, row) : Subscription()))
-      tell_publishers(row);
+      advise_publishers(row);
 }
 
 Subscription Declarations::subscribed(std::uint32_t slot, std::size_t row) const {
@@ -85,7 +86,7 @@ Subscription Declarations::subscribed(std::uint32_t slot, std::size_t row) const
 
 /// What others than `slot` hear of a row. The RTI itself hears what the management object model
 /// lets federates ask of it.
-Subscription Declarations::others_hear(std::uint32_t slot, std::size_t row) const {
+Subscription Declarations::others_subscribe(std::uint32_t slot, std::size_t row) const {
   if (is_interaction(row) && basis_.fom.is_for_rti(InteractionClassHandle{number_of(row)}))
     return Relevance::of(Listening::active);
   return relevance_.of_others(slot, row);
@@ -97,56 +98,57 @@ bool Declarations::publishes(std::uint32_t slot, std::size_t row) const {
                              : !uses_.publications.of_class(slot, number).is_empty();
 }
 
-void Declarations::tell_publishers(std::size_t row) {
+void Declarations::advise_publishers(std::size_t row) {
   for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot)
     if (basis_.federates[slot].is_joined && publishes(slot, row) &&
-        told_[slot].classes[row] != others_hear(slot, row))
-      tell_relevance(slot, row);
+        advised_[slot].classes[row] != others_subscribe(slot, row))
+      advise(slot, row);
 }
 
-void Declarations::tell_relevance(std::uint32_t slot, std::size_t row) {
+void Declarations::advise(std::uint32_t slot, std::size_t row) {
   assert(row < relevance_.row_count());
   if (!publishes(slot, row)) return;
-  const Subscription others = told_[slot].classes[row] = others_hear(slot, row);
+  const Subscription others = advised_[slot].classes[row] = others_subscribe(slot, row);
   basis_.federates[slot].outbox.before_updates(ClassRelevanceMessage{
-      is_interaction(row), number_of(row), others.heard.bits, others.active.bits});
+      is_interaction(row), number_of(row), others.subscribed.bits, others.active.bits});
 }
 
-void Declarations::tell_object_relevance() {
+void Declarations::advise_object_relevance() {
   std::vector<ObjectSlot>& touched = uses_.distribution.touched();
   if (touched.empty()) return;
   uses_.distribution.watch_scope(
-      std::ranges::any_of(told_, [](const Told& each) { return each.objects != nullptr; }));
+      std::ranges::any_of(advised_, [](const Advised& each) { return each.objects != nullptr; }));
   std::ranges::sort(touched);
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   for (const ObjectSlot object : touched)
-    if (basis_.objects[object].is_alive) tell_of(object);
+    if (basis_.objects[object].is_alive) advise_owners_of(object);
   touched.clear();
 }
 
-void Declarations::tell_of(ObjectSlot object) {
+void Declarations::advise_owners_of(ObjectSlot object) {
   const ObjectHandle handle = basis_.objects[object].handle;
-  for (std::uint32_t owner = 0; owner < told_.size(); ++owner) {
-    if (!told_[owner].objects) continue;
-    const AttributeSet heard = heard_of(owner, object);
-    ObjectMap<AttributeSet>& told = *told_[owner].objects;
-    const AttributeSet* before = told.find(handle);
-    if (heard == (before != nullptr ? *before : AttributeSet())) continue;
-    if (heard.is_empty()) told.erase(handle);
-    else told[handle] = heard;
-    basis_.federates[owner].outbox.before_updates(ObjectRelevanceMessage{handle.value, heard.bits});
+  for (std::uint32_t owner = 0; owner < advised_.size(); ++owner) {
+    if (!advised_[owner].objects) continue;
+    const AttributeSet subscribed = subscribed_of(owner, object);
+    ObjectMap<AttributeSet>& advised = *advised_[owner].objects;
+    const AttributeSet* before = advised.find(handle);
+    if (subscribed == (before != nullptr ? *before : AttributeSet())) continue;
+    if (subscribed.is_empty()) advised.erase(handle);
+    else advised[handle] = subscribed;
+    basis_.federates[owner].outbox.before_updates(
+        ObjectRelevanceMessage{handle.value, subscribed.bits});
   }
 }
 
 /// Of what it owns: what some active subscriber is told.
-AttributeSet Declarations::heard_of(std::uint32_t owner, ObjectSlot object) const {
-  AttributeSet heard;
+AttributeSet Declarations::subscribed_of(std::uint32_t owner, ObjectSlot object) const {
+  AttributeSet subscribed;
   const AttributeSet owned =
       uses_.ownership.owned_by(owner, object).without(AttributeSet{privilege_to_delete_object});
-  for (std::uint32_t slot = 0; slot < basis_.federates.size() && heard != owned; ++slot)
+  for (std::uint32_t slot = 0; slot < basis_.federates.size() && subscribed != owned; ++slot)
     if (slot != owner && basis_.federates[slot].is_joined)
-      heard = heard | (uses_.distribution.told_actively(slot, object) & owned);
-  return heard;
+      subscribed = subscribed | (uses_.distribution.actively_in_scope(slot, object) & owned);
+  return subscribed;
 }
 
 }  // namespace rink::rti

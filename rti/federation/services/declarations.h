@@ -10,10 +10,10 @@
 #include "rti/distribution/data_distribution.h"
 #include "rti/distribution/relevance.h"
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
 #include "rti/federation/services/interactions.h"
 #include "rti/federation/services/ownership_service.h"
 #include "rti/federation/services/publications.h"
+#include "rti/federation/status.h"
 #include "rti/objects/object_map.h"
 #include "rti/wire/declaration_messages.h"
 
@@ -30,38 +30,38 @@ class Declarations {
   };
   Declarations(const FederationBasis& basis, const Uses& uses);
 
-  Outcome handle_publish_class(std::uint32_t slot, Reader& reader);
-  Outcome handle_subscribe_class(std::uint32_t slot, Reader& reader);
-  Outcome handle_publish_interaction(std::uint32_t slot, Reader& reader);
-  Outcome handle_advisory_switch(std::uint32_t slot, Reader& reader);
+  Status handle_publish_class(std::uint32_t slot, Reader& reader);
+  Status handle_subscribe_class(std::uint32_t slot, Reader& reader);
+  Status handle_publish_interaction(std::uint32_t slot, Reader& reader);
+  Status handle_advisory_switch(std::uint32_t slot, Reader& reader);
 
   /// Takes what it subscribes now into account, and tells publishers who are concerned, at once:
   /// whatever a subscriber says next reaches them after that.
   void subscriptions_changed(std::uint32_t slot);
   /// True if anybody subscribes to the class.
-  bool is_heard(ObjectClassHandle object_class) const {
-    return !relevance_.of_others(no_federate, object_class.value).heard.is_empty();
+  bool is_subscribed(ObjectClassHandle object_class) const {
+    return !relevance_.of_others(no_federate, object_class.value).subscribed.is_empty();
   }
   /// Tells owners who asked for it which of their attributes are in the scope of an active
   /// subscriber now. Nothing is kept or done where nobody asked.
-  void tell_object_relevance();
+  void advise_object_relevance();
   void joined(std::uint32_t slot);
-  void left(std::uint32_t slot) { told_[slot] = {}; }
+  void left(std::uint32_t slot) { advised_[slot] = {}; }
 
  private:
   /// What a publisher knows of those who hear it.
-  struct Told {
+  struct Advised {
     std::vector<Subscription> classes;                 ///< by row of `Relevance`
     std::unique_ptr<ObjectMap<AttributeSet>> objects;  ///< if it asked for it: those that others
                                                        ///< hear
   };
   Subscription subscribed(std::uint32_t slot, std::size_t row) const;
-  Subscription others_hear(std::uint32_t slot, std::size_t row) const;
+  Subscription others_subscribe(std::uint32_t slot, std::size_t row) const;
   bool publishes(std::uint32_t slot, std::size_t row) const;
-  void tell_publishers(std::size_t row);
-  void tell_relevance(std::uint32_t slot, std::size_t row);
-  void tell_of(ObjectSlot object);
-  AttributeSet heard_of(std::uint32_t owner, ObjectSlot object) const;
+  void advise_publishers(std::size_t row);
+  void advise(std::uint32_t slot, std::size_t row);
+  void advise_owners_of(ObjectSlot object);
+  AttributeSet subscribed_of(std::uint32_t owner, ObjectSlot object) const;
   /// Of an interaction class its number, after those of objects.
   bool is_interaction(std::size_t row) const { return row >= basis_.fom.object_classes().size(); }
   std::uint16_t number_of(std::size_t row) const {
@@ -72,7 +72,7 @@ class Declarations {
   FederationBasis basis_;
   Uses uses_;
   Relevance relevance_;
-  std::vector<Told> told_;  ///< by slot
+  std::vector<Advised> advised_;  ///< by slot
 };
 
 }  // namespace rink::rti

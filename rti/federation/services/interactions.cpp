@@ -17,10 +17,10 @@ void Interactions::left(std::uint32_t slot) {
 }
 
 void Interactions::flushed() {
-  for (Federate& each : federates_) each.said = 0;
+  for (Federate& each : federates_) each.bytes_sent = 0;
 }
 
-Outcome Interactions::handle_subscribe(std::uint32_t slot, Reader& reader) {
+Status Interactions::handle_subscribe(std::uint32_t slot, Reader& reader) {
   SubscribeInteractionClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.interaction_class >= basis_.fom.interaction_classes().size())
@@ -31,7 +31,7 @@ Outcome Interactions::handle_subscribe(std::uint32_t slot, Reader& reader) {
   return std::nullopt;
 }
 
-Outcome Interactions::handle_subscribe_within(std::uint32_t slot, Reader& reader) {
+Status Interactions::handle_subscribe_within(std::uint32_t slot, Reader& reader) {
   RegionalInteractionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.interaction_class >= basis_.fom.interaction_classes().size())
@@ -60,21 +60,21 @@ Listening Interactions::listening(std::uint32_t slot, std::uint16_t interaction_
   return found;
 }
 
-bool Interactions::hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const {
+bool Interactions::receives_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const {
   for (InteractionClassHandle each{interaction_class}; each; each = basis_.fom.at(each).parent)
     if (federates_[slot].subscribed[each.value] != Listening::none) return true;
   return false;
 }
 
-Outcome Interactions::read(Reader& reader, InteractionMessage& message) const {
+Status Interactions::read(Reader& reader, InteractionMessage& message) const {
   if (!exchange(reader, message)) return Violation::malformed;
   return message.interaction_class < basis_.fom.interaction_classes().size()
-             ? Outcome()
+             ? Status()
              : Violation::unknown_name;
 }
 
-Outcome Interactions::read_within(std::uint32_t slot, Reader& reader, InteractionMessage& message,
-                                  std::vector<RegionHandle>& regions) const {
+Status Interactions::read_within(std::uint32_t slot, Reader& reader, InteractionMessage& message,
+                                 std::vector<RegionHandle>& regions) const {
   InteractionWithinMessage within;
   if (!exchange(reader, within)) return Violation::malformed;
   if (within.interaction_class >= basis_.fom.interaction_classes().size())
@@ -86,36 +86,36 @@ Outcome Interactions::read_within(std::uint32_t slot, Reader& reader, Interactio
   return std::nullopt;
 }
 
-Outcome Interactions::accept(std::uint32_t slot, const InteractionMessage& message,
-                             Receivers& receivers) {
+Status Interactions::accept(std::uint32_t slot, const InteractionMessage& message,
+                            Receivers& receivers) {
   if (!publications_.has_interaction(slot, message.interaction_class)) return Violation::undeclared;
   ++basis_.counters.interactions_received;
   ++basis_.federates[slot].counts.interactions_sent;
   // Interactions are never held back, so a shouter would fill the queues of those who listen, and
   // they would be closed instead of it.
   receivers = groups_.receivers(message.interaction_class, slot);
-  if (!receivers.empty()) federates_[slot].said += head_size + message.parameters.size();
+  if (!receivers.empty()) federates_[slot].bytes_sent += head_size + message.parameters.size();
   return std::nullopt;
 }
 
-Outcome Interactions::deliver(std::uint32_t slot, InteractionMessage& message, Receivers receivers,
-                              std::span<const RegionHandle> regions) {
+Status Interactions::deliver(std::uint32_t slot, InteractionMessage& message, Receivers receivers,
+                             std::span<const RegionHandle> regions) {
   assert(message.interaction_class < basis_.fom.interaction_classes().size());
-  if (federates_[slot].said > basis_.settings.interaction_bytes_per_flush_max)
+  if (federates_[slot].bytes_sent > basis_.settings.interaction_bytes_per_flush_max)
     return Violation::over_limit;
   const std::uint32_t only = message.federate;
   message.federate = basis_.federates[slot].handle.value;
   for (const std::uint32_t receiver : receivers) {
     if (only != FederateHandle::none && basis_.federates[receiver].handle.value != only) continue;
-    if (!regions.empty() && !hears_everywhere(receiver, message.interaction_class) &&
-        !distribution_.hears(receiver, message.interaction_class, slot, regions))
+    if (!regions.empty() && !receives_everywhere(receiver, message.interaction_class) &&
+        !distribution_.receives(receiver, message.interaction_class, slot, regions))
       continue;
-    tell(receiver, message);
+    deliver_to(receiver, message);
   }
   return std::nullopt;
 }
 
-void Interactions::tell(std::uint32_t receiver, InteractionMessage& message) {
+void Interactions::deliver_to(std::uint32_t receiver, InteractionMessage& message) {
   JoinedFederate& federate = basis_.federates[receiver];
   federate.outbox.after_updates(message);
   basis_.counters.interaction_bytes_sent += measure(message);
@@ -128,8 +128,8 @@ void Interactions::report(std::uint32_t asking, InteractionClassHandle interacti
   InteractionMessage message{
       static_cast<std::uint16_t>(interaction_class.value), FederateHandle::none, {}, parameters};
   const Receivers receivers = groups_.receivers(interaction_class.value, no_federate);
-  if (!receivers.empty()) federates_[asking].said += head_size + parameters.size();
-  for (const std::uint32_t receiver : receivers) tell(receiver, message);
+  if (!receivers.empty()) federates_[asking].bytes_sent += head_size + parameters.size();
+  for (const std::uint32_t receiver : receivers) deliver_to(receiver, message);
 }
 
 }  // namespace rink::rti

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "rti/distribution/data_distribution.h"
-#include "rti/federation/outcome.h"
+#include "rti/federation/status.h"
 #include "rti/federation_counters.h"
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
@@ -32,15 +32,15 @@ class KnownObjects {
            !ownership_.owned_by(slot, object).is_empty();
   }
   /// The object that is meant, or no_object if it was deleted meanwhile.
-  Outcome find(ObjectHandle handle, ObjectSlot& object) {
+  Status find(ObjectHandle handle, ObjectSlot& object) {
     object = objects_.find(handle);
-    return object != no_object || is_late(handle) ? Outcome() : Violation::unknown_name;
+    return object != no_object || is_late(handle) ? Status() : Violation::unknown_name;
   }
   /// The same of one that the federate must know.
-  Outcome find_known(std::uint32_t slot, ObjectHandle handle, ObjectSlot& object) {
-    const Outcome outcome = find(handle, object);
-    if (outcome || object == no_object) return outcome;
-    return is_known_to(slot, object) ? Outcome() : Violation::unknown_name;
+  Status find_known(std::uint32_t slot, ObjectHandle handle, ObjectSlot& object) {
+    const Status status = find(handle, object);
+    if (status || object == no_object) return status;
+    return is_known_to(slot, object) ? Status() : Violation::unknown_name;
   }
 
  private:

@@ -6,7 +6,8 @@ namespace rink::rti {
 Stamp NewestStamps::among_owners(ObjectSlot object) const {
   Stamp newest = object < inherited_.size() ? inherited_[object] : Stamp();
   const auto include = [&](std::uint32_t federate) {
-    if (federate < said_.size() && said_[federate].time > newest.time) newest = said_[federate];
+    if (federate < newest_.size() && newest_[federate].time > newest.time)
+      newest = newest_[federate];
   };
   const std::uint32_t owner = objects_[object].owner;
   if (owner != no_federate) include(owner);

@@ -17,24 +17,24 @@ class NewestStamps {
       : objects_(objects), ownership_(ownership) {}
 
   void joined(std::uint32_t slot) {
-    if (slot >= said_.size()) said_.resize(slot + 1);
-    said_[slot] = {};
+    if (slot >= newest_.size()) newest_.resize(slot + 1);
+    newest_[slot] = {};
   }
-  void left(std::uint32_t slot) { said_[slot] = {}; }
+  void left(std::uint32_t slot) { newest_[slot] = {}; }
   /// By its latest update.
-  void say(std::uint32_t slot, const Stamp& stamp) { said_[slot] = stamp; }
+  void note(std::uint32_t slot, const Stamp& stamp) { newest_[slot] = stamp; }
   /// By one that may have been overtaken on its way.
-  void say_unless_older(std::uint32_t slot, const Stamp& stamp) {
-    if (stamp.time >= said_[slot].time) said_[slot] = stamp;
+  void note_unless_older(std::uint32_t slot, const Stamp& stamp) {
+    if (stamp.time >= newest_[slot].time) newest_[slot] = stamp;
   }
-  void say_if_newer(std::uint32_t slot, const Stamp& stamp) {
-    if (said_[slot].time < stamp.time) said_[slot] = stamp;
+  void note_if_newer(std::uint32_t slot, const Stamp& stamp) {
+    if (newest_[slot].time < stamp.time) newest_[slot] = stamp;
   }
 
   /// The newest stamp of its owners, but not older than what a former owner said.
   Stamp of(ObjectSlot object) const {
     const std::uint32_t owner = objects_[object].owner;
-    return inherited_.empty() && owner < said_.size() ? said_[owner] : among_owners(object);
+    return inherited_.empty() && owner < newest_.size() ? newest_[owner] : among_owners(object);
   }
   /// It changes hands, and holds until `newest` at least.
   void inherit(ObjectSlot object, const Stamp& newest) {
@@ -50,7 +50,7 @@ class NewestStamps {
 
   const ObjectTable& objects_;
   const Ownership& ownership_;
-  std::vector<Stamp> said_;       ///< by federate slot
+  std::vector<Stamp> newest_;     ///< by federate slot
   std::vector<Stamp> inherited_;  ///< by object slot: of former owners; as long as the last object
                                   ///< that changed hands
 };

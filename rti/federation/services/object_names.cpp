@@ -5,7 +5,7 @@
 
 namespace rink::rti {
 
-Outcome ObjectNames::handle(std::uint32_t slot, Reader& reader) {
+Status ObjectNames::handle(std::uint32_t slot, Reader& reader) {
   InstanceNamesMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   std::vector<std::string> names;
@@ -34,7 +34,7 @@ bool ObjectNames::reserve(FederateHandle federate, std::vector<std::string>& nam
   return true;
 }
 
-Outcome ObjectNames::release(FederateHandle federate, const std::vector<std::string>& names) {
+Status ObjectNames::release(FederateHandle federate, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto found = names_.find(name);
     if (found == names_.end() || found->second != federate) return Violation::unknown_name;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "rti/federation/federate_table.h"
-#include "rti/federation/outcome.h"
+#include "rti/federation/status.h"
 #include "rti/wire/object_messages.h"
 
 namespace rink::rti {
@@ -21,7 +21,7 @@ class ObjectNames {
   ObjectNames(FederateTable& federates, std::size_t name_max)
       : federates_(federates), name_max_(name_max) {}
 
-  Outcome handle(std::uint32_t slot, Reader& reader);
+  Status handle(std::uint32_t slot, Reader& reader);
   /// For an object that is being registered: its sender's reservation, or a name that is free. Else
   /// its sender is told.
   bool take(std::uint32_t slot, std::string_view name);
@@ -32,7 +32,7 @@ class ObjectNames {
 
  private:
   bool reserve(FederateHandle federate, std::vector<std::string>& names);
-  Outcome release(FederateHandle federate, const std::vector<std::string>& names);
+  Status release(FederateHandle federate, const std::vector<std::string>& names);
   void answer(std::uint32_t slot, NameAnswer answer, Bytes names);
 
   FederateTable& federates_;

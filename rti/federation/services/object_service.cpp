@@ -24,7 +24,7 @@ void ObjectService::left(std::uint32_t slot) {
   registered = {};
 }
 
-Outcome ObjectService::handle_register(std::uint32_t slot, Reader& reader) {
+Status ObjectService::handle_register(std::uint32_t slot, Reader& reader) {
   RegisterObjectMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= basis_.fom.object_classes().size()) return Violation::unknown_name;
@@ -102,13 +102,13 @@ ObjectHandle ObjectService::register_own(std::uint32_t slot, ObjectClassHandle o
   return object;
 }
 
-Outcome ObjectService::handle_delete(std::uint32_t slot, Reader& reader) {
+Status ObjectService::handle_delete(std::uint32_t slot, Reader& reader) {
   DeleteObjectMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   ObjectSlot object = no_object;
-  if (const Outcome outcome = uses_.known.find({message.object}, object);
-      outcome || object == no_object)
-    return outcome;
+  if (const Status status = uses_.known.find({message.object}, object);
+      status || object == no_object)
+    return status;
   if (basis_.objects[object].owner != slot &&
       uses_.ownership.owner_of(object, privilege_to_delete_object) != slot)
     return Violation::not_owned;
@@ -118,19 +118,19 @@ Outcome ObjectService::handle_delete(std::uint32_t slot, Reader& reader) {
 }
 
 /// Its confirmation comes before whatever makes the object discovered anew.
-Outcome ObjectService::handle_local_delete(std::uint32_t slot, Reader& reader) {
+Status ObjectService::handle_local_delete(std::uint32_t slot, Reader& reader) {
   LocalDeleteMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   ObjectSlot object = no_object;
-  if (const Outcome outcome = uses_.known.find({message.object}, object);
-      outcome || object == no_object)
-    return outcome;
+  if (const Status status = uses_.known.find({message.object}, object);
+      status || object == no_object)
+    return status;
   if (!uses_.ownership.owned_by(slot, object).is_empty()) return Violation::not_owned;
   FederateInterest& interest = uses_.distribution.of(slot);
   if (!interest.known.contains(object)) return ++basis_.counters.late_requests, std::nullopt;
   interest.known.erase(object);
   interest.in_scope.erase(object);
-  interest.fresh.erase(object);
+  interest.needs_full_state.erase(object);
   interest.unannounced.erase(object);
   basis_.federates[slot].outbox.before_updates(RemoveObjectMessage{message.object});
   return std::nullopt;

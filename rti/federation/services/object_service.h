@@ -9,12 +9,12 @@
 #include "rti/distribution/data_distribution.h"
 #include "rti/federation/delivery/arrival_orders.h"
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
 #include "rti/federation/services/known_objects.h"
 #include "rti/federation/services/newest_stamps.h"
 #include "rti/federation/services/object_names.h"
 #include "rti/federation/services/publications.h"
 #include "rti/federation/services/transportation_types.h"
+#include "rti/federation/status.h"
 #include "rti/ownership/ownership.h"
 #include "rti/wire/object_messages.h"
 
@@ -34,9 +34,9 @@ class ObjectService {
   };
   ObjectService(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 
-  Outcome handle_register(std::uint32_t slot, Reader& reader);
-  Outcome handle_delete(std::uint32_t slot, Reader& reader);
-  Outcome handle_local_delete(std::uint32_t slot, Reader& reader);
+  Status handle_register(std::uint32_t slot, Reader& reader);
+  Status handle_delete(std::uint32_t slot, Reader& reader);
+  Status handle_local_delete(std::uint32_t slot, Reader& reader);
 
   /// All who know it are told, who deleted it too: up to then it may hear of it.
   void remove(ObjectSlot object);

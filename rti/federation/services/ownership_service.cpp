@@ -61,22 +61,22 @@ void OwnershipService::left(std::uint32_t slot) {
   });
 }
 
-Outcome OwnershipService::handle_resign_directive(std::uint32_t slot, Reader& reader) {
+Status OwnershipService::handle_resign_directive(std::uint32_t slot, Reader& reader) {
   ResignDirectiveMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   resign_actions_[slot] = static_cast<ResignAction>(message.action);
   return std::nullopt;
 }
 
-Outcome OwnershipService::handle_requests(std::uint32_t slot, Reader& reader) {
+Status OwnershipService::handle_requests(std::uint32_t slot, Reader& reader) {
   OwnershipRequestMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  Outcome outcome;
+  Status status;
   const bool is_read = read_objects(reader, [&](ObjectHandle object) {
-    outcome = take(slot, message, object);
-    return !outcome;
+    status = take(slot, message, object);
+    return !status;
   });
-  return is_read || outcome ? outcome : Violation::malformed;
+  return is_read || status ? status : Violation::malformed;
 }
 
 AttributeSet OwnershipService::acquirable(std::uint32_t slot, ObjectSlot object) const {
@@ -85,12 +85,12 @@ AttributeSet OwnershipService::acquirable(std::uint32_t slot, ObjectSlot object)
   return published.is_empty() ? published : published | AttributeSet{privilege_to_delete_object};
 }
 
-Outcome OwnershipService::take(std::uint32_t slot, const OwnershipRequestMessage& message,
-                               ObjectHandle handle) {
+Status OwnershipService::take(std::uint32_t slot, const OwnershipRequestMessage& message,
+                              ObjectHandle handle) {
   ObjectSlot object = no_object;
-  if (const Outcome outcome = uses_.known.find_known(slot, handle, object);
-      outcome || object == no_object)
-    return outcome;
+  if (const Status status = uses_.known.find_known(slot, handle, object);
+      status || object == no_object)
+    return status;
   const AttributeSet attributes{message.attributes};
   const auto request = static_cast<OwnershipRequest>(message.word);
   if (!uses_.ownership.all(object).includes(attributes)) return Violation::unknown_name;
@@ -113,7 +113,9 @@ void OwnershipService::serve(std::uint32_t slot, ObjectSlot object, OwnershipReq
         object);  // should it lose the object, it still knows it
   if (request == OwnershipRequest::confirm || request == OwnershipRequest::give_if_wanted)
     give(slot, object, request, attributes, tag);
-  else tell(slot, object, decide(slot, object, request, attributes, tag), {request, tag, newest});
+  else
+    notify_all(slot, object, decide(slot, object, request, attributes, tag),
+               {request, tag, newest});
   if (uses_.ownership.owned_by(slot, object) != before) moved(object, newest);
 }
 
@@ -154,7 +156,7 @@ void OwnershipService::give(std::uint32_t slot, ObjectSlot object, OwnershipRequ
   const AttributeSet given =
       is_confirmation ? attributes & ownership.confirming(object) : attributes;
   if (!given.is_empty())
-    tell(slot, object, ownership.give(slot, object, given), {request, tag, newest});
+    notify_all(slot, object, ownership.give(slot, object, given), {request, tag, newest});
   const AttributeSet kept = attributes & ownership.owned_by(slot, object),
                      offered = kept & ownership.offered(object);
   const ObjectHandle handle = basis_.objects[object].handle;
@@ -179,17 +181,17 @@ void OwnershipService::notify(std::uint32_t slot, OwnershipNotice notice, Object
   ++basis_.counters.ownership_notices_sent;
 }
 
-void OwnershipService::tell(std::uint32_t slot, ObjectSlot object, Ownership::Events events,
-                            const Told& told) {
+void OwnershipService::notify_all(std::uint32_t slot, ObjectSlot object, Ownership::Events events,
+                                  const RequestContext& context) {
   for (const OwnershipEvent& each : events) {
-    const Bytes words = carries_tag(told.request, each.kind) ? told.tag : Bytes();
+    const Bytes words = carries_tag(context.request, each.kind) ? context.tag : Bytes();
     if (each.kind == OwnershipEvent::Kind::offered) {
       offer_to_all(slot, object, each.attributes, words);
       continue;
     }
     if (each.kind == OwnershipEvent::Kind::acquired) {
-      say_state(each.federate, object, told.newest);
-      moved(object, told.newest);
+      send_state(each.federate, object, context.newest);
+      moved(object, context.newest);
     }
     notify(each.federate, notice_of(each.kind), basis_.objects[object].handle, each.attributes,
            words);
@@ -226,10 +228,10 @@ void OwnershipService::offer_to(std::uint32_t slot, ObjectSlot object,
 /// The newest state reaches the new owner before the notification. After it comes nothing more, for
 /// what one owns is out of one's scope: neither what was said this tick nor what buffering held
 /// back.
-void OwnershipService::say_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest) {
+void OwnershipService::send_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest) {
   const Object& moved = basis_.objects[object];
   const AttributeSet set =
-      uses_.distribution.of(slot).told(object, moved.object_class) & moved.valued;
+      uses_.distribution.of(slot).attributes_in_scope(object, moved.object_class) & moved.valued;
   if (set.is_empty()) return;
   std::vector<std::byte>& bytes = basis_.federates[slot].outbox.head();
   const std::size_t before = bytes.size();
@@ -244,13 +246,13 @@ void OwnershipService::say_state(std::uint32_t slot, ObjectSlot object, const St
   basis_.counters.update_bytes_sent += bytes.size() - before;
 }
 
-Outcome OwnershipService::handle_query(std::uint32_t slot, Reader& reader) {
+Status OwnershipService::handle_query(std::uint32_t slot, Reader& reader) {
   QueryOwnershipMessage message;
   ObjectSlot object = no_object;
   if (!exchange(reader, message)) return Violation::malformed;
-  if (const Outcome outcome = uses_.known.find_known(slot, {message.object}, object);
-      outcome || object == no_object)
-    return outcome;
+  if (const Status status = uses_.known.find_known(slot, {message.object}, object);
+      status || object == no_object)
+    return status;
   if (!uses_.ownership.all(object).contains({message.attribute})) return Violation::unknown_name;
   const std::uint32_t owner = uses_.ownership.owner_of(object, {message.attribute});
   basis_.federates[slot].outbox.after_updates(InformOwnershipMessage{

@@ -7,11 +7,11 @@
 
 #include "rti/distribution/data_distribution.h"
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
 #include "rti/federation/services/known_objects.h"
 #include "rti/federation/services/newest_stamps.h"
 #include "rti/federation/services/object_service.h"
 #include "rti/federation/services/publications.h"
+#include "rti/federation/status.h"
 #include "rti/ownership/ownership.h"
 #include "rti/wire/ownership_messages.h"
 
@@ -29,9 +29,9 @@ class OwnershipService {
   };
   OwnershipService(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 
-  Outcome handle_requests(std::uint32_t slot, Reader& reader);
-  Outcome handle_query(std::uint32_t slot, Reader& reader);
-  Outcome handle_resign_directive(std::uint32_t slot, Reader& reader);
+  Status handle_requests(std::uint32_t slot, Reader& reader);
+  Status handle_query(std::uint32_t slot, Reader& reader);
+  Status handle_resign_directive(std::uint32_t slot, Reader& reader);
 
   /// Publishing less gives up what it owns of it (5.3); publishing more, it may be asked to take
   /// what has no owner.
@@ -39,7 +39,7 @@ class OwnershipService {
   /// It may take what looks for an owner.
   void discovered(std::uint32_t slot, ObjectSlot object);
   /// The newest state goes before all that the next flush says to it.
-  void say_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest);
+  void send_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest);
   /// Calls `visit(object)` for each object of which it owns anything.
   template <class Visit>
   void for_each_owned(std::uint32_t slot, Visit visit) const {
@@ -53,7 +53,7 @@ class OwnershipService {
   void left(std::uint32_t slot);
 
  private:
-  Outcome take(std::uint32_t slot, const OwnershipRequestMessage& message, ObjectHandle handle);
+  Status take(std::uint32_t slot, const OwnershipRequestMessage& message, ObjectHandle handle);
   AttributeSet acquirable(std::uint32_t slot, ObjectSlot object) const;
   void serve(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
              AttributeSet attributes, Bytes tag);
@@ -65,12 +65,13 @@ class OwnershipService {
   void notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object,
               AttributeSet attributes, Bytes tag);
   /// Of one request.
-  struct Told {
+  struct RequestContext {
     OwnershipRequest request;
     Bytes tag;
     Stamp newest;  ///< of the object, before anything moved
   };
-  void tell(std::uint32_t slot, ObjectSlot object, Ownership::Events events, const Told& told);
+  void notify_all(std::uint32_t slot, ObjectSlot object, Ownership::Events events,
+                  const RequestContext& context);
   void offer_to_all(std::uint32_t from, ObjectSlot object, AttributeSet attributes, Bytes tag);
   void offer_to(std::uint32_t slot, ObjectSlot object, AttributeSet newly_published);
 

@@ -7,36 +7,36 @@ namespace {
 
 /// Calls `take(record)` for each record until it returns a violation.
 template <class Record, class Take>
-Outcome for_each_record(Bytes bytes, std::size_t count, Take take) {
+Status for_each_record(Bytes bytes, std::size_t count, Take take) {
   Reader reader(bytes);
   for (std::size_t i = 0; i < count; ++i) {
     Record record;
     if (!exchange(reader, record)) return Violation::malformed;
-    if (const Outcome outcome = take(record)) return outcome;
+    if (const Status status = take(record)) return status;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-Outcome RegionService::handle_create(std::uint32_t slot, Reader& reader) {
+Status RegionService::handle_create(std::uint32_t slot, Reader& reader) {
   CreateRegionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   return create(slot, {message.region}, {});
 }
 
-Outcome RegionService::handle_delete(std::uint32_t slot, Reader& reader) {
+Status RegionService::handle_delete(std::uint32_t slot, Reader& reader) {
   DeleteRegionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const RegionHandle region{message.region};
   if (!uses_.distribution.has_region(slot, region)) return Violation::unknown_name;
-  if (const Outcome outcome = uses_.requests.settle_within(slot, region)) return outcome;
+  if (const Status status = uses_.requests.settle_within(slot, region)) return status;
   uses_.distribution.delete_region(slot, region);
   --basis_.federates[slot].counts.regions;
   return std::nullopt;
 }
 
-Outcome RegionService::handle_create_over(std::uint32_t slot, Reader& reader) {
+Status RegionService::handle_create_over(std::uint32_t slot, Reader& reader) {
   CreateRegionOverMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const DimensionSet dimensions{message.dimensions};
@@ -47,24 +47,24 @@ Outcome RegionService::handle_create_over(std::uint32_t slot, Reader& reader) {
                                   : Violation::unknown_name;
 }
 
-Outcome RegionService::create(std::uint32_t slot, RegionHandle region, DimensionSet dimensions) {
+Status RegionService::create(std::uint32_t slot, RegionHandle region, DimensionSet dimensions) {
   if (!uses_.distribution.create_region(slot, region, dimensions)) return Violation::unknown_name;
   ++basis_.federates[slot].counts.regions;
   return std::nullopt;
 }
 
-Outcome RegionService::handle_modify(std::uint32_t slot, Reader& reader) {
+Status RegionService::handle_modify(std::uint32_t slot, Reader& reader) {
   ModifyRegionsMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   return for_each_record<RegionBounds>(
-      message.records, message.count, [&](const RegionBounds& record) -> Outcome {
+      message.records, message.count, [&](const RegionBounds& record) -> Status {
         return uses_.distribution.modify_region(slot, record.region, record.bounds)
-                   ? Outcome()
+                   ? Status()
                    : Violation::unknown_name;
       });
 }
 
-Outcome RegionService::handle_modify_ranges(std::uint32_t slot, Reader& reader) {
+Status RegionService::handle_modify_ranges(std::uint32_t slot, Reader& reader) {
   ModifyRangesMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const RegionHandle region{message.region};
@@ -74,16 +74,16 @@ Outcome RegionService::handle_modify_ranges(std::uint32_t slot, Reader& reader) 
       uses_.distribution.dimensions(slot, region).count() != message.count)
     return Violation::unknown_name;
   ranges_.clear();
-  const Outcome outcome =
-      for_each_record<Range>(message.ranges, message.count, [&](const Range& range) -> Outcome {
+  const Status status =
+      for_each_record<Range>(message.ranges, message.count, [&](const Range& range) -> Status {
         ranges_.push_back(range);
         return std::nullopt;
       });
-  if (!outcome) uses_.distribution.modify_region(slot, region, ranges_);
-  return outcome;
+  if (!status) uses_.distribution.modify_region(slot, region, ranges_);
+  return status;
 }
 
-Outcome RegionService::handle_associate(std::uint32_t slot, Reader& reader) {
+Status RegionService::handle_associate(std::uint32_t slot, Reader& reader) {
   AssociateRegionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = basis_.objects.find({message.object});
@@ -96,7 +96,7 @@ Outcome RegionService::handle_associate(std::uint32_t slot, Reader& reader) {
   return std::nullopt;
 }
 
-Outcome RegionService::handle_associate_parts(std::uint32_t slot, Reader& reader) {
+Status RegionService::handle_associate_parts(std::uint32_t slot, Reader& reader) {
   AssociateRegionsMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = basis_.objects.find({message.object});
@@ -105,7 +105,7 @@ Outcome RegionService::handle_associate_parts(std::uint32_t slot, Reader& reader
   const AttributeSet all =
       basis_.fom.attributes(ObjectClassHandle{basis_.objects[object].object_class});
   return for_each_record<AttributeRegionRecord>(
-      message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
+      message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Status {
         const AttributeSet attributes{pair.attributes};
         if (!all.includes(attributes) || !uses_.distribution.has_region(slot, {pair.region}))
           return Violation::unknown_name;
@@ -119,13 +119,13 @@ Outcome RegionService::handle_associate_parts(std::uint32_t slot, Reader& reader
       });
 }
 
-Outcome RegionService::handle_class(std::uint32_t slot, Reader& reader) {
+Status RegionService::handle_class(std::uint32_t slot, Reader& reader) {
   RegionalClassMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= basis_.fom.object_classes().size()) return Violation::unknown_name;
   const AttributeSet all = basis_.fom.attributes(ObjectClassHandle{message.object_class});
   return for_each_record<AttributeRegionRecord>(
-      message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
+      message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Status {
         const AttributeSet attributes{pair.attributes};
         const RegionHandle region{pair.region};
         if (!all.includes(attributes) || !uses_.distribution.has_region(slot, region))
@@ -141,8 +141,8 @@ void RegionService::subscribe(std::uint32_t slot, const RegionalClassMessage& me
                               RegionHandle region, AttributeSet attributes) {
   const auto action = static_cast<RegionAction>(message.action);
   Subscription now = uses_.distribution.subscribed(slot, message.object_class, region);
-  now.heard =
-      action == RegionAction::remove ? now.heard.without(attributes) : now.heard | attributes;
+  now.subscribed = action == RegionAction::remove ? now.subscribed.without(attributes)
+                                                  : now.subscribed | attributes;
   now.active =
       action == RegionAction::add ? now.active | attributes : now.active.without(attributes);
   uses_.distribution.subscribe(slot, message.object_class, now, region);

@@ -7,9 +7,9 @@
 
 #include "rti/distribution/data_distribution.h"
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
 #include "rti/federation/services/known_objects.h"
 #include "rti/federation/services/update_requests.h"
+#include "rti/federation/status.h"
 #include "rti/ownership/ownership.h"
 #include "rti/wire/region_messages.h"
 
@@ -25,19 +25,19 @@ class RegionService {
   };
   RegionService(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 
-  Outcome handle_create(std::uint32_t slot, Reader& reader);
-  Outcome handle_create_over(std::uint32_t slot, Reader& reader);
+  Status handle_create(std::uint32_t slot, Reader& reader);
+  Status handle_create_over(std::uint32_t slot, Reader& reader);
   /// Its subscriptions end.
-  Outcome handle_delete(std::uint32_t slot, Reader& reader);
-  Outcome handle_modify(std::uint32_t slot, Reader& reader);
-  Outcome handle_modify_ranges(std::uint32_t slot, Reader& reader);
-  Outcome handle_associate(std::uint32_t slot, Reader& reader);
-  Outcome handle_associate_parts(std::uint32_t slot, Reader& reader);
+  Status handle_delete(std::uint32_t slot, Reader& reader);
+  Status handle_modify(std::uint32_t slot, Reader& reader);
+  Status handle_modify_ranges(std::uint32_t slot, Reader& reader);
+  Status handle_associate(std::uint32_t slot, Reader& reader);
+  Status handle_associate_parts(std::uint32_t slot, Reader& reader);
   /// A subscription, its end, or a request for updates.
-  Outcome handle_class(std::uint32_t slot, Reader& reader);
+  Status handle_class(std::uint32_t slot, Reader& reader);
 
  private:
-  Outcome create(std::uint32_t slot, RegionHandle region, DimensionSet dimensions);
+  Status create(std::uint32_t slot, RegionHandle region, DimensionSet dimensions);
   void subscribe(std::uint32_t slot, const RegionalClassMessage& message, RegionHandle region,
                  AttributeSet attributes);
 

@@ -6,7 +6,7 @@
 
 namespace rink::rti {
 
-Outcome Synchronization::handle_register(std::uint32_t slot, Reader& reader) {
+Status Synchronization::handle_register(std::uint32_t slot, Reader& reader) {
   RegisterSynchronizationPointMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   SynchronizationPoint point;
@@ -51,7 +51,7 @@ void Synchronization::announce(const SynchronizationPoint& point, std::uint32_t 
       AnnounceSynchronizationPointMessage{point.label, point.tag});
 }
 
-Outcome Synchronization::handle_achieved(std::uint32_t slot, Reader& reader) {
+Status Synchronization::handle_achieved(std::uint32_t slot, Reader& reader) {
   SynchronizationPointAchievedMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const auto point =

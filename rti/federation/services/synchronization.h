@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rti/federation/federate_table.h"
-#include "rti/federation/outcome.h"
+#include "rti/federation/status.h"
 #include "rti/federation/synchronization_point.h"
 #include "rti/wire/federation_messages.h"
 
@@ -22,8 +22,8 @@ class Synchronization {
 
   explicit Synchronization(FederateTable& federates) : federates_(federates) {}
 
-  Outcome handle_register(std::uint32_t slot, Reader& reader);
-  Outcome handle_achieved(std::uint32_t slot, Reader& reader);
+  Status handle_register(std::uint32_t slot, Reader& reader);
+  Status handle_achieved(std::uint32_t slot, Reader& reader);
   /// Who joins belongs to every point that is for all.
   void joined(std::uint32_t slot);
   /// Who leaves is not waited for any more.

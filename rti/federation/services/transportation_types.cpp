@@ -19,15 +19,15 @@ void TransportationTypes::joined(std::uint32_t slot) {
   assert(interactions_[slot].empty());
 }
 
-Outcome TransportationTypes::handle_change(std::uint32_t slot, Reader& reader) {
+Status TransportationTypes::handle_change(std::uint32_t slot, Reader& reader) {
   ChangeTransportationMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   return message.is_interaction != 0 ? change_interaction(slot, message)
                                      : change_object(slot, message);
 }
 
-Outcome TransportationTypes::change_interaction(std::uint32_t slot,
-                                                const ChangeTransportationMessage& message) {
+Status TransportationTypes::change_interaction(std::uint32_t slot,
+                                               const ChangeTransportationMessage& message) {
   if (message.number >= basis_.fom.interaction_classes().size()) return Violation::unknown_name;
   if (!publications_.has_interaction(slot, message.number)) return Violation::undeclared;
   std::erase_if(interactions_[slot],
@@ -39,11 +39,11 @@ Outcome TransportationTypes::change_interaction(std::uint32_t slot,
   return std::nullopt;
 }
 
-Outcome TransportationTypes::change_object(std::uint32_t slot,
-                                           const ChangeTransportationMessage& message) {
+Status TransportationTypes::change_object(std::uint32_t slot,
+                                          const ChangeTransportationMessage& message) {
   ObjectSlot object = no_object;
-  if (const Outcome outcome = known_.find({message.number}, object); outcome || object == no_object)
-    return outcome;
+  if (const Status status = known_.find({message.number}, object); status || object == no_object)
+    return status;
   const AttributeSet attributes{message.attributes};
   const ObjectClassHandle object_class{basis_.objects[object].object_class};
   if (!basis_.fom.attributes(object_class).includes(attributes)) return Violation::unknown_name;
@@ -66,7 +66,7 @@ Transportation TransportationTypes::of_interaction(std::uint16_t interaction_cla
   return basis_.fom.at(InteractionClassHandle{interaction_class}).transportation;
 }
 
-Outcome TransportationTypes::handle_query(std::uint32_t slot, Reader& reader) {
+Status TransportationTypes::handle_query(std::uint32_t slot, Reader& reader) {
   QueryTransportationMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   Transportation found = Transportation::reliable;
@@ -75,9 +75,9 @@ Outcome TransportationTypes::handle_query(std::uint32_t slot, Reader& reader) {
     found = of_interaction(static_cast<std::uint16_t>(message.number), {message.which});
   } else {
     ObjectSlot object = no_object;
-    if (const Outcome outcome = known_.find_known(slot, {message.number}, object);
-        outcome || object == no_object)
-      return outcome;
+    if (const Status status = known_.find_known(slot, {message.number}, object);
+        status || object == no_object)
+      return status;
     if (!basis_.fom.attributes(ObjectClassHandle{basis_.objects[object].object_class})
              .contains({message.which}))
       return Violation::unknown_name;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
 #include "rti/federation/services/known_objects.h"
 #include "rti/federation/services/publications.h"
+#include "rti/federation/status.h"
 #include "rti/objects/object_map.h"
 #include "rti/ownership/ownership.h"
 #include "rti/wire/object_messages.h"
@@ -21,8 +21,8 @@ class TransportationTypes {
   TransportationTypes(const FederationBasis& basis, const Ownership& ownership,
                       const Publications& publications, KnownObjects& known);
 
-  Outcome handle_change(std::uint32_t slot, Reader& reader);
-  Outcome handle_query(std::uint32_t slot, Reader& reader);
+  Status handle_change(std::uint32_t slot, Reader& reader);
+  Status handle_query(std::uint32_t slot, Reader& reader);
 
   /// Of a class, as the model says.
   AttributeSet best_effort(std::uint16_t object_class) const { return best_effort_[object_class]; }
@@ -48,8 +48,8 @@ class TransportationTypes {
         has_changed() ? objects_.find(basis_.objects[object].handle) : nullptr;
     return changed != nullptr ? *changed : best_effort_[basis_.objects[object].object_class];
   }
-  Outcome change_object(std::uint32_t slot, const ChangeTransportationMessage& message);
-  Outcome change_interaction(std::uint32_t slot, const ChangeTransportationMessage& message);
+  Status change_object(std::uint32_t slot, const ChangeTransportationMessage& message);
+  Status change_interaction(std::uint32_t slot, const ChangeTransportationMessage& message);
   Transportation of_interaction(std::uint16_t interaction_class, FederateHandle sender) const;
 
   FederationBasis basis_;

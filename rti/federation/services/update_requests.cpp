@@ -24,15 +24,15 @@ void UpdateRequests::joined(std::uint32_t slot) {
 
 void UpdateRequests::flushed() { std::ranges::fill(looked_at_, 0u); }
 
-Outcome UpdateRequests::handle(std::uint32_t slot, Reader& reader) {
+Status UpdateRequests::handle(std::uint32_t slot, Reader& reader) {
   RequestUpdateMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const AttributeSet attributes{message.attributes};
   if (message.is_class == 0) {
     ObjectSlot object = no_object;
-    if (const Outcome outcome = known_.find_known(slot, {message.number}, object);
-        outcome || object == no_object)
-      return outcome;
+    if (const Status status = known_.find_known(slot, {message.number}, object);
+        status || object == no_object)
+      return status;
     if (!ownership_.all(object).includes(attributes)) return Violation::unknown_name;
     ask(slot, object, attributes, message.tag);
     return std::nullopt;
@@ -65,8 +65,8 @@ void UpdateRequests::ask(std::uint32_t slot, ObjectSlot object, AttributeSet att
     const AttributeSet owned =
         owner == slot ? AttributeSet() : attributes & ownership_.owned_by(owner, object) & named;
     if (owned.is_empty()) return;
-    AttributeSet& told = to_provide_[{owner, asked.handle.value, as_text(tag)}];
-    told = told | owned;
+    AttributeSet& discovered_set = to_provide_[{owner, asked.handle.value, as_text(tag)}];
+    discovered_set = discovered_set | owned;
   };
   if (asked.owner != no_federate) ask_owner(asked.owner);
   else ownership_.for_each_owner(object, ask_owner);
@@ -104,7 +104,7 @@ void UpdateRequests::settle() {
   to_provide_.clear();
 }
 
-Outcome UpdateRequests::settle_within(std::uint32_t slot, RegionHandle region) {
+Status UpdateRequests::settle_within(std::uint32_t slot, RegionHandle region) {
   for (auto each = requests_.lower_bound({slot, region.value, 0, {}}); each != requests_.end();) {
     const auto& [asking, within, object_class, tag] = each->first;
     if (asking != slot || within != region.value) break;

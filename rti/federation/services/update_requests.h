@@ -12,8 +12,8 @@
 
 #include "rti/distribution/data_distribution.h"
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
 #include "rti/federation/services/known_objects.h"
+#include "rti/federation/status.h"
 #include "rti/ownership/ownership.h"
 #include "rti/wire/object_messages.h"
 
@@ -30,20 +30,20 @@ class UpdateRequests {
         known_(known),
         is_auto_providing_(basis.fom.switches().auto_provide) {}
 
-  Outcome handle(std::uint32_t slot, Reader& reader);
+  Status handle(std::uint32_t slot, Reader& reader);
   /// For what overlaps a region of the federate that asks.
   void ask_within(std::uint32_t slot, RegionHandle region, std::uint16_t object_class,
                   AttributeSet attributes);
   /// Those within a region that is about to go. Who makes regions, asks and deletes them faster
   /// than anybody can look is not waited for.
-  Outcome settle_within(std::uint32_t slot, RegionHandle region);
+  Status settle_within(std::uint32_t slot, RegionHandle region);
   /// Looks for the objects that requests mean, and tells their owners. Once per flush.
   void settle();
   /// From now on as many objects again are looked at for everybody.
   void flushed();
   /// It is about to be told of an object for the first time.
-  void discovered(std::uint32_t slot, ObjectSlot object, AttributeSet told) {
-    if (is_auto_providing_) ask(slot, object, told, {});
+  void discovered(std::uint32_t slot, ObjectSlot object, AttributeSet discovered_set) {
+    if (is_auto_providing_) ask(slot, object, discovered_set, {});
   }
   void joined(std::uint32_t slot);
   void left(std::uint32_t slot);

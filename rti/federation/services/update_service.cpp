@@ -11,14 +11,14 @@ void UpdateService::joined(std::uint32_t slot) {
   stamps_[slot].reset();
 }
 
-Outcome UpdateService::handle_stamp(std::uint32_t slot, Reader& reader) {
+Status UpdateService::handle_stamp(std::uint32_t slot, Reader& reader) {
   StampMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   stamps_[slot] = message.stamp;
   return std::nullopt;
 }
 
-Outcome UpdateService::handle_updates(std::uint32_t slot, Reader& reader) {
+Status UpdateService::handle_updates(std::uint32_t slot, Reader& reader) {
   UpdatesMessage message;
   if (!exchange(reader, message) || !stamps_[slot]) return Violation::malformed;
   if (message.object_class >= basis_.fom.object_classes().size()) return Violation::unknown_name;
@@ -28,17 +28,17 @@ Outcome UpdateService::handle_updates(std::uint32_t slot, Reader& reader) {
     return Violation::unknown_name;
   if (!uses_.publications.of_class(slot, message.object_class).includes(attributes))
     return Violation::undeclared;
-  Outcome outcome;
+  Status status;
   const bool is_read = read_records(reader, basis_.fom.at(object_class), attributes,
                                     [&](std::uint32_t handle, Bytes values) {
-                                      outcome = take(slot, message, {handle}, values);
-                                      return !outcome;
+                                      status = take(slot, message, {handle}, values);
+                                      return !status;
                                     });
-  return is_read || outcome ? outcome : Violation::malformed;
+  return is_read || status ? status : Violation::malformed;
 }
 
-Outcome UpdateService::take(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle,
-                            Bytes values) {
+Status UpdateService::take(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle,
+                           Bytes values) {
   const ObjectSlot object = basis_.objects.find(handle);
   if (object == no_object && uses_.known.is_late(handle)) return std::nullopt;
   if (object == no_object || basis_.objects[object].object_class != message.object_class)
@@ -48,7 +48,7 @@ Outcome UpdateService::take(std::uint32_t slot, const UpdatesMessage& message, O
       !uses_.ownership.owned_by(slot, object).includes(attributes))
     return Violation::not_owned;
   const Stamp& stamp = *stamps_[slot];
-  uses_.newest.say(slot, stamp);
+  uses_.newest.note(slot, stamp);
   uses_.arrivals.accept_frame(slot, handle, message.object_class, attributes);
   store(slot, object, attributes, stamp, values);
   return std::nullopt;
@@ -62,13 +62,13 @@ void UpdateService::store(std::uint32_t slot, ObjectSlot object, AttributeSet at
   ++basis_.federates[slot].counts.updates_sent;
 }
 
-Outcome UpdateService::handle_spare(std::uint32_t slot, Reader& reader) {
+Status UpdateService::handle_spare(std::uint32_t slot, Reader& reader) {
   SpareUpdateMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   ObjectSlot object = no_object;
-  if (const Outcome outcome = uses_.known.find({message.object}, object);
-      outcome || object == no_object)
-    return outcome;
+  if (const Status status = uses_.known.find({message.object}, object);
+      status || object == no_object)
+    return status;
   const AttributeSet attributes{message.attributes};
   if (!uses_.ownership.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
   Object& spared = basis_.objects[object];

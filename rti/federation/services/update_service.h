@@ -8,10 +8,10 @@
 #include "rti/federation/delivery/arrival_orders.h"
 #include "rti/federation/delivery/best_effort_sender.h"
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
 #include "rti/federation/services/known_objects.h"
 #include "rti/federation/services/newest_stamps.h"
 #include "rti/federation/services/publications.h"
+#include "rti/federation/status.h"
 #include "rti/ownership/ownership.h"
 
 namespace rink::rti {
@@ -28,10 +28,10 @@ class UpdateService {
   };
   UpdateService(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 
-  Outcome handle_stamp(std::uint32_t slot, Reader& reader);
-  Outcome handle_updates(std::uint32_t slot, Reader& reader);
+  Status handle_stamp(std::uint32_t slot, Reader& reader);
+  Status handle_updates(std::uint32_t slot, Reader& reader);
   /// Its sender keeps newer values back, for nobody heard them when it heard from us last.
-  Outcome handle_spare(std::uint32_t slot, Reader& reader);
+  Status handle_spare(std::uint32_t slot, Reader& reader);
   /// Values that its owner was allowed to say, by whichever way they came.
   void store(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp,
              Bytes values);
@@ -40,8 +40,7 @@ class UpdateService {
   void joined(std::uint32_t slot);
 
  private:
-  Outcome take(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle,
-               Bytes values);
+  Status take(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values);
 
   FederationBasis basis_;
   Uses uses_;

@@ -30,7 +30,7 @@ void TimeService::left(std::uint32_t slot) {
   federates_[slot] = {};
 }
 
-Outcome TimeService::handle_regulation(std::uint32_t slot, Reader& reader) {
+Status TimeService::handle_regulation(std::uint32_t slot, Reader& reader) {
   TimeManagement& management = begin(slot);
   EnableTimeRegulationMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
@@ -39,7 +39,7 @@ Outcome TimeService::handle_regulation(std::uint32_t slot, Reader& reader) {
   return std::nullopt;
 }
 
-Outcome TimeService::handle_lookahead(std::uint32_t slot, Reader& reader) {
+Status TimeService::handle_lookahead(std::uint32_t slot, Reader& reader) {
   TimeManagement& management = begin(slot);
   ModifyLookaheadMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
@@ -48,7 +48,7 @@ Outcome TimeService::handle_lookahead(std::uint32_t slot, Reader& reader) {
   return std::nullopt;
 }
 
-Outcome TimeService::handle_advance(std::uint32_t slot, Reader& reader) {
+Status TimeService::handle_advance(std::uint32_t slot, Reader& reader) {
   TimeManagement& management = begin(slot);
   AdvanceRequestMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
@@ -59,13 +59,13 @@ Outcome TimeService::handle_advance(std::uint32_t slot, Reader& reader) {
 }
 
 /// Asked twice in a row, answered once: the answer is longer than the question.
-Outcome TimeService::handle_query(std::uint32_t slot) {
+Status TimeService::handle_query(std::uint32_t slot) {
   begin(slot);
   if (asking_.empty() || asking_.back() != slot) asking_.push_back(slot);
   return std::nullopt;
 }
 
-Outcome TimeService::handle_switch(std::uint32_t slot, Reader& reader) {
+Status TimeService::handle_switch(std::uint32_t slot, Reader& reader) {
   TimeManagement& management = begin(slot);
   TimeSwitchMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
@@ -82,10 +82,10 @@ Outcome TimeService::handle_switch(std::uint32_t slot, Reader& reader) {
       messages_.forget_final(slot, management.earliest(slot));
       break;
   }
-  return is_allowed ? Outcome() : Violation::untimely;
+  return is_allowed ? Status() : Violation::untimely;
 }
 
-Outcome TimeService::handle_send(std::uint32_t slot, Reader& reader) {
+Status TimeService::handle_send(std::uint32_t slot, Reader& reader) {
   TimeManagement& management = begin(slot);
   TimedSendMessage wire;
   if (!exchange(reader, wire)) return Violation::malformed;
@@ -97,12 +97,12 @@ Outcome TimeService::handle_send(std::uint32_t slot, Reader& reader) {
   incoming_.sender = basis_.federates[slot].handle;
   incoming_.number = wire.number;
   incoming_.stamp = wire.stamp;
-  if (const Outcome outcome = contents_.read(slot, wire.content, incoming_)) return outcome;
+  if (const Status status = contents_.read(slot, wire.content, incoming_)) return status;
   return keep(slot);
 }
 
 /// What came in, now that it is checked.
-Outcome TimeService::keep(std::uint32_t slot) {
+Status TimeService::keep(std::uint32_t slot) {
   FederateCounts& counts = basis_.federates[slot].counts;
   if (incoming_.kind == MessageKind::updates) ++counts.updates_sent;
   if (incoming_.kind == MessageKind::interaction) ++counts.interactions_sent;
@@ -110,10 +110,10 @@ Outcome TimeService::keep(std::uint32_t slot) {
   delivery_.accept(messages_.add(slot, incoming_));
   if (!messages_.is_forgetting_due(slot)) return std::nullopt;
   messages_.forget_final(slot, management_->earliest(slot));
-  return messages_.is_greedy(slot) ? Violation::over_limit : Outcome();
+  return messages_.is_greedy(slot) ? Violation::over_limit : Status();
 }
 
-Outcome TimeService::handle_retract(std::uint32_t slot, Reader& reader) {
+Status TimeService::handle_retract(std::uint32_t slot, Reader& reader) {
   TimeManagement& management = begin(slot);
   RetractMessage wire;
   if (!exchange(reader, wire)) return Violation::malformed;

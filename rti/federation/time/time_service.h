@@ -9,7 +9,7 @@
 
 #include "rti/federation/expulsion.h"
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
+#include "rti/federation/status.h"
 #include "rti/federation/time/timed_content.h"
 #include "rti/federation/time/timed_delivery.h"
 #include "rti/federation/time/timed_messages.h"
@@ -39,13 +39,13 @@ class TimeService final : private TimeListener {
   TimeService(const TimeService&) = delete;
   TimeService& operator=(const TimeService&) = delete;
 
-  Outcome handle_regulation(std::uint32_t slot, Reader& reader);
-  Outcome handle_lookahead(std::uint32_t slot, Reader& reader);
-  Outcome handle_switch(std::uint32_t slot, Reader& reader);
-  Outcome handle_advance(std::uint32_t slot, Reader& reader);
-  Outcome handle_send(std::uint32_t slot, Reader& reader);
-  Outcome handle_retract(std::uint32_t slot, Reader& reader);
-  Outcome handle_query(std::uint32_t slot);
+  Status handle_regulation(std::uint32_t slot, Reader& reader);
+  Status handle_lookahead(std::uint32_t slot, Reader& reader);
+  Status handle_switch(std::uint32_t slot, Reader& reader);
+  Status handle_advance(std::uint32_t slot, Reader& reader);
+  Status handle_send(std::uint32_t slot, Reader& reader);
+  Status handle_retract(std::uint32_t slot, Reader& reader);
+  Status handle_query(std::uint32_t slot);
   /// Gives what was sent since the last time to its receivers, then tells grants. Once per flush,
   /// after the match.
   void settle();
@@ -66,7 +66,7 @@ class TimeService final : private TimeListener {
   };
 
   TimeManagement& begin(std::uint32_t slot);
-  Outcome keep(std::uint32_t slot);
+  Status keep(std::uint32_t slot);
   void make_room(std::uint32_t speaker);
   std::uint32_t find_culprit() const;
   std::uint32_t find_last_regulating() const;

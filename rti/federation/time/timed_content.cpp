@@ -6,21 +6,21 @@
 
 namespace rink::rti {
 
-Outcome TimedContentReader::read(std::uint32_t slot, Bytes bytes, StampedMessage& message) {
+Status TimedContentReader::read(std::uint32_t slot, Bytes bytes, StampedMessage& message) {
   Reader content(bytes);
   std::uint8_t kind = 0;
   content.number(kind);
   message.kind = static_cast<MessageKind>(kind);
-  Outcome outcome = Violation::malformed;
-  if (message.kind == MessageKind::updates) outcome = read_update(slot, content, message);
-  if (message.kind == MessageKind::interaction) outcome = read_interaction(slot, content, message);
-  if (message.kind == MessageKind::delete_object) outcome = read_deletion(slot, content, message);
-  if (!outcome && !content.is_at_end()) outcome = Violation::malformed;
-  return outcome;
+  Status status = Violation::malformed;
+  if (message.kind == MessageKind::updates) status = read_update(slot, content, message);
+  if (message.kind == MessageKind::interaction) status = read_interaction(slot, content, message);
+  if (message.kind == MessageKind::delete_object) status = read_deletion(slot, content, message);
+  if (!status && !content.is_at_end()) status = Violation::malformed;
+  return status;
 }
 
-Outcome TimedContentReader::read_update(std::uint32_t slot, Reader& content,
-                                        StampedMessage& message) {
+Status TimedContentReader::read_update(std::uint32_t slot, Reader& content,
+                                       StampedMessage& message) {
   UpdatesMessage header;
   if (!exchange(content, header)) return Violation::malformed;
   if (header.object_class >= basis_.fom.object_classes().size()) return Violation::unknown_name;
@@ -51,8 +51,8 @@ Outcome TimedContentReader::read_update(std::uint32_t slot, Reader& content,
   return std::nullopt;
 }
 
-Outcome TimedContentReader::read_interaction(std::uint32_t slot, Reader& content,
-                                             StampedMessage& message) {
+Status TimedContentReader::read_interaction(std::uint32_t slot, Reader& content,
+                                            StampedMessage& message) {
   InteractionMessage wire;
   if (!exchange(content, wire)) return Violation::malformed;
   if (wire.interaction_class >= basis_.fom.interaction_classes().size())
@@ -64,8 +64,8 @@ Outcome TimedContentReader::read_interaction(std::uint32_t slot, Reader& content
   return std::nullopt;
 }
 
-Outcome TimedContentReader::read_deletion(std::uint32_t slot, Reader& content,
-                                          StampedMessage& message) {
+Status TimedContentReader::read_deletion(std::uint32_t slot, Reader& content,
+                                         StampedMessage& message) {
   DeleteObjectMessage wire;
   if (!exchange(content, wire)) return Violation::malformed;
   const ObjectSlot object = basis_.objects.find({wire.object});

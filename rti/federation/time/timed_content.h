@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "rti/federation/federation_basis.h"
-#include "rti/federation/outcome.h"
 #include "rti/federation/services/known_objects.h"
 #include "rti/federation/services/publications.h"
+#include "rti/federation/status.h"
 #include "rti/federation/time/timed_messages.h"
 #include "rti/ownership/ownership.h"
 
@@ -21,12 +21,12 @@ class TimedContentReader {
       : basis_(basis), publications_(publications), ownership_(ownership), known_(known) {}
 
   /// An object of which a deletion was read is leaving from then on.
-  Outcome read(std::uint32_t slot, Bytes content, StampedMessage& message);
+  Status read(std::uint32_t slot, Bytes content, StampedMessage& message);
 
  private:
-  Outcome read_update(std::uint32_t slot, Reader& content, StampedMessage& message);
-  Outcome read_interaction(std::uint32_t slot, Reader& content, StampedMessage& message);
-  Outcome read_deletion(std::uint32_t slot, Reader& content, StampedMessage& message);
+  Status read_update(std::uint32_t slot, Reader& content, StampedMessage& message);
+  Status read_interaction(std::uint32_t slot, Reader& content, StampedMessage& message);
+  Status read_deletion(std::uint32_t slot, Reader& content, StampedMessage& message);
 
   FederationBasis basis_;
   const Publications& publications_;

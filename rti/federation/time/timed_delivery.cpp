@@ -79,7 +79,8 @@ void TimedDelivery::find_reflectors(std::uint32_t index, ObjectSlot object) {
     if (!basis_.federates[slot].is_joined) continue;
     const FederateInterest& interest = uses_.distribution.of(slot);
     const AttributeSet attributes =
-        interest.told(object, basis_.objects[object].object_class) & message.attributes;
+        interest.attributes_in_scope(object, basis_.objects[object].object_class) &
+        message.attributes;
     const bool is_concerned =
         message.kind == MessageKind::updates
             ? !attributes.is_empty()
@@ -129,8 +130,8 @@ bool TimedDelivery::prepare(std::uint32_t slot, const StampedMessage& message) {
     if (!is_known) return false;
     interest.known.erase(object);
   } else if (is_in_scope && (!is_known || interest.unannounced.contains(object) ||
-                             interest.fresh.contains(object))) {
-    uses_.announcements.press(slot, object);
+                             interest.needs_full_state.contains(object))) {
+    uses_.announcements.send_state_now(slot, object);
   }
   return true;
 }
@@ -197,7 +198,7 @@ void TimedDelivery::complete(const StampedMessage& message) {
   basis_.objects.store(slot, message.attributes, message.body);
   const Object& object = basis_.objects[slot];
   if (object.owner == no_federate) return;
-  uses_.newest.say_if_newer(object.owner, message.stamp);
+  uses_.newest.note_if_newer(object.owner, message.stamp);
 }
 
 /// False for an update that is completed after a later one of its object, which had fewer to wait

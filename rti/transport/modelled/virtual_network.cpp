@@ -105,11 +105,11 @@ ConnectionId VirtualEndpoint::add_line(VirtualEndpoint* peer, const LineIdentity
 
 std::uint32_t VirtualEndpoint::closing(ConnectionId connection, CloseReason reason) {
   const std::uint32_t parcel = network_.take_parcel();
-  VirtualNetwork::Parcel& told = network_.parcels_[parcel];
-  told.kind = VirtualNetwork::Kind::close;
-  told.reason = reason;
-  told.connection = connection;
-  told.receiver = this;
+  VirtualNetwork::Parcel& notice = network_.parcels_[parcel];
+  notice.kind = VirtualNetwork::Kind::close;
+  notice.reason = reason;
+  notice.connection = connection;
+  notice.receiver = this;
   return parcel;
 }
 

@@ -32,7 +32,7 @@ struct Ranks::Requests {
   };
   std::deque<Outgoing> outgoing;   ///< a deque, for MPI keeps the addresses
   std::vector<Incoming> incoming;  ///< by rank
-  std::vector<std::uint8_t> said, heard;
+  std::vector<std::uint8_t> sent, received;
   MPI_Request gathering = MPI_REQUEST_NULL;
   bool is_finished = false;
 };
@@ -105,10 +105,10 @@ std::optional<std::vector<std::uint8_t>> Ranks::receive(std::uint32_t from) {
 
 void Ranks::begin_gathering(std::span<const std::uint8_t> own) {
   assert(requests_->gathering == MPI_REQUEST_NULL && own.size() * count_ <= INT_MAX);
-  requests_->said.assign(own.begin(), own.end());
-  requests_->heard.resize(own.size() * count_);
+  requests_->sent.assign(own.begin(), own.end());
+  requests_->received.resize(own.size() * count_);
   const int size = static_cast<int>(own.size());
-  MPI_Iallgather(requests_->said.data(), size, MPI_BYTE, requests_->heard.data(), size, MPI_BYTE,
+  MPI_Iallgather(requests_->sent.data(), size, MPI_BYTE, requests_->received.data(), size, MPI_BYTE,
                  MPI_COMM_WORLD, &requests_->gathering);
 }
 
@@ -117,7 +117,7 @@ std::optional<std::span<const std::uint8_t>> Ranks::gathered() {
   int is_done = 0;
   MPI_Test(&requests_->gathering, &is_done, MPI_STATUS_IGNORE);
   if (!is_done) return std::nullopt;
-  return requests_->heard;
+  return requests_->received;
 }
 
 void Ranks::finish() {

@@ -179,7 +179,7 @@ bool SharedMemoryTransport::offer_memory(ConnectionId connection) {
   return true;
 }
 
-void SharedMemoryTransport::take_memory(ConnectionId connection) {
+void SharedMemoryTransport::adopt_memory(ConnectionId connection) {
   Greeting greeting;
   iovec vector{&greeting, sizeof greeting};
   FileControl control{};

@@ -101,7 +101,7 @@ class SharedMemoryTransport final : public Transport {
   void accept(std::size_t listening);
   bool turn_away(std::size_t listening);
   bool offer_memory(ConnectionId connection);
-  void take_memory(ConnectionId connection);
+  void adopt_memory(ConnectionId connection);
   void opened(ConnectionId connection, Mapping memory, std::size_t ring_size, bool is_server);
   void report();
   void look_at_rings();
@@ -109,8 +109,8 @@ class SharedMemoryTransport final : public Transport {
   void drain(ConnectionId connection);
   std::size_t put(ConnectionId connection, Bytes bytes);
   void wake(const Peer& peer);
-  void take_events();
-  void take_socket(ConnectionId connection);
+  void handle_events();
+  void handle_socket(ConnectionId connection);
   void spin_and_sleep(std::chrono::nanoseconds longest_wait);
   bool has_something() const;
   void end(ConnectionId connection, CloseReason reason, const std::string& detail);
@@ -126,7 +126,7 @@ class SharedMemoryTransport final : public Transport {
   std::vector<News> news_;
   std::vector<std::byte> buffer_;
   TransportListener* listener_ = nullptr;  ///< while polling
-  std::uint64_t told_ = 0;                 ///< to listeners so far
+  std::uint64_t callbacks_ = 0;            ///< to listeners so far
   std::uint32_t polls_ = 0;
   std::uint64_t sleeps_ = 0, wakes_ = 0;
 };

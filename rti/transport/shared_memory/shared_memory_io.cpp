@@ -21,12 +21,12 @@ constexpr const char* impossible = "its positions in shared memory are impossibl
 void SharedMemoryTransport::poll(std::chrono::nanoseconds longest_wait,
                                  TransportListener& listener) {
   listener_ = &listener;
-  const std::uint64_t before = told_;
+  const std::uint64_t before = callbacks_;
   // A busy connection costs no system call; who comes and goes is noticed all the same.
-  if (open_.empty() || ++polls_ % polls_per_look == 0) take_events();
+  if (open_.empty() || ++polls_ % polls_per_look == 0) handle_events();
   report();
   look_at_rings();
-  if (told_ == before && longest_wait.count() > 0) spin_and_sleep(longest_wait);
+  if (callbacks_ == before && longest_wait.count() > 0) spin_and_sleep(longest_wait);
   report();
   listener_ = nullptr;
 }
@@ -49,7 +49,7 @@ void SharedMemoryTransport::spin_and_sleep(std::chrono::nanoseconds longest_wait
     }
     for (const ConnectionId connection : open_) peers_[connection]->in.set_sleeping(false);
   }
-  take_events();
+  handle_events();
   report();
   look_at_rings();
 }
@@ -62,20 +62,20 @@ bool SharedMemoryTransport::has_something() const {
   });
 }
 
-void SharedMemoryTransport::take_events() {
+void SharedMemoryTransport::handle_events() {
   readiness_.ask({}, {});
   while (const auto event = readiness_.next()) {
     if (event->number >= listener_mark)
       accept(static_cast<std::size_t>(event->number - listener_mark));
-    else take_socket(static_cast<ConnectionId>(event->number));
+    else handle_socket(static_cast<ConnectionId>(event->number));
   }
 }
 
 /// The socket brings the memory first, then nothing but wake-ups and its end.
-void SharedMemoryTransport::take_socket(ConnectionId connection) {
+void SharedMemoryTransport::handle_socket(ConnectionId connection) {
   Peer* peer = find(connection);
   if (peer == nullptr) return;
-  if (!peer->is_open) return take_memory(connection);
+  if (!peer->is_open) return adopt_memory(connection);
   std::array<std::byte, 256> wakes_of_peer;
   const ssize_t size =
       ::recv(peer->socket.number(), wakes_of_peer.data(), wakes_of_peer.size(), MSG_DONTWAIT);
@@ -90,7 +90,7 @@ void SharedMemoryTransport::report() {
   for (std::vector<News> telling; !news_.empty(); telling.clear()) {
     telling.swap(news_);
     for (const News& each : telling) {
-      ++told_;
+      ++callbacks_;
       if (each.closed) listener_->on_close(each.connection, *each.closed, each.detail);
       else if (find(each.connection) != nullptr) listener_->on_open(each.connection);
     }
@@ -117,7 +117,7 @@ void SharedMemoryTransport::read(ConnectionId connection) {
   if (peer.in.take(buffer_.data(), *waiting)) wake(peer);
   counters_[connection].bytes_received += *waiting;
   acknowledgements_[connection].received(*waiting, now_ns());
-  ++told_;
+  ++callbacks_;
   listener_->on_bytes(connection, Bytes(buffer_).first(*waiting));
 }
 

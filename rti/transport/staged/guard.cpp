@@ -34,8 +34,8 @@ void Guard::forget(ConnectionId connection) {
 
 void Guard::speak(Stranger& stranger) {
   assert(!is_known(stranger.connection));
-  const Bytes said = stranger.handshake.outgoing();
-  if (!said.empty()) TransportStage::send(stranger.connection, std::span(&said, 1));
+  const Bytes greeting = stranger.handshake.outgoing();
+  if (!greeting.empty()) TransportStage::send(stranger.connection, std::span(&greeting, 1));
   stranger.handshake.clear_outgoing();
 }
 

@@ -17,18 +17,18 @@ struct RateLimiter::Meter {
   std::size_t body_left = 0;    ///< of the frame at hand
   bool is_closing = false;
 
-  /// Frames whose header ends in `heard`.
-  int count_frames(Bytes heard) {
+  /// Frames whose header ends in `stream`.
+  int count_frames(Bytes stream) {
     int count = 0;
-    while (!heard.empty()) {
+    while (!stream.empty()) {
       if (body_left > 0) {
-        const std::size_t skipped = std::min(body_left, heard.size());
+        const std::size_t skipped = std::min(body_left, stream.size());
         body_left -= skipped;
-        heard = heard.subspan(skipped);
+        stream = stream.subspan(skipped);
         continue;
       }
-      header[header_size++] = heard.front();
-      heard = heard.subspan(1);
+      header[header_size++] = stream.front();
+      stream = stream.subspan(1);
       if (header_size < frame_header_size) continue;
       body_left = frame_length(header);
       header_size = 0;

@@ -65,7 +65,7 @@ class TransportStage : public Transport, protected TransportListener {
 
   /// For a stage that changes nothing of what arrives: the listener hears the transport below, and
   /// it hears nothing.
-  void poll_unheard(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+  void poll_unnotified(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
     below_->poll(longest_wait, listener);
   }
 
@@ -94,7 +94,7 @@ class StagedTransport final : public TransportStage {
   }
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override {
-    poll_unheard(longest_wait, listener);
+    poll_unnotified(longest_wait, listener);
   }
 
  private:

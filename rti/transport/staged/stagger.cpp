@@ -20,7 +20,7 @@ void Stagger::poll(std::chrono::nanoseconds longest_wait, TransportListener& lis
     longest_wait =
         std::min(longest_wait, std::chrono::nanoseconds(static_cast<std::int64_t>(wait_s * 1e9)));
   }
-  poll_unheard(longest_wait, listener);
+  poll_unnotified(longest_wait, listener);
   if (slots_taken_ > 0) release(now_s_());
 }
 

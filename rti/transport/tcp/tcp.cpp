@@ -228,7 +228,7 @@ void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener
   // One question per poll: each system call here is one more in every round trip. What comes while
   // we handle what had come is the next poll's.
   readiness_.ask(ended_.is_empty() ? longest_wait : std::chrono::nanoseconds(0), settings_.spin);
-  take_what_came();
+  receive_pending();
   listener_ = nullptr;
 }
 
@@ -253,7 +253,7 @@ bool TcpTransport::read_only_peer(std::chrono::nanoseconds longest_wait) {
   return longest_wait.count() <= 0;
 }
 
-void TcpTransport::take_what_came() {
+void TcpTransport::receive_pending() {
   // A peer that sends without pause must not keep us from returning: a joined one at 250 MB/s cost
   // a server three ticks in four. What is left waits in the kernel, and the next poll begins with
   // the peers that this one did not reach.

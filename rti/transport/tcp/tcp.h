@@ -93,7 +93,7 @@ class TcpTransport final : public Transport {
   std::size_t write(Peer& peer, std::span<const Bytes> parts, bool& is_broken);
   void end(Peer& peer, CloseReason reason, const std::string& detail);
   void report_closed();
-  void take_what_came();
+  void receive_pending();
   bool read_only_peer(std::chrono::nanoseconds longest_wait);
 
   TcpSettings settings_;

@@ -57,38 +57,38 @@ std::uint16_t UdpTransport::listen(const std::string& address, std::uint16_t por
 
 ConnectionId UdpTransport::connect(const std::string& address, std::uint16_t port) {
   const ConnectionId connection = tcp_.connect(address, port);
-  add(connection).role = Way::Role::client;
+  add(connection).role = Channel::Role::client;
   tallies_[connection].stream_sent = magic_size;
   const Bytes request = std::as_bytes(std::span(&datagram_magic, 1));
   tcp_.send(connection, std::span(&request, 1));
   return connection;
 }
 
-UdpTransport::Way& UdpTransport::add(ConnectionId connection) {
-  if (connection >= ways_.size()) {
-    ways_.resize(connection + 1);
+UdpTransport::Channel& UdpTransport::add(ConnectionId connection) {
+  if (connection >= channels_.size()) {
+    channels_.resize(connection + 1);
     tallies_.resize(connection + 1);
   }
-  assert(ways_[connection] == nullptr);  // connections are never numbered twice
-  ways_[connection] = std::make_unique<Way>();
-  return *ways_[connection];
+  assert(channels_[connection] == nullptr);  // connections are never numbered twice
+  channels_[connection] = std::make_unique<Channel>();
+  return *channels_[connection];
 }
 
 void UdpTransport::on_open(ConnectionId connection) {
-  has_told_ = true;
+  has_received_ = true;
   if (find(connection) == nullptr) add(connection);
   listener_->on_open(connection);
 }
 
 void UdpTransport::on_close(ConnectionId connection, CloseReason reason,
                             const std::string& detail) {
-  has_told_ = true;
+  has_received_ = true;
   push();  // what waits names the address that goes now
-  const Way* way = find(connection);
-  const bool was_unanswered = way != nullptr && way->role == Way::Role::client &&
-                              way->head_size == 0 && reason == CloseReason::closed_by_peer;
-  if (way != nullptr) by_key_.erase(way->up_key);
-  if (connection < ways_.size()) ways_[connection].reset();
+  const Channel* channel = find(connection);
+  const bool was_unanswered = channel != nullptr && channel->role == Channel::Role::client &&
+                              channel->head_size == 0 && reason == CloseReason::closed_by_peer;
+  if (channel != nullptr) by_key_.erase(channel->up_key);
+  if (connection < channels_.size()) channels_[connection].reset();
   // A server without UDP takes the request for nonsense, and that is all that can be seen of it
   // from here.
   listener_->on_close(connection, reason,
@@ -99,64 +99,67 @@ void UdpTransport::on_close(ConnectionId connection, CloseReason reason,
 }
 
 void UdpTransport::on_bytes(ConnectionId connection, Bytes bytes) {
-  const Way* way = find(connection);
+  const Channel* channel = find(connection);
   const bool is_at_head =
-      way != nullptr && (way->role == Way::Role::undecided ||
-                         (way->role == Way::Role::client && way->head_size < greeting_size));
-  if (is_at_head) bytes = take_head(connection, bytes);
+      channel != nullptr &&
+      (channel->role == Channel::Role::undecided ||
+       (channel->role == Channel::Role::client && channel->head_size < greeting_size));
+  if (is_at_head) bytes = read_head(connection, bytes);
   if (!bytes.empty()) forward(connection, bytes);
 }
 
 void UdpTransport::forward(ConnectionId connection, Bytes bytes) {
-  has_told_ = true;
+  has_received_ = true;
   listener_->on_bytes(connection, bytes);
 }
 
 /// The greeting comes first of all, and whether there is one is known when the client has spoken.
 void UdpTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
-  Way* way = find(connection);
-  if (way == nullptr || way->role != Way::Role::undecided) return tcp_.send(connection, parts);
-  std::vector<std::byte>& held = way->held.emplace_back();
+  Channel* channel = find(connection);
+  if (channel == nullptr || channel->role != Channel::Role::undecided)
+    return tcp_.send(connection, parts);
+  std::vector<std::byte>& held = channel->held.emplace_back();
   for (const Bytes part : parts) held.insert(held.end(), part.begin(), part.end());
-  way->held_bytes += held.size();
-  if (way->held_bytes <= settings_.tcp.queue_max) return;
-  way->role = Way::Role::none;  // it has never spoken: what becomes of it is up to its own reading
-  let_go(connection, *way);
+  channel->held_bytes += held.size();
+  if (channel->held_bytes <= settings_.tcp.queue_max) return;
+  channel->role =
+      Channel::Role::none;  // it has never spoken: what becomes of it is up to its own reading
+  let_go(connection, *channel);
 }
 
-void UdpTransport::let_go(ConnectionId connection, Way& way) {
-  for (const std::vector<std::byte>& each : way.held) {
+void UdpTransport::let_go(ConnectionId connection, Channel& channel) {
+  for (const std::vector<std::byte>& each : channel.held) {
     const Bytes bytes = each;
     tcp_.send(connection, std::span(&bytes, 1));
   }
-  way.held = {};
-  way.held_bytes = 0;
+  channel.held = {};
+  channel.held_bytes = 0;
 }
 
 void UdpTransport::close(ConnectionId connection) {
-  if (Way* way = find(connection)) let_go(connection, *way);
+  if (Channel* channel = find(connection)) let_go(connection, *channel);
   tcp_.close(connection);
 }
 
 void UdpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
   push();
   listener_ = &listener;
-  has_told_ = false;
-  take_what_came();
-  if (!has_told_ && longest_wait.count() > 0) {
+  has_received_ = false;
+  receive_pending();
+  if (!has_received_ && longest_wait.count() > 0) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(longest_wait);
     const timespec timeout{.tv_sec = static_cast<std::time_t>(seconds.count()),
                            .tv_nsec = static_cast<long>((longest_wait - seconds).count())};
     std::array<pollfd, 2> both{pollfd{.fd = tcp_.wait_file(), .events = POLLIN, .revents = 0},
                                pollfd{.fd = readiness_.file(), .events = POLLIN, .revents = 0}};
     ::ppoll(both.data(), both.size(), &timeout, nullptr);
-    take_what_came();
+    receive_pending();
   }
   listener_ = nullptr;
 }
 
 /// The stream first: datagrams speak of objects that it tells of.
-void UdpTransport::take_what_came() {
+void UdpTransport::receive_pending() {
   tcp_.poll({}, *this);
   readiness_.ask({}, {});
   for (std::size_t taken = 0; taken < datagram_events_per_poll; ++taken) {
@@ -169,96 +172,100 @@ void UdpTransport::take_what_came() {
           256;  // then the next poll goes on: who sends without pause must not keep us
       for (int batch = 0; batch < batches_max; ++batch)
         if (!reader_.read(server_.number(), [this](const SocketAddress& source, Bytes datagram) {
-              take_from_client(source, datagram);
+              handle_client_datagram(source, datagram);
             }))
           break;
     } else if (const auto connection = static_cast<ConnectionId>(event->number);
-               Way* way = find(connection)) {
-      reader_.read(way->file.number(), [&](const SocketAddress&, Bytes datagram) {
-        if (Way* still = find(connection)) take_from_server(connection, *still, datagram);
+               Channel* channel = find(connection)) {
+      reader_.read(channel->file.number(), [&](const SocketAddress&, Bytes datagram) {
+        if (Channel* still = find(connection)) handle_server_datagram(connection, *still, datagram);
       });
     }
   }
 }
 
-void UdpTransport::take_from_client(const SocketAddress& source, Bytes datagram) {
+void UdpTransport::handle_client_datagram(const SocketAddress& source, Bytes datagram) {
   Reader reader(datagram);
   std::uint64_t key = 0, nonce = 0;
   Kind kind{};
   const bool is_ours = reader.number(key) && reader.number(kind);
   const auto known = is_ours ? by_key_.find(key) : by_key_.end();
-  Way* way = known == by_key_.end() ? nullptr : find(known->second);
+  Channel* channel = known == by_key_.end() ? nullptr : find(known->second);
   // Who knows the key but comes from elsewhere than the TCP connection would have us flood a
   // stranger.
-  if (way == nullptr || !way->address.is_same_host(source)) {
+  if (channel == nullptr || !channel->address.is_same_host(source)) {
     ++counters_.stranger_datagrams;
     return;
   }
-  const bool is_from_there = way->state != Way::State::closed && way->address.is_same(source);
-  if (kind == Kind::hello && datagram.size() == payload_max && way->state != Way::State::open) {
-    way->address = source;
-    way->state = Way::State::hello;
-    return tell(*way, Kind::welcome, way->down_key, way->nonce,
-                payload_max);  // no longer than the question
+  const bool is_from_there =
+      channel->state != Channel::State::closed && channel->address.is_same(source);
+  if (kind == Kind::hello && datagram.size() == payload_max &&
+      channel->state != Channel::State::open) {
+    channel->address = source;
+    channel->state = Channel::State::hello;
+    return send_control(*channel, Kind::welcome, channel->down_key, channel->nonce,
+                        payload_max);  // no longer than the question
   }
   const bool is_proven =
-      datagram.size() == prefix_size + 8 && reader.number(nonce) && nonce == way->nonce;
+      datagram.size() == prefix_size + 8 && reader.number(nonce) && nonce == channel->nonce;
   if (kind == Kind::confirm && is_from_there && is_proven) {
-    counters_.ways_opened += way->state == Way::State::open ? 0u : 1u;
-    way->state = Way::State::open;
-    return tell(*way, Kind::open, way->down_key, 0, prefix_size);
+    counters_.ways_opened += channel->state == Channel::State::open ? 0u : 1u;
+    channel->state = Channel::State::open;
+    return send_control(*channel, Kind::open, channel->down_key, 0, prefix_size);
   }
-  if (kind == Kind::data && is_from_there && way->state == Way::State::open)
-    return take_data(known->second, datagram);
+  if (kind == Kind::data && is_from_there && channel->state == Channel::State::open)
+    return handle_data(known->second, datagram);
   ++counters_.stranger_datagrams;
 }
 
-void UdpTransport::take_from_server(ConnectionId connection, Way& way, Bytes datagram) {
+void UdpTransport::handle_server_datagram(ConnectionId connection, Channel& channel,
+                                          Bytes datagram) {
   Reader reader(datagram);
   std::uint64_t key = 0;
   Kind kind{};
-  if (!reader.number(key) || !reader.number(kind) || key != way.down_key) {
+  if (!reader.number(key) || !reader.number(kind) || key != channel.down_key) {
     ++counters_.stranger_datagrams;
     return;
   }
   if (kind == Kind::welcome && datagram.size() == payload_max) {
-    if (way.state != Way::State::hello) return;
-    reader.number(way.nonce);
-    way.state = Way::State::confirm;
-    return ask(way);
+    if (channel.state != Channel::State::hello) return;
+    reader.number(channel.nonce);
+    channel.state = Channel::State::confirm;
+    return ask(channel);
   }
   if (kind != Kind::open && kind != Kind::data) {
     ++counters_.stranger_datagrams;
     return;
   }
-  if (way.state != Way::State::open) ++counters_.ways_opened;
-  way.state = Way::State::open;
-  if (kind == Kind::data) take_data(connection, datagram);
+  if (channel.state != Channel::State::open) ++counters_.ways_opened;
+  channel.state = Channel::State::open;
+  if (kind == Kind::data) handle_data(connection, datagram);
 }
 
-void UdpTransport::take_data(ConnectionId connection, Bytes datagram) {
+void UdpTransport::handle_data(ConnectionId connection, Bytes datagram) {
   const Bytes payload = datagram.subspan(prefix_size);
   ++tallies_[connection].datagrams_received;
   tallies_[connection].bytes_received += payload.size();
-  has_told_ = true;
+  has_received_ = true;
   listener_->on_datagram(connection, payload);
 }
 
 std::size_t UdpTransport::datagram_max(ConnectionId connection) const {
-  const Way* way = find(connection);
-  if (way == nullptr) return 0;
+  const Channel* channel = find(connection);
+  if (channel == nullptr) return 0;
   // A client expects datagrams as soon as it has proven its address; those that it sends before it
   // knows that it has are lost.
-  const bool is_open = way->state == Way::State::open ||
-                       (way->role == Way::Role::client && way->state == Way::State::confirm);
+  const bool is_open =
+      channel->state == Channel::State::open ||
+      (channel->role == Channel::Role::client && channel->state == Channel::State::confirm);
   return is_open ? payload_max - prefix_size : 0;
 }
 
 void UdpTransport::send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) {
   if (datagram_max(connection) == 0) return;
-  const Way& way = *find(connection);
-  const bool is_client = way.role == Way::Role::client;
-  const std::uint64_t key = is_client ? way.up_key : way.down_key;
+  const Channel& channel = *find(connection);
+  const bool is_client = channel.role == Channel::Role::client;
+  const std::uint64_t key = is_client ? channel.up_key : channel.down_key;
   std::array<std::byte, prefix_size> prefix;
   std::memcpy(prefix.data(), &key, sizeof key);
   prefix[sizeof key] = static_cast<std::byte>(Kind::data);
@@ -268,8 +275,8 @@ void UdpTransport::send_datagrams(ConnectionId connection, std::span<const Datag
     assert(each.head.size() + each.body.size() <= payload_max - prefix_size);
     tally.bytes_sent += each.head.size() + each.body.size();
   }
-  sender_.add(is_client ? way.file.number() : server_.number(), is_client ? nullptr : &way.address,
-              prefix, datagrams);
+  sender_.add(is_client ? channel.file.number() : server_.number(),
+              is_client ? nullptr : &channel.address, prefix, datagrams);
 }
 
 }  // namespace rink::rti

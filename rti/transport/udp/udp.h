@@ -65,7 +65,7 @@ class UdpTransport final : public Transport, private TransportListener {
 
   /// One connection's datagrams. Of a server's, `undecided` until the client has asked for
   /// datagrams, which is the first thing that it says.
-  struct Way {
+  struct Channel {
     enum class Role : std::uint8_t { undecided, none, server, client };
     enum class State : std::uint8_t { closed, hello, confirm, open };
     Role role = Role::undecided;
@@ -92,23 +92,24 @@ class UdpTransport final : public Transport, private TransportListener {
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
 
   // udp.cpp
-  Way* find(ConnectionId connection) const {
-    return connection < ways_.size() ? ways_[connection].get() : nullptr;
+  Channel* find(ConnectionId connection) const {
+    return connection < channels_.size() ? channels_[connection].get() : nullptr;
   }
-  Way& add(ConnectionId connection);
-  void let_go(ConnectionId connection, Way& way);
+  Channel& add(ConnectionId connection);
+  void let_go(ConnectionId connection, Channel& channel);
   void forward(ConnectionId connection, Bytes bytes);
-  void take_what_came();
-  void take_from_client(const SocketAddress& source, Bytes datagram);
-  void take_from_server(ConnectionId connection, Way& way, Bytes datagram);
-  void take_data(ConnectionId connection, Bytes datagram);
+  void receive_pending();
+  void handle_client_datagram(const SocketAddress& source, Bytes datagram);
+  void handle_server_datagram(ConnectionId connection, Channel& channel, Bytes datagram);
+  void handle_data(ConnectionId connection, Bytes datagram);
 
   // udp_opening.cpp
-  Bytes take_head(ConnectionId connection, Bytes bytes);
-  void greet(ConnectionId connection, Way& way);
-  void open_socket(ConnectionId connection, Way& way);
-  void tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce, std::size_t size);
-  void ask(const Way& way);
+  Bytes read_head(ConnectionId connection, Bytes bytes);
+  void greet(ConnectionId connection, Channel& channel);
+  void open_socket(ConnectionId connection, Channel& channel);
+  void send_control(const Channel& channel, Kind kind, std::uint64_t key, std::uint64_t nonce,
+                    std::size_t size);
+  void ask(const Channel& channel);
   void ask_again();
   void set_timer();
 
@@ -118,8 +119,8 @@ class UdpTransport final : public Transport, private TransportListener {
   File timer_;
   File server_;  ///< the socket of all that connect to us
   std::uint16_t server_port_ = 0;
-  std::vector<std::unique_ptr<Way>> ways_;  ///< by connection; null once closed
-  std::vector<Tally> tallies_;              ///< by connection
+  std::vector<std::unique_ptr<Channel>> channels_;  ///< by connection; null once closed
+  std::vector<Tally> tallies_;                      ///< by connection
   std::unordered_map<std::uint64_t, ConnectionId>
       by_key_;                        ///< by what clients' datagrams begin with
   std::vector<ConnectionId> asking_;  ///< clients' ways that are not open yet
@@ -127,7 +128,7 @@ class UdpTransport final : public Transport, private TransportListener {
   DatagramReader reader_;
   UdpCounters counters_;
   TransportListener* listener_ = nullptr;  ///< while polling
-  bool has_told_ = false;
+  bool has_received_ = false;
 };
 
 }  // namespace rink::rti

@@ -9,7 +9,7 @@ TransportCounters UdpTransport::counters(ConnectionId connection) const {
   TransportCounters counters = tcp_.counters(connection);
   if (connection >= tallies_.size()) return counters;
   const Tally& tally = tallies_[connection];
-  if (const Way* way = find(connection)) counters.queued_bytes += way->held_bytes;
+  if (const Channel* channel = find(connection)) counters.queued_bytes += channel->held_bytes;
   const auto without = [](std::uint64_t count, std::uint64_t ours) {
     return count > ours ? count - ours : 0;
   };
@@ -30,8 +30,8 @@ TransportCounters UdpTransport::counters(ConnectionId connection) const {
 }
 
 std::size_t UdpTransport::queued_bytes(ConnectionId connection) const {
-  const Way* way = find(connection);
-  return tcp_.queued_bytes(connection) + (way == nullptr ? 0 : way->held_bytes);
+  const Channel* channel = find(connection);
+  return tcp_.queued_bytes(connection) + (channel == nullptr ? 0 : channel->held_bytes);
 }
 
 TransportCounters UdpTransport::totals() const {

@@ -49,69 +49,72 @@ SocketAddress peer_of(int socket) {
 
 /// Takes what is ours of the stream's beginning and returns the rest. What turns out to be nobody's
 /// greeting is forwarded.
-Bytes UdpTransport::take_head(ConnectionId connection, Bytes bytes) {
-  Way& way = *find(connection);
-  const std::size_t wanted = way.role == Way::Role::client ? greeting_size : magic_size;
-  assert(way.head_size < wanted);
-  const std::size_t taken = std::min(bytes.size(), wanted - way.head_size);
-  std::copy_n(bytes.begin(), taken, way.head.begin() + static_cast<std::ptrdiff_t>(way.head_size));
-  way.head_size += taken;
+Bytes UdpTransport::read_head(ConnectionId connection, Bytes bytes) {
+  Channel& channel = *find(connection);
+  const std::size_t wanted = channel.role == Channel::Role::client ? greeting_size : magic_size;
+  assert(channel.head_size < wanted);
+  const std::size_t taken = std::min(bytes.size(), wanted - channel.head_size);
+  std::copy_n(bytes.begin(), taken,
+              channel.head.begin() + static_cast<std::ptrdiff_t>(channel.head_size));
+  channel.head_size += taken;
   bytes = bytes.subspan(taken);
-  const std::size_t comparable = std::min(way.head_size, magic_size);
-  if (std::memcmp(way.head.data(), &datagram_magic, comparable) != 0) {
-    const std::array<std::byte, greeting_size> head = way.head;
-    const std::size_t size = way.head_size;
-    way.role = Way::Role::none;
-    let_go(connection, way);
+  const std::size_t comparable = std::min(channel.head_size, magic_size);
+  if (std::memcmp(channel.head.data(), &datagram_magic, comparable) != 0) {
+    const std::array<std::byte, greeting_size> head = channel.head;
+    const std::size_t size = channel.head_size;
+    channel.role = Channel::Role::none;
+    let_go(connection, channel);
     forward(connection, Bytes(head).first(size));
     return find(connection) == nullptr ? Bytes() : bytes;
   }
-  if (way.head_size < wanted) return {};
+  if (channel.head_size < wanted) return {};
   tallies_[connection].stream_received = wanted;
-  way.role == Way::Role::client ? open_socket(connection, way) : greet(connection, way);
+  channel.role == Channel::Role::client ? open_socket(connection, channel)
+                                        : greet(connection, channel);
   return bytes;
 }
 
-void UdpTransport::greet(ConnectionId connection, Way& way) {
-  way.role = Way::Role::server;
-  way.address = peer_of(tcp_.file(connection));
-  way.up_key = secret();
-  way.down_key = secret();
-  way.nonce = secret();
-  by_key_[way.up_key] = connection;
+void UdpTransport::greet(ConnectionId connection, Channel& channel) {
+  channel.role = Channel::Role::server;
+  channel.address = peer_of(tcp_.file(connection));
+  channel.up_key = secret();
+  channel.down_key = secret();
+  channel.nonce = secret();
+  by_key_[channel.up_key] = connection;
   std::vector<std::byte> greeting;
   Writer writer(greeting);
-  DatagramGreeting said{datagram_magic, server_port_, way.up_key, way.down_key};
-  exchange(writer, said);
+  DatagramGreeting message{datagram_magic, server_port_, channel.up_key, channel.down_key};
+  exchange(writer, message);
   assert(greeting.size() == greeting_size);
   const Bytes bytes = greeting;
   tallies_[connection].stream_sent = greeting_size;
   tcp_.send(connection, std::span(&bytes, 1));
-  let_go(connection, way);
+  let_go(connection, channel);
 }
 
-void UdpTransport::open_socket(ConnectionId connection, Way& way) {
-  assert(way.role == Way::Role::client && way.state == Way::State::closed);
+void UdpTransport::open_socket(ConnectionId connection, Channel& channel) {
+  assert(channel.role == Channel::Role::client && channel.state == Channel::State::closed);
   DatagramGreeting greeting;
-  Reader reader(way.head);
+  Reader reader(channel.head);
   exchange(reader, greeting);
-  way.up_key = greeting.up_key;
-  way.down_key = greeting.down_key;
-  way.address = peer_of(tcp_.file(connection));
-  way.address.set_port(greeting.port);
-  way.file =
-      File(::socket(way.address.storage.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  channel.up_key = greeting.up_key;
+  channel.down_key = greeting.down_key;
+  channel.address = peer_of(tcp_.file(connection));
+  channel.address.set_port(greeting.port);
+  channel.file = File(
+      ::socket(channel.address.storage.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   // Connected, it hears of nobody but the server.
-  if (!way.file || ::connect(way.file.number(), way.address.get(), way.address.size) != 0) {
+  if (!channel.file ||
+      ::connect(channel.file.number(), channel.address.get(), channel.address.size) != 0) {
     ++counters_.ways_failed;
     return;
   }
-  prepare_datagram_socket(way.file.number(), settings_.use_offload);
-  readiness_.watch(way.file.number(), connection, false);
-  way.state = Way::State::hello;
+  prepare_datagram_socket(channel.file.number(), settings_.use_offload);
+  readiness_.watch(channel.file.number(), connection, false);
+  channel.state = Channel::State::hello;
   if (asking_.empty()) set_timer();
   asking_.push_back(connection);
-  ask(way);
+  ask(channel);
 }
 
 void UdpTransport::set_timer() {
@@ -120,28 +123,30 @@ void UdpTransport::set_timer() {
 }
 
 /// A client's question that has not been answered yet.
-void UdpTransport::ask(const Way& way) {
-  if (way.state == Way::State::hello) tell(way, Kind::hello, way.up_key, 0, payload_max);
-  else tell(way, Kind::confirm, way.up_key, way.nonce, prefix_size + 8);
+void UdpTransport::ask(const Channel& channel) {
+  if (channel.state == Channel::State::hello)
+    send_control(channel, Kind::hello, channel.up_key, 0, payload_max);
+  else send_control(channel, Kind::confirm, channel.up_key, channel.nonce, prefix_size + 8);
 }
 
 void UdpTransport::ask_again() {
   std::uint64_t expirations = 0;
   if (::read(timer_.number(), &expirations, sizeof expirations) != sizeof expirations) return;
   std::erase_if(asking_, [this](ConnectionId connection) {
-    Way* way = find(connection);
-    if (way == nullptr || way->state == Way::State::open || way->state == Way::State::closed)
+    Channel* channel = find(connection);
+    if (channel == nullptr || channel->state == Channel::State::open ||
+        channel->state == Channel::State::closed)
       return true;
-    if (++way->tries < tries_max) return ask(*way), false;
-    way->state = Way::State::closed;
+    if (++channel->tries < tries_max) return ask(*channel), false;
+    channel->state = Channel::State::closed;
     ++counters_.ways_failed;
     return true;
   });
   if (!asking_.empty()) set_timer();
 }
 
-void UdpTransport::tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce,
-                        std::size_t size) {
+void UdpTransport::send_control(const Channel& channel, Kind kind, std::uint64_t key,
+                                std::uint64_t nonce, std::size_t size) {
   assert(prefix_size <= size && size <= payload_max);
   std::vector<std::byte> bytes;
   bytes.reserve(payload_max);
@@ -151,9 +156,9 @@ void UdpTransport::tell(const Way& way, Kind kind, std::uint64_t key, std::uint6
   writer.number(nonce);
   bytes.resize(size);
   const Datagram whole{bytes, {}};
-  const bool is_client = way.role == Way::Role::client;
-  sender_.add(is_client ? way.file.number() : server_.number(), is_client ? nullptr : &way.address,
-              {}, std::span(&whole, 1));
+  const bool is_client = channel.role == Channel::Role::client;
+  sender_.add(is_client ? channel.file.number() : server_.number(),
+              is_client ? nullptr : &channel.address, {}, std::span(&whole, 1));
   sender_.push();
 }
 

@@ -125,7 +125,7 @@ TEST(CampaignInVirtualTime, SaysTheSameWhetherCellsRunBesideEachOtherOrAlone) {
     const std::filesystem::path keys = results.path() / "keys" /
                                        ("seed" + std::to_string(cells[i].seed) + "-4" +
                                         (cells[i].part == "two" ? "-0.9s" : "") + ".keys");
-    settings.keeps_evidence = cells[i].part == "one";
+    settings.keeps_traces = cells[i].part == "one";
     const auto alone = run_virtual_cell(settings, part, cells[i], keys);
     ASSERT_TRUE(alone);
     EXPECT_EQ(to_json(*alone).dump(), to_json(outcome.runs[i]).dump());

@@ -104,10 +104,10 @@ void ShippedExperiment::run_least_version_of(Experiment experiment) {
         settings, experiment, cell, log);
     ASSERT_TRUE(record) << name_of(cell);
     EXPECT_TRUE(record->valid) << name_of(cell) << ": " << record->why_invalid
-                               << record->truth.trouble;
+                               << record->truth.error;
     EXPECT_EQ(record->ticks, 5u);
     EXPECT_TRUE(record->truth.filter_recall || cell.scheme == "owner")
-        << name_of(cell) << ": " << record->truth.trouble;
+        << name_of(cell) << ": " << record->truth.error;
     hashes.insert(record->state_hash);
   }
   EXPECT_TRUE(hashes.size() == 1 || experiment.keys == KeySource::live) << "one game";

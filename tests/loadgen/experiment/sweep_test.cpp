@@ -7,8 +7,8 @@
 
 #include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/summary.h"
-#include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/report.h"
+#include "loadgen/report/sections/section_content.h"
 #include "loadgen/report/table.h"
 #include "tests/loadgen/report/canned_reports.h"
 

@@ -134,11 +134,11 @@ class PlayedCrowd {
   static constexpr double contact_s = 0.5, played_s = 3.0;
 
   explicit PlayedCrowd(std::uint64_t seed) {
-    evidence_.choice.scene = "crowd";
-    evidence_.choice.seed = seed;
-    evidence_.choice.bats = 20;
-    evidence_.rate_hz = 30.0;
-    evidence_.keys = game::random_plan(seed, 20, played_s);
+    trace_.choice.scene = "crowd";
+    trace_.choice.seed = seed;
+    trace_.choice.bats = 20;
+    trace_.rate_hz = 30.0;
+    trace_.keys = game::random_plan(seed, 20, played_s);
     game::Game game = played();
     game.record_events(true);
     game.advance(played_s);
@@ -146,11 +146,11 @@ class PlayedCrowd {
     find_speeds();
   }
   game::Game played() const {
-    game::Game game(game::chosen_scene(evidence_.choice));
-    for (const game::InputEvent& key : evidence_.keys) game.submit(key);
+    game::Game game(game::chosen_scene(trace_.choice));
+    for (const game::InputEvent& key : trace_.keys) game.submit(key);
     return game;
   }
-  const game::ServerEvidence& evidence() const { return evidence_; }
+  const game::ServerTrace& trace() const { return trace_; }
   const std::vector<physics::Event>& events() const { return events_; }
   /// Whether what happened to `body` at `time` made it faster.
   bool is_sped_up(std::uint32_t body, double time) const { return sped_up_.contains({time, body}); }
@@ -175,7 +175,7 @@ class PlayedCrowd {
     }
   }
 
-  game::ServerEvidence evidence_;
+  game::ServerTrace trace_;
   std::vector<physics::Event> events_;
   std::set<std::pair<double, std::uint32_t>> sped_up_;
 };
@@ -277,7 +277,7 @@ TEST(RelevanceByContact, HeldAtEveryLookWhateverThenMetTheBatFirstOrAPuckThatMet
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     const PlayedCrowd crowd(seed);
     game::Game game = crowd.played();
-    Replay replay(crowd.evidence(),
+    Replay replay(crowd.trace(),
                   {.shape = RelevanceArea::Shape::contact, .contact_s = PlayedCrowd::contact_s});
     for (double now = 0.05; now + PlayedCrowd::contact_s < PlayedCrowd::played_s; now += 0.05) {
       game.advance(now);
@@ -312,17 +312,17 @@ TEST(RelevanceByContact, HeldAtEveryLookWhateverThenMetTheBatFirstOrAPuckThatMet
 
 /// Means over the players, at 30 looks in the first 3 s of seed 1.
 TEST(RelevanceByContact, OfACrowdHasAsManyRelevantAsTheDocumentSays) {
-  game::ServerEvidence evidence;
-  evidence.choice.scene = "crowd";
-  evidence.rate_hz = 30.0;
-  evidence.end_s = evidence.until_s = 3.0;
-  const game::Scene scene = game::chosen_scene(evidence.choice);
+  game::ServerTrace trace;
+  trace.choice.scene = "crowd";
+  trace.rate_hz = 30.0;
+  trace.end_s = trace.until_s = 3.0;
+  const game::Scene scene = game::chosen_scene(trace.choice);
   const auto players = static_cast<std::uint32_t>(scene.bodies.bats.size());
   ASSERT_EQ(players, 100u);
   ASSERT_EQ(scene.bodies.pucks.size(), 1'000u);
-  evidence.keys = game::random_plan(1, players, evidence.end_s);
+  trace.keys = game::random_plan(1, players, trace.end_s);
   const auto relevant = [&](const RelevanceArea& area) {
-    Replay replay(evidence, area);
+    Replay replay(trace, area);
     std::size_t pairs = 0;
     for (int look = 1; look <= 30; ++look) {
       replay.advance(0.1 * look);

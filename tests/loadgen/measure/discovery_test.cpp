@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "loadgen/report/dictionary.h"
-#include "loadgen/report/exhibits/exhibit.h"
+#include "loadgen/report/sections/section_content.h"
 #include "tests/loadgen/report/canned_reports.h"
 #include "tests/temporary_folder.h"
 
@@ -143,17 +143,17 @@ TEST_F(DiscoveryTable, IsDrawnForTheLargestNumberOfClients) {
   const Experiment experiment = small_experiment();
   const auto cells = discoveries_in(folder_.path(), runs_);
   const Findings findings{experiment, runs_, {}, lines_of(runs_), "x", cells};
-  const Exhibit exhibit = discovery_exhibit(findings);
-  ASSERT_EQ(exhibit.pictures.size(), 1u);
-  EXPECT_THAT(exhibit.html, HasSubstr("grid: 10 of 40 never discovered (25.0 % never)"));
-  EXPECT_THAT(exhibit.html, HasSubstr("region: 0 of 40 never discovered"));
-  EXPECT_THAT(exhibit.html, HasSubstr("what was never discovered: grid 10 of 40."));
-  EXPECT_THAT(exhibit.html, Not(HasSubstr("95 of 100"))) << "of the smaller number of clients";
-  EXPECT_THAT(exhibit.html, HasSubstr("Missed contacts: no player touched a body that it did not "
+  const SectionContent content = discovery_content(findings);
+  ASSERT_EQ(content.pictures.size(), 1u);
+  EXPECT_THAT(content.html, HasSubstr("grid: 10 of 40 never discovered (25.0 % never)"));
+  EXPECT_THAT(content.html, HasSubstr("region: 0 of 40 never discovered"));
+  EXPECT_THAT(content.html, HasSubstr("what was never discovered: grid 10 of 40."));
+  EXPECT_THAT(content.html, Not(HasSubstr("95 of 100"))) << "of the smaller number of clients";
+  EXPECT_THAT(content.html, HasSubstr("Missed contacts: no player touched a body that it did not "
                                       "know of, so there is no plot."));
-  ASSERT_EQ(exhibit.tables.size(), 1u);
-  EXPECT_EQ(exhibit.tables[0].name, "late-discovery");
-  EXPECT_EQ(exhibit.tables[0].rows.size(), 31u + 41u)
+  ASSERT_EQ(content.tables.size(), 1u);
+  EXPECT_EQ(content.tables[0].name, "late-discovery");
+  EXPECT_EQ(content.tables[0].rows.size(), 31u + 41u)
       << "a point at nothing and one for each delay";
 }
 
@@ -166,11 +166,12 @@ TEST_F(DiscoveryTable, IsDrawnForEachPartOfTheLargestNumberOfClients) {
   for (const char* part : {"late", "prompt", "smaller"})
     experiment.parts.push_back(small_experiment()), experiment.parts.back().part = part;
   const auto cells = discoveries_in(folder_.path(), runs_);
-  const Exhibit exhibit = discovery_exhibit({experiment, runs_, {}, lines_of(runs_), "x", cells});
-  EXPECT_THAT(exhibit.tables,
+  const SectionContent content =
+      discovery_content({experiment, runs_, {}, lines_of(runs_), "x", cells});
+  EXPECT_THAT(content.tables,
               testing::ElementsAre(testing::Field(&PlotTable::name, "late-discovery-late"),
                                    testing::Field(&PlotTable::name, "late-discovery-prompt")));
-  EXPECT_THAT(exhibit.html, testing::AllOf(HasSubstr("Late discoveries, 20 clients, late"),
+  EXPECT_THAT(content.html, testing::AllOf(HasSubstr("Late discoveries, 20 clients, late"),
                                            HasSubstr("what was never discovered: region 10 of 40."),
                                            HasSubstr("what was never discovered, here nothing.")));
 }

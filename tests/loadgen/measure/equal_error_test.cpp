@@ -9,7 +9,7 @@
 #include <random>
 #include <utility>
 
-#include "loadgen/report/exhibits/exhibit.h"
+#include "loadgen/report/sections/section_content.h"
 
 namespace rink::loadgen {
 namespace {
@@ -201,7 +201,7 @@ TEST_F(EqualErrorOfRuns, MarkAnIntervalThatHoldsOneAsNoSignificantDifference) {
   EXPECT_THAT(to_csv(compared),
               AllOf(HasSubstr(",payload_difference,wire_difference\n"),
                     HasSubstr(",no significant difference,"), HasSubstr(",higher,higher\n")));
-  const std::string html = equal_error_exhibit(experiment_, runs_, compared).html;
+  const std::string html = equal_error_content(experiment_, runs_, compared).html;
   EXPECT_THAT(html, ContainsRegex("snapshot</td>.*\\), no significant difference</td>"));
 }
 
@@ -215,7 +215,7 @@ TEST_F(EqualErrorOfRuns, SayWhichRivalHasFewPointsOnASideOfTheError) {
   EXPECT_THAT(equal_error_table(compared),
               AllOf(HasSubstr("  3 points below, 2 above\n"), HasSubstr("fewer than 5\n")));
   EXPECT_THAT(to_csv(compared), HasSubstr(",bracketed,3,2,higher,higher\n"));
-  EXPECT_THAT(equal_error_exhibit(experiment_, runs_, compared).html, HasSubstr("3, 2 (few)"));
+  EXPECT_THAT(equal_error_content(experiment_, runs_, compared).html, HasSubstr("3, 2 (few)"));
   for (RunRecord& run : runs_)
     if (run.cell.seed == 2 && run.cell.parameters.tick_rate_hz == 90.0) run.valid = false;
   EXPECT_EQ(equal_errors_of(experiment_, runs_).front().rivals.front().points_below, 2u)

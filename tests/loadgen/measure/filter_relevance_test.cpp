@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "game/control/game.h"
-#include "game/net/evidence.h"
+#include "game/net/server_trace.h"
 #include "game/players/random_plan.h"
 #include "loadgen/measure/truth/replay.h"
 #include "loadgen/measure/truth/truth.h"
@@ -26,24 +26,24 @@ using Entities = std::vector<std::uint32_t>;
 constexpr double reach = 1.5, played_s = 1.0;
 constexpr std::uint32_t players = 12;
 
-game::ServerEvidence crowd(std::uint64_t seed) {
-  game::ServerEvidence evidence;
-  evidence.choice.scene = "crowd";
-  evidence.choice.seed = seed;
-  evidence.choice.bats = players;
-  evidence.rate_hz = 30.0;
-  evidence.keys = game::random_plan(seed, players, played_s);
+game::ServerTrace crowd(std::uint64_t seed) {
+  game::ServerTrace trace;
+  trace.choice.scene = "crowd";
+  trace.choice.seed = seed;
+  trace.choice.bats = players;
+  trace.rate_hz = 30.0;
+  trace.keys = game::random_plan(seed, players, played_s);
   // One goes, one goes and comes back as another body.
-  evidence.keys.push_back({.time = 0.1, .player = 3, .kind = game::InputKind::leave});
-  evidence.keys.push_back({.time = 0.1, .player = 5, .kind = game::InputKind::leave});
-  evidence.keys.push_back({.time = 0.305, .player = 5, .kind = game::InputKind::enter});
-  std::ranges::stable_sort(evidence.keys, {}, &game::InputEvent::time);
-  return evidence;
+  trace.keys.push_back({.time = 0.1, .player = 3, .kind = game::InputKind::leave});
+  trace.keys.push_back({.time = 0.1, .player = 5, .kind = game::InputKind::leave});
+  trace.keys.push_back({.time = 0.305, .player = 5, .kind = game::InputKind::enter});
+  std::ranges::stable_sort(trace.keys, {}, &game::InputEvent::time);
+  return trace;
 }
 
 /// What is relevant to each player at each of some instants.
-std::vector<Entities> relevant_by(const game::ServerEvidence& evidence, const RelevanceArea& area) {
-  Replay replay(evidence, area);
+std::vector<Entities> relevant_by(const game::ServerTrace& trace, const RelevanceArea& area) {
+  Replay replay(trace, area);
   std::vector<Entities> all;
   std::vector<Relevant> found;
   for (const double now : {0.05, 0.3, 0.31, 0.9}) {
@@ -58,18 +58,16 @@ std::vector<Entities> relevant_by(const game::ServerEvidence& evidence, const Re
   }
   return all;
 }
-std::vector<Entities> relevant_by(const game::ServerEvidence& evidence,
-                                  const std::string& expression) {
+std::vector<Entities> relevant_by(const game::ServerTrace& trace, const std::string& expression) {
   return relevant_by(
-      evidence, {.shape = RelevanceArea::Shape::filter, .reach = reach, .expression = expression});
+      trace, {.shape = RelevanceArea::Shape::filter, .reach = reach, .expression = expression});
 }
 
 TEST(FilterRelevance, RegionFindsWhomTheRectangleFinds) {
   for (const std::uint64_t seed : {1u, 2u}) {
-    const game::ServerEvidence evidence = crowd(seed);
-    const auto found = relevant_by(evidence, "region");
-    EXPECT_EQ(found, relevant_by(evidence, {RelevanceArea::Shape::square, reach}))
-        << "seed " << seed;
+    const game::ServerTrace trace = crowd(seed);
+    const auto found = relevant_by(trace, "region");
+    EXPECT_EQ(found, relevant_by(trace, {RelevanceArea::Shape::square, reach})) << "seed " << seed;
     EXPECT_TRUE(std::ranges::any_of(found, [](const Entities& each) { return each.size() > 3; }))
         << "or the test shows nothing";
   }
@@ -77,11 +75,11 @@ TEST(FilterRelevance, RegionFindsWhomTheRectangleFinds) {
 
 /// With half sides h, the nearest point of the box is (max(|x| - h_x, 0), max(|y| - h_y, 0)) off.
 TEST(FilterRelevance, AuraFindsWhoseBoxComesWithinTheDiscAndHoldsTheDiscOfCentres) {
-  const game::ServerEvidence evidence = crowd(3);
-  const auto found = relevant_by(evidence, "aura"),
-             by_centre = relevant_by(evidence, {RelevanceArea::Shape::disc, reach});
+  const game::ServerTrace trace = crowd(3);
+  const auto found = relevant_by(trace, "aura"),
+             by_centre = relevant_by(trace, {RelevanceArea::Shape::disc, reach});
   std::vector<Entities> expected;
-  Replay replay(evidence, {});
+  Replay replay(trace, {});
   for (const double now : {0.05, 0.3, 0.31, 0.9}) {
     replay.advance(now);
     replay.look_around();
@@ -104,16 +102,16 @@ TEST(FilterRelevance, AuraFindsWhoseBoxComesWithinTheDiscAndHoldsTheDiscOfCentre
 }
 
 TEST(FilterRelevance, ACompositionFindsTheSetThatItsPartsFindTogether) {
-  const game::ServerEvidence evidence = crowd(4);
-  const auto everybody = relevant_by(evidence, "none");
+  const game::ServerTrace trace = crowd(4);
+  const auto everybody = relevant_by(trace, "none");
   for (const auto& [a, b] :
        {std::pair{"region", "aura"}, {"grid(cell_size=0.7)", "team"}, {"hex", "always"}}) {
-    const auto in_a = relevant_by(evidence, a), in_b = relevant_by(evidence, b);
+    const auto in_a = relevant_by(trace, a), in_b = relevant_by(trace, b);
     const std::string first = a, second = b;
-    const auto both = relevant_by(evidence, first + " and " + second),
-               either = relevant_by(evidence, first + " or " + second),
-               without = relevant_by(evidence, first + " and not " + second),
-               outside = relevant_by(evidence, "not " + first);
+    const auto both = relevant_by(trace, first + " and " + second),
+               either = relevant_by(trace, first + " or " + second),
+               without = relevant_by(trace, first + " and not " + second),
+               outside = relevant_by(trace, "not " + first);
     for (std::size_t i = 0; i < in_a.size(); ++i) {
       Entities expected;
       std::ranges::set_intersection(in_a[i], in_b[i], std::back_inserter(expected));
@@ -132,11 +130,11 @@ TEST(FilterRelevance, ACompositionFindsTheSetThatItsPartsFindTogether) {
 }
 
 TEST(FilterRelevance, WhoIsAlwaysRelevantIsOfTheKindsThatAreSaid) {
-  const game::ServerEvidence evidence = crowd(5);
+  const game::ServerTrace trace = crowd(5);
   RelevanceArea area{.shape = RelevanceArea::Shape::filter, .reach = reach, .expression = "always"};
   area.always_by_role.add(physics::BodyKind::bat);
   std::vector<std::size_t> bats, expected;
-  for (const Entities& found : relevant_by(evidence, area)) bats.push_back(found.size() + 1);
+  for (const Entities& found : relevant_by(trace, area)) bats.push_back(found.size() + 1);
   for (const std::size_t there : {players, players - 2, players - 1, players - 1})
     expected.insert(expected.end(), there, there);
   EXPECT_EQ(bats, expected) << "the own bat is in no set, and who has gone is in none";

@@ -14,13 +14,13 @@
 #include <vector>
 
 #include "game/model/random_stream.h"
-#include "game/net/evidence.h"
-#include "game/net/evidence_lines.h"
-#include "game/net/peer/peer_evidence.h"
+#include "game/net/peer/peer_trace.h"
+#include "game/net/server_trace.h"
+#include "game/net/trace_lines.h"
 #include "loadgen/measure/truth/classification.h"
+#include "loadgen/measure/truth/relevance_intervals.h"
 #include "loadgen/measure/truth/replay.h"
 #include "loadgen/measure/truth/scope_history.h"
-#include "loadgen/measure/truth/stays.h"
 #include "tests/loadgen/measure/areas.h"
 #include "tests/temporary_folder.h"
 
@@ -175,52 +175,52 @@ TEST(ScopeChanges, AnEntryIsAFlapIfTheEntityHadLeftLessThanASecondBefore) {
 /// at 0 s.
 struct Approach {
   static constexpr double look_s = 0.3;
-  Stays stays;
+  RelevanceIntervals intervals;
   void watch(ScopeHistory delivered, double until_s) {
     for (int i = 0; i * look_s <= until_s; ++i) {
       const double now = i * look_s, depth = std::min(now - 1.0, 3.0 - now);  // and leaves at 3 s
       delivered.advance(now);
       std::vector<Relevant> relevant;
       if (depth >= 0.0) relevant.push_back({5, depth});
-      stays.look(now, relevant, delivered, [&](const Relevant& each) {
+      intervals.look(now, relevant, delivered, [&](const Relevant& each) {
         const double before = now - look_s - 1.0;
         return before / (before - each.depth);
       });
     }
-    stays.end();
+    intervals.end();
   }
 };
 
-TEST(Stays, AnEntryIsLateFromWhenItCrossedTheBorderToWhenItsStateCame) {
+TEST(RelevanceIntervals, AnEntryIsLateFromWhenItCrossedTheBorderToWhenItsStateCame) {
   Approach approach;
   approach.watch(ScopeHistory({{1.75, 5, true}}), 6.0);
-  ASSERT_EQ(approach.stays.lateness_s().size(), 1u);
-  EXPECT_NEAR(approach.stays.lateness_s()[0], 0.75, 1e-12)
+  ASSERT_EQ(approach.intervals.lateness_s().size(), 1u);
+  EXPECT_NEAR(approach.intervals.lateness_s()[0], 0.75, 1e-12)
       << "looks are 0.3 s apart, the crossing at 1 s is found between them";
-  EXPECT_EQ(approach.stays.never_delivered(), 0u);
+  EXPECT_EQ(approach.intervals.never_delivered(), 0u);
 }
 
-TEST(Stays, WhatIsThereAlreadyIsNotLate) {
+TEST(RelevanceIntervals, WhatIsThereAlreadyIsNotLate) {
   Approach approach;
   approach.watch(ScopeHistory({{0.4, 5, true}}), 6.0);
-  EXPECT_THAT(approach.stays.lateness_s(), ElementsAre(0.0));
+  EXPECT_THAT(approach.intervals.lateness_s(), ElementsAre(0.0));
 }
 
-TEST(Stays, AnEntityThatNeverCameIsLateForItsWholeStay) {
+TEST(RelevanceIntervals, AnEntityThatNeverCameIsLateForItsWholeStay) {
   Approach gone, seen_to_the_last;
   gone.watch(ScopeHistory({}), 6.0);
-  ASSERT_EQ(gone.stays.never_delivered(), 1u);
-  EXPECT_NEAR(gone.stays.lateness_s()[0], 2.3, 1e-12) << "seen at 3.0 s, gone at 3.3 s";
+  ASSERT_EQ(gone.intervals.never_delivered(), 1u);
+  EXPECT_NEAR(gone.intervals.lateness_s()[0], 2.3, 1e-12) << "seen at 3.0 s, gone at 3.3 s";
   seen_to_the_last.watch(ScopeHistory({}), 2.1);
-  EXPECT_NEAR(seen_to_the_last.stays.lateness_s()[0], 1.1, 1e-12);
+  EXPECT_NEAR(seen_to_the_last.intervals.lateness_s()[0], 1.1, 1e-12);
 }
 
-TEST(Stays, WhatWasThereAtTheFirstLookHasNoKnownBeginning) {
-  Stays stays;
-  stays.look(0.0, std::vector<Relevant>{{1, 0.5}}, ScopeHistory({}),
-             [](const Relevant&) { return 1.0; });
-  stays.end();
-  EXPECT_TRUE(stays.lateness_s().empty());
+TEST(RelevanceIntervals, WhatWasThereAtTheFirstLookHasNoKnownBeginning) {
+  RelevanceIntervals intervals;
+  intervals.look(0.0, std::vector<Relevant>{{1, 0.5}}, ScopeHistory({}),
+                 [](const Relevant&) { return 1.0; });
+  intervals.end();
+  EXPECT_TRUE(intervals.lateness_s().empty());
 }
 
 TEST(Sampling, TheSameSeedLooksAtTheSamePlayersAndInstants) {

@@ -81,9 +81,9 @@ TEST(Report, HeadsItsFiguresWithTheTermsOfTheField) {
   const auto runs = some_runs();
   CellLatencies latencies{runs[0].cell, {}, {}, {}};
   for (int i = 1; i <= 100; ++i) {
-    latencies.update_age.record(i * 1e-3);
-    latencies.key_to_effect.record(i * 1e-3);
-    latencies.late_entry.record(i * 1e-3);
+    latencies.update_latency.record(i * 1e-3);
+    latencies.input_latency.record(i * 1e-3);
+    latencies.discovery_latency.record(i * 1e-3);
   }
   const std::string html =
       report_of(small_experiment(), runs, provenance, {.latencies = std::span(&latencies, 1)}).html;

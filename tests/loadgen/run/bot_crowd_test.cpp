@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "game/model/scene_file.h"
-#include "game/net/evidence.h"
 #include "game/net/fom_file.h"
 #include "game/net/server/serving.h"
+#include "game/net/server_trace.h"
 #include "game/replication/trajectory_codec.h"
 #include "loadgen/run/bots/bots_report.h"
 #include "loadgen/run/virtual_parts.h"
@@ -124,13 +124,13 @@ class StalledCrowd : public testing::Test {
     serving_.exchange(0.0);
   }
   /// What the server noted of a game of 2 s, of each kind at most `record_max`.
-  game::ServerEvidence noted(std::size_t record_max) {
+  game::ServerTrace noted(std::size_t record_max) {
     start({}, 0.0, 2.0);
-    serving_.collect_evidence(
+    serving_.collect_trace(
         {.seed = 1, .clients = bots, .from_s = 0.0, .until_s = 2.0, .record_max = record_max},
         rate_hz);
     play(2.0);
-    return serving_.evidence().value();
+    return serving_.trace().value();
   }
   const Measurements& measured() const { return crowd_->meter().measurements(); }
   static game::InputEvent key(double instant_s) {
@@ -170,15 +170,15 @@ class StalledCrowd : public testing::Test {
 TEST_F(StalledCrowd, EachTickOfOneReadIsASampleAsOldAsItsOwnTick) {
   start({}, 0.0, 2.0);
   play(0.38);
-  EXPECT_EQ(measured().update_age.count(), 20u * bots) << "ticks 0 to 19";
+  EXPECT_EQ(measured().update_latency.count(), 20u * bots) << "ticks 0 to 19";
   play(0.44, true);
   run_until(0.46);
-  EXPECT_EQ(measured().update_age.count(), 23u * bots);
-  EXPECT_NEAR(measured().update_age.max_s(), 0.06, 1e-9);
-  EXPECT_NEAR(*measured().update_age.mean_s() * 23 * bots, (0.06 + 0.04 + 0.02) * bots, 1e-9)
+  EXPECT_EQ(measured().update_latency.count(), 23u * bots);
+  EXPECT_NEAR(measured().update_latency.max_s(), 0.06, 1e-9);
+  EXPECT_NEAR(*measured().update_latency.mean_s() * 23 * bots, (0.06 + 0.04 + 0.02) * bots, 1e-9)
       << "and none of the others waited";
   play(1.98);
-  EXPECT_EQ(measured().update_age.count(), 100u * bots) << "clients x ticks";
+  EXPECT_EQ(measured().update_latency.count(), 100u * bots) << "clients x ticks";
 }
 
 /// What StallLong expects of sockets, to the last tick: of n that are due while one of both is not
@@ -200,12 +200,12 @@ TEST_F(StalledCrowd, IsInTheAgesAsMuchAsAStalledServerFor60And500Milliseconds) {
       const double waits = std::round(stall_s * rate_hz);  // of 0, 1, ... periods
       expected_s += waits * (waits + 1.0) / 2.0 / rate_hz * bots;
       longest_s = std::max(longest_s, stall_s);
-      EXPECT_EQ(measured().update_age.count(), static_cast<std::uint64_t>(next_tick_) * bots)
+      EXPECT_EQ(measured().update_latency.count(), static_cast<std::uint64_t>(next_tick_) * bots)
           << "clients x ticks";
-      EXPECT_NEAR(
-          *measured().update_age.mean_s() * static_cast<double>(measured().update_age.count()),
-          expected_s, 1e-9);
-      EXPECT_NEAR(measured().update_age.max_s(), longest_s, 1e-9);
+      EXPECT_NEAR(*measured().update_latency.mean_s() *
+                      static_cast<double>(measured().update_latency.count()),
+                  expected_s, 1e-9);
+      EXPECT_NEAR(measured().update_latency.max_s(), longest_s, 1e-9);
       at_s = end_s + 0.1;
       play(at_s);
     }
@@ -218,11 +218,11 @@ TEST_F(StalledCrowd, ATickThatIsReadInPiecesCountsOnceWhenItIsWhole) {
   play(0.38);
   reads_.held_back = 1;
   play(0.4);
-  EXPECT_EQ(measured().update_age.count(), 20u * bots);
+  EXPECT_EQ(measured().update_latency.count(), 20u * bots);
   reads_.held_back = 0;
   run_until(0.412);
-  EXPECT_EQ(measured().update_age.count(), 21u * bots);
-  EXPECT_NEAR(measured().update_age.max_s(), 0.012, 1e-9);
+  EXPECT_EQ(measured().update_latency.count(), 21u * bots);
+  EXPECT_NEAR(measured().update_latency.max_s(), 0.012, 1e-9);
 }
 
 /// The process is not run for 200 ms; the key that was due at the beginning of that goes out late,
@@ -236,10 +236,10 @@ TEST_F(StalledCrowd, AKeysLatencyCountsFromWhenItWasDueAndNotFromWhenItWasSent) 
   EXPECT_NEAR(measured().send_lateness.max_s(), 0.199, 1e-9);
   EXPECT_EQ(measured().late_sends, 1u);
   play(1.3);
-  ASSERT_EQ(measured().key_to_effect.count(), 1u);
-  EXPECT_NEAR(measured().key_to_effect.max_s(), 0.2, 1e-9)
+  ASSERT_EQ(measured().input_latency.count(), 1u);
+  EXPECT_NEAR(measured().input_latency.max_s(), 0.2, 1e-9)
       << "due at 1 s, felt by the tick at 1.2 s";
-  EXPECT_NEAR(measured().key_to_effect.min_s(), 0.2, 1e-9);
+  EXPECT_NEAR(measured().input_latency.min_s(), 0.2, 1e-9);
   EXPECT_EQ(crowd_->bots().unanswered_keys(), 0u);
 }
 
@@ -259,19 +259,19 @@ TEST_F(StalledCrowd, AKeyIsLateFromTenMillisecondsOn) {
 /// Late in fifty: one by chance in 39 of 100 runs whose keys are late with a probability of 1 %,
 /// four in 1.6 of 1,000.
 TEST(Schedule, IsNotKeptOnceSoManyLateKeysCannotBeChance) {
-  const auto trouble = [](std::uint64_t late, std::uint64_t sent) {
+  const auto problem = [](std::uint64_t late, std::uint64_t sent) {
     Measurements measured;
     measured.late_sends = late, measured.keys_sent = sent;
     return measured.schedule_trouble();
   };
-  EXPECT_EQ(trouble(0, 0), "");
-  EXPECT_EQ(trouble(1, 50), "");
-  EXPECT_EQ(trouble(3, 50), "");
-  EXPECT_EQ(trouble(4, 50), "4 of 50 keys went out more than 10 ms late");
-  EXPECT_EQ(trouble(18, 1'000), "");
-  EXPECT_EQ(trouble(19, 1'000), "19 of 1000 keys went out more than 10 ms late");
-  EXPECT_EQ(trouble(1'050, 100'000), "") << "1.6 standard deviations";
-  EXPECT_NE(trouble(1'100, 100'000), "") << "3.2";
+  EXPECT_EQ(problem(0, 0), "");
+  EXPECT_EQ(problem(1, 50), "");
+  EXPECT_EQ(problem(3, 50), "");
+  EXPECT_EQ(problem(4, 50), "4 of 50 keys went out more than 10 ms late");
+  EXPECT_EQ(problem(18, 1'000), "");
+  EXPECT_EQ(problem(19, 1'000), "19 of 1000 keys went out more than 10 ms late");
+  EXPECT_EQ(problem(1'050, 100'000), "") << "1.6 standard deviations";
+  EXPECT_NE(problem(1'100, 100'000), "") << "3.2";
 }
 
 /// Warm-up is from 0 to 0.5 s, the end at 1 s: ticks 25 to 49 and what happens between 0.5 s,
@@ -279,14 +279,14 @@ TEST(Schedule, IsNotKeptOnceSoManyLateKeysCannotBeChance) {
 TEST_F(StalledCrowd, WhatHappensBeforeTheSpanOrAtItsEndIsNotCounted) {
   start({key(0.1), key(0.5), key(0.7)}, 0.5, 1.0);
   play(0.48);
-  EXPECT_EQ(measured().update_age.count(), 0u);
+  EXPECT_EQ(measured().update_latency.count(), 0u);
   EXPECT_EQ(measured().keys_due, 0u);
   const CrowdTraffic before = crowd_->bots().traffic();
   play(1.2);
-  EXPECT_EQ(measured().update_age.count(), 25u * bots);
+  EXPECT_EQ(measured().update_latency.count(), 25u * bots);
   EXPECT_EQ(measured().keys_due, 2u);
   EXPECT_EQ(measured().keys_sent, 2u);
-  EXPECT_EQ(measured().key_to_effect.count(), 2u);
+  EXPECT_EQ(measured().input_latency.count(), 2u);
   EXPECT_NEAR(crowd_->meter().measured_s(), 0.5, 1e-9);
   const CrowdTraffic whole = crowd_->bots().traffic(), within = crowd_->meter().traffic();
   EXPECT_EQ(within.updates_received * 36, (whole.updates_received - before.updates_received) * 25)
@@ -299,20 +299,19 @@ TEST_F(StalledCrowd, WhatHappensBeforeTheSpanOrAtItsEndIsNotCounted) {
 /// Of a span of 2 s at 50 Hz there are 100 ticks and, of both players, the decisions at 20
 /// instants.
 TEST_F(StalledCrowd, TheServerNotesAllOfItsRunWhereThereIsRoom) {
-  const game::ServerEvidence evidence = noted(1'000'000);
-  EXPECT_EQ(evidence.ticks.size(), 100u);
-  EXPECT_EQ(evidence.decisions.size(), 20u * bots);
-  EXPECT_GE(evidence.in_scope.size(), 3u * evidence.decisions.size()) << "the puck and both bats";
+  const game::ServerTrace trace = noted(1'000'000);
+  EXPECT_EQ(trace.ticks.size(), 100u);
+  EXPECT_EQ(trace.decisions.size(), 20u * bots);
+  EXPECT_GE(trace.in_scope.size(), 3u * trace.decisions.size()) << "the puck and both bats";
 }
 
 TEST_F(StalledCrowd, TheServerNotesNoMoreTicksAndDecisionsThanThereIsRoomFor) {
   constexpr std::size_t record_max = 30;
-  const game::ServerEvidence evidence = noted(record_max);
-  EXPECT_EQ(evidence.ticks.size(), record_max);
-  EXPECT_LE(evidence.in_scope.size(), 2 * record_max) << "objects of all decisions together";
+  const game::ServerTrace trace = noted(record_max);
+  EXPECT_EQ(trace.ticks.size(), record_max);
+  EXPECT_LE(trace.in_scope.size(), 2 * record_max) << "objects of all decisions together";
   std::map<std::uint32_t, int> by_player;
-  for (const game::ServerEvidence::Decision& decision : evidence.decisions)
-    ++by_player[decision.player];
+  for (const game::ServerTrace::Decision& decision : trace.decisions) ++by_player[decision.player];
   EXPECT_EQ(by_player.size(), bots) << "one player at a time, in turn";
 }
 

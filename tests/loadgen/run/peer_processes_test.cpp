@@ -58,7 +58,7 @@ TEST_F(PeerProcessesTest, PlayTheGameOfThoseUnderAVirtualClockAndSayWhatItCost) 
   // count; all else holds.
   EXPECT_THAT(record->why_invalid, AnyOf("", HasSubstr("could not keep their schedule")));
   EXPECT_EQ(record->state_hash, virtual_record->state_hash);
-  EXPECT_EQ(record->truth.trouble, "");
+  EXPECT_EQ(record->truth.error, "");
   EXPECT_EQ(record->keys_due, virtual_record->keys_due);
   EXPECT_EQ(record->keys_sent, record->keys_due);
   EXPECT_GT(*record->truth.filter_recall, 0.8);

@@ -49,7 +49,7 @@ class PeerRunTest : public testing::Test {
         settings_, experiment_, cell, log);
     EXPECT_TRUE(record);
     EXPECT_EQ(record.value_or(RunRecord{}).why_invalid, "") << name_of(cell);
-    EXPECT_EQ(record.value_or(RunRecord{}).truth.trouble, "") << name_of(cell);
+    EXPECT_EQ(record.value_or(RunRecord{}).truth.error, "") << name_of(cell);
     return record.value_or(RunRecord{});
   }
   nlohmann::json peers_report(const Cell& cell) const {

@@ -269,9 +269,9 @@ TEST_F(SaturateTest, EachSchemeIsSearchedBetweenTheLeastAndTheLargestNumberOfCli
 
 TEST_F(SaturateTest, IsForetoldByTheCostOfFewerClients) {
   const auto found = search();
-  EXPECT_EQ(found[0].foretold, std::nullopt) << "of fewer clients than held only 100 ran";
-  EXPECT_EQ(found[1].foretold_from, 1'600u) << "2,000 held, and are not asked what they hold";
-  EXPECT_EQ(found[1].foretold, std::floor((1e6 / 30.0 - 500.0) / 6.0))
+  EXPECT_EQ(found[0].predicted, std::nullopt) << "of fewer clients than held only 100 ran";
+  EXPECT_EQ(found[1].predicted_from, 1'600u) << "2,000 held, and are not asked what they hold";
+  EXPECT_EQ(found[1].predicted, std::floor((1e6 / 30.0 - 500.0) / 6.0))
       << "99 % of the ticks end within 500 + 6 n us";
   EXPECT_THAT(table_of(found, level_), HasSubstr("5472 (1600)"));
 }

@@ -44,18 +44,18 @@ class ScoredPuck : public JudgedRink {
   /// `puck_at`.
   void see(double displayed_s, double matched_s, double aside, Vector2 puck_at,
            std::uint32_t puck_bytes) {
-    const std::size_t first = bots_.beliefs.size();
+    const std::size_t first = bots_.replicas.size();
     const Vector2 other(3.5 + aside, 0.3);
-    bots_.beliefs.push_back({.object = 100 + second_bat,
-                             .bytes = 9,
-                             .is_in_scope = true,
-                             .matched = other,
-                             .displayed = other});
-    bots_.beliefs.push_back({.object = 100 + puck,
-                             .bytes = puck_bytes,
-                             .is_in_scope = true,
-                             .matched = puck_at,
-                             .displayed = puck_at});
+    bots_.replicas.push_back({.object = 100 + second_bat,
+                              .bytes = 9,
+                              .is_in_scope = true,
+                              .matched = other,
+                              .displayed = other});
+    bots_.replicas.push_back({.object = 100 + puck,
+                              .bytes = puck_bytes,
+                              .is_in_scope = true,
+                              .matched = puck_at,
+                              .displayed = puck_at});
     bots_.samples.push_back({.bot = 0,
                              .displayed_s = displayed_s,
                              .matched_s = matched_s,

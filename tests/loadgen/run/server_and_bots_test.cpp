@@ -48,7 +48,7 @@ class ServerAndBots : public testing::Test {
     std::optional<std::string> place;
     for (int i = 0; i < 1000 && !place; ++i)
       server.attend(10ms), place = server.line_after("listening on ");
-    EXPECT_TRUE(place) << server.last_words();
+    EXPECT_TRUE(place) << server.stderr_tail();
     if (!place) return played;
     flags = {
         "--connect", *place, "--count",    "12", "--seed", "7", "--duration", "0.7",

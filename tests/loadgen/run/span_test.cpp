@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "game/control/key_log_file.h"
-#include "game/net/evidence.h"
+#include "game/net/server_trace.h"
 #include "game/process/process.h"
 #include "loadgen/run/cell_runner.h"
 #include "loadgen/run/game_plan.h"
@@ -214,12 +214,12 @@ TEST_F(SpanTest, EvidenceHasTheCostOfEachMeasuredTickAndOfNoOther) {
   experiment_.duration_s = 1.0;
   settings_.wants_truth = true;
   const RunRecord record = sound(run_virtual_cell(settings_, experiment_, cell(), no_keys()));
-  const game::ServerEvidence evidence =
-      game::read_server_evidence((folder_ / (name_of(cell()) + ".server.jsonl")).string());
-  ASSERT_EQ(evidence.ticks.size(), *record.ticks);
-  EXPECT_DOUBLE_EQ(evidence.ticks.front().simulated_s, 0.25);
-  EXPECT_DOUBLE_EQ(evidence.ticks.back().simulated_s, 1.2);
-  EXPECT_DOUBLE_EQ(evidence.end_s, 1.25) << "the game goes on to the end";
+  const game::ServerTrace trace =
+      game::read_server_trace((folder_ / (name_of(cell()) + ".server.jsonl")).string());
+  ASSERT_EQ(trace.ticks.size(), *record.ticks);
+  EXPECT_DOUBLE_EQ(trace.ticks.front().simulated_s, 0.25);
+  EXPECT_DOUBLE_EQ(trace.ticks.back().simulated_s, 1.2);
+  EXPECT_DOUBLE_EQ(trace.end_s, 1.25) << "the game goes on to the end";
 }
 
 /// The server's own means beside what it noted of each tick, and the processes' costs beside what
@@ -229,11 +229,11 @@ TEST_F(SpanTest, CostsOfTicksAndProcessesAreThoseThatWereNoted) {
   experiment_.duration_s = 0.3;
   settings_.wants_truth = true;
   const RunRecord record = sound(run_cell(settings_, experiment_, cell(), no_keys()));
-  const game::ServerEvidence evidence =
-      game::read_server_evidence((folder_ / (name_of(cell()) + ".server.jsonl")).string());
-  ASSERT_EQ(evidence.ticks.size(), 6u);
+  const game::ServerTrace trace =
+      game::read_server_trace((folder_ / (name_of(cell()) + ".server.jsonl")).string());
+  ASSERT_EQ(trace.ticks.size(), 6u);
   double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, longest_s = 0.0;
-  for (const game::ServerEvidence::Tick& tick : evidence.ticks) {
+  for (const game::ServerTrace::Tick& tick : trace.ticks) {
     physics_s += tick.physics_s, filter_s += tick.filter_s, send_s += tick.send_s;
     longest_s = std::max(longest_s, tick.physics_s + tick.filter_s + tick.send_s);
   }

@@ -58,7 +58,7 @@ class StallLong : public testing::Test {
     std::optional<std::string> place;
     for (int i = 0; i < 1000 && !place; ++i)
       server.attend(10ms), place = server.line_after("listening on ");
-    ASSERT_TRUE(place) << server.last_words();
+    ASSERT_TRUE(place) << server.stderr_tail();
     game::Process bots(
         test::binary_folder() + "/bin/rink-bots",
         with({"--connect", *place, "--count", "4", "--seed", "7", "--report", file("bots.json")}),
@@ -75,8 +75,8 @@ class StallLong : public testing::Test {
     while ((!server.ending() || !bots.ending()) && SteadyClock::now() < limit)
       server.attend(5ms), bots.attend(5ms);
     ASSERT_TRUE(server.ending() && bots.ending());
-    EXPECT_EQ(server.ending()->exit_status, 0) << server.last_words();
-    EXPECT_EQ(bots.ending()->exit_status, 0) << bots.last_words();
+    EXPECT_EQ(server.ending()->exit_status, 0) << server.stderr_tail();
+    EXPECT_EQ(bots.ending()->exit_status, 0) << bots.stderr_tail();
     server_report_ = nlohmann::json::parse(std::ifstream(file("server.json")), nullptr, false);
     ages_ =
         nlohmann::json::parse(std::ifstream(file("bots.json")), nullptr, false)["update_age_ms"];

@@ -134,20 +134,20 @@ TEST_F(TinyRink, FlappingLooksBackBeyondTheSpan) {
 }
 
 TEST_F(TinyRink, ErrorsAndWasteAreThoseOfWhatWasBelieved) {
-  const auto believe = [&](std::uint32_t body, std::uint32_t bytes, Vector2 matched,
-                           Vector2 displayed) {
-    bots_.beliefs.push_back({.object = 100 + body,
-                             .bytes = bytes,
-                             .is_in_scope = true,
-                             .matched = matched,
-                             .displayed = displayed});
+  const auto assume = [&](std::uint32_t body, std::uint32_t bytes, Vector2 matched,
+                          Vector2 displayed) {
+    bots_.replicas.push_back({.object = 100 + body,
+                              .bytes = bytes,
+                              .is_in_scope = true,
+                              .matched = matched,
+                              .displayed = displayed});
   };
   bots_.bots[0].changes.push_back({1.0, 100 + flying, true});
   bots_.bots[0].changes.push_back({1.0, 100 + far, true});
-  believe(bat, 1000, {0.0, 0.0}, {0.0, 0.0});  // the own bat counts nowhere
-  believe(still, 10, {10.5, 10.5}, {10.5, 10.5});
-  believe(flying, 20, {10.0, 9.5}, {10.0, 9.5});  // right at 2.0 s, 50 mm behind at 2.05 s
-  believe(far, 30, {7.0, 7.0}, {7.0, 7.0});       // wrong, but of no interest
+  assume(bat, 1000, {0.0, 0.0}, {0.0, 0.0});  // the own bat counts nowhere
+  assume(still, 10, {10.5, 10.5}, {10.5, 10.5});
+  assume(flying, 20, {10.0, 9.5}, {10.0, 9.5});  // right at 2.0 s, 50 mm behind at 2.05 s
+  assume(far, 30, {7.0, 7.0}, {7.0, 7.0});       // wrong, but of no interest
   bots_.samples.push_back(
       {.bot = 0, .displayed_s = 2.05, .matched_s = 2.0, .window_s = 0.05, .first = 0, .last = 4});
   const TruthFigures truth = judged();

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "game/control/game.h"
-#include "game/net/evidence.h"
-#include "loadgen/measure/truth/bots_evidence.h"
+#include "game/net/server_trace.h"
+#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/run/game_plan.h"
 #include "tests/loadgen/run/virtual_experiment.h"
 
@@ -102,9 +102,9 @@ TEST_F(VirtualRunTest, ChurnIsWhatTheServersFilterSaidWithinTheSpan) {
       server["scope_exits"].get<double>() + server["scope_entries"].get<double>();
   EXPECT_NEAR(*record.truth.churn_per_client_per_s, changes / 6.0 / 3.0, 1e-9);
   std::uint64_t exits = 0;
-  for (const BotsEvidence::Bot& bot :
-       read_bots_evidence((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string()).bots)
-    for (const BotsEvidence::ScopeChange& change : bot.changes)
+  for (const BotsTrace::Bot& bot :
+       read_bots_trace((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string()).bots)
+    for (const BotsTrace::ScopeChange& change : bot.changes)
       exits += !change.is_in && change.instant_s >= experiment_.warm_up_s &&
                change.instant_s < experiment_.warm_up_s + experiment_.duration_s;
   EXPECT_EQ(server["scope_exits"], exits);
@@ -118,19 +118,19 @@ TEST_F(VirtualRunTest, TheDecisionInForceIsThatOfTheNewestTick) {
   settings_.wants_truth = true;
   run(first_cell());
   const std::string stem = (folder_ / name_of(first_cell())).string();
-  const game::ServerEvidence server = game::read_server_evidence(stem + ".server.jsonl");
-  const BotsEvidence bots = read_bots_evidence(stem + ".bots.jsonl");
+  const game::ServerTrace server = game::read_server_trace(stem + ".server.jsonl");
+  const BotsTrace bots = read_bots_trace(stem + ".bots.jsonl");
   const game::Game game(scene_of(experiment_, first_cell()));
   ASSERT_EQ(server.decisions.size(), 20u * 6u) << "20 instants of 6 players";
   std::set<std::vector<std::uint32_t>> different;
-  for (const game::ServerEvidence::Decision& decision : server.decisions) {
+  for (const game::ServerTrace::Decision& decision : server.decisions) {
     const std::uint32_t body = game.bat(decision.player)->index;
     const std::uint32_t bat =
-        std::ranges::find(server.objects, body, &game::ServerEvidence::Naming::body)->object;
+        std::ranges::find(server.objects, body, &game::ServerTrace::Naming::body)->object;
     std::set<std::uint32_t> mirrored,
         decided(server.scope_of(decision).begin(), server.scope_of(decision).end());
-    for (const BotsEvidence::ScopeChange& change :
-         std::ranges::find(bots.bots, bat, &BotsEvidence::Bot::object)->changes) {
+    for (const BotsTrace::ScopeChange& change :
+         std::ranges::find(bots.bots, bat, &BotsTrace::Bot::object)->changes) {
       if (change.instant_s > decision.instant_s) break;
       if (change.is_in) mirrored.insert(change.object);
       else mirrored.erase(change.object);
@@ -150,21 +150,24 @@ TEST_F(VirtualRunTest, WhatCameWithinTheWindowBeforeASampleIsOneTicksUpdates) {
   experiment_.delay_ms = 0.0;
   settings_.wants_truth = true;
   const RunRecord record = run(first_cell());
-  const BotsEvidence bots =
-      read_bots_evidence((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string());
-  ASSERT_GT(bots.beliefs.size(), 1'000u);
+  const BotsTrace bots =
+      read_bots_trace((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string());
+  ASSERT_GT(bots.replicas.size(), 1'000u);
   std::set<std::uint32_t> sizes;
-  for (const BotsEvidence::Belief& belief : bots.beliefs) sizes.insert(belief.bytes);
+  for (const BotsTrace::Replica& replica : bots.replicas) sizes.insert(replica.bytes);
   EXPECT_LE(*sizes.rbegin(), 16u) << "two f32, and a bat's count of keys";
   EXPECT_EQ(
-      std::ranges::count_if(bots.beliefs, [](const auto& belief) { return belief.bytes == 8u; }),
-      std::ranges::count_if(
-          bots.beliefs, [](const auto& belief) { return belief.bytes > 0 && belief.bytes < 9; }));
-  for (const BotsEvidence::Sample& sample : bots.samples) {
-    const auto beliefs = std::span(bots.beliefs).subspan(sample.first, sample.last - sample.first);
+      std::ranges::count_if(bots.replicas, [](const auto& replica) { return replica.bytes == 8u; }),
+      std::ranges::count_if(bots.replicas, [](const auto& replica) {
+        return replica.bytes > 0 && replica.bytes < 9;
+      }));
+  for (const BotsTrace::Sample& sample : bots.samples) {
+    const auto replicas =
+        std::span(bots.replicas).subspan(sample.first, sample.last - sample.first);
     ASSERT_EQ(sample.window_s, 0.05);
-    ASSERT_GT(std::ranges::count_if(beliefs, [](const auto& belief) { return belief.bytes > 0; }),
-              static_cast<std::ptrdiff_t>(beliefs.size()) * 9 / 10)
+    ASSERT_GT(
+        std::ranges::count_if(replicas, [](const auto& replica) { return replica.bytes > 0; }),
+        static_cast<std::ptrdiff_t>(replicas.size()) * 9 / 10)
         << "all that move, at " << sample.displayed_s;
   }
   EXPECT_GT(*record.truth.wasted_bytes_fraction, 0.5) << "each sees a twentieth of the field";

@@ -13,8 +13,8 @@
 #include "game/control/game.h"
 #include "game/control/game_state.h"
 #include "game/control/key_log_file.h"
-#include "game/net/evidence.h"
-#include "game/net/evidence_lines.h"
+#include "game/net/server_trace.h"
+#include "game/net/trace_lines.h"
 #include "im/basics/hexadecimal.h"
 #include "loadgen/experiment/experiment_file.h"
 #include "loadgen/run/cell_runner.h"
@@ -82,7 +82,7 @@ TEST_F(WarmStart, RunInVirtualTimePlaysOnTheGameAndIsJudgedByIt) {
   const RunRecord record = virtual_run();
   EXPECT_EQ(record.why_invalid, "");
   EXPECT_EQ(record.state_hash, hash_in_one_go());
-  EXPECT_EQ(record.truth.trouble, "");
+  EXPECT_EQ(record.truth.error, "");
   EXPECT_GT(record.truth.delivered_recall.value_or(0.0), 0.9);
   EXPECT_EQ(record.start_s, 20.0);
   EXPECT_EQ(record.keys_due, keys_within(20.25, 21.25))
@@ -91,11 +91,11 @@ TEST_F(WarmStart, RunInVirtualTimePlaysOnTheGameAndIsJudgedByIt) {
       test::text_of(settings_.directory / (name_of(cell()) + ".bots.json")))["update_age_ms"];
   EXPECT_NEAR(ages["min_s"].get<double>(), 0.01, 1e-9);
   EXPECT_NEAR(ages["max_s"].get<double>(), 0.01, 1e-9);
-  const game::ServerEvidence evidence = game::read_server_evidence(evidence_file());
-  EXPECT_EQ(evidence.from_s, 20.25);
-  EXPECT_EQ(evidence.until_s, 21.25);
-  ASSERT_FALSE(evidence.keys.empty());
-  EXPECT_GT(evidence.keys.front().time, 20.0);
+  const game::ServerTrace trace = game::read_server_trace(evidence_file());
+  EXPECT_EQ(trace.from_s, 20.25);
+  EXPECT_EQ(trace.until_s, 21.25);
+  ASSERT_FALSE(trace.keys.empty());
+  EXPECT_GT(trace.keys.front().time, 20.0);
 }
 
 TEST_F(WarmStart, RunOverSocketsEndsInTheSameStateAndTheJudgeFindsTheSavedGame) {
@@ -103,9 +103,9 @@ TEST_F(WarmStart, RunOverSocketsEndsInTheSameStateAndTheJudgeFindsTheSavedGame) 
   write_plan();
   const RunRecord record = run_cell(settings_, experiment_, cell(), log()).value_or(RunRecord{});
   EXPECT_EQ(record.state_hash, hash_in_one_go()) << record.why_invalid;
-  EXPECT_EQ(record.truth.trouble, "");
+  EXPECT_EQ(record.truth.error, "");
   EXPECT_TRUE(record.truth.filter_recall);
-  EXPECT_EQ(game::read_server_evidence(evidence_file()).state_file, state_file_of(log()).string());
+  EXPECT_EQ(game::read_server_trace(evidence_file()).state_file, state_file_of(log()).string());
 }
 
 TEST_F(WarmStart, LiveKeysOfRandomPlayersTakeEffectInTheGameThatTheyBegan) {
@@ -113,7 +113,7 @@ TEST_F(WarmStart, LiveKeysOfRandomPlayersTakeEffectInTheGameThatTheyBegan) {
   write_plan();
   const RunRecord record = virtual_run();
   EXPECT_EQ(record.why_invalid, "");
-  EXPECT_EQ(record.truth.trouble, "");
+  EXPECT_EQ(record.truth.error, "");
   EXPECT_NE(record.state_hash, hash_in_one_go()) << "keys take effect when they arrive, 10 ms late";
 }
 
@@ -121,11 +121,11 @@ TEST_F(WarmStart, SameSeedGivesTheSameFilesInVirtualTime) {
   write_plan();
   virtual_run();
   const std::string state = test::text_of(state_file_of(log())),
-                    evidence = test::text_of(evidence_file());
+                    trace = test::text_of(evidence_file());
   write_plan();
   virtual_run();
   EXPECT_EQ(test::text_of(state_file_of(log())), state);
-  EXPECT_EQ(test::text_of(evidence_file()), evidence);
+  EXPECT_EQ(test::text_of(evidence_file()), trace);
 }
 
 TEST_F(WarmStart, EvidenceMovesWithItsSavedGameAndIsNotReadWithoutOrWithAnother) {
@@ -135,13 +135,13 @@ TEST_F(WarmStart, EvidenceMovesWithItsSavedGameAndIsNotReadWithoutOrWithAnother)
   std::filesystem::copy(
       folder_.path(), elsewhere.path(),
       std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
-  const std::filesystem::path evidence = elsewhere / "cells" / evidence_file().filename(),
+  const std::filesystem::path trace = elsewhere / "cells" / evidence_file().filename(),
                               state = elsewhere / "keys" / "seed3.state";
-  EXPECT_EQ(game::read_server_evidence(evidence).state_file, state.string());
+  EXPECT_EQ(game::read_server_trace(trace).state_file, state.string());
   const auto refusal = [&] {
     try {
-      game::read_server_evidence(evidence);
-    } catch (const game::EvidenceError& error) {
+      game::read_server_trace(trace);
+    } catch (const game::TraceError& error) {
       return std::string(error.what());
     }
     return std::string("(accepted)");

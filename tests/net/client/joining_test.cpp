@@ -40,7 +40,7 @@ TEST(Joining, EndsWhereNoBatIsFree) {
   Joining joining;
   EXPECT_FALSE(joining.offer({}));
   EXPECT_EQ(joining.state(), State::refused);
-  EXPECT_EQ(joining.trouble(), "no bat is free");
+  EXPECT_EQ(joining.error(), "no bat is free");
   EXPECT_FALSE(joining.refusal()) << "the RTI had let it in";
 }
 
@@ -59,7 +59,7 @@ TEST(Joining, TellsWhyItIsRefusedOrLost) {
   EXPECT_EQ(joining.refusal(), rti::Refusal::name_taken);
   joining.lose("the line is dead");
   EXPECT_EQ(joining.state(), State::lost);
-  EXPECT_EQ(joining.trouble(), "the line is dead");
+  EXPECT_EQ(joining.error(), "the line is dead");
 }
 
 TEST(Joining, OfOneWhoWatchesNeedsNoBat) {

@@ -1,9 +1,9 @@
 // What a client asks the server beside the game, and what it keeps of the answers.
 #include <gtest/gtest.h>
 
-#include "game/net/client/heard_log.h"
 #include "game/net/client/interest_questions.h"
 #include "game/net/client/match_remote.h"
+#include "game/net/client/receipt_log.h"
 #include "game/net/interest_codec.h"
 #include "game/replication/trajectory_codec.h"
 #include "tests/places.h"
@@ -24,8 +24,8 @@ TEST(AMatchRemote, GivesTheNewestAnswerOnce) {
   Lonely lonely;
   MatchRemote remote(lonely.ambassador, lonely.model);
   EXPECT_FALSE(remote.take_pong());
-  remote.hear({7, 1.5});
-  remote.hear({8, 2.5});
+  remote.receive({7, 1.5});
+  remote.receive({8, 2.5});
   const auto pong = remote.take_pong();
   ASSERT_TRUE(pong);
   EXPECT_EQ(pong->number, 8u);
@@ -40,14 +40,14 @@ TEST(InterestQuestions, KeepAnAnswerUntilItIsTakenAndNothingThatIsNone) {
   std::vector<std::byte> bytes;
   rti::Writer writer(bytes);
   exchange(writer, seen);
-  questions.hear(bytes);
-  questions.hear(rti::Bytes(bytes).first(3));
+  questions.receive(bytes);
+  questions.receive(rti::Bytes(bytes).first(3));
   EXPECT_EQ(questions.take(), seen);
   EXPECT_FALSE(questions.take());
 }
 
 TEST(AHeardLog, KeepsNothingUnlessItIsWatched) {
-  HeardLog log;
+  ReceiptLog log;
   log.note_scope({1}, true);
   log.note_update({1}, 12);
   EXPECT_TRUE(log.scopes().empty() && log.updates().empty());

@@ -21,20 +21,20 @@ TEST(TurnTaker, IsIdleUntilItHearsThePace) {
 
 TEST(TurnTaker, HasTheTurnAfterEachTickItIsToldOf) {
   TurnTaker turns;
-  EXPECT_TRUE(turns.hear(by_turns, 0.3));
+  EXPECT_TRUE(turns.receive(by_turns, 0.3));
   EXPECT_TRUE(turns.has_turn());
   EXPECT_EQ(turns.turn_s(), 0.3);
   turns.end_turn();
   EXPECT_FALSE(turns.has_turn());
-  EXPECT_FALSE(turns.hear(by_turns, 0.4)) << "the pace it knows already";
+  EXPECT_FALSE(turns.receive(by_turns, 0.4)) << "the pace it knows already";
   EXPECT_TRUE(turns.has_turn());
   EXPECT_EQ(turns.turn_s(), 0.4);
 }
 
 TEST(TurnTaker, KeepsLogicalTimeOnceItIsConstrainedAndIfItSpeaksRegulating) {
   TurnTaker hearing, speaking;
-  hearing.hear(by_time, 0.0);
-  speaking.hear(by_both, 0.0);
+  hearing.receive(by_time, 0.0);
+  speaking.receive(by_both, 0.0);
   EXPECT_FALSE(hearing.is_time_kept(false, true));
   EXPECT_TRUE(hearing.is_time_kept(true, false));
   EXPECT_FALSE(speaking.is_time_kept(true, false));
@@ -43,14 +43,14 @@ TEST(TurnTaker, KeepsLogicalTimeOnceItIsConstrainedAndIfItSpeaksRegulating) {
 
 TEST(TurnTaker, BeginsWithItsOwnTurnUnlessItIsLate) {
   TurnTaker turns;
-  turns.hear(by_both, 0.0);
+  turns.receive(by_both, 0.0);
   EXPECT_FALSE(turns.has_turn()) << "logical time has not begun";
   EXPECT_FALSE(turns.begin());
   EXPECT_TRUE(turns.has_turn());
   TurnTaker late;
   Pace pace = by_both;
   pace.is_late = 1;
-  late.hear(pace, 0.0);
+  late.receive(pace, 0.0);
   EXPECT_TRUE(late.is_late());
   EXPECT_TRUE(late.begin());
   EXPECT_FALSE(late.has_turn());
@@ -58,11 +58,11 @@ TEST(TurnTaker, BeginsWithItsOwnTurnUnlessItIsLate) {
 
 TEST(TurnTaker, AsksForOneTickAfterTheOtherWhereAllWaitForEachOther) {
   TurnTaker turns;
-  turns.hear(by_both, 0.0);
+  turns.receive(by_both, 0.0);
   const TickGrid grid{rate_hz};
   for (std::uint64_t tick = 1; tick < 20; ++tick) {
-    const TurnTaker::Request request = turns.next(grid.heard(tick - 1));
-    EXPECT_EQ(request.time, grid.heard(tick));
+    const TurnTaker::Request request = turns.next(grid.received(tick - 1));
+    EXPECT_EQ(request.time, grid.received(tick));
     EXPECT_FALSE(request.asks_bounds);
     EXPECT_FALSE(turns.grant(request.time));
     EXPECT_TRUE(turns.has_turn());
@@ -73,26 +73,26 @@ TEST(TurnTaker, AsksForOneTickAfterTheOtherWhereAllWaitForEachOther) {
 
 TEST(TurnTaker, AsksNowAndThenHowFarTheServerIsAndCatchesUp) {
   TurnTaker turns;
-  turns.hear(by_time, 0.0);
+  turns.receive(by_time, 0.0);
   const TickGrid grid{rate_hz};
   EXPECT_TRUE(turns.next(0.0).asks_bounds);
-  EXPECT_FALSE(turns.grant(grid.heard(1))) << "the answer comes first";
+  EXPECT_FALSE(turns.grant(grid.received(1))) << "the answer comes first";
   EXPECT_FALSE(turns.has_turn());
-  EXPECT_TRUE(turns.hear_bounds(grid.heard(30)));
-  EXPECT_FALSE(turns.hear_bounds(grid.heard(40))) << "nobody asked";
-  const TurnTaker::Request request = turns.next(grid.heard(1));
-  EXPECT_EQ(request.time, grid.heard(30));
+  EXPECT_TRUE(turns.receive_bounds(grid.received(30)));
+  EXPECT_FALSE(turns.receive_bounds(grid.received(40))) << "nobody asked";
+  const TurnTaker::Request request = turns.next(grid.received(1));
+  EXPECT_EQ(request.time, grid.received(30));
   EXPECT_FALSE(request.asks_bounds);
   EXPECT_TRUE(turns.grant(request.time));
 }
 
 TEST(TurnTaker, GoesOnTickByTickWhereNobodyBoundsTheTime) {
   TurnTaker turns;
-  turns.hear(by_time, 0.0);
+  turns.receive(by_time, 0.0);
   turns.next(0.0);
-  EXPECT_TRUE(turns.hear_bounds(std::numeric_limits<double>::infinity()));
+  EXPECT_TRUE(turns.receive_bounds(std::numeric_limits<double>::infinity()));
   const TickGrid grid{rate_hz};
-  EXPECT_EQ(turns.next(grid.heard(4)).time, grid.heard(5));
+  EXPECT_EQ(turns.next(grid.received(4)).time, grid.received(5));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <chrono>
 #include <thread>
 
-#include "game/net/peer/meeting/rank_mail.h"
+#include "game/net/peer/network/rank_mail.h"
 
 int main() {
   rink::rti::Ranks ranks;

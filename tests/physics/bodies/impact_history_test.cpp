@@ -101,11 +101,11 @@ TEST(ImpactHistory, GivesUpRoomAfterTenThousandMeetingsAtOneInstantAndHopeAfterT
   const Contact other_way{pucks.two, partner::wall_top, {}};
   for (int meeting = 1; meeting <= 20'001; ++meeting) {
     pucks.history.count_meeting(pucks.contact, 1.0);
-    ASSERT_EQ(pucks.history.is_hemmed_in(other_way), meeting > 10'000) << meeting;
-    ASSERT_EQ(pucks.history.is_beyond_hope(pucks.contact), meeting > 20'000) << meeting;
+    ASSERT_EQ(pucks.history.is_jammed(other_way), meeting > 10'000) << meeting;
+    ASSERT_EQ(pucks.history.is_stalled(pucks.contact), meeting > 20'000) << meeting;
   }
   pucks.history.count_meeting(pucks.contact, 2.0);
-  EXPECT_FALSE(pucks.history.is_hemmed_in(pucks.contact));
+  EXPECT_FALSE(pucks.history.is_jammed(pucks.contact));
 }
 
 /// Where bodies may start in overlap. Both are counted, also when one has had its fill already.

@@ -91,7 +91,7 @@ void judge_shapes(Errors& errors, Seeded& seeded, Difficulty difficulty, Shapes 
                             : shapes == Shapes::disc_and_box ? Obstacle{exact(eb), ra}
                                                              : Obstacle{exact(ea) + exact(eb), 0};
   const Curved flight{pair.a, pair.b};
-  if (obstacle.holds(flight.at(start))) return;
+  if (obstacle.rest_contacts(flight.at(start))) return;
   const auto answer = shapes == Shapes::discs
                           ? time_disc_meets_disc(pair.a, ra, pair.b, rb, {start, until})
                       : shapes == Shapes::disc_and_box
@@ -99,7 +99,7 @@ void judge_shapes(Errors& errors, Seeded& seeded, Difficulty difficulty, Shapes 
                           : time_box_meets_box(pair.a, ea, pair.b, eb, {start, until});
   const double time = answer ? answer->time : until;
   judge(errors, answer, obstacle.gap(flight.at(time)), pair.length(time, reach),
-        [&](double t) { return obstacle.holds(flight.near(t)); });
+        [&](double t) { return obstacle.rest_contacts(flight.near(t)); });
 }
 
 void judge_driven_edge(Errors& errors, Seeded& seeded, Difficulty difficulty) {

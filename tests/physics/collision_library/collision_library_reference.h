@@ -62,7 +62,7 @@ struct Obstacle {
     const Quad x = magnitude(p.x) - half_extent.x, y = magnitude(p.y) - half_extent.y;
     return (x > y ? x : y) - radius;
   }
-  bool holds(const QuadPoint& p) const {
+  bool rest_contacts(const QuadPoint& p) const {
     const QuadPoint out = outside(p);
     return dot(out, out) <= radius * radius;
   }
@@ -79,10 +79,10 @@ struct Flight {
 
 /// The instant at which `holds` turns from false (at `low`) to true (at `high`).
 template <class Holds>
-Quad turning(Quad low, Quad high, const Holds& holds) {
+Quad turning(Quad low, Quad high, const Holds& rest_contacts) {
   for (int i = 0; i < halvings; ++i) {
     const Quad middle = (low + high) / 2;
-    (holds(middle) ? high : low) = middle;
+    (rest_contacts(middle) ? high : low) = middle;
   }
   return high;
 }
@@ -91,20 +91,20 @@ Quad turning(Quad low, Quad high, const Holds& holds) {
 /// it falls until the closest approach, where its slope turns.
 inline std::optional<Quad> first_touch(const Flight& flight, const Obstacle& obstacle) {
   const auto has_passed = [&](Quad time) {
-    return obstacle.holds(flight.at(time)) ||
+    return obstacle.rest_contacts(flight.at(time)) ||
            dot(obstacle.outside(flight.at(time)), flight.velocity) >= 0;
   };
   if (has_passed(0)) return std::nullopt;
   Quad passed = 1e-12;
   while (!has_passed(passed)) passed = 2 * passed;
   Quad before = 0;
-  while (!obstacle.holds(flight.at(passed))) {
+  while (!obstacle.rest_contacts(flight.at(passed))) {
     const Quad middle = (before + passed) / 2;
     if (middle <= before || middle >= passed || passed - before <= passed * Quad(1e-33))
       return std::nullopt;
     (has_passed(middle) ? passed : before) = middle;
   }
-  return turning(0, passed, [&](Quad time) { return obstacle.holds(flight.at(time)); });
+  return turning(0, passed, [&](Quad time) { return obstacle.rest_contacts(flight.at(time)); });
 }
 
 /// The unit outward normal where the flight touches at `time`.

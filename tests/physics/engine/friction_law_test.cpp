@@ -72,11 +72,12 @@ TEST(FrictionLaw, CalmsWhatHasComeToNothingAndNoMore) {
   const std::uint32_t slow = table.add_puck({1.0, 1.0}, {0.9e-9, -0.9e-9}),
                       quick = table.add_puck({2.0, 1.0}, {1.1e-9, 1.1e-9}),
                       bat = table.add_bat({3.0, 1.0}, {0.9e-9, 0.9e-9});
-  table.friction.calm(0, {slow});
+  table.friction.reset_friction(0, {slow});
   EXPECT_EQ(table.bodies.velocity(slow), Vector2(0.0, 0.0));
-  table.friction.calm(0, {quick});
+  table.friction.reset_friction(0, {quick});
   EXPECT_EQ(table.bodies.velocity(quick), Vector2(1.1e-9, 1.1e-9));
-  table.friction.calm(0, {bat});  // along the axis all share one velocity; across, none slows a bat
+  table.friction.reset_friction(
+      0, {bat});  // along the axis all share one velocity; across, none slows a bat
   EXPECT_EQ(table.bodies.velocity(bat), Vector2(0.0, 0.9e-9));
 }
 

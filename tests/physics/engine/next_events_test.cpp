@@ -17,13 +17,13 @@ namespace {
 
 constexpr double no_time = std::numeric_limits<double>::infinity(), far_off = 1e9;
 
-Slot impact_at(double time, Partner with) {
-  Slot slot = NextEvents::no_event;
+NextEvent impact_at(double time, Partner with) {
+  NextEvent slot = NextEvents::no_event;
   slot.impact_time = time, slot.partner = with;
   return slot;
 }
 
-void put(NextEvents& events, std::uint32_t body, const Slot& slot) {
+void put(NextEvents& events, std::uint32_t body, const NextEvent& slot) {
   events.slot(body) = slot;
   events.schedule(body);
 }
@@ -39,7 +39,7 @@ class NextEventsOfEither : public testing::TestWithParam<QueuePolicy> {
 TEST_P(NextEventsOfEither, ComeWhenTheImpactOrTheCrossingDoesWhicheverIsEarlier) {
   add(2);
   EXPECT_EQ(events.first(far_off), NextEvents::none);
-  Slot slot = impact_at(2.0, partner::wall_top);
+  NextEvent slot = impact_at(2.0, partner::wall_top);
   slot.crossing_time = 3.0;
   put(events, 1, slot);
   EXPECT_EQ(events.first(2.0), 1u);
@@ -79,7 +79,7 @@ TEST_P(NextEventsOfEither, AreForgottenByARestart) {
 TEST_P(NextEventsOfEither, AreFollowedAtOnceWhereOneOfTheTwoIsTied) {
   for (const std::uint32_t tied : {0u, 1u, 2u}) {
     events.restart(3);
-    Slot slot = impact_at(1.0, 1);
+    NextEvent slot = impact_at(1.0, 1);
     slot.is_tied = tied == 0;
     put(events, 0, slot);
     events.slot(tied).is_tied = true;
@@ -103,7 +103,7 @@ TEST_P(NextEventsOfEither, AgreeWithASearchThroughAll) {
   int followed = 0, alone = 0, without_need = 0;
   const auto draw = [&](std::uint32_t body) {
     const auto with = static_cast<Partner>(random() % count);
-    Slot slot =
+    NextEvent slot =
         impact_at(1e-3 * (std::floor(1e3 * now) + 1.0 + static_cast<double>(random() % 300)), with);
     if (random() % 3 == 0) slot.impact_time += uniform(random, 0.0, 2e-9);
     slot.crossing_time = random() % 2 == 0 ? no_time : now + uniform(random, 0.0, 0.3);

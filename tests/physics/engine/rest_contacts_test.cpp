@@ -77,10 +77,10 @@ TEST(RestContacts, HoldABodyStillAtAWallUntilItIsDrivenAway) {
   pressed.press_on_wall(bat, 0.0);
   EXPECT_EQ(pressed.bodies.velocity(bat), Vector2(0.0, 0.25));
   EXPECT_EQ(pressed.acceleration(bat), 0.0);
-  EXPECT_EQ(pressed.rests.holds()[0].force, 12.0);
+  EXPECT_EQ(pressed.rests.rest_contacts()[0].force, 12.0);
   pressed.thrust(bat, {6.0, 0.0});
   pressed.rests.share(bat, 0, 0.0);
-  EXPECT_TRUE(pressed.rests.holds().empty());
+  EXPECT_TRUE(pressed.rests.rest_contacts().empty());
   EXPECT_EQ(pressed.acceleration(bat), 6.0);
   EXPECT_FALSE(pressed.bodies[bat].is(Body::held));
   EXPECT_EQ(pressed.record.counters().releases, 1u);
@@ -94,12 +94,12 @@ TEST(RestContacts, PressAsHardAsWhatLiesBeyondNeeds) {
   pressed.thrust(0, {8.0, 0.0});
   pressed.rests.share(2, 0, 0.0);
   double beyond = 8.0;
-  ASSERT_EQ(pressed.rests.holds().size(), 3u);
+  ASSERT_EQ(pressed.rests.rest_contacts().size(), 3u);
   for (std::uint32_t body = 0; body < 4; ++body) {
     EXPECT_NEAR(pressed.acceleration(body), 1.0, 1e-12);
     beyond -= masses[body];
     if (body < 3) {
-      EXPECT_NEAR(pressed.rests.holds()[body].force, beyond, 1e-11);
+      EXPECT_NEAR(pressed.rests.rest_contacts()[body].force, beyond, 1e-11);
     }
   }
 }
@@ -181,7 +181,7 @@ TEST(RestContacts, EndWhenTheContactForceVanishesByDrag) {
   EXPECT_NEAR(pressed.next_end(puck), end, 1e-13);
   EXPECT_NEAR(motion_at(pressed.bodies, puck, end).velocity.x(), last, 1e-13);
   pressed.rests.release(puck, pressed.next_end(puck));
-  EXPECT_TRUE(pressed.rests.holds().empty());
+  EXPECT_TRUE(pressed.rests.rest_contacts().empty());
   EXPECT_EQ(pressed.bodies.law(bat).acceleration, Vector2(thrust, 0.0));
   EXPECT_EQ(pressed.bodies.law(puck).drag, Vector2(h, h));
   EXPECT_EQ(pressed.record.counters().releases, 1u);
@@ -256,7 +256,7 @@ TEST(RestContacts, LetEachGoItsOwnWayWhereTheyAreDissolved) {
   pressed.rests.share(0, 0, 0.0);
   const double speed = 1.5 * (1.0 - std::exp(-0.5)) / 0.5;
   pressed.rests.dissolve(2, 0, 1.0);
-  EXPECT_TRUE(pressed.rests.holds().empty());
+  EXPECT_TRUE(pressed.rests.rest_contacts().empty());
   for (std::uint32_t body = 0; body < 3; ++body) {
     EXPECT_EQ(pressed.bodies.velocity(body), pressed.bodies.velocity(0));
     EXPECT_NEAR(pressed.bodies.velocity(body).x(), speed, 1e-14);
@@ -274,7 +274,7 @@ TEST(RestContacts, FreeABodyOfAllThatHeldIt) {
   pressed.thrust(2, {-1.0, 0.0}), pressed.thrust(1, {0.0, 2.0});
   pressed.jams.stop(std::vector<std::uint32_t>{0, 1, 2});
   pressed.rests.free(1, 2.0);
-  EXPECT_TRUE(pressed.rests.holds().empty());
+  EXPECT_TRUE(pressed.rests.rest_contacts().empty());
   for (std::uint32_t body = 0; body < 3; ++body) {
     EXPECT_FALSE(pressed.bodies[body].is(Body::held | Body::frozen));
     EXPECT_EQ(pressed.bodies.law(body).acceleration, pressed.bodies.build(body).thrust);

@@ -21,12 +21,12 @@ TEST(FilterFacts, SayOfARegionWhatItsObjectsAgreeIn) {
   FilterFacts facts(filter);
   facts.set_object_role(0, {.team = 1, .owner = 7});
   facts.set_object_role(1, {.team = 1, .owner = 8, .is_always_relevant = true});
-  facts.tell_entity(shared_by({0}));
+  facts.inform_entity(shared_by({0}));
   EXPECT_EQ(filter.roles[4], (im::Role{.team = 1, .owner = 7}));
-  facts.tell_entity(shared_by({0, 1}));
+  facts.inform_entity(shared_by({0, 1}));
   EXPECT_EQ(filter.roles[4], (im::Role{.team = 1, .is_always_relevant = true}));
   facts.forget(1);
-  facts.tell_entity(shared_by({1, 9}));
+  facts.inform_entity(shared_by({1, 9}));
   EXPECT_EQ(filter.roles[4], im::Role{});
 }
 
@@ -36,8 +36,8 @@ TEST(FilterFacts, SayNothingThatTheFilterMakesNothingOf) {
   facts.add_federate(2);
   facts.set_federate_role(2, {.team = 1});
   facts.set_heading(2, {1.0, 0.0});
-  facts.tell_subscriber(2, 0);
-  facts.tell_entity(shared_by({0}));
+  facts.inform_subscriber(2, 0);
+  facts.inform_entity(shared_by({0}));
   facts.set_flight(shared_by({0}), {});
   EXPECT_TRUE(filter.roles.empty() && filter.subscriber_roles.empty() && filter.headings.empty() &&
               filter.flights.empty());
@@ -50,7 +50,7 @@ TEST(FilterFacts, TellASubscriptionOfItsFederate) {
   facts.set_federate_role(2, {.team = 1});
   EXPECT_TRUE(facts.set_heading(2, {0.0, 1.0}));
   EXPECT_FALSE(facts.set_heading(2, {0.0, 1.0})) << "it looks there already";
-  facts.tell_subscriber(2, 5);
+  facts.inform_subscriber(2, 5);
   EXPECT_EQ(filter.subscriber_roles[5].team, 1u);
   EXPECT_EQ(filter.headings[5], (im::Heading{0.0, 1.0}));
   facts.add_federate(2);

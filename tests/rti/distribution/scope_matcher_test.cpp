@@ -54,9 +54,9 @@ TEST(AScopeMatcher, PutsEverythingIntoTheScopeOfOneWhoSubscribesEverywhere) {
   Parts parts;
   parts.subscriptions.subscribe(1, body_class, {parts.one, parts.one}, no_region);
   parts.match();
-  EXPECT_EQ(parts.told().told(0, body_class), parts.one);
-  EXPECT_EQ(parts.told().told(1, puck_class), parts.one);
-  EXPECT_TRUE(parts.told().has_fresh);
+  EXPECT_EQ(parts.told().attributes_in_scope(0, body_class), parts.one);
+  EXPECT_EQ(parts.told().attributes_in_scope(1, puck_class), parts.one);
+  EXPECT_TRUE(parts.told().needs_any_full_state);
   ASSERT_EQ(parts.told().events.size(), 2u);
   EXPECT_EQ(parts.told().events[0].slot, 0u);
   EXPECT_EQ(parts.counters.entries, 2u);
@@ -70,10 +70,10 @@ TEST(AScopeMatcher, FollowsTheFilterWithinARegion) {
   parts.match();
   EXPECT_TRUE(parts.told().events.empty());
   parts.match({parts.change(im::Transition::entered, 1)});
-  EXPECT_EQ(parts.told().told(1, puck_class), parts.both);
-  EXPECT_TRUE(parts.told().told(0, body_class).is_empty());
+  EXPECT_EQ(parts.told().attributes_in_scope(1, puck_class), parts.both);
+  EXPECT_TRUE(parts.told().attributes_in_scope(0, body_class).is_empty());
   parts.match({parts.change(im::Transition::left, 1)});
-  EXPECT_TRUE(parts.told().told(1, puck_class).is_empty());
+  EXPECT_TRUE(parts.told().attributes_in_scope(1, puck_class).is_empty());
   EXPECT_EQ(parts.told().events.size(), 2u);
   EXPECT_EQ(parts.counters.exits, 1u);
 }
@@ -84,8 +84,8 @@ TEST(AScopeMatcher, LetsAFederateHearOfWhatItOwnsByNumberWhateverTheFilterSays) 
   parts.facts.set_federate_role(1, {.owner = 7});
   parts.subscriptions.subscribe(1, body_class, {parts.both, parts.both}, parts.view());
   parts.match();
-  EXPECT_EQ(parts.told().told(0, body_class), parts.both);
-  EXPECT_TRUE(parts.told().told(1, puck_class).is_empty());
+  EXPECT_EQ(parts.told().attributes_in_scope(0, body_class), parts.both);
+  EXPECT_TRUE(parts.told().attributes_in_scope(1, puck_class).is_empty());
 }
 
 TEST(AScopeMatcher, TakesOnlyTheAttributesWhoseRegionsOverlap) {
@@ -100,7 +100,7 @@ TEST(AScopeMatcher, TakesOnlyTheAttributesWhoseRegionsOverlap) {
   parts.match({{.subscriber = parts.subscriptions.of(1).regionals[0].subscriber,
                 .entity = near,
                 .transition = im::Transition::entered}});
-  EXPECT_EQ(parts.told().told(0, body_class), parts.both.without(parts.one));
+  EXPECT_EQ(parts.told().attributes_in_scope(0, body_class), parts.both.without(parts.one));
   EXPECT_FALSE(parts.told().is_uniform);
 }
 
@@ -119,8 +119,8 @@ TEST(AScopeMatcher, KnowsWhatIsHeardActively) {
   Parts parts;
   parts.subscriptions.subscribe(1, body_class, {parts.both, parts.one}, no_region);
   parts.match();
-  EXPECT_EQ(parts.told().told(0, body_class), parts.both);
-  EXPECT_EQ(parts.matcher.told_actively(1, 0), parts.one);
+  EXPECT_EQ(parts.told().attributes_in_scope(0, body_class), parts.both);
+  EXPECT_EQ(parts.matcher.actively_in_scope(1, 0), parts.one);
 }
 
 }  // namespace

@@ -19,11 +19,11 @@ TEST(ATurnPlanner, LetsThoseOfAFartherTierWaitForTheirTurn) {
   parts.match(
       {parts.change(im::Transition::entered, 0, 0), parts.change(im::Transition::entered, 1, 1)});
   FederateInterest& interest = parts.scopes.of(1);
-  interest.fresh.clear();
+  interest.needs_full_state.clear();
   std::size_t waited = 0;
   for (int match = 0; match < 4; ++match) {
     parts.turns.begin_match();
-    parts.turns.take_turns(interest);
+    parts.turns.plan_turns(interest);
     EXPECT_FALSE(interest.turns->waiting.contains(0)) << "it is in the nearest";
     waited += interest.turns->waiting.contains(1) ? 1u : 0u;
   }
@@ -36,10 +36,10 @@ TEST(ATurnPlanner, LetsNobodyWaitWhoIsHeardOfWithoutTheFilter) {
   parts.subscriptions.subscribe(1, body_class, {parts.both, parts.both}, parts.view());
   parts.match({parts.change(im::Transition::entered, 1, 3)});
   FederateInterest& interest = parts.scopes.of(1);
-  interest.fresh.clear();
+  interest.needs_full_state.clear();
   for (int match = 0; match < 8; ++match) {
     parts.turns.begin_match();
-    parts.turns.take_turns(interest);
+    parts.turns.plan_turns(interest);
     EXPECT_FALSE(interest.turns->waiting.contains(1));
   }
 }
@@ -56,11 +56,11 @@ TEST(ATurnPlanner, TellsOfTierKOnceInTwoToTheKMatches) {
     changes.push_back(parts.change(im::Transition::entered, slot, tier_of(slot)));
   parts.match(changes);
   FederateInterest& interest = parts.scopes.of(1);
-  interest.fresh.clear();
+  interest.needs_full_state.clear();
   std::vector<int> told(300), last(300);
   for (int match = 1; match <= 256; ++match) {
     parts.turns.begin_match();
-    parts.turns.take_turns(interest);
+    parts.turns.plan_turns(interest);
     for (ObjectSlot slot = 0; slot < 300; ++slot) {
       if (interest.turns->waiting.contains(slot)) continue;
       const int period = 1 << std::min<int>(tier_of(slot), 6);
@@ -101,10 +101,10 @@ TEST(ATurnPlanner, TellsAtOnceOfWhoChangesTiers) {
   parts.subscriptions.subscribe(1, body_class, {parts.both, parts.both}, parts.view());
   parts.match({parts.change(im::Transition::entered, 1, 6)});
   FederateInterest& interest = parts.scopes.of(1);
-  interest.fresh.clear();
+  interest.needs_full_state.clear();
   const auto is_waiting = [&] {
     parts.turns.begin_match();
-    parts.turns.take_turns(interest);
+    parts.turns.plan_turns(interest);
     return interest.turns->waiting.contains(1);
   };
   EXPECT_TRUE(is_waiting());
@@ -127,7 +127,7 @@ TEST(ATurnPlanner, SharesABudgetOutSoThatNobodyStarves) {
   for (int match = 1; match <= 40; ++match) {
     parts.turns.begin_match();
     parts.match(std::exchange(changes, {}));
-    parts.turns.take_turns(interest);
+    parts.turns.plan_turns(interest);
     parts.turns.share_out(interest, [](ObjectSlot) { return std::size_t{10}; });
     int told = 0;
     for (ObjectSlot slot = 0; slot < 10; ++slot) {
@@ -146,7 +146,7 @@ TEST(ATurnPlanner, SharesABudgetOutOnceForEachMatch) {
   parts.match({parts.change(im::Transition::entered, 0), parts.change(im::Transition::entered, 1)});
   FederateInterest& interest = parts.scopes.of(1);
   const auto waiting = [&] {
-    parts.turns.take_turns(interest);
+    parts.turns.plan_turns(interest);
     parts.turns.share_out(interest, [](ObjectSlot) { return std::size_t{10}; });
     return int{interest.turns->waiting.contains(0)} + int{interest.turns->waiting.contains(1)};
   };
@@ -164,7 +164,7 @@ TEST(ATurnPlanner, SpendsNoBudgetOnWhatNeverWaits) {
   FederateInterest& interest = parts.scopes.of(1);
   parts.turns.begin_match();
   parts.match({parts.change(im::Transition::entered, 0), parts.change(im::Transition::entered, 1)});
-  parts.turns.take_turns(interest);
+  parts.turns.plan_turns(interest);
   parts.turns.share_out(interest, [](ObjectSlot slot) { return slot == 0 ? 10u : 1'000'000u; });
   EXPECT_FALSE(interest.turns->waiting.contains(0));
   EXPECT_FALSE(interest.turns->waiting.contains(1));

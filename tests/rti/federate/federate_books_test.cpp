@@ -71,15 +71,15 @@ TEST(ObjectBook, RemembersWhatItLeftUntilTheRtiHasHeardSo) {
 
 TEST(DeclaredClasses, TurnOnceForEachChangeOfWhatOthersHear) {
   DeclaredClasses classes(harbour());
-  EXPECT_TRUE(classes.heard(vessel).includes(motion)) << "all, until the RTI has told";
+  EXPECT_TRUE(classes.subscribed(vessel).includes(motion)) << "all, until the RTI has told";
   classes.publish(vessel, AttributeSet{position});
   EXPECT_FALSE(classes.turn(vessel, true)) << "nobody subscribes actively yet";
   classes.set_others(vessel, {motion, motion});
   EXPECT_EQ(classes.turn(vessel, true), true);
   EXPECT_FALSE(classes.turn(vessel, true)) << "it was told";
   classes.set_others(vessel, {{}, {}});
-  EXPECT_FALSE(classes.heard(vessel).contains(position));
-  EXPECT_TRUE(classes.heard(vessel).contains(speed)) << "it is not published";
+  EXPECT_FALSE(classes.subscribed(vessel).contains(position));
+  EXPECT_TRUE(classes.subscribed(vessel).contains(speed)) << "it is not published";
   EXPECT_EQ(classes.turn(vessel, true), false);
   classes.set_others(vessel, {motion, motion});
   EXPECT_FALSE(classes.turn(vessel, false)) << "the switch is off";

@@ -52,14 +52,14 @@ TEST(FrameOutbox, RefusesStrangersAndThoseWhoHaveLeft) {
 }
 
 TEST(LinkWatch, WaitsForASilentRtiAndBeatsWhenIdle) {
-  LinkWatch watch(Patience{1.0, 5.0});
+  LinkWatch watch(Timeouts{1.0, 5.0});
   watch.advance(100.0, false);
   EXPECT_FALSE(watch.is_rti_lost()) << "the clock starts where it is first set";
   watch.advance(101.0, false);
   EXPECT_TRUE(watch.is_heartbeat_due());
   watch.beat();
   EXPECT_FALSE(watch.is_heartbeat_due());
-  watch.heard();
+  watch.received();
   watch.advance(104.0, true);
   EXPECT_FALSE(watch.is_heartbeat_due()) << "something waits to go out";
   watch.advance(109.0, false);

@@ -30,7 +30,7 @@ struct Ways : ::testing::Test {
     return orders.accept(0, {7}, 0, set, order_of_datagram({number, frames}));
   }
   void by_frame(AttributeSet set) {
-    orders.hear_frame(0);
+    orders.count_frame(0);
     orders.accept_frame(0, {7}, 0, set);
   }
   ArrivalOrders orders{sea()};
@@ -46,7 +46,7 @@ TEST_F(Ways, TakeNothingOfADatagramThatANewerOneHasOvertaken) {
 TEST_F(Ways, TakeNothingThatAFrameHasSaidSince) {
   orders.begin(0);
   by_frame(place);
-  EXPECT_EQ(orders.frames_heard(0), 1u);
+  EXPECT_EQ(orders.frames_received(0), 1u);
   EXPECT_EQ(by_datagram(0, 9, place | speed), speed) << "it was sent before the frame";
   EXPECT_EQ(by_datagram(1, 10, place), place);
 }
@@ -64,14 +64,14 @@ TEST_F(Ways, ForgetOneWhoLeft) {
   by_frame(place);
   orders.left(0);
   orders.joined(0);
-  EXPECT_EQ(orders.frames_heard(0), 0u);
+  EXPECT_EQ(orders.frames_received(0), 0u);
   EXPECT_FALSE(orders.is_kept(0));
 }
 
 /// The latest of all orders that were accepted, for each attribute; a frame's is its number.
 TEST_F(Ways, AgreeWithTheGreatestOrderOfEachAttribute) {
   constexpr std::uint64_t seed = 9;
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937_64 random(seed);
   orders.begin(0);
   std::map<std::uint32_t, std::uint64_t> newest;
@@ -107,22 +107,22 @@ TEST(ANewestStamp, IsThatOfTheOwnerAndNotOlderThanWhatAFormerOwnerSaid) {
   NewestStamps newest(objects, ownership);
   newest.joined(0), newest.joined(1);
   const ObjectSlot boat = objects.insert({0}, 0, 0, "");
-  newest.say(0, {.time = 5.0, .tag = 1});
+  newest.note(0, {.time = 5.0, .tag = 1});
   EXPECT_EQ(newest.of(boat).time, 5.0);
-  newest.say_unless_older(0, {.time = 4.0, .tag = 2});
+  newest.note_unless_older(0, {.time = 4.0, .tag = 2});
   EXPECT_EQ(newest.of(boat).time, 5.0);
-  newest.say_unless_older(0, {.time = 5.0, .tag = 3});
+  newest.note_unless_older(0, {.time = 5.0, .tag = 3});
   EXPECT_EQ(newest.of(boat).tag, 3u) << "it came later";
-  newest.say_if_newer(0, {.time = 5.0, .tag = 4});
+  newest.note_if_newer(0, {.time = 5.0, .tag = 4});
   EXPECT_EQ(newest.of(boat).tag, 3u);
   newest.inherit(boat, newest.of(boat));
   objects[boat].owner = 1;
-  newest.say(1, {.time = 3.0, .tag = 5});
+  newest.note(1, {.time = 3.0, .tag = 5});
   EXPECT_EQ(newest.of(boat).time, 5.0);
-  newest.say(1, {.time = 6.0, .tag = 6});
+  newest.note(1, {.time = 6.0, .tag = 6});
   EXPECT_EQ(newest.of(boat).time, 6.0);
   newest.forget(boat);
-  newest.say(1, {.time = 1.0, .tag = 7});
+  newest.note(1, {.time = 1.0, .tag = 7});
   EXPECT_EQ(newest.of(boat).time, 1.0);
 }
 

@@ -27,19 +27,19 @@ struct DeclaredGround : ServiceGround {
     interactions.joined(slot), owners.joined(slot), declarations.joined(slot);
     return slot;
   }
-  Outcome publish(std::uint32_t slot, std::uint16_t object_class, AttributeSet attributes) {
+  Status publish(std::uint32_t slot, std::uint16_t object_class, AttributeSet attributes) {
     return hand_in(PublishObjectClassMessage{object_class, attributes.bits},
                    [&](Reader& reader) { return declarations.handle_publish_class(slot, reader); });
   }
-  Outcome subscribe(std::uint32_t slot, std::uint16_t object_class, AttributeSet attributes,
-                    bool is_passive = false) {
-    const Outcome outcome = hand_in(
+  Status subscribe(std::uint32_t slot, std::uint16_t object_class, AttributeSet attributes,
+                   bool is_passive = false) {
+    const Status status = hand_in(
         SubscribeObjectClassMessage{object_class, attributes.bits, RegionHandle::none, is_passive},
         [&](Reader& reader) { return declarations.handle_subscribe_class(slot, reader); });
     declarations.subscriptions_changed(slot);
-    return outcome;
+    return status;
   }
-  Outcome publish_interaction(std::uint32_t slot, std::uint16_t number) {
+  Status publish_interaction(std::uint32_t slot, std::uint16_t number) {
     return hand_in(PublishInteractionClassMessage{number, 1}, [&](Reader& reader) {
       return declarations.handle_publish_interaction(slot, reader);
     });
@@ -53,7 +53,7 @@ struct DeclaredGround : ServiceGround {
   std::optional<Subscription> told(std::uint32_t slot) {
     std::optional<Subscription> last;
     for_each_said_to<ClassRelevanceMessage>(federate(slot), [&](const auto& message) {
-      last = Subscription{AttributeSet(message.heard), AttributeSet(message.active)};
+      last = Subscription{AttributeSet(message.subscribed), AttributeSet(message.active)};
     });
     return last;
   }
@@ -62,7 +62,7 @@ struct DeclaredGround : ServiceGround {
 TEST(ServiceOfDeclarations, TellsAPublisherWhatOthersHearAndWhichOfItActively) {
   DeclaredGround all;
   const std::uint32_t ann = all.join("ann"), bob = all.join("bob"), eve = all.join("eve");
-  EXPECT_EQ(all.publish(ann, body_class, all.both), Outcome());
+  EXPECT_EQ(all.publish(ann, body_class, all.both), Status());
   EXPECT_EQ(all.told(ann), Subscription{}) << "it has to know that nobody listens";
   all.subscribe(bob, body_class, all.position);
   EXPECT_EQ(all.told(ann), (Subscription{all.position, all.position}));
@@ -94,14 +94,14 @@ TEST(ServiceOfDeclarations, HearsOfASubclassThroughItsSuperclass) {
   all.told(ann);
   all.subscribe(bob, body_class, all.position);
   EXPECT_EQ(all.told(ann), (Subscription{all.position, all.position}));
-  EXPECT_TRUE(all.declarations.is_heard({puck_class}));
-  EXPECT_FALSE(all.declarations.is_heard({0}));
+  EXPECT_TRUE(all.declarations.is_subscribed({puck_class}));
+  EXPECT_FALSE(all.declarations.is_subscribed({0}));
 }
 
 TEST(ServiceOfDeclarations, TellsOfInteractionsLikewise) {
   DeclaredGround all;
   const std::uint32_t ann = all.join("ann"), bob = all.join("bob");
-  EXPECT_EQ(all.publish_interaction(ann, 1), Outcome());
+  EXPECT_EQ(all.publish_interaction(ann, 1), Status());
   EXPECT_EQ(all.told(ann), Subscription{});
   all.subscribe_interaction(bob, 0, Listening::passive);
   EXPECT_EQ(all.told(ann), (Subscription{AttributeSet(1u), {}}));
@@ -124,7 +124,7 @@ TEST(ServiceOfDeclarations, TakesNoClassAttributeOrRegionThatThereIsNot) {
   EXPECT_EQ(all.subscribe(ann, body_class, AttributeSet(1u << 7)), Violation::unknown_name);
   EXPECT_EQ(all.publish_interaction(ann, beyond(plain_fom().interaction_classes())),
             Violation::unknown_name);
-  const Outcome in_no_region =
+  const Status in_no_region =
       hand_in(SubscribeObjectClassMessage{body_class, all.both.bits, 3, 0},
               [&](Reader& reader) { return all.declarations.handle_subscribe_class(ann, reader); });
   EXPECT_EQ(in_no_region, Violation::unknown_name);
@@ -136,7 +136,7 @@ TEST(ServiceOfDeclarations, TakesNoClassAttributeOrRegionThatThereIsNot) {
 /// all others subscribe to, which a loop over them gives.
 TEST(ServiceOfDeclarations, AgreesWithALoopOverAllWhateverIsDeclared) {
   constexpr std::uint64_t seed = 5;
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937_64 random(seed);
   DeclaredGround all;
   constexpr std::uint32_t count = 5;
@@ -159,7 +159,7 @@ TEST(ServiceOfDeclarations, AgreesWithALoopOverAllWhateverIsDeclared) {
       Subscription expected;
       for (std::uint32_t other = 0; other < count; ++other)
         if (other != publisher)
-          expected = {expected.heard | heard[other], expected.active | active[other]};
+          expected = {expected.subscribed | heard[other], expected.active | active[other]};
       ASSERT_EQ(known[publisher], expected) << "step " << step << ", publisher " << publisher;
     }
   }

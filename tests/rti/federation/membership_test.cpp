@@ -93,7 +93,7 @@ TEST_F(Club, TellsWhoJoinedHisHandleAndHisBlock) {
     EXPECT_EQ(message.federate, federates[bob].handle.value);
     EXPECT_EQ(message.object_block, federates[bob].block);
   });
-  EXPECT_EQ(federates[bob].last_said, 7.0) << "else he would soon be silent for too long";
+  EXPECT_EQ(federates[bob].last_sent, 7.0) << "else he would soon be silent for too long";
   EXPECT_EQ(counters.joins, 2u);
 }
 

@@ -14,7 +14,7 @@ namespace rink::rti {
 namespace {
 
 struct NameBook : ::testing::Test {
-  Outcome ask(std::uint32_t slot, NameRequest request, std::initializer_list<const char*> wanted) {
+  Status ask(std::uint32_t slot, NameRequest request, std::initializer_list<const char*> wanted) {
     std::vector<std::byte> text;
     for (std::string_view name : wanted) Writer(text).text(name, text_max);
     InstanceNamesMessage message;
@@ -31,7 +31,7 @@ struct NameBook : ::testing::Test {
     return answer;
   }
   std::optional<NameAnswer> reserve(std::uint32_t slot, const char* name) {
-    EXPECT_EQ(ask(slot, NameRequest::reserve, {name}), Outcome());
+    EXPECT_EQ(ask(slot, NameRequest::reserve, {name}), Status());
     return answer_to(slot);
   }
 
@@ -82,7 +82,7 @@ TEST_F(NameBook, KeepsNoMoreNamesThanItsLimit) {
 TEST_F(NameBook, LetsGoOfANameOnlyForWhoHasReservedIt) {
   reserve(ann, "a");
   EXPECT_EQ(ask(bob, NameRequest::release, {"a"}), Violation::unknown_name);
-  EXPECT_EQ(ask(ann, NameRequest::release, {"a"}), Outcome());
+  EXPECT_EQ(ask(ann, NameRequest::release, {"a"}), Status());
   EXPECT_EQ(ask(ann, NameRequest::release, {"a"}), Violation::unknown_name);
   EXPECT_EQ(reserve(bob, "a"), NameAnswer::granted);
   names.take(bob, "a");

@@ -37,8 +37,8 @@ struct Quay : ServiceGround, ::testing::Test {
     objects.publications.set_class(bob, body_class, both);
     for (const std::uint32_t slot : {bob, eve}) ground.distribution->of(slot).known.insert(boat);
   }
-  Outcome ask(std::uint32_t slot, OwnershipRequest request, AttributeSet attributes,
-              std::string_view tag = "", std::uint32_t object = 0xffffffff) {
+  Status ask(std::uint32_t slot, OwnershipRequest request, AttributeSet attributes,
+             std::string_view tag = "", std::uint32_t object = 0xffffffff) {
     std::vector<std::byte> bytes;
     ObjectBlockWriter().append(
         bytes,
@@ -96,10 +96,10 @@ TEST_F(Quay, LetsOnlyAnOwnerGiveAndOnlyAPublisherTake) {
 }
 
 TEST_F(Quay, AsksAnOwnerToReleaseWhatIsWantedAndTellsBothWhenItIsGiven) {
-  EXPECT_EQ(ask(bob, Request::acquire, position, "please"), Outcome());
+  EXPECT_EQ(ask(bob, Request::acquire, position, "please"), Status());
   EXPECT_EQ(told(ann), Words{of_boat(Notice::release_requested, position, "please")});
   EXPECT_EQ(told(bob), Words{});
-  EXPECT_EQ(ask(ann, Request::give_if_wanted, both), Outcome());
+  EXPECT_EQ(ask(ann, Request::give_if_wanted, both), Status());
   EXPECT_EQ(told(ann), (Words{of_boat(Notice::divested, position), of_boat(Notice::kept, colour)}));
   EXPECT_EQ(told(bob), Words{of_boat(Notice::acquired, position)});
   EXPECT_EQ(ground.ownership.owned_by(bob, boat), position);
@@ -165,7 +165,7 @@ TEST_F(Quay, SaysWhoOwnsAnAttribute) {
     const std::uint8_t number = static_cast<std::uint8_t>(AttributeHandle{0}.value);
     EXPECT_EQ(hand_in(QueryOwnershipMessage{number_of(boat), number},
                       [&](Reader& reader) { return owners.handle_query(eve, reader); }),
-              Outcome());
+              Status());
     std::uint32_t owner = 0;
     for_each_said_to<InformOwnershipMessage>(
         federate(eve), [&](const auto& message) { owner = message.federate; });

@@ -20,34 +20,34 @@ struct Chart : ServiceGround, ::testing::Test {
     for (Record record : records) exchange(writer, record);
     return bytes;
   }
-  Outcome create(std::uint32_t slot, std::uint32_t region) {
+  Status create(std::uint32_t slot, std::uint32_t region) {
     return hand_in(CreateRegionMessage{region},
                    [&](Reader& reader) { return regions.handle_create(slot, reader); });
   }
-  Outcome create_over(std::uint32_t slot, std::uint32_t region, std::uint64_t dimensions) {
+  Status create_over(std::uint32_t slot, std::uint32_t region, std::uint64_t dimensions) {
     return hand_in(CreateRegionOverMessage{region, dimensions},
                    [&](Reader& reader) { return regions.handle_create_over(slot, reader); });
   }
-  Outcome place(std::uint32_t slot, std::uint32_t region, const im::Region& bounds) {
+  Status place(std::uint32_t slot, std::uint32_t region, const im::Region& bounds) {
     const std::vector<std::byte> records = records_of<RegionBounds>({{{region}, bounds}});
     return hand_in(ModifyRegionsMessage{1, records},
                    [&](Reader& reader) { return regions.handle_modify(slot, reader); });
   }
-  Outcome set_ranges(std::uint32_t slot, std::uint32_t region, const std::vector<Range>& wanted) {
+  Status set_ranges(std::uint32_t slot, std::uint32_t region, const std::vector<Range>& wanted) {
     const std::vector<std::byte> ranges = records_of(wanted);
     return hand_in(ModifyRangesMessage{region, static_cast<std::uint8_t>(wanted.size()), ranges},
                    [&](Reader& reader) { return regions.handle_modify_ranges(slot, reader); });
   }
-  Outcome remove(std::uint32_t slot, std::uint32_t region) {
+  Status remove(std::uint32_t slot, std::uint32_t region) {
     return hand_in(DeleteRegionMessage{region},
                    [&](Reader& reader) { return regions.handle_delete(slot, reader); });
   }
-  Outcome associate(std::uint32_t slot, std::uint32_t object, std::uint32_t region) {
+  Status associate(std::uint32_t slot, std::uint32_t object, std::uint32_t region) {
     return hand_in(AssociateRegionMessage{object, region},
                    [&](Reader& reader) { return regions.handle_associate(slot, reader); });
   }
-  Outcome of_class(std::uint32_t slot, RegionAction action, AttributeSet attributes,
-                   std::uint32_t region) {
+  Status of_class(std::uint32_t slot, RegionAction action, AttributeSet attributes,
+                  std::uint32_t region) {
     const std::vector<std::byte> pairs =
         records_of<AttributeRegionRecord>({{attributes.bits, region}});
     return hand_in(RegionalClassMessage{body_class, static_cast<std::uint8_t>(action), 1, pairs},
@@ -63,20 +63,20 @@ struct Chart : ServiceGround, ::testing::Test {
 
 TEST_F(Chart, NumbersRegionsWithoutGapsForEachFederateByItself) {
   EXPECT_EQ(create(ann, 1), Violation::unknown_name) << "it would leave a gap";
-  EXPECT_EQ(create(ann, 0), Outcome());
+  EXPECT_EQ(create(ann, 0), Status());
   EXPECT_EQ(create(ann, 0), Violation::unknown_name) << "it is there";
-  EXPECT_EQ(create(ann, 1), Outcome());
-  EXPECT_EQ(create(bob, 0), Outcome());
+  EXPECT_EQ(create(ann, 1), Status());
+  EXPECT_EQ(create(bob, 0), Status());
   EXPECT_EQ(federate(ann).counts.regions, 2u);
-  EXPECT_EQ(remove(ann, 0), Outcome());
+  EXPECT_EQ(remove(ann, 0), Status());
   EXPECT_EQ(remove(ann, 0), Violation::unknown_name);
   EXPECT_EQ(federate(ann).counts.regions, 1u);
-  EXPECT_EQ(create(ann, 0), Outcome());
+  EXPECT_EQ(create(ann, 0), Status());
 }
 
 TEST_F(Chart, TakesNoBoundsThatAreNone) {
   create(ann, 0);
-  EXPECT_EQ(place(ann, 0, {0, 0, 1, 1}), Outcome());
+  EXPECT_EQ(place(ann, 0, {0, 0, 1, 1}), Status());
   EXPECT_EQ(place(ann, 0, {2, 0, 1, 1}), Violation::malformed);
   EXPECT_EQ(place(ann, 0, {0, 3, 1, 2}), Violation::malformed);
   EXPECT_EQ(place(ann, 1, {0, 0, 1, 1}), Violation::unknown_name);
@@ -86,10 +86,10 @@ TEST_F(Chart, TakesNoBoundsThatAreNone) {
 /// Of dimensions X, Y and Height: one range for each that it has.
 TEST_F(Chart, TakesARangeForEachDimensionOfARegion) {
   EXPECT_EQ(create_over(ann, 0, 0b1000), Violation::unknown_name) << "there is no fourth";
-  EXPECT_EQ(create_over(ann, 0, 0b101), Outcome());
+  EXPECT_EQ(create_over(ann, 0, 0b101), Status());
   EXPECT_EQ(set_ranges(ann, 0, {{0, 1}}), Violation::unknown_name);
   EXPECT_EQ(set_ranges(ann, 0, {{0, 1}, {5, 4}}), Violation::malformed);
-  EXPECT_EQ(set_ranges(ann, 0, {{0, 1}, {4, 5}}), Outcome());
+  EXPECT_EQ(set_ranges(ann, 0, {{0, 1}, {4, 5}}), Status());
   EXPECT_EQ(place(ann, 0, {0, 0, 1, 1}), Violation::unknown_name) << "it is not over the plane";
   EXPECT_EQ(set_ranges(ann, 1, {{0, 1}, {4, 5}}), Violation::unknown_name);
 }
@@ -97,10 +97,10 @@ TEST_F(Chart, TakesARangeForEachDimensionOfARegion) {
 TEST_F(Chart, TellsTheFilterWhereAnObjectIsThatUsesARegion) {
   create(ann, 0), place(ann, 0, {0, 0, 1, 1});
   EXPECT_TRUE(filter->entities.empty());
-  EXPECT_EQ(associate(ann, number_of(boat), 0), Outcome());
+  EXPECT_EQ(associate(ann, number_of(boat), 0), Status());
   ASSERT_EQ(filter->entities.size(), 1u);
   EXPECT_EQ(filter->entities.begin()->second, (im::Region{0, 0, 1, 1}));
-  EXPECT_EQ(associate(ann, number_of(boat), RegionHandle::none), Outcome());
+  EXPECT_EQ(associate(ann, number_of(boat), RegionHandle::none), Status());
   EXPECT_TRUE(filter->entities.empty());
 }
 
@@ -111,7 +111,7 @@ TEST_F(Chart, LetsNobodyPlaceAnothersObjectNorUseAnothersRegion) {
   EXPECT_EQ(associate(ann, 4711, RegionHandle::none), Violation::unknown_name);
   const std::uint32_t number = number_of(boat);
   objects.objects.remove(boat);
-  EXPECT_EQ(associate(ann, number, RegionHandle::none), Outcome())
+  EXPECT_EQ(associate(ann, number, RegionHandle::none), Status())
       << "who deleted it was faster, which is no crime";
 }
 

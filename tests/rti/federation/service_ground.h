@@ -32,7 +32,7 @@ std::vector<std::byte> words_of(Message message) {
 
 /// Hands `message` to `handle(reader)`.
 template <class Message, class Handle>
-Outcome hand_in(Message message, Handle handle) {
+Status hand_in(Message message, Handle handle) {
   const std::vector<std::byte> words = words_of(message);
   Reader reader(words);
   return handle(reader);

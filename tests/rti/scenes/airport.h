@@ -73,7 +73,7 @@ class AirportFederate : public FederateAmbassador {
   bool has_landed() const {
     return has_landed_;
   }  ///< the point "landed" is reached: all have come to the end
-  const std::string& trouble() const { return trouble_; }
+  const std::string& trouble() const { return error_; }
 
   void join(const std::string& name, const std::string& type) {
     ambassador_.join("airport", name, type);
@@ -104,8 +104,8 @@ class AirportFederate : public FederateAmbassador {
     if (label == "ready") start();
     else has_landed_ = true;
   }
-  void join_refused(Refusal, std::string_view why) override { trouble_ = why; }
-  void connection_lost(std::string_view why) override { trouble_ = why; }
+  void join_refused(Refusal, std::string_view why) override { error_ = why; }
+  void connection_lost(std::string_view why) override { error_ = why; }
 
   const Model& model_;
   Ambassador ambassador_;
@@ -121,7 +121,7 @@ class AirportFederate : public FederateAmbassador {
   }
   bool is_managed_ = false, is_called_ = false, is_landing_ = false, has_finished_ = false,
        has_landed_ = false;
-  std::string trouble_;
+  std::string error_;
 };
 
 /// Sends gusts before they blow. It regulates the others and is told nothing that would constrain

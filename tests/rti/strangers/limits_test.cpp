@@ -147,7 +147,7 @@ TEST(Limits, SoManyDatagramsWaitForTheirFramesAtEitherEnd) {
 /// Requests within regions that are deleted before anybody has looked whom they concern.
 TEST(Limits, SoManyObjectsAreLookedAtForOneFederatesRequestsInOneFlush) {
   constexpr std::uint32_t fleet = 1100, looked_at_max = 1u << 19;
-  const auto outcome = [](std::uint32_t regions) {
+  const auto status = [](std::uint32_t regions) {
     Bare bare;
     for (std::uint32_t k = 0; k < fleet; ++k) bare.witness.register_object_instance(vessel);
     bare.enter(1, "nag");
@@ -163,8 +163,8 @@ TEST(Limits, SoManyObjectsAreLookedAtForOneFederatesRequestsInOneFlush) {
       bare.execution.receive(1, frame_of(DeleteRegionMessage{region}));
     return bare.drops(Violation::over_limit);
   };
-  EXPECT_EQ(outcome(looked_at_max / fleet), 0u);
-  EXPECT_EQ(outcome(looked_at_max / fleet + 2), 1u);
+  EXPECT_EQ(status(looked_at_max / fleet), 0u);
+  EXPECT_EQ(status(looked_at_max / fleet + 2), 1u);
 }
 
 TEST(Limits, ADigestOfTooManyElementsIsLeftOut) {

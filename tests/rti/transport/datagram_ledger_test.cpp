@@ -11,8 +11,8 @@
 namespace rink::rti {
 namespace {
 
-SaidList list_of(const std::map<std::uint32_t, std::uint32_t>& said) {
-  SaidList list;
+SentRecord list_of(const std::map<std::uint32_t, std::uint32_t>& said) {
+  SentRecord list;
   for (const auto& [handle, bits] : said) {
     list.begin_group(AttributeSet(bits));
     list.add(handle);
@@ -21,8 +21,8 @@ SaidList list_of(const std::map<std::uint32_t, std::uint32_t>& said) {
   return list;
 }
 
-TEST(SaidList, NamesWhatWasAddedInAboutAByteForEachNeighbour) {
-  SaidList list;
+TEST(SentRecord, NamesWhatWasAddedInAboutAByteForEachNeighbour) {
+  SentRecord list;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> wanted, is;
   for (const std::uint32_t bits : {1u, 6u}) {
     list.begin_group(AttributeSet(bits));
@@ -32,7 +32,7 @@ TEST(SaidList, NamesWhatWasAddedInAboutAByteForEachNeighbour) {
     }
   }
   list.end_group();
-  for_each_said(list.groups(),
+  for_each_sent(list.groups(),
                 [&](std::uint32_t handle, AttributeSet set) { is.emplace_back(handle, set.bits); });
   EXPECT_EQ(is, wanted);
   EXPECT_LE(list.groups().size(), 2u * (275u + 2u))
@@ -43,7 +43,7 @@ TEST(DatagramLedger, OwesWhatNoLaterDatagramSaysAndLetsGoOfEveryList) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
-    SaidLists lists;
+    SentRecordPool lists;
     {
       DatagramLedger ledger(lists);
       struct Sent {
@@ -75,8 +75,8 @@ TEST(DatagramLedger, OwesWhatNoLaterDatagramSaysAndLetsGoOfEveryList) {
             const auto handle = static_cast<std::uint32_t>(random() % 6);
             next.said[handle] |= static_cast<std::uint32_t>(1 + random() % 7);
           }
-          const SaidLists::Number list =
-              count == 0 ? SaidLists::none : lists.add(list_of(next.said).groups());
+          const SentRecordPool::Number list =
+              count == 0 ? SentRecordPool::none : lists.add(list_of(next.said).groups());
           EXPECT_EQ(ledger.note(now, list), sent.size());
           sent.push_back(next);
           if (random() % 10 < 7) arrived.insert(static_cast<std::uint32_t>(sent.size() - 1));
@@ -109,9 +109,9 @@ TEST(DatagramLedger, OwesWhatNoLaterDatagramSaysAndLetsGoOfEveryList) {
   }
 }
 
-TEST(SaidLists, AreSharedUntilTheLastHolderLetsGo) {
-  SaidLists lists;
-  const SaidLists::Number list = lists.add(list_of({{3, 1}, {4, 1}}).groups());
+TEST(SentRecordPool, AreSharedUntilTheLastHolderLetsGo) {
+  SentRecordPool lists;
+  const SentRecordPool::Number list = lists.add(list_of({{3, 1}, {4, 1}}).groups());
   std::vector<DatagramLedger::Lost> lost;
   {
     DatagramLedger one(lists), other(lists);

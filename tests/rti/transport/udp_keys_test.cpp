@@ -103,7 +103,7 @@ struct HandmadeServer {
     return bytes;
   }
   /// Waits for one of that kind.
-  bool hears(std::uint8_t kind) {
+  bool receives(std::uint8_t kind) {
     return pump_until([&] {
       const std::vector<std::byte> datagram = hear();
       return datagram.size() > 8 && std::to_integer<std::uint8_t>(datagram[8]) == kind;
@@ -126,7 +126,7 @@ struct HandmadeServer {
 
 TEST(Udp, AClientTakesNothingWithoutTheKeyThatTheServerNamedForItsDatagrams) {
   HandmadeServer server;
-  ASSERT_TRUE(server.hears(1));
+  ASSERT_TRUE(server.receives(1));
   int strangers = 0;
   for (const std::uint64_t wrong :
        {HandmadeServer::down_key ^ 1u, HandmadeServer::up_key, std::uint64_t{0}}) {
@@ -152,7 +152,7 @@ TEST(Udp, AClientTakesNothingWithoutTheKeyThatTheServerNamedForItsDatagrams) {
       << "a welcome that does not show how long datagrams may be";
 
   server.say(control(HandmadeServer::down_key, 2, HandmadeServer::nonce, 1200));
-  ASSERT_TRUE(server.hears(3)) << "it confirms what the right key welcomed";
+  ASSERT_TRUE(server.receives(3)) << "it confirms what the right key welcomed";
   const auto data = [](std::uint64_t key, std::string_view words) {
     std::vector<std::byte> bytes = values_of(key, std::uint8_t{0});
     const auto content = bytes_of(words);

@@ -16,30 +16,30 @@ class KeyCounts {
  public:
   /// Players are never fewer than before; of new ones nothing has come.
   void set_player_count(std::size_t count) {
-    assert(count >= heard_.size());
-    for (std::vector<std::uint32_t>* const counts : {&heard_, &playing_, &felt_, &told_})
+    assert(count >= received_.size());
+    for (std::vector<std::uint32_t>* const counts : {&received_, &playing_, &felt_, &told_})
       counts->resize(count, 0);
   }
-  std::size_t player_count() const { return heard_.size(); }
+  std::size_t player_count() const { return received_.size(); }
 
-  void begin_window() { playing_ = heard_; }
+  void begin_window() { playing_ = received_; }
   void finish_window() { felt_ = playing_; }
 
   /// The own player's next key: how many it has pressed with it.
   std::uint32_t press(std::uint32_t own) {
-    assert(own < heard_.size());
-    return heard_[own] = ++pressed_;
+    assert(own < received_.size());
+    return received_[own] = ++pressed_;
   }
   /// `player` has pressed so many keys. False if that is no news.
-  bool hear(std::uint32_t player, std::uint32_t count) {
-    assert(player < heard_.size());
-    if (count <= heard_[player]) return false;
-    heard_[player] = count;
+  bool receive(std::uint32_t player, std::uint32_t count) {
+    assert(player < received_.size());
+    if (count <= received_[player]) return false;
+    received_[player] = count;
     return true;
   }
-  std::uint32_t heard(std::uint32_t player) const {
-    assert(player < heard_.size());
-    return heard_[player];
+  std::uint32_t received(std::uint32_t player) const {
+    assert(player < received_.size());
+    return received_[player];
   }
   std::uint32_t felt(std::uint32_t player) const {
     assert(player < felt_.size());
@@ -53,7 +53,7 @@ class KeyCounts {
   }
 
  private:
-  std::vector<std::uint32_t> heard_, playing_, felt_, told_;  ///< by player
+  std::vector<std::uint32_t> received_, playing_, felt_, told_;  ///< by player
   std::uint32_t pressed_ = 0;
 };
 

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "game/net/peer/interest/player_picture.h"
+#include "game/net/peer/interest/peer_replicas.h"
 #include "game/replication/attributes.h"
 #include "game/replication/region_sweep.h"
 #include "game/replication/trajectory_codec.h"
@@ -22,61 +22,63 @@ bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t value) {
 }
 
 template <class Stream>
-bool exchange(Stream& stream, Gaze& gaze) {
-  auto form = static_cast<std::uint8_t>(gaze.form);
-  if (!stream.range(form, static_cast<std::uint8_t>(Gaze::Form::cells))) return false;
-  gaze.form = static_cast<Gaze::Form>(form);
-  if (gaze.form == Gaze::Form::away) return true;
-  for (float* side : {&gaze.low_x, &gaze.low_y, &gaze.high_x, &gaze.high_y}) {
+bool exchange(Stream& stream, EncodedInterest& encoded) {
+  auto form = static_cast<std::uint8_t>(encoded.form);
+  if (!stream.range(form, static_cast<std::uint8_t>(EncodedInterest::Form::cells))) return false;
+  encoded.form = static_cast<EncodedInterest::Form>(form);
+  if (encoded.form == EncodedInterest::Form::away) return true;
+  for (float* side : {&encoded.low_x, &encoded.low_y, &encoded.high_x, &encoded.high_y}) {
     // Cells are few, so their numbers go in two bytes where they fit.
     auto number = static_cast<std::int16_t>(*side);
-    if (gaze.form == Gaze::Form::region ? !stream.number(*side) : !stream.number(number))
+    if (encoded.form == EncodedInterest::Form::region ? !stream.number(*side)
+                                                      : !stream.number(number))
       return false;
-    if (gaze.form == Gaze::Form::cells) *side = number;
+    if (encoded.form == EncodedInterest::Form::cells) *side = number;
     if (!std::isfinite(*side) || std::abs(*side) > coordinate_max) return false;
   }
-  return gaze.low_x <= gaze.high_x && gaze.low_y <= gaze.high_y;
+  return encoded.low_x <= encoded.high_x && encoded.low_y <= encoded.high_y;
 }
 
 }  // namespace
 
-Gaze gaze_at(const im::Region& region, double cell_size) {
+EncodedInterest interest_at(const im::Region& region, double cell_size) {
   const auto single = [](double value) { return static_cast<float>(value); };
-  const Gaze exact{Gaze::Form::region, single(region.low_x), single(region.low_y),
-                   single(region.high_x), single(region.high_y)};
+  const EncodedInterest exact{EncodedInterest::Form::region, single(region.low_x),
+                              single(region.low_y), single(region.high_x), single(region.high_y)};
   if (cell_size == 0.0) return exact;
   const auto cell = [cell_size](double value) {
     return static_cast<float>(std::floor(value / cell_size));
   };
-  const Gaze cells{Gaze::Form::cells, cell(region.low_x), cell(region.low_y), cell(region.high_x),
-                   cell(region.high_y)};
+  const EncodedInterest cells{EncodedInterest::Form::cells, cell(region.low_x), cell(region.low_y),
+                              cell(region.high_x), cell(region.high_y)};
   const auto fits = [](float number) { return std::abs(number) < 32'000.0f; };
   return fits(cells.low_x) && fits(cells.low_y) && fits(cells.high_x) && fits(cells.high_y) ? cells
                                                                                             : exact;
 }
 
-im::Region region_of(const Gaze& gaze, double cell_size) {
+im::Region region_of(const EncodedInterest& encoded, double cell_size) {
   const auto place = [&](float side, double within) {
-    return gaze.form == Gaze::Form::cells ? (static_cast<double>(side) + within) * cell_size
-                                          : static_cast<double>(side);
+    return encoded.form == EncodedInterest::Form::cells
+               ? (static_cast<double>(side) + within) * cell_size
+               : static_cast<double>(side);
   };
-  return {place(gaze.low_x, 0.25), place(gaze.low_y, 0.25), place(gaze.high_x, 0.75),
-          place(gaze.high_y, 0.75)};
+  return {place(encoded.low_x, 0.25), place(encoded.low_y, 0.25), place(encoded.high_x, 0.75),
+          place(encoded.high_y, 0.75)};
 }
 
-std::vector<std::byte> bytes_of(const Gaze& gaze) {
+std::vector<std::byte> bytes_of(const EncodedInterest& encoded) {
   std::vector<std::byte> bytes;
   rti::Writer writer(bytes);
-  Gaze copy = gaze;
+  EncodedInterest copy = encoded;
   [[maybe_unused]] const bool is_sound = exchange(writer, copy);
   assert(is_sound);
   return bytes;
 }
 
-std::optional<Gaze> gaze_from(rti::Bytes bytes) {
+std::optional<EncodedInterest> interest_from(rti::Bytes bytes) {
   rti::Reader reader(bytes);
-  Gaze gaze;
-  return exchange(reader, gaze) && reader.is_at_end() ? std::optional(gaze) : std::nullopt;
+  EncodedInterest encoded;
+  return exchange(reader, encoded) && reader.is_at_end() ? std::optional(encoded) : std::nullopt;
 }
 
 SenderInterest::SenderInterest(const std::string& scheme, const im::FilterSettings& settings,
@@ -90,7 +92,7 @@ SenderInterest::SenderInterest(const std::string& scheme, const im::FilterSettin
       is_selective_(scheme != "none"),
       remembers_(scheme.find("with") != std::string::npos ||
                  scheme.find("cone") != std::string::npos),
-      tells_trajectories_(policy == "on-event"),
+      sends_trajectories_(policy == "on-event"),
       body_roles_(std::move(roles)),
       is_here_(body_roles_.size(), 0) {
   assert(filter_ && (policy == "periodic" || policy == "on-event"));
@@ -138,7 +140,7 @@ void SenderInterest::match(const peer::Peer& peer) {
   for (const std::uint32_t body : here_) {
     if (is_here_[body] == 2) continue;
     filter_->remove_entity(body);
-    told_.erase(body);
+    last_sent_.erase(body);
     is_here_[body] = 0;
     has_lost = true;
   }
@@ -163,36 +165,37 @@ void SenderInterest::match(const peer::Peer& peer) {
 
 /// Once a window for each body of which anybody hears; as the policies of a server do, but for
 /// bodies of which nobody does.
-const SenderInterest::Told& SenderInterest::told_of(const physics::World& world, std::uint32_t body,
-                                                    std::uint32_t window) {
-  Told& told = told_[body];
-  if (told.window == window) return told;
+const SenderInterest::LastSent& SenderInterest::last_sent_of(const physics::World& world,
+                                                             std::uint32_t body,
+                                                             std::uint32_t window) {
+  LastSent& last_sent = last_sent_[body];
+  if (last_sent.window == window) return last_sent;
   constexpr double worthwhile_s =
       0.1;  // one that is to be replaced so soon may as well be replaced now
-  const bool is_new = told.window == 0xffffffffu ||
-                      told.window + 1 != window;  // others may have told of it meanwhile
-  told.window = window;
-  if (tells_trajectories_) {
-    if (!is_new) told.until_s = holds_until(world, {body}, told.trajectory);
-    told.is_due = is_new || told.until_s < world.now() + worthwhile_s;
-    if (told.is_due)
-      told.trajectory = trajectory_of(world, {body}),
-      told.until_s = holds_until(world, {body}, told.trajectory);
+  const bool is_new = last_sent.window == 0xffffffffu ||
+                      last_sent.window + 1 != window;  // others may have told of it meanwhile
+  last_sent.window = window;
+  if (sends_trajectories_) {
+    if (!is_new) last_sent.until_s = holds_until(world, {body}, last_sent.trajectory);
+    last_sent.is_due = is_new || last_sent.until_s < world.now() + worthwhile_s;
+    if (last_sent.is_due)
+      last_sent.trajectory = trajectory_of(world, {body}),
+      last_sent.until_s = holds_until(world, {body}, last_sent.trajectory);
     std::vector<std::byte> value;
-    encode(value, told.trajectory);
-    told.coded.clear();
-    TrajectoryCodec().encode(value, world.now(), told.coded);
+    encode(value, last_sent.trajectory);
+    last_sent.coded.clear();
+    TrajectoryCodec().encode(value, world.now(), last_sent.coded);
   } else {
-    told.is_due = world.kind({body}) != physics::BodyKind::post;
-    encode(told.coded, rounded(world.position({body})));
+    last_sent.is_due = world.kind({body}) != physics::BodyKind::post;
+    encode(last_sent.coded, rounded(world.position({body})));
   }
-  return told;
+  return last_sent;
 }
 
 std::vector<std::byte> SenderInterest::updates_for(
     const peer::Peer& peer, peer::PeerNumber player, std::uint32_t window,
     const std::function<std::optional<std::uint32_t>(std::uint32_t)>& felt) {
-  using Form = ToldOf::Form;
+  using Form = BodyUpdate::Form;
   std::vector<std::byte> message;
   rti::Writer writer(message);
   const auto put = [&](std::uint32_t body, Form form, std::uint32_t felt_count, rti::Bytes motion) {
@@ -214,11 +217,11 @@ std::vector<std::byte> SenderInterest::updates_for(
       continue;
     }
     now_sent.push_back(body);
-    const Told& told = told_of(world, body, window);
-    const bool is_due = told.is_due || !contains(sent, body);
+    const LastSent& last_sent = last_sent_of(world, body, window);
+    const bool is_due = last_sent.is_due || !contains(sent, body);
     if (is_due)
       put(body, newly_felt ? Form::motion_and_felt : Form::motion, newly_felt.value_or(0),
-          told.coded);
+          last_sent.coded);
     else if (newly_felt) put(body, Form::felt, *newly_felt, {});
     motions_sent_ += is_due;
   }

@@ -20,21 +20,21 @@ namespace rink::game {
 
 /// Where a player looks, as it is told to those whose zones it meets: by cells if the scheme has
 /// some, for then the same cells are the same interest.
-struct Gaze {
+struct EncodedInterest {
   enum class Form : std::uint8_t { away, region, cells };
   Form form = Form::away;
   float low_x = 0.0f, low_y = 0.0f, high_x = 0.0f,
         high_y = 0.0f;  ///< m; of cells, their numbers from the first to the last
-  friend bool operator==(const Gaze&, const Gaze&) = default;
+  friend bool operator==(const EncodedInterest&, const EncodedInterest&) = default;
 };
 
 /// `region` in cells of side `cell_size` [m], or as it is if that is 0.
-Gaze gaze_at(const im::Region& region, double cell_size);
+EncodedInterest interest_at(const im::Region& region, double cell_size);
 /// The region that stands for it with whoever is told: within each cell that it names.
-im::Region region_of(const Gaze& gaze, double cell_size);
-std::vector<std::byte> bytes_of(const Gaze& gaze);
-/// Nothing unless the bytes are one whole gaze that a player could have.
-std::optional<Gaze> gaze_from(rti::Bytes bytes);
+im::Region region_of(const EncodedInterest& encoded, double cell_size);
+std::vector<std::byte> bytes_of(const EncodedInterest& encoded);
+/// Nothing unless the bytes are one whole interest that a player could have.
+std::optional<EncodedInterest> interest_from(rti::Bytes bytes);
 
 /// Filters as a server does, for the bodies that are here. Bodies and peers are numbered as
 /// everywhere.
@@ -59,7 +59,7 @@ class SenderInterest {
   bool is_selective() const { return is_selective_; }
   /// So far from where a player looks its owner must know that he does.
   const SchemeReach& reach() const { return reach_; }
-  bool tells_trajectories() const { return tells_trajectories_; }
+  bool sends_trajectories() const { return sends_trajectories_; }
 
   void look(peer::PeerNumber player, const im::Region& region);
   /// The player does not look here any more, and has been told to forget.
@@ -72,7 +72,7 @@ class SenderInterest {
   const std::vector<std::uint32_t>& scope_of(peer::PeerNumber player) const {
     return scopes_[player];
   }
-  /// Between the arrivals and the commit of window `window`: what `player` is to be told of our
+  /// Between the handovers and the commit of window `window`: what `player` is to be told of our
   /// bodies that it will not have itself. `felt`: of its own bat, if it has not been told. Empty if
   /// there is nothing.
   std::vector<std::byte> updates_for(
@@ -83,20 +83,21 @@ class SenderInterest {
   std::uint64_t motions_sent() const { return motions_sent_; }
 
  private:
-  struct Told {
+  struct LastSent {
     Trajectory trajectory;
     double until_s = -1.0;
     std::uint32_t window = 0xffffffffu;  ///< in which it was last looked at
     bool is_due = false;
     std::vector<std::byte> coded;
   };
-  const Told& told_of(const physics::World& world, std::uint32_t body, std::uint32_t window);
+  const LastSent& last_sent_of(const physics::World& world, std::uint32_t body,
+                               std::uint32_t window);
 
   std::unique_ptr<im::Filter> filter_;
   im::Region world_;
   double cell_size_;
   SchemeReach reach_;
-  bool is_selective_, remembers_, tells_trajectories_;  ///< `remembers`: decisions depend on
+  bool is_selective_, remembers_, sends_trajectories_;  ///< `remembers`: decisions depend on
                                                         ///< earlier ones, so two owners may differ
   std::vector<im::Role> body_roles_, player_roles_;     ///< by body, by peer
   std::vector<std::vector<std::uint32_t>> scopes_,
@@ -106,8 +107,8 @@ class SenderInterest {
       handed_over_;                    ///< likewise, of what is another's since the last window
   std::vector<std::uint8_t> is_here_;  ///< by body: in the filter
   std::vector<std::uint32_t> here_;
-  std::unordered_map<std::uint32_t, Told>
-      told_;  ///< of bodies that are here, what all hear who hear of it
+  std::unordered_map<std::uint32_t, LastSent>
+      last_sent_;  ///< of bodies that are here, what all hear who hear of it
   std::uint64_t motions_sent_ = 0;
 };
 

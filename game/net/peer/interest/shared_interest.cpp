@@ -55,12 +55,12 @@ double extent_max_of(const Game& start) {
 
 /// What was told by `from`, who tells no more: it stays in the picture as the `own` peer's, in
 /// `kept`, until whoever tells of it from now on has done so.
-void keep_for_now(PlayerPicture& picture, peer::PeerNumber from, peer::PeerNumber own,
+void keep_for_now(PeerReplicas& picture, peer::PeerNumber from, peer::PeerNumber own,
                   std::vector<std::uint32_t>& kept) {
-  for (const auto& [body, belief] : picture.beliefs()) {
-    if (!belief.is_there || belief.source != from) continue;
+  for (const auto& [body, replica] : picture.all()) {
+    if (!replica.is_there || replica.source != from) continue;
     kept.push_back(body);
-    picture.believe(body, {own, true, belief.motion});
+    picture.assume(body, {own, true, replica.motion});
   }
 }
 
@@ -78,7 +78,7 @@ SharedInterest::SharedInterest(const Game& start, const InterestSettings& settin
       send_(std::move(send)),
       interest_(settings.scheme, filter_settings(start, settings.cell_size), settings.policy,
                 roles_of(start, settings.always_relevant), extent_max_of(start)),
-      picture_(interest_.tells_trajectories(), drag_of(start.world().spec()), kinds_of(start)),
+      replicas_(interest_.sends_trajectories(), drag_of(start.world().spec()), kinds_of(start)),
       places_(start.world().body_count(), Place::away) {
   std::vector<peer::PeerNumber> all(settings.bats.size());
   std::iota(all.begin(), all.end(), peer::PeerNumber{0});
@@ -90,10 +90,10 @@ void SharedInterest::set_members(std::span<const peer::PeerNumber> members,
                                  std::vector<std::uint32_t> bats) {
   const std::vector<peer::PeerNumber> before =
       std::exchange(members_, {members.begin(), members.end()});
-  const std::size_t count = std::max(bats.size(), is_told_.size());
+  const std::size_t count = std::max(bats.size(), is_informed_.size());
   settings_.bats = std::move(bats);
   settings_.bats.resize(count, no_bat);
-  is_told_.resize(count, false);
+  is_informed_.resize(count, false);
   keys_.set_player_count(count);
   handed_to_.resize(count, peer_.number());
   for (const peer::PeerNumber peer : before)
@@ -105,11 +105,11 @@ void SharedInterest::set_members(std::span<const peer::PeerNumber> members,
 
 void SharedInterest::forget(peer::PeerNumber peer) {
   interest_.remove_player(peer);
-  keep_for_now(picture_, peer, peer_.number(), parting_);
-  is_told_[peer] = false;
+  keep_for_now(replicas_, peer, peer_.number(), parting_);
+  is_informed_[peer] = false;
 }
 
-void SharedInterest::say(peer::PeerNumber to, Traffic about, rti::Bytes content) {
+void SharedInterest::send(peer::PeerNumber to, Traffic about, rti::Bytes content) {
   std::vector<std::uint8_t> bytes(content.size());
   if (!content.empty()) std::memcpy(bytes.data(), content.data(), content.size());
   send_(to, about, std::move(bytes));
@@ -122,17 +122,20 @@ void SharedInterest::look_around() {
     const double reach = settings_.half_side + settings_.margin;
     const im::Region region{centre->x() - reach, centre->y() - reach, centre->x() + reach,
                             centre->y() + reach};
-    const physics::Vector2 before{
-        0.5 * (static_cast<double>(gaze_.low_x) + static_cast<double>(gaze_.high_x)),
-        0.5 * (static_cast<double>(gaze_.low_y) + static_cast<double>(gaze_.high_y))};
-    const bool is_near = gaze_.form == Gaze::Form::region && settings_.margin > 0.0 &&
+    const physics::Vector2 before{0.5 * (static_cast<double>(encoded_interest_.low_x) +
+                                         static_cast<double>(encoded_interest_.high_x)),
+                                  0.5 * (static_cast<double>(encoded_interest_.low_y) +
+                                         static_cast<double>(encoded_interest_.high_y))};
+    const bool is_near = encoded_interest_.form == EncodedInterest::Form::region &&
+                         settings_.margin > 0.0 &&
                          (*centre - before).cwiseAbs().maxCoeff() < 0.5 * settings_.margin;
-    const Gaze gaze = is_near ? gaze_ : gaze_at(region, interest_.cell_size());
-    is_new = gaze != gaze_;
-    gaze_ = gaze;
+    const EncodedInterest encoded =
+        is_near ? encoded_interest_ : interest_at(region, interest_.cell_size());
+    is_new = encoded != encoded_interest_;
+    encoded_interest_ = encoded;
   }
-  if (gaze_.form == Gaze::Form::away) return;
-  const im::Region region = region_of(gaze_, interest_.cell_size());
+  if (encoded_interest_.form == EncodedInterest::Form::away) return;
+  const im::Region region = region_of(encoded_interest_, interest_.cell_size());
   if (is_new) interest_.look(peer_.number(), region);
   is_new = std::exchange(is_undone_, false) || is_new;
   // Zones may have moved though the view has not.
@@ -142,27 +145,28 @@ void SharedInterest::look_around() {
   for (const peer::PeerNumber other : members_) {
     if (other == peer_.number()) continue;
     const bool is_near = division_.is_near(other, seen, 0.0);
-    if (is_near && (is_new || !is_told_[other])) say(other, Traffic::interest, bytes_of(gaze_));
-    if (!is_near && is_told_[other])
-      say(other, Traffic::interest, bytes_of(Gaze{})),
-          keep_for_now(picture_, other, peer_.number(), parting_);
-    is_told_[other] = is_near;
+    if (is_near && (is_new || !is_informed_[other]))
+      send(other, Traffic::interest, bytes_of(encoded_interest_));
+    if (!is_near && is_informed_[other])
+      send(other, Traffic::interest, bytes_of(EncodedInterest{})),
+          keep_for_now(replicas_, other, peer_.number(), parting_);
+    is_informed_[other] = is_near;
   }
 }
 
 /// Where it is, or was when it was last seen; at first, where it starts. Its owner shows it to live
 /// players from time to time, whatever the filter says.
 std::optional<physics::Vector2> SharedInterest::bat_place() {
-  const Belief& belief = picture_.belief(bat());
+  const Replica& replica = replicas_.replica(bat());
   // Where a window is cut it may have gone since places were noted.
   const bool is_here =
       peer_.owns(bat()) || std::binary_search(peer_.ghosts().begin(), peer_.ghosts().end(), bat());
   std::optional<physics::Vector2> place;
   if (is_here) place = peer_.world().position({bat()});
-  else if (belief.is_there) place = belief.position_at(peer_.now());
+  else if (replica.is_there) place = replica.position_at(peer_.now());
   else
-    for (const peer::Glimpse& glimpse : peer_.glimpses())
-      if (glimpse.bat == bat()) place = glimpse.position;
+    for (const peer::Observation& observation : peer_.observations())
+      if (observation.bat == bat()) place = observation.position;
   // Nobody who tells us of places where no bat can be has us look there.
   const physics::Field& field = peer_.world().spec().field;
   if (place && place->allFinite())
@@ -174,7 +178,7 @@ std::optional<physics::Vector2> SharedInterest::bat_place() {
 void SharedInterest::finish(std::uint32_t window) {
   keys_.finish_window();
   interest_.match(peer_);
-  tell(window);
+  send_updates(window);
   hand_keys_over();
   keep_in_sight();
 }
@@ -183,7 +187,7 @@ void SharedInterest::finish(std::uint32_t window) {
 /// next window. Ghosts are seen anyway.
 void SharedInterest::keep_in_sight() {
   for (const std::uint32_t body : parted_)
-    if (picture_.belief(body).source == peer_.number()) picture_.forget_body(body);
+    if (replicas_.replica(body).source == peer_.number()) replicas_.forget_body(body);
   parted_ = std::move(parting_);
   parting_.clear();
   if (bat() == no_bat) return;
@@ -192,17 +196,17 @@ void SharedInterest::keep_in_sight() {
         division_.owner_of(peer_.world().position({body})) != peer_.number())
       parting_.push_back(body);
   for (const std::uint32_t body : parting_)
-    picture_.believe(body, {peer_.number(), true, motion_of(body)});
+    replicas_.assume(body, {peer_.number(), true, motion_of(body)});
 }
 
-void SharedInterest::tell(std::uint32_t window) {
+void SharedInterest::send_updates(std::uint32_t window) {
   for (const peer::PeerNumber player : members_) {
     if (player == peer_.number() || settings_.bats[player] == no_bat) continue;
     const auto newly_felt = [&](std::uint32_t body) -> std::optional<std::uint32_t> {
       return body == settings_.bats[player] ? keys_.take_newly_felt(player) : std::nullopt;
     };
     const std::vector<std::byte> updates = interest_.updates_for(peer_, player, window, newly_felt);
-    if (!updates.empty()) say(player, Traffic::updates, updates);
+    if (!updates.empty()) send(player, Traffic::updates, updates);
   }
 }
 
@@ -214,19 +218,19 @@ void SharedInterest::hand_keys_over() {
     const peer::PeerNumber owner = division_.owner_of(peer_.world().position({bat}));
     if (owner == peer_.number()) continue;
     handed_to_[player] = owner;
-    say_keys(owner, KeyWord::heard, player, keys_.heard(player));
+    send_keys(owner, KeyWord::received, player, keys_.received(player));
   }
 }
 
 /// Who is here is seen, not told; who has just come only from the next decision on, in which it
 /// takes part.
 void SharedInterest::note_places() {
-  picture_.drop_forgotten();
+  replicas_.drop_forgotten();
   const std::vector<std::uint32_t> before = std::move(here_);
   here_ = peer_.owned();
   here_.insert(here_.end(), peer_.ghosts().begin(), peer_.ghosts().end());
   for (const std::uint32_t body : here_)
-    if (places_[body] != Place::away) picture_.forget_body(body);
+    if (places_[body] != Place::away) replicas_.forget_body(body);
   for (const std::uint32_t body : before) places_[body] = Place::away;
   for (const std::uint32_t body : peer_.owned()) places_[body] = Place::own;
   for (const std::uint32_t body : peer_.ghosts()) places_[body] = Place::ghost;
@@ -238,11 +242,11 @@ void SharedInterest::begin_again(std::span<const peer::PeerNumber> members,
                                  std::vector<std::uint32_t> bats) {
   for (const peer::PeerNumber peer : members_)
     if (peer != peer_.number()) forget(peer);
-  picture_.forget(peer_.number());
+  replicas_.forget(peer_.number());
   parted_.clear(), parting_.clear();
   members_ = {peer_.number()};
   set_members(members, std::move(bats));
-  for (const peer::PeerNumber peer : members_) is_told_[peer] = peer != peer_.number();
+  for (const peer::PeerNumber peer : members_) is_informed_[peer] = peer != peer_.number();
   is_undone_ = true;
   note_places();
 }
@@ -252,27 +256,27 @@ peer::PeerNumber SharedInterest::owner_of_bat(peer::PeerNumber player) const {
   if (bat == no_bat) return player;
   if (places_[bat] == Place::own) return peer_.number();
   if (places_[bat] == Place::ghost) return division_.owner_of(peer_.world().position({bat}));
-  const Belief& belief = picture_.belief(bat);
-  return belief.is_there && belief.source != peer_.number() ? belief.source : handed_to_[player];
+  const Replica& replica = replicas_.replica(bat);
+  return replica.is_there && replica.source != peer_.number() ? replica.source : handed_to_[player];
 }
 
 void SharedInterest::press() {
   const peer::PeerNumber owner = owner_of_bat(peer_.number());
   const std::uint32_t pressed = keys_.press(peer_.number());
-  if (owner != peer_.number()) say_keys(owner, KeyWord::pressed, peer_.number(), pressed);
+  if (owner != peer_.number()) send_keys(owner, KeyWord::pressed, peer_.number(), pressed);
 }
 
-void SharedInterest::say_keys(peer::PeerNumber to, KeyWord word, peer::PeerNumber player,
-                              std::uint32_t count) {
+void SharedInterest::send_keys(peer::PeerNumber to, KeyWord word, peer::PeerNumber player,
+                               std::uint32_t count) {
   std::vector<std::byte> bytes;
   rti::Writer writer(bytes);
   writer.number(word);
   writer.varint(player);
   writer.varint(count);
-  say(to, Traffic::keys, bytes);
+  send(to, Traffic::keys, bytes);
 }
 
-bool SharedInterest::hear_keys(rti::Bytes content) {
+bool SharedInterest::receive_keys(rti::Bytes content) {
   rti::Reader reader(content);
   std::uint8_t word = 0;
   peer::PeerNumber player = 0;
@@ -280,15 +284,15 @@ bool SharedInterest::hear_keys(rti::Bytes content) {
   if (!reader.range(word, 1) || !reader.varint(player) || player >= settings_.bats.size() ||
       !reader.varint(count) || !reader.is_at_end())
     return false;
-  const bool is_news = keys_.hear(player, count);
+  const bool is_news = keys_.receive(player, count);
   const peer::PeerNumber owner = owner_of_bat(player);
   if (is_news && player != peer_.number() && owner != peer_.number() &&
       static_cast<KeyWord>(word) == KeyWord::pressed)
-    say_keys(owner, KeyWord::pressed, player, count);
+    send_keys(owner, KeyWord::pressed, player, count);
   return true;
 }
 
-bool SharedInterest::hear(peer::PeerNumber from, Traffic about, rti::Bytes content) {
+bool SharedInterest::receive(peer::PeerNumber from, Traffic about, rti::Bytes content) {
   if (!is_member(from)) return false;
   switch (about) {
     case Traffic::halo:
@@ -296,36 +300,36 @@ bool SharedInterest::hear(peer::PeerNumber from, Traffic about, rti::Bytes conte
     case Traffic::agreement:
       return false;
     case Traffic::keys:
-      return hear_keys(content);
+      return receive_keys(content);
     case Traffic::updates:
-      return picture_.hear(from, content, settings_.rate_hz);
+      return replicas_.receive(from, content, settings_.rate_hz);
     case Traffic::interest:
       break;
   }
-  const std::optional<Gaze> gaze = gaze_from(content);
-  if (!gaze || !interest_.is_selective() || settings_.bats[from] == no_bat) return false;
-  if (gaze->form == Gaze::Form::away) interest_.look_away(from);
-  else interest_.look(from, region_of(*gaze, interest_.cell_size()));
+  const std::optional<EncodedInterest> encoded = interest_from(content);
+  if (!encoded || !interest_.is_selective() || settings_.bats[from] == no_bat) return false;
+  if (encoded->form == EncodedInterest::Form::away) interest_.look_away(from);
+  else interest_.look(from, region_of(*encoded, interest_.cell_size()));
   return true;
 }
 
 std::uint32_t SharedInterest::felt() const {
   if (bat() == no_bat) return 0;
-  return places_[bat()] == Place::own ? std::max(keys_.felt(peer_.number()), picture_.felt())
-                                      : picture_.felt();
+  return places_[bat()] == Place::own ? std::max(keys_.felt(peer_.number()), replicas_.felt())
+                                      : replicas_.felt();
 }
 
 void SharedInterest::list_scope(std::vector<std::uint32_t>& bodies) const {
   bodies.clear();
   if (bat() == no_bat) return;
   for (const std::uint32_t body : interest_.scope_of(peer_.number()))
-    if (places_[body] != Place::away && !picture_.belief(body).is_there) bodies.push_back(body);
-  for (const auto& [body, belief] : picture_.beliefs())
-    if (belief.is_there) bodies.push_back(body);
+    if (places_[body] != Place::away && !replicas_.replica(body).is_there) bodies.push_back(body);
+  for (const auto& [body, replica] : replicas_.all())
+    if (replica.is_there) bodies.push_back(body);
 }
 
 physics::Motion SharedInterest::motion_of(std::uint32_t body) const {
-  if (places_[body] == Place::away) return picture_.belief(body).motion;
+  if (places_[body] == Place::away) return replicas_.replica(body).motion;
   const physics::World& world = peer_.world();
   if (!world.is_resting({body})) return world.motion({body});
   physics::Motion still;
@@ -335,7 +339,7 @@ physics::Motion SharedInterest::motion_of(std::uint32_t body) const {
 }
 
 physics::Vector2 SharedInterest::position_at(std::uint32_t body, double instant) const {
-  if (places_[body] == Place::away) return picture_.belief(body).position_at(instant);
+  if (places_[body] == Place::away) return replicas_.replica(body).position_at(instant);
   const physics::World& world = peer_.world();
   if (instant <= world.now()) return world.position({body});
   const physics::Motion motion = motion_of(body);

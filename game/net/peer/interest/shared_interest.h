@@ -12,7 +12,7 @@
 
 #include "game/control/game.h"
 #include "game/net/peer/interest/key_counts.h"
-#include "game/net/peer/interest/player_picture.h"
+#include "game/net/peer/interest/peer_replicas.h"
 #include "game/net/peer/interest/sender_interest.h"
 #include "game/net/peer/traffic.h"
 #include "game/net/relevant_kinds.h"
@@ -69,7 +69,7 @@ class SharedInterest {
   void begin_again(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats);
 
   /// From a member. False for what is no message of its kind.
-  bool hear(peer::PeerNumber from, Traffic about, rti::Bytes content);
+  bool receive(peer::PeerNumber from, Traffic about, rti::Bytes content);
   /// The own player pressed or released a key, which goes to the bat's owner.
   void press();
   /// How many of the player's keys its bat has felt, by what is known here.
@@ -85,19 +85,19 @@ class SharedInterest {
   std::uint32_t bat() const { return settings_.bats[peer_.number()]; }
   bool owns(std::uint32_t body) const { return places_[body] == Place::own; }
   const SenderInterest& sender() const { return interest_; }
-  PlayerPicture& picture() { return picture_; }
-  const PlayerPicture& picture() const { return picture_; }
+  PeerReplicas& replicas() { return replicas_; }
+  const PeerReplicas& replicas() const { return replicas_; }
 
  private:
-  enum class KeyWord : std::uint8_t { pressed, heard };
+  enum class KeyWord : std::uint8_t { pressed, received };
   enum class Place : std::uint8_t { away, own, ghost };
 
-  void say(peer::PeerNumber to, Traffic about, rti::Bytes content);
-  void tell(std::uint32_t window);
+  void send(peer::PeerNumber to, Traffic about, rti::Bytes content);
+  void send_updates(std::uint32_t window);
   void hand_keys_over();
   void keep_in_sight();
-  bool hear_keys(rti::Bytes content);
-  void say_keys(peer::PeerNumber to, KeyWord word, peer::PeerNumber player, std::uint32_t count);
+  bool receive_keys(rti::Bytes content);
+  void send_keys(peer::PeerNumber to, KeyWord word, peer::PeerNumber player, std::uint32_t count);
   std::optional<physics::Vector2> bat_place();
   peer::PeerNumber owner_of_bat(peer::PeerNumber player) const;
   bool is_member(peer::PeerNumber peer) const {
@@ -110,19 +110,19 @@ class SharedInterest {
   const peer::Division& division_;
   Send send_;
   SenderInterest interest_;
-  PlayerPicture picture_;
+  PeerReplicas replicas_;
   std::vector<peer::PeerNumber> members_;  ///< sorted
   std::vector<Place> places_;              ///< by body
   std::vector<std::uint32_t> here_;
   std::vector<std::uint32_t> parted_,
       parting_;  ///< own bodies that are others' since the last window and from now on, as they
                  ///< were then in the picture
-  Gaze gaze_;
+  EncodedInterest encoded_interest_;
   std::optional<physics::Vector2> seen_bat_;  ///< where the player's bat was last seen [m]
   bool is_undone_ = false;                    ///< what was said before counts no more
-  std::vector<bool> is_told_;  ///< by peer: it knows the present gaze, or an earlier one, and must
-                               ///< be told of its end
-  KeyCounts keys_;             ///< by peer, of its player
+  std::vector<bool> is_informed_;  ///< by peer: it knows the present interest, or an earlier one,
+                                   ///< and must be told of its end
+  KeyCounts keys_;                           ///< by peer, of its player
   std::vector<peer::PeerNumber> handed_to_;  ///< by peer: who got its bat from us
 };
 

@@ -20,8 +20,8 @@ std::uint32_t window_of(rti::Bytes updates) {
 
 }  // namespace
 
-Viewer::Viewer(const SharedGame& game, InterestSettings settings, Asides& asides)
-    : game_(game), settings_(std::move(settings)), asides_(asides) {
+Viewer::Viewer(const SharedGame& game, InterestSettings settings, SideChannel& side_channel)
+    : game_(game), settings_(std::move(settings)), side_channel_(side_channel) {
   if (const auto complaint = im::complaint_about(settings_.scheme, {}))
     throw peer::ProtocolError("the first peer names a scheme that is none: " + *complaint);
   if (settings_.policy != "on-event" && settings_.policy != "periodic")
@@ -29,7 +29,7 @@ Viewer::Viewer(const SharedGame& game, InterestSettings settings, Asides& asides
                               "': expected on-event or periodic");
 }
 
-Viewer::~Viewer() { asides_.hear_aside = {}; }
+Viewer::~Viewer() { side_channel_.receive_aside = {}; }
 
 void Viewer::begin(const peer::Session& session) {
   session_ = &session;
@@ -46,12 +46,12 @@ void Viewer::begin(const peer::Session& session) {
         std::vector<std::uint8_t> words(content.size() + 1);
         words[0] = static_cast<std::uint8_t>(about);
         if (!content.empty()) std::memcpy(words.data() + 1, content.data(), content.size());
-        asides_.say_aside(to, std::move(words));
+        side_channel_.send_aside(to, std::move(words));
       });
   interest_->set_members(members_, bats());
   interest_->note_places();
-  asides_.hear_aside = [this](peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
-    return hear(from, std::move(bytes));
+  side_channel_.receive_aside = [this](peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
+    return receive(from, std::move(bytes));
   };
 }
 
@@ -73,7 +73,7 @@ void Viewer::settle() {
   interest_->set_members(members_, bats());
 }
 
-bool Viewer::hear(peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
+bool Viewer::receive(peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
   if (bytes.empty() || bytes[0] >= traffic_count) return false;
   if (!is_recovering()) return apply(from, bytes);
   put_off_.emplace_back(from, std::move(bytes));
@@ -84,7 +84,7 @@ bool Viewer::hear(peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
 bool Viewer::apply(peer::PeerNumber from, std::span<const std::uint8_t> bytes) {
   settle();
   if (!std::binary_search(members_.begin(), members_.end(), from)) return true;
-  return interest_->hear(from, static_cast<Traffic>(bytes[0]), std::as_bytes(bytes.subspan(1)));
+  return interest_->receive(from, static_cast<Traffic>(bytes[0]), std::as_bytes(bytes.subspan(1)));
 }
 
 void Viewer::when_played() {
@@ -124,9 +124,9 @@ void Viewer::end() {
   in_view_ = scope.size();
   told_of_ =
       static_cast<std::size_t>(std::count_if(scope.begin(), scope.end(), [&](std::uint32_t body) {
-        return interest_->picture().belief(body).is_there;
+        return interest_->replicas().replica(body).is_there;
       }));
-  asides_.hear_aside = [](peer::PeerNumber, const std::vector<std::uint8_t>&) {
+  side_channel_.receive_aside = [](peer::PeerNumber, const std::vector<std::uint8_t>&) {
     return true;
   };  // others may still have something to say
   interest_.reset();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "game/net/peer/interest/shared_interest.h"
-#include "game/net/peer/meeting/asides.h"
+#include "game/net/peer/network/side_channel.h"
 #include "game/net/peer/shared_game.h"
 #include "game/net/peer/traffic.h"
 
@@ -17,11 +17,11 @@ namespace rink::game {
 /// To be given to SharedGame::play as its listener. Of each aside the first byte says what it is
 /// about (Traffic). With who comes all begins, who leaves is forgotten; when somebody is lost, and
 /// windows are undone, all who are left tell each other anew.
-class Viewer : public WindowListener {
+class Viewer : public WindowObserver {
  public:
-  /// `game` and `asides` must outlive it. Throws peer::ProtocolError for a scheme or a policy of
-  /// the settings that is none.
-  Viewer(const SharedGame& game, InterestSettings settings, Asides& asides);
+  /// `game` and `side_channel` must outlive it. Throws peer::ProtocolError for a scheme or a policy
+  /// of the settings that is none.
+  Viewer(const SharedGame& game, InterestSettings settings, SideChannel& side_channel);
   ~Viewer() override;
 
   /// All have accepted a window; and all is known that others tell of it: the player's picture is
@@ -47,7 +47,7 @@ class Viewer : public WindowListener {
   const TrafficBytes& messages_sent() const { return messages_sent_; }
 
  private:
-  bool hear(peer::PeerNumber from, std::vector<std::uint8_t> bytes);
+  bool receive(peer::PeerNumber from, std::vector<std::uint8_t> bytes);
   bool apply(peer::PeerNumber from, std::span<const std::uint8_t> bytes);
   bool is_recovering() const { return session_->lost().size() != lost_; }
   void settle();
@@ -55,7 +55,7 @@ class Viewer : public WindowListener {
 
   const SharedGame& game_;
   InterestSettings settings_;
-  Asides& asides_;
+  SideChannel& side_channel_;
   const peer::Session* session_ = nullptr;
   std::optional<SharedInterest> interest_;
   std::vector<peer::PeerNumber> members_;

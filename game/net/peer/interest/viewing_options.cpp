@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "game/model/report_fields.h"
-#include "game/net/peer/meeting/seating.h"
+#include "game/net/peer/network/seating.h"
 #include "game/net/view.h"
 #include "im/filter.h"
 
@@ -35,17 +35,17 @@ void require_viewing(const Terms& terms, const ViewingOptions& options, const Sh
                                 " bats: expected at least one for each");
 }
 
-Viewing make_viewing(const SharedGame& game, Meeting& meeting, const ViewingOptions& options,
+Viewing make_viewing(const SharedGame& game, PeerNetwork& network, const ViewingOptions& options,
                      double (*now_s)()) {
-  const Terms& terms = meeting.terms();
-  const bool wants_evidence = !options.evidence.empty();
-  if (wants_evidence && (!terms.is_seated || !terms.interest.is_wanted() || terms.is_mirrored ||
-                         terms.balance_windows > 0 || !terms.starts_together))
+  const Terms& terms = network.terms();
+  const bool wants_trace = !options.trace.empty();
+  if (wants_trace && (!terms.is_seated || !terms.interest.is_wanted() || terms.is_replicated ||
+                      terms.balance_windows > 0 || !terms.starts_together))
     throw std::invalid_argument(
         "--evidence: it is of a player who looks beyond what its peer has, among peers who stay as "
         "they are: expected a first peer with --scheme, --seated, --unmirrored, --balance 0 and "
         "--evidence");
-  if (wants_evidence && options.warm_up_s >= terms.until)
+  if (wants_trace && options.warm_up_s >= terms.until)
     throw std::invalid_argument("--warm-up: the game ends at " + std::to_string(terms.until) +
                                 " s: expected less");
   if (!terms.interest.is_wanted()) return {};
@@ -53,15 +53,15 @@ Viewing make_viewing(const SharedGame& game, Meeting& meeting, const ViewingOpti
   const double half_side =
       view_half_side(options.view_area, options.view_fraction, field.length, field.width);
   const InterestSettings settings =
-      interest_settings(game.start(), terms, meeting.guests(), half_side, options.view_margin);
-  if (!wants_evidence) return {std::make_unique<Viewer>(game, settings, meeting), nullptr};
+      interest_settings(game.start(), terms, network.peer_infos(), half_side, options.view_margin);
+  if (!wants_trace) return {std::make_unique<Viewer>(game, settings, network), nullptr};
   const SamplingSettings sampling{.seed = options.evidence_seed,
                                   .clients = terms.peer_count,
                                   .from_s = options.warm_up_s,
                                   .until_s = terms.until};
-  auto witness = std::make_unique<RunWitness>(game, settings, meeting, sampling, now_s);
-  RunWitness* const itself = witness.get();
-  return {std::move(witness), itself};
+  auto recorder = std::make_unique<RunRecorder>(game, settings, network, sampling, now_s);
+  RunRecorder* const itself = recorder.get();
+  return {std::move(recorder), itself};
 }
 
 nlohmann::ordered_json report_of(const rti::TransportCounters& counters) {

@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "game/net/peer/meeting/greetings.h"
-#include "game/net/peer/meeting/meeting.h"
-#include "game/net/peer/run_witness.h"
+#include "game/net/peer/network/greetings.h"
+#include "game/net/peer/network/peer_network.h"
+#include "game/net/peer/run_recorder.h"
 
 namespace rink::game {
 
 struct ViewingOptions {
   double view_fraction = 0.05, view_area = 0.0,
          view_margin = 0.0;  ///< as a bot's: of the field's area, or m^2; m
-  std::string evidence;      ///< file
+  std::string trace;         ///< file
   std::uint64_t evidence_seed = 1;
   double warm_up_s = 0.0;
   std::vector<std::string> always;  ///< of a first peer: kinds of bodies; none: as the scene has it
@@ -32,9 +32,9 @@ void require_viewing(const Terms& terms, const ViewingOptions& options, const Sh
 /// neither if they want none. Throws std::invalid_argument if there can be no evidence.
 struct Viewing {
   std::unique_ptr<Viewer> viewer;
-  RunWitness* witness = nullptr;  ///< the same, if it is one
+  RunRecorder* recorder = nullptr;  ///< the same, if it is one
 };
-Viewing make_viewing(const SharedGame& game, Meeting& meeting, const ViewingOptions& options,
+Viewing make_viewing(const SharedGame& game, PeerNetwork& network, const ViewingOptions& options,
                      double (*now_s)());
 /// What was told, for the report.
 nlohmann::ordered_json report_of(const Viewer& viewer);

@@ -1,0 +1,244 @@
+// What peers tell each other before and after they play (docs/peer-to-peer.md, "Joining"), as plain
+// values with one function each that writes and reads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "game/net/relevant_kinds.h"
+#include "game/peer/session/session_state.h"
+#include "game/physics/snapshot_stream.h"
+
+namespace rink::game {
+
+inline constexpr std::uint32_t peer_protocol_version = 7;
+inline constexpr std::uint32_t peers_max = 64;
+
+/// The first byte of every frame.
+enum class FrameKind : std::uint8_t {
+  hello,
+  welcome,
+  elsewhere,
+  refusal,
+  greeting,
+  mail,
+  farewell,
+  sign,
+  aside
+};
+inline constexpr FrameKind frame_kind_max = FrameKind::aside;
+
+/// Where a peer can be reached by all others.
+struct Place {
+  std::string address;
+  std::uint16_t port = 0;
+  std::string text() const {
+    return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" +
+           std::to_string(port);
+  }
+};
+
+/// One of the peers, and which bats it plays: `bat_count` from `first_bat` on, each of which looks
+/// at `puck_count` pucks. The first `hand_count` of them are played by persons, who look at every
+/// window's end. `token` is a number that it chose, and nobody else has.
+struct PeerInfo {
+  Place place;
+  std::uint32_t first_bat = 0, bat_count = 0, puck_count = 0, hand_count = 0;
+  std::uint64_t token = 0;
+};
+
+/// What every peer brings along, and must be equal at all.
+struct Fingerprint {
+  std::uint64_t self_test = 0;  ///< peer::self_test_hash()
+  std::uint64_t scene = 0;      ///< game::fingerprint
+  std::uint64_t keys = 0;       ///< of all keys, scripted and recorded
+};
+
+/// How all decide what players are told that look beyond what their peers have (SharedInterest);
+/// with no scheme nobody is told anything.
+struct InterestTerms {
+  std::string scheme, policy = "on-event";
+  double cell_size = 0.0;  ///< m; 0 lets the scheme choose
+  std::uint8_t always =
+      0;  ///< kinds of bodies that the scheme `always` lets through: RelevantKinds::bits
+  bool is_wanted() const { return !scheme.empty(); }
+  bool fit() const {
+    return cell_size >= 0.0 && cell_size <= 1e6 && always <= RelevantKinds::bits_max;
+  }
+};
+
+/// What the first peer decides for all.
+struct Terms {
+  std::uint32_t peer_count = 2;
+  double until = 0.0, window = 0.0;  ///< s
+  std::uint32_t balance_windows =
+      0;                      ///< after so many windows zones shift toward equal load; 0: they stay
+  bool is_replicated = true;  ///< whether each peer's part is kept by another, too
+  bool is_seated = false;  ///< each peer has the player in its zone, whose keys all know, and zones
+                           ///< are cut around these (seated_division)
+  bool starts_together = false;  ///< at an instant that the first peer says (start_together)
+  InterestTerms interest{};
+  bool fit() const {
+    return peer_count >= 1 && peer_count <= peers_max && until > 0.0 && until <= 1e9 &&
+           window > 0.0 && until / window <= 1e9 && interest.fit();
+  }
+};
+
+/// A newcomer's first words, to any peer. What follows `version` is of that version.
+struct Hello {
+  std::array<std::uint8_t, 8> magic{'R', 'i', 'n', 'k', 'P', 'e', 'e', 'r'};
+  std::uint32_t version = peer_protocol_version;
+  Fingerprint session_fingerprint;
+  PeerInfo info;  ///< which bats, the first peer says
+  bool is_of_this_version() const { return version == peer_protocol_version; }
+};
+
+/// Somebody to whom a newcomer connects. A member, or about to be one.
+struct Introduced {
+  std::uint32_t number = 0;
+  bool is_member = true;
+  PeerInfo info;
+};
+
+/// The answer of `sponsor`, before they play the first peer, then whoever was asked: the newcomer
+/// is `number`, and plays bats from `first_bat` on.
+struct Welcome {
+  std::uint64_t session = 0;
+  Terms terms;
+  std::uint32_t sponsor = 0, number = 0, first_bat = 0;
+  bool is_playing = false;
+  std::vector<Introduced> others;
+};
+
+/// The answer of any other peer before they play: ask the first one, which is there.
+struct Elsewhere {
+  Place first;
+};
+
+enum class RefusalKind : std::uint8_t { wrong_version, other, again };
+
+struct Refused {
+  RefusalKind kind = RefusalKind::other;
+  std::string reason;
+};
+
+/// A newcomer to each of those who were there before it, but the first.
+struct Greeting {
+  std::uint64_t session = 0;
+  std::uint32_t number = 0;
+  PeerInfo info;
+};
+
+enum class FarewellKind : std::uint8_t { done, interrupted, trouble };
+
+/// A peer's last words.
+struct Farewell {
+  FarewellKind kind = FarewellKind::done;
+  std::string reason;
+};
+
+template <class Stream>
+bool exchange(Stream& stream, std::string& text) {
+  if (!stream.size(text)) return false;
+  for (char& character : text)
+    if (!stream.number(character)) return false;
+  return true;
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Place& place) {
+  return exchange(stream, place.address) && stream.number(place.port);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, PeerInfo& info) {
+  return exchange(stream, info.place) &&
+         stream.numbers(info.first_bat, info.bat_count, info.puck_count, info.hand_count,
+                        info.token) &&
+         info.hand_count <= info.bat_count;
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Hello& hello) {
+  for (std::uint8_t& byte : hello.magic)
+    if (!stream.number(byte)) return false;
+  if (hello.magic != Hello().magic || !stream.number(hello.version)) return false;
+  Fingerprint& session_fingerprint = hello.session_fingerprint;
+  return !hello.is_of_this_version() ||
+         (stream.numbers(session_fingerprint.self_test, session_fingerprint.scene,
+                         session_fingerprint.keys) &&
+          exchange(stream, hello.info));
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Welcome& welcome) {
+  Terms& terms = welcome.terms;
+  InterestTerms& interest = terms.interest;
+  const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until,
+                                        terms.window, terms.balance_windows, welcome.sponsor,
+                                        welcome.number, welcome.first_bat, interest.cell_size) &&
+                         stream.truth(terms.is_replicated) && stream.truth(terms.is_seated) &&
+                         stream.truth(terms.starts_together) && stream.truth(welcome.is_playing) &&
+                         exchange(stream, interest.scheme) && exchange(stream, interest.policy) &&
+                         stream.number(interest.always);
+  if (!is_headed || !stream.size(welcome.others)) return false;
+  bool has_sponsor = false;
+  std::uint32_t least = 0;
+  for (Introduced& one : welcome.others) {
+    if (!stream.number(one.number) || !stream.truth(one.is_member) || !exchange(stream, one.info) ||
+        one.number < least || one.number >= peer::numbers_max)
+      return false;
+    least = one.number + 1;
+    has_sponsor = has_sponsor || one.number == welcome.sponsor;
+    if (one.number == welcome.number) return false;
+  }
+  return terms.fit() && has_sponsor && welcome.number < peer::numbers_max &&
+         (welcome.is_playing ? terms.is_replicated
+                             : welcome.sponsor == 0 && welcome.number == welcome.others.size() &&
+                                   welcome.number < terms.peer_count && least == welcome.number);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Elsewhere& elsewhere) {
+  return exchange(stream, elsewhere.first);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Refused& refused) {
+  return stream.choice(refused.kind, RefusalKind::again) && exchange(stream, refused.reason);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Greeting& greeting) {
+  return stream.numbers(greeting.session, greeting.number) && exchange(stream, greeting.info);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Farewell& farewell) {
+  return stream.choice(farewell.kind, FarewellKind::trouble) && exchange(stream, farewell.reason);
+}
+
+/// With a checksum at the end.
+template <class Message>
+std::vector<std::uint8_t> bytes_of(Message message) {
+  physics::SnapshotWriter writer;
+  exchange(writer, message);
+  return writer.finish();
+}
+
+/// Nothing unless the bytes are one whole message. Of a Hello of another version only that is read.
+template <class Message>
+std::optional<Message> message_from(std::span<const std::uint8_t> bytes) {
+  physics::SnapshotReader reader(bytes);
+  Message message;
+  if (!reader.is_intact() || !exchange(reader, message)) return std::nullopt;
+  if constexpr (requires { message.is_of_this_version(); })
+    if (!message.is_of_this_version()) return message;
+  return reader.is_at_end() ? std::optional(std::move(message)) : std::nullopt;
+}
+
+}  // namespace rink::game

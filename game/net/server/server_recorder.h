@@ -1,0 +1,43 @@
+// Watches a server while it runs: keeps what evidence needs in memory and leaves the writing for
+// afterwards.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "game/net/server/server.h"
+#include "game/net/server_trace.h"
+#include "rti/federation_execution.h"
+
+namespace rink::game {
+
+/// A sampled tick costs one pass over the scope of a few players; all others a few words. Memory is
+/// bounded by SamplingSettings::record_max.
+class ServerRecorder {
+ public:
+  ServerRecorder(const SamplingSettings& settings, double rate_hz);
+
+  /// To be called after every tick, the filter's decision made.
+  void look(const Server& server, const rti::FederationExecution& execution,
+            const ServerTrace::Tick& tick);
+  /// Everything so far, with the keys and the hash of the game as it is now. Who ran the server
+  /// adds choice, scheme and policy.
+  ServerTrace trace(const Server& server) const;
+  std::size_t memory_bytes() const;
+
+ private:
+  void name_objects(const Server& server);
+  void note_decisions(const Server& server, const rti::FederationExecution& execution,
+                      double instant_s);
+
+  SamplingSettings settings_;
+  double tick_s_;
+  std::vector<std::uint32_t> players_;
+  std::vector<double> instants_;
+  std::size_t next_instant_ = 0, next_player_ = 0;
+  bool are_named_ = false;
+  std::vector<rti::ObjectHandle> listed_;
+  ServerTrace trace_;
+};
+
+}  // namespace rink::game

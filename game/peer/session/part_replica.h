@@ -1,0 +1,70 @@
+// What a peer has of its own, kept so that another can go on in its place.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "game/peer/messages.h"
+
+namespace rink::peer {
+
+/// How a peer's own part differs from what it was a step before.
+struct PartChange {
+  std::uint64_t step = 0;  ///< that it leads to
+  double time = 0.0;       ///< then [s]
+  bool is_whole = false;   ///< `bodies` and `log` are all, nothing is kept
+  std::vector<Handover::Body> bodies;
+  std::vector<FreeFlightState> free_flights{};  ///< of those that are kept
+  std::vector<std::uint32_t> gone;              ///< to other owners
+  std::vector<RestContact> rest_contacts;       ///< all of them
+  std::vector<Key> keys;                        ///< of live players, still to take effect: all
+  std::vector<Key> log;                         ///< of live players, that took effect
+};
+
+template <class Stream>
+bool exchange(Stream& stream, PartChange& change) {
+  return stream.numbers(change.step, change.time) && stream.truth(change.is_whole) &&
+         exchange_list(stream, change.bodies) && exchange_list(stream, change.free_flights) &&
+         stream.size(change.gone) &&
+         std::all_of(change.gone.begin(), change.gone.end(),
+                     [&](std::uint32_t& body) { return stream.number(body); }) &&
+         exchange_list(stream, change.rest_contacts) && exchange_list(stream, change.keys) &&
+         exchange_list(stream, change.log);
+}
+std::vector<std::uint8_t> written(PartChange message);
+bool read(std::span<const std::uint8_t> bytes, PartChange& message);
+
+/// A peer's own part at a step.
+struct Part {
+  std::uint64_t step = 0;
+  double time = 0.0;  ///< s
+  std::unordered_map<std::uint32_t, BodyState> bodies;
+  std::vector<RestContact> rest_contacts;
+  std::vector<Key> keys, log;  ///< as PartChange's, but `log` since the start
+};
+
+/// The part at the last two steps, for peers that play in step are never further apart.
+class PartReplica {
+ public:
+  /// The next step's, or a whole one. False, with nothing changed, if it is neither.
+  bool add(PartChange change);
+  /// Back to one of the last two steps (false if it is neither): from here on that is the last.
+  bool rewind(std::uint64_t step);
+  /// At the last step; there is no way back to the one before then.
+  const Part& part();
+  /// Likewise, but that step stays.
+  std::vector<Key> log() const;
+
+  /// Asserts that the last change, unless it is whole, leads on from what was there before.
+  void check() const;
+
+ private:
+  void apply();
+  std::optional<Part> base_;
+  std::optional<PartChange> last_;
+};
+
+}  // namespace rink::peer

@@ -1,0 +1,117 @@
+// A world in which only some of the bodies are there: those of one part of the field, as worlds
+// elsewhere hand them over.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "game/physics/bodies/before_images.h"
+#include "game/physics/bodies/journal.h"
+#include "game/physics/bodies/world_mark.h"
+#include "game/physics/real.h"
+#include "game/physics/world.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+/// So many events at one instant, wherever in the field, and the engine thinks of means beyond the
+/// bodies concerned; below, they alone matter.
+constexpr std::uint64_t events_at_once_local = 64;
+
+/// No fewer than any world counts at one instant among events at these times [s], in the order in
+/// which they came. Where an instant begins depends on who else is in the world: what is one
+/// instant there may be the end of one and the beginning of another here.
+std::uint64_t most_at_once(std::span<const double> times);
+
+/// Bodies have the numbers that they have in the whole: there is a blank slot for each of
+/// `body_count`, and bodies are put into theirs and dropped from it. What is there goes on with the
+/// bits that it has in the whole, for as long as nothing that is not there would have touched it.
+/// Time goes by windows, each of which can be undone.
+class Subdomain {
+ public:
+  Subdomain(const WorldSpec& spec, std::uint32_t body_count);
+  ~Subdomain();
+  Subdomain(const Subdomain&) = delete;
+  Subdomain& operator=(const Subdomain&) = delete;
+
+  const World& world() const { return world_; }
+  std::uint32_t body_count() const { return static_cast<std::uint32_t>(is_there_.size()); }
+  bool is_there(std::uint32_t body) const { return is_there_[body] != 0; }
+
+  BodyState state(std::uint32_t body) const { return state_in(world_, body); }
+  /// Of a body of any world.
+  static BodyState state_in(const World& world, std::uint32_t body);
+  /// Whether some world could have it in this state as far as flags and numbers say, in a game of
+  /// `body_count` bodies.
+  static bool is_possible(const BodyState& state, std::uint32_t body_count);
+  static bool is_out_of_play(const BodyState& state);
+  /// Whether it is in a rest contact along axis 0 or 1.
+  static bool is_held_along(const BodyState& state, int axis);
+  /// As it was when the window began.
+  BodyState state_before(std::uint32_t body) const { return before_.state(body); }
+  /// The body's path from then to its first change.
+  Motion motion_before(std::uint32_t body) const;
+
+  const Flight& flight(std::uint32_t body) const;
+  /// Whether it has changed in this window, and by nothing but free impacts, which leave all but
+  /// its flight.
+  bool has_flown_freely(std::uint32_t body) const { return before_.has_flown_freely(body); }
+  /// Of a body in play that flies straight and has no companions; nothing of any other.
+  std::optional<Flight> free_flight(std::uint32_t body) const;
+
+  /// Whether it was out of play, or removed.
+  bool was_gone(std::uint32_t body) const;
+
+  /// Between windows: puts the body there, or in another state; or takes it away. Holds are set
+  /// apart.
+  void put(std::uint32_t body, const BodyState& state);
+  void drop(std::uint32_t body);
+  /// Between windows: as World::place, of a puck that is there.
+  void place(std::uint32_t puck, const Vector2& position) {
+    world_.place({puck}, position, {0.0, 0.0});
+  }
+  /// All rest contacts; those that are set need no order, and whoever is in one must be there.
+  const std::vector<RestContact>& rest_contacts() const;
+  const std::vector<RestContact>& rest_contacts_before() const { return mark_.rest_contacts; }
+  void set_rest_contacts(std::vector<RestContact> rest_contacts);
+  /// All bodies in rest contact or in one jam with `body`, directly or through others, itself
+  /// first.
+  std::vector<std::uint32_t> group_of(std::uint32_t body) const;
+
+  /// From here on what happens is in the journal.
+  void begin_window();
+  /// Back to where the window began.
+  void undo();
+  const Journal& journal() const { return journal_; }
+  /// Of all bodies that changed in this window.
+  const BeforeImages& before() const { return before_; }
+  /// Free impacts of who stays in one of these rooms until `until` [s], if nothing else happens to
+  /// it, are counted only.
+  void set_rooms(std::vector<Journal::Room> rooms, double until) {
+    journal_.rooms = std::move(rooms), journal_.quiet_until = until;
+  }
+  /// 1 + the room in which the body is; 0: all is entered that happens to it.
+  void set_room(std::uint32_t body, std::uint8_t room) { journal_.rooms_of[body] = room; }
+  /// Bodies of which something was entered, so that they have no room any more, since the last
+  /// call.
+  std::vector<std::uint32_t> take_entered() { return std::exchange(journal_.entered, {}); }
+
+  /// As of World: an event of `body`, and time. Goals end no call.
+  void set_thrust(std::uint32_t bat, const Vector2& acceleration) {
+    world_.set_thrust({bat}, acceleration);
+  }
+  void advance(double until);
+
+ private:
+  Engine& engine() const { return *world_.engine_; }
+
+  World world_;
+  BeforeImages before_;
+  Journal journal_;
+  std::vector<std::uint8_t> is_there_;
+  WorldMark mark_;  ///< when the window began
+};
+
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -1,0 +1,55 @@
+// What the bots say of what they were told and believed, for others to judge: changes of scope, and
+// the mirrors of some at drawn instants.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "game/physics/body.h"
+
+namespace rink::loadgen {
+
+/// Plain facts of the bots that were watched. docs/metrics.md describes the file.
+struct BotsTrace {
+  struct ScopeChange {
+    double instant_s = 0.0;    ///< simulated time of its arrival; below 0 if before the start
+    std::uint32_t object = 0;  ///< RTI handle
+    bool is_in = false;
+  };
+  /// One entity in a mirror. Where it was believed to be is meaningless if it was not in scope.
+  struct Replica {
+    std::uint32_t object = 0;
+    std::uint32_t bytes = 0;  ///< of its updates that arrived within the window before the sample
+    bool is_in_scope = false;
+    physics::Vector2 matched{0.0, 0.0}, displayed{0.0, 0.0};  ///< m, at the sample's two instants
+  };
+  struct Bot {
+    std::uint32_t object = 0;  ///< of its own bat
+    std::vector<ScopeChange> changes;
+  };
+  struct Sample {
+    std::uint32_t bot = 0;  ///< index in `bots`
+    double displayed_s = 0.0,
+           matched_s = 0.0;  ///< the clock's simulated instant, and the newest stamp in the mirror
+    double window_s = 0.0;
+    std::size_t first = 0, last = 0;  ///< in `replicas`
+  };
+
+  std::uint32_t clients = 0;
+  double from_s = 0.0, until_s = 0.0;  ///< the measured span of simulated time
+  bool is_complete = true;  ///< false: more changed than there is room for, and the rest is missing
+  std::vector<Bot> bots;
+  std::vector<Sample> samples;  ///< ordered by displayed_s
+  std::vector<Replica> replicas;
+};
+
+/// `trace` as a file gives it back: positions rounded to a nanometre, changes of scope to a
+/// microsecond.
+BotsTrace rounded(BotsTrace trace);
+/// Rounds so. Throws std::runtime_error naming `file` if it cannot be written.
+void write_trace(const std::string& file, const BotsTrace& trace);
+/// Throws game::TraceError naming file, line and what was expected.
+BotsTrace read_bots_trace(const std::string& file);
+
+}  // namespace rink::loadgen
