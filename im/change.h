@@ -1,4 +1,4 @@
-// What a filter says: who became relevant to whom, and who ceased to be.
+// What a filter says: which entities became relevant to which subscribers, and which ceased to be.
 #pragma once
 
 #include <compare>

@@ -60,7 +60,7 @@ struct Flight {
   friend bool operator==(const Flight&, const Flight&) = default;
 };
 
-/// When an entity that moves on as it does is with a subscriber that does likewise: from `enters`
+/// When an entity is relevant to a subscriber if both move on as they do now: from `enters`
 /// to `leaves` [s], both included, infinite if always; never if `enters > leaves`.
 struct RelevanceInterval {
   Subscriber subscriber;

@@ -14,7 +14,7 @@ namespace rink::rti {
 
 struct DirectorySettings {
   FederationSettings federation;   ///< of every execution; the name is replaced
-  FederationServices services;     ///< likewise: its parts
+  FederationServices services;     ///< of every execution: its replaceable parts
   std::size_t execution_max = 64;  ///< that exist at once
 };
 

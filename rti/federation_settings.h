@@ -36,7 +36,7 @@ struct FederationSettings {
   std::size_t timed_bytes_max = 256u << 20;  ///< of what they say
   std::uint32_t timed_per_federate_max = 1u
                                          << 18;  ///< of those that their sender can still take back
-  std::size_t timed_bytes_per_federate_max = 64u << 20;  ///< likewise
+  std::size_t timed_bytes_per_federate_max = 64u << 20;  ///< of what those messages say
   Timeouts timeouts;
   std::uint32_t keyframe_period =
       1;  ///< every so-many-th flush with periodic state is a keyframe (docs/wire.md, "Baselines")

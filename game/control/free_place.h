@@ -21,8 +21,8 @@ std::vector<physics::Vector2> places_for_disc(const physics::Field& field,
                                               const physics::Vector2& spot, double radius,
                                               std::size_t first, std::size_t count);
 
-/// Likewise for a rectangle of `half_extent` [m] that must lie within `half` if the field's bats
-/// keep to their halves.
+/// The nearest free place for a rectangle of `half_extent` [m] that must lie within `half` if the
+/// field's bats keep to their halves.
 std::optional<physics::Vector2> nearest_free_rectangle(const physics::Simulator& simulator,
                                                        const physics::Vector2& spot,
                                                        const physics::Vector2& half_extent,

@@ -19,7 +19,7 @@ class MatchRecords {
   std::filesystem::path write(const KeyLog& log);
   /// The same for a match that goes on all the same: what went wrong, when it begins to.
   std::optional<std::string> keep(const KeyLog& log);
-  /// Whether it would be kept: likewise.
+  /// What would go wrong if a match were kept now; nothing if nothing would.
   std::optional<std::string> test();
   /// Whether the last record could not be kept.
   bool is_failing() const { return is_failing_; }

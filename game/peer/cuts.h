@@ -22,7 +22,7 @@ class Cuts {
   /// A field that is all of peer 0.
   static Cuts whole(const physics::Field& field) { return by_count(field, {}, 1); }
 
-  /// For so many peers, of whom some may have no zone.
+  /// For so many peers, some of which may have no zone.
   Division division(PeerNumber peer_count) const;
   bool has(PeerNumber peer) const;
   /// `peer` must have a zone, and not be the only one (both asserted).

@@ -25,9 +25,9 @@ struct PeerCounters {
   std::uint64_t hand_overs = 0;                    ///< bodies that left for another owner
   std::uint64_t held_max = 0;  ///< the most bodies that it had at a window's start, its own and
                                ///< ghosts; of peers taken together, the busiest one's
-  std::uint64_t ghost_windows = 0;  ///< ghosts held, summed over the windows
-  std::uint64_t border_windows =
-      0;  ///< own bodies that another peer has as ghosts, likewise, each counted once per such peer
+  std::uint64_t ghost_windows = 0;   ///< ghosts held, summed over the windows
+  std::uint64_t border_windows = 0;  ///< own bodies that another peer has as ghosts, summed over
+                                     ///< the windows, each counted once per such peer
   std::uint64_t arrival_bytes = 0, claim_bytes = 0, verdict_bytes = 0;  ///< sent
 
   PeerCounters& operator+=(const PeerCounters& other);
@@ -292,7 +292,8 @@ class Peer {
   Admission admission_;
   std::vector<std::uint32_t> changed_, left_;  // in the last commit: own bodies whose states
                                                // changed, or that came; and those that went
-  std::vector<std::uint32_t> free_flights_;    // likewise: that free impacts alone changed
+  std::vector<std::uint32_t>
+      free_flights_;  // in the last commit: own bodies that free impacts alone changed
   std::vector<std::uint8_t> roles_, homes_, end_homes_,
       is_edge_;  // homes: 1 + number of the own zone in which a body is at home; 0 if in none, or
                  // if it has companions
@@ -327,7 +328,7 @@ class Peer {
   Box hull_{};  // holds all of these
   std::vector<double>
       doubts_;  // as in ghosts_: when the ghost ceases to be what its owner says; never, as a rule
-  std::vector<bool> is_unmoved_;  // likewise: nothing happened to it, its owner says
+  std::vector<bool> is_unmoved_;  // by ghost: its owner says that nothing happened to it
   std::vector<Claims> claims_;
   std::vector<Verdict> verdicts_;
   std::vector<Handover> handovers_;

@@ -87,7 +87,7 @@ enum class QueuePolicy : std::uint8_t { calendar, heap, windows };
 struct WorldSpec {
   Field field;
   double puck_drag = 0.0;      ///< dv/dt = -puck_drag v for every puck [1/s], 0 or more
-  double bat_drag = 0.0;       ///< likewise for every bat
+  double bat_drag = 0.0;       ///< dv/dt = -bat_drag v for every bat [1/s], 0 or more
   double puck_friction = 0.0;  ///< Coulomb friction of every puck with the table: the deceleration
                                ///< mu g along its velocity until it rests [m/s^2], 0 or more
   RestitutionTable restitution;
@@ -100,7 +100,7 @@ struct WorldSpec {
              ///< are taken together (docs/physics.md, "Degenerate contact")
   double cell_size = 0.0;  ///< lower limit for the side of a grid cell [m]; 0 lets the world
                            ///< choose. Changes cost, never results.
-  QueuePolicy queue = QueuePolicy::calendar;  ///< likewise
+  QueuePolicy queue = QueuePolicy::calendar;  ///< changes cost, never results
   bool allow_overlap = false;  ///< bodies may be added where others are; those that overlap and
                                ///< approach collide at once, none is ever moved
 };

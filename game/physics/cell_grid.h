@@ -1,4 +1,5 @@
-// A uniform grid of square cells over the field: who is near whom, and nothing else.
+// A uniform grid of square cells over the field: which bodies are near each other, and nothing
+// else.
 #pragma once
 
 #include <algorithm>
@@ -70,8 +71,8 @@ class CellGrid {
       for (std::size_t cell = row - 1; cell <= row + 1; ++cell) end = append(cell, end);
     return static_cast<std::uint32_t>(end - list);
   }
-  /// Likewise only those in the three cells that came into sight when `body` moved to its cell by
-  /// `direction`.
+  /// Collects only the bodies in the three cells that came into sight when `body` moved to its cell
+  /// by `direction`.
   std::uint32_t collect_ahead(std::uint32_t body, Direction direction, std::uint32_t* list) const {
     return collect_three(neighbour(cell_at(places_[body]), direction), direction, list);
   }

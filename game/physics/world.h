@@ -112,7 +112,7 @@ class World final : public Simulator {
   Real energy_introduced() const override;
   Real work_of_thrust() const override;
   Real dissipated() const override;      ///< lost to drag, to friction and in impacts
-  RealVector momentum() const override;  ///< likewise [kg m/s]
+  RealVector momentum() const override;  ///< of the bodies in play [kg m/s]
   /// The deepest overlap of any two bodies, or of a body and a wall, at now() [m]; 0 if none
   /// overlap. Looks at every body.
   Real max_overlap() const override;

@@ -25,7 +25,7 @@ requires(sizeof(Word) == 4 || sizeof(Word) == 8) class FnvHash {
   constexpr void add_word(std::uint64_t word) {
     for (int byte = 0; byte < 8; ++byte, word >>= 8) add(static_cast<std::uint8_t>(word));
   }
-  /// The bits of a double, likewise.
+  /// The eight bytes of a double, the least significant first.
   constexpr void add_number(double number) { add_word(std::bit_cast<std::uint64_t>(number)); }
   constexpr Word value() const { return value_; }
 

@@ -46,7 +46,7 @@ struct Expression {
 std::string read_expression(std::string_view text, Expression& expression,
                             Expression::Place* place = nullptr);
 
-/// What is wrong with the names and parameters in `expression`, and likewise where; an empty text
+/// What is wrong with the names and parameters in `expression`, and at which `place`; an empty text
 /// if nothing is.
 std::string judge_expression(const Expression& expression, Expression::Place* place = nullptr);
 

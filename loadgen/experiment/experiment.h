@@ -112,7 +112,7 @@ struct Experiment {
   double warm_up_s = 0.5;   ///< [s] played but not measured; 0 to 600
   std::vector<double> view_fractions{0.05}, view_margins{0.3}, sweep_ticks{0.0}, cell_sizes{0.0},
       tick_rates_hz{30.0};                                   ///< see Parameters, and parameter.h
-  std::vector<double> thresholds{0.005}, extrapolates{1.0};  ///< likewise
+  std::vector<double> thresholds{0.005}, extrapolates{1.0};  ///< see Parameters, and parameter.h
   std::vector<std::uint32_t> pucks{0},
       bats{0};  ///< so many on the scene's own field; 0: as many as the scene has
   double view_area =
@@ -147,7 +147,7 @@ struct Experiment {
   KeySource keys = KeySource::replay;
   std::string text;                                                    ///< the file as read
   double measured_from_s() const { return start_s + warm_up_s; }       ///< of the game [s]
-  double end_s() const { return start_s + (warm_up_s + duration_s); }  ///< likewise
+  double end_s() const { return start_s + (warm_up_s + duration_s); }  ///< of the game [s]
   /// Of an experiment of several parts: each is one of its own, with the same name, scene and
   /// baseline and all that it does not say otherwise. The cells are theirs.
   std::vector<Experiment> parts{};

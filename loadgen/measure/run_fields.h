@@ -58,7 +58,7 @@ void visit_truth(Line& line, Truth& truth) {
   line.text_or_null("relevance", truth.relevance);
 }
 
-/// Likewise for a whole record, which is a RunRecord or a const one.
+/// Writes or reads the fields of a whole record, which is a RunRecord or a const one.
 template <class Line, class Record>
 requires std::same_as<std::remove_const_t<Record>, RunRecord>
 void visit_fields(Line& line, Record& run) {

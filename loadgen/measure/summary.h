@@ -42,8 +42,8 @@ struct SummaryRow : Cell {
       relevance;  ///< what truth called relevant, in words; empty if no run was held against truth
   std::vector<Statistic> statistics;  ///< one per figure, in the order of `figures()`
   std::vector<std::optional<Ratio>>
-      ratios;  ///< likewise: to the baseline cell (`baseline_of`), paired by seed; absent without
-               ///< one and for the baseline itself
+      ratios;  ///< one per figure, in the same order: to the baseline cell (`baseline_of`), paired
+               ///< by seed; absent without one and for the baseline itself
 
   /// The statistic of the figure called `name`, which must be one of `figures()`.
   const Statistic& of(const char* name) const;

@@ -32,7 +32,7 @@ class SparedValues {
     AttributeSet attributes;  ///< that have a value here
     AttributeSet announced;   ///< of those: the RTI knows that it has no newer one
     std::vector<std::vector<std::byte>> values;  ///< by attribute
-    std::vector<double> times;                   ///< likewise: when it was said [s]
+    std::vector<double> times;                   ///< by attribute: when the value was sent [s]
   };
   /// Keeps the values of `attributes`. Returns the object's entry, for the caller to note what it
   /// announced.

@@ -17,8 +17,9 @@ struct PeerLoad {
   double instant_s = 0.0;            ///< simulated
   TrafficBytes bytes{}, messages{};  ///< sent, by what they are about; frames included
   std::uint64_t bytes_sent = 0, bytes_received = 0, writes = 0, segments = 0;  ///< by the transport
-  std::uint64_t acknowledgements = 0, kernel_segments = 0;                     ///< likewise, sent
-  std::uint64_t events = 0;  ///< of physics, those of ghosts alone included
+  std::uint64_t acknowledgements = 0,
+                kernel_segments = 0;  ///< sent, by the transport's model and by the kernel
+  std::uint64_t events = 0;           ///< of physics, those of ghosts alone included
 };
 
 /// Plain facts; instants in simulated seconds, of which the start is that of the first peer.

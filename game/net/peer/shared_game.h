@@ -26,7 +26,7 @@ struct PlayedPart {
   std::vector<peer::PeerNumber> lost;   ///< who was
   double time = 0.0;                    ///< how far it came [s]
   std::uint64_t owned = 0, ghosts = 0;  ///< at the end
-  double halo = 0.0;                    ///< m, likewise
+  double halo = 0.0;                    ///< at the end [m]
   std::uint64_t result_bytes = 0;       ///< sent, with the own bodies' last states
   std::uint64_t hash = 0;               ///< of the whole: Game::hash(), as rink simulate prints it
   std::uint64_t presses = 0;            ///< of the own bots
@@ -101,7 +101,7 @@ class SharedGame {
 
   /// Throws SceneError if windows are too long [s] for pucks that come back after a goal.
   void require_window(double window) const { goal_rules(window); }
-  /// Everybody's keys as a log of the game that one engine plays likewise; `scene_text` is the
+  /// Everybody's keys as a log from which one engine plays the same game; `scene_text` is the
   /// scene's file.
   KeyLog record_of(const PlayedPart& part, const std::string& scene_text) const;
 

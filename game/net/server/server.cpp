@@ -67,7 +67,7 @@ void Server::call_to_start() {
   ambassador_.register_synchronization_point(start_barrier, {}, members);
 }
 
-/// A player has left of whom the server had not heard yet.
+/// A player has left that the server had not discovered yet.
 void Server::synchronization_point_registration_failed(std::string_view,
                                                        rti::SynchronizationFailure failure) {
   if (failure == rti::SynchronizationFailure::member_not_joined) call_to_start();

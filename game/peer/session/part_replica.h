@@ -55,7 +55,7 @@ class PartReplica {
   bool rewind(std::uint64_t step);
   /// At the last step; there is no way back to the one before then.
   const Part& part();
-  /// Likewise, but that step stays.
+  /// The log at the last step; the way back to the step before stays.
   std::vector<Key> log() const;
 
   /// Asserts that the last change, unless it is whole, leads on from what was there before.

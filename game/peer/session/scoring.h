@@ -44,7 +44,7 @@ struct Scoring {
   double next() const {
     return face_offs.empty() ? std::numeric_limits<double>::infinity() : face_offs.front().time;
   }
-  /// Likewise, of those that are due after `time`.
+  /// When the first puck after `time` is due [s]; never, if none is.
   double next_after(double time) const;
   /// Asserts that pucks are due in order of time, and none once all is over.
   void check() const;

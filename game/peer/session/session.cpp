@@ -112,8 +112,8 @@ Message Session::received(PeerNumber from) {
   }
 }
 
-/// Likewise, and held against the scene: the states in it are those of that instant [s]. What goes
-/// to the own peer, it looks at itself.
+/// Receives a message and holds it against the scene: the states in it are those of that instant
+/// [s]. What goes to the own peer, it looks at itself.
 template <class Message>
 Message Session::checked(PeerNumber from, double now) {
   Message message = received<Message>(from);

@@ -1,4 +1,4 @@
-// Whom a body can meet: another body, or a fixed part of the field.
+// What a body can touch: another body, or a fixed part of the field.
 #pragma once
 
 #include <cstdint>

@@ -33,7 +33,7 @@ class Prediction {
   Prediction& operator=(const Prediction&) = delete;
 
   void predict(std::uint32_t body);
-  /// Likewise of a puck in straight flight where all are, but for telling the schedule. Returns how
+  /// Predicts a puck in straight flight where all are, but for telling the schedule. Returns how
   /// many touch it now, itself included: never too few, hardly ever too many.
   std::uint32_t predict_counting(std::uint32_t body);
   /// Of a body that has just been moved to the next cell: in straight flight, the earliest impact

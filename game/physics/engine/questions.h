@@ -27,7 +27,7 @@ Real max_overlap(const Present& present);
 
 /// Of the bodies in play at `now`, spin included [J].
 Real kinetic_energy(const Bodies& bodies, Real now);
-/// Likewise [kg m/s].
+/// The momentum of the bodies in play at `now` [kg m/s].
 RealVector momentum(const Bodies& bodies, Real now);
 /// What thrust has put in up to `now`, and what was lost [J]; 0 where no books are kept.
 Real work_of_thrust(const EnergyLedger& ledger, const Bodies& bodies, Real now);

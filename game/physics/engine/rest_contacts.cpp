@@ -1,4 +1,4 @@
-// Who holds whom, and the forces between them.
+// Which bodies rest against each other, and the forces between them.
 #include "game/physics/engine/rest_contacts.h"
 
 #include <algorithm>

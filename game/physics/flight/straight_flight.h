@@ -35,7 +35,7 @@ struct Flight {
   }
 };
 
-/// Whom a disc meets first and when, and when the second.
+/// Which disc a disc touches first and when, and when the second.
 struct FirstContact {
   Real time = std::numeric_limits<Real>::infinity();
   std::uint32_t other = 0xffffffff;

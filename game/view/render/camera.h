@@ -29,7 +29,7 @@ class Sight {
   const Vector3& right() const {
     return right_;
   }                                          ///< scaled by half the window's width at distance 1
-  const Vector3& up() const { return up_; }  ///< likewise by its height
+  const Vector3& up() const { return up_; }  ///< scaled by half the window's height at distance 1
   const Vector3& forward() const { return forward_; }
   /// Where in the window `place` is, from -1 to 1 each way, y up.
   Eigen::Vector2f project(const Vector3& place) const;

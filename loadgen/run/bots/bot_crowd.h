@@ -26,8 +26,8 @@ struct BotCrowdSettings {
   std::uint32_t first = 0, count = 0;  ///< so many bots play bats first, first + 1, ...
   std::vector<std::string> names{};    ///< by bat, of those that bear others than the bats' own
   double view_fraction = 0.05, view_area = 0.0, view_margin = 0.0;  ///< see game::ClientSettings
-  bool declares_regions = true;                                     ///< likewise
-  bool extrapolates = true;                                         ///< likewise
+  bool declares_regions = true;                                     ///< see game::ClientSettings
+  bool extrapolates = true;                                         ///< see game::ClientSettings
   double start_s = 0.0;  ///< simulated time at which the game begins: what the plan says up to then
                          ///< has been pressed
   double warm_up_s = 0.0;    ///< simulated time from which on things are counted

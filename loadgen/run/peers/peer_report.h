@@ -21,7 +21,7 @@ struct TrafficTotals {
   std::uint64_t messages = 0, bytes = 0, writes = 0, segments = 0, acknowledgements = 0,
                 kernel_segments = 0;
   std::vector<std::uint64_t> sent, received;  ///< bytes by peer
-  std::vector<std::uint64_t> events;          ///< likewise, of physics
+  std::vector<std::uint64_t> events;          ///< of physics, by peer
 
   /// The next peer's.
   void add(const game::PeerNode& node, const rti::TransportCounters& counters);

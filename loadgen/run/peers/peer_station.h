@@ -67,7 +67,7 @@ class PeerStation {
   Measurements& measurements_;
   double rate_hz_;
   std::vector<game::FrameReader> readers_;           ///< by peer
-  std::vector<std::vector<std::uint8_t>> outboxes_;  ///< likewise
+  std::vector<std::vector<std::uint8_t>> outboxes_;  ///< by peer
   Probe probe_;
   game::PeerNode node_;
   std::optional<game::PlayerRecorder> recorder_;

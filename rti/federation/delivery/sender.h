@@ -57,7 +57,7 @@ class Sender final {
   Uses uses_;
   Expulsion expel_;
   GatheredFrame frame_;                      ///< lent to the flush at hand
-  std::vector<ObjectSlot> full_state_sent_;  ///< likewise
+  std::vector<ObjectSlot> full_state_sent_;  ///< lent to the flush at hand
   std::vector<std::byte> values_;            ///< of the record at hand
 };
 

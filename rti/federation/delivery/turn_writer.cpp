@@ -43,7 +43,7 @@ void TurnWriter::apply_turns(FlushContext& context) {
 }
 
 /// Of those who wait, or did so: what this flush's updates say becomes late; under a budget of all,
-/// for who waits is not known yet. What was late of whom is out of scope is forgotten: if he comes
+/// for who waits is not known yet. What was late of objects out of scope is forgotten: if he comes
 /// back he is told of whole.
 void TurnWriter::note_late(const FlushContext& context, Turns& turns) {
   const FederateInterest& interest = context.interest;

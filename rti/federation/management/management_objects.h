@@ -93,7 +93,7 @@ class ManagementObjects {
   bool is_subscribed_ = false;
   ReportedObject federation_;
   std::vector<ReportedObject> federates_;  ///< by slot
-  std::vector<double> periods_;            ///< likewise, of their reports [s]; 0: none
+  std::vector<double> periods_;            ///< by slot: of their reports [s]; 0: none
   std::unordered_map<std::uint32_t, std::uint32_t>
       slots_;  ///< by object, of the federates that they are about
   std::vector<std::byte> values_, before_, changed_;

@@ -1,4 +1,4 @@
-// Until when what is known of an object holds: the newest stamp of whom it belongs to.
+// Until when what is known of an object holds: the newest stamp of its owner.
 #pragma once
 
 #include <cstdint>

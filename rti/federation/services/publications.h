@@ -46,7 +46,7 @@ class Publications {
  private:
   struct Published {
     std::vector<AttributeSet> objects;  ///< by class
-    std::vector<bool> interactions;     ///< likewise
+    std::vector<bool> interactions;     ///< by class
   };
   std::size_t object_classes_, interaction_classes_;
   std::vector<Published> federates_;  ///< by slot

@@ -122,7 +122,7 @@ class SharedMemoryTransport final : public Transport {
   std::vector<std::unique_ptr<Peer>> peers_;  ///< by connection; null once closed
   std::vector<ConnectionId> open_;            ///< those with rings
   std::vector<TransportCounters> counters_;   ///< by connection
-  std::vector<DelayedAcknowledgements> acknowledgements_;  ///< likewise
+  std::vector<DelayedAcknowledgements> acknowledgements_;  ///< by connection
   std::vector<News> news_;
   std::vector<std::byte> buffer_;
   TransportListener* listener_ = nullptr;  ///< while polling

@@ -104,7 +104,7 @@ class SenderInterest {
       sent_;  ///< by peer, ascending: who sees what; what each was told of last and not told to
               ///< forget
   std::vector<std::vector<std::uint32_t>>
-      handed_over_;                    ///< likewise, of what is another's since the last window
+      handed_over_;  ///< by peer, ascending: bodies that became another's since the last window
   std::vector<std::uint8_t> is_here_;  ///< by body: in the filter
   std::vector<std::uint32_t> here_;
   std::unordered_map<std::uint32_t, LastSent>

@@ -64,8 +64,8 @@ class SharedInterest {
   /// with what was told and heard; with who comes all begins, with who is gone it ends. All call
   /// this before they hear what a newcomer says.
   void set_members(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats);
-  /// Likewise, but windows were undone: everybody forgets what was told and where others look, and
-  /// tells everybody anew. All who are left call this at the same window.
+  /// Sets the members after windows were undone: everybody forgets what was told and where others
+  /// look, and tells everybody anew. All who are left call this at the same window.
   void begin_again(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats);
 
   /// From a member. False for what is no message of its kind.
@@ -79,7 +79,7 @@ class SharedInterest {
   void list_scope(std::vector<std::uint32_t>& bodies) const;
   /// Where the player believes a body to be that it sees [m], at `instant` [s].
   physics::Vector2 position_at(std::uint32_t body, double instant) const;
-  /// Likewise how it moves: a copy that may be evaluated at any later time.
+  /// How the player believes it to move: a copy that may be evaluated at any later time.
   physics::Motion motion_of(std::uint32_t body) const;
 
   std::uint32_t bat() const { return settings_.bats[peer_.number()]; }

@@ -97,7 +97,7 @@ struct Hello {
   bool is_of_this_version() const { return version == peer_protocol_version; }
 };
 
-/// Somebody to whom a newcomer connects. A member, or about to be one.
+/// A peer that a newcomer connects to: a member, or about to be one.
 struct Introduced {
   std::uint32_t number = 0;
   bool is_member = true;

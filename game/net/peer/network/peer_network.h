@@ -121,7 +121,7 @@ class PeerNetwork final : public peer::Mail, public SideChannel, private rti::Tr
     double since_s = 0.0, received_s = 0.0, sent_s = 0.0;
     FrameReader reader;
     std::optional<Greeting> early;  ///< came before we knew our own number
-    std::optional<Hello> asking;    ///< likewise
+    std::optional<Hello> asking;    ///< came before we knew our own number, too
     std::deque<std::vector<std::uint8_t>> inbox;
     std::deque<std::vector<std::uint8_t>> outbox;
     std::size_t out_begin = 0;  ///< of the first in the outbox, so much is sent

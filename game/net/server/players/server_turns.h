@@ -16,8 +16,8 @@ struct TurnSettings {
   bool is_synchronous = false, is_time_managed = false;
 };
 
-/// Sends nothing itself. Times are simulated [s]; `granted` is the logical time that the RTI has
-/// granted to the server.
+/// Decides only, and leaves sending to the server. Times are simulated [s]; `granted` is the
+/// logical time that the RTI has granted to the server.
 class ServerTurns {
  public:
   explicit ServerTurns(const TurnSettings& settings) : settings_(settings) {}
