@@ -225,7 +225,7 @@ void FederationDirectory::match() {
   for (const auto& execution : executions_) execution->match();
 }
 
-/// One frame tells of every execution.
+/// One frame lists every execution.
 void FederationDirectory::answer_queries(Outlet& outlet) {
   if (management_queries_.empty()) return;
   FrameWriter frame(frame_max_to_federate);

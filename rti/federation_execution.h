@@ -70,9 +70,10 @@ class FederationExecution final : public CentralComponent {
   const Fom& fom() const;
   std::size_t federate_count() const;
   std::size_t object_count() const;
-  /// True if `federate` is told of `object` since the last match; for tests against brute force.
+  /// True if `object` is in `federate`'s scope since the last match; for tests against brute force.
   bool is_in_scope(FederateHandle federate, ObjectHandle object) const;
-  /// Appends every object that `federate` is told of since the last match, in no particular order.
+  /// Appends every object that is in `federate`'s scope since the last match, in no particular
+  /// order.
   void list_scope(FederateHandle federate, std::vector<ObjectHandle>& objects) const;
   /// Appends every region with bounds that a federate subscribes with.
   void list_subscribed_regions(std::vector<SubscribedRegion>& regions) const;

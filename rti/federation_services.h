@@ -16,7 +16,7 @@ namespace rink::rti {
 /// How each part is made; empty: the one that comes with the RTI. A maker is called once, by the
 /// execution's constructor if nothing else is said, and what it is handed outlives what it makes.
 struct FederationServices {
-  /// Who hears of what. `filter` is the one that the settings name.
+  /// Who receives what. `filter` is the one that the settings name.
   std::function<std::unique_ptr<DataDistribution>(const Fom& fom, const ObjectTable& objects,
                                                   const Ownership& ownership,
                                                   std::unique_ptr<im::Filter> filter)>

@@ -44,7 +44,7 @@ inline constexpr std::uint32_t object_block_max = 1u << 14;
 enum class Transportation : std::uint8_t { reliable, best_effort };
 enum class Order : std::uint8_t { receive, timestamp };
 
-/// How a federate is told.
+/// How a federate receives callbacks.
 enum class CallbackModel : std::uint8_t {
   immediate,  ///< while bytes are received
   evoked,     ///< when it calls `evoke_callback` or `evoke_multiple_callbacks`

@@ -42,7 +42,7 @@ class Baselines {
 
   void begin(std::span<const UpdateRun> runs, std::size_t federate_slots);
   void end();
-  /// True if the run is told by baselines.
+  /// True if the run is sent as differences to baselines.
   bool covers(std::size_t run) const { return run < run_count_ && periodic_[run].codec != nullptr; }
   /// The keyframe that this flush is, if it is one.
   std::optional<std::uint16_t> keyframe() const {

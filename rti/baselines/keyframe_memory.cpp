@@ -77,7 +77,7 @@ std::optional<KeyframeMemory::Baseline> KeyframeMemory::find(std::uint16_t numbe
   if (!is_last_of(keyframe.next)) {
     const auto beyond = std::ranges::upper_bound(
         records, object, {},
-        &Record::object);  // an object that was told twice is as it was told last
+        &Record::object);  // an object that was sent twice is as it was sent last
     keyframe.next = beyond == records.begin()
                         ? records.size()
                         : static_cast<std::size_t>(beyond - records.begin()) - 1;

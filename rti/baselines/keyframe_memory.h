@@ -19,7 +19,7 @@ class KeyframeMemory {
  public:
   /// An object's state at a keyframe.
   struct Baseline {
-    double time = 0.0;  ///< of the stamp under which it was told [s]
+    double time = 0.0;  ///< of the stamp under which it was sent [s]
     std::span<const std::int64_t> counts;
   };
 

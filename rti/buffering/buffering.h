@@ -17,7 +17,7 @@ class Buffering {
 
   /// Updates of one object keep their order.
   virtual void append(const ObjectUpdate& update) = 0;
-  /// What was appended since `clear`, for all who hear of it; valid until `clear`. No `append` may
+  /// What was appended since `clear`, for all who receive it; valid until `clear`. No `append` may
   /// follow before that.
   virtual std::span<const UpdateRun> seal() = 0;
   virtual void clear() = 0;

@@ -1,4 +1,4 @@
-// Which records of a run of updates a federate hears of.
+// Which records of a run of updates a federate receives.
 #pragma once
 
 #include <bit>

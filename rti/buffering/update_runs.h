@@ -1,4 +1,4 @@
-// The updates of one tick, encoded once for all who will hear of them.
+// The updates of one tick, encoded once for all who will receive them.
 #pragma once
 
 #include <cassert>

@@ -1,4 +1,4 @@
-// The seam of data distribution: who hears of which object and interaction, as
+// The seam of data distribution: who receives which object and interaction, as
 // `FederationExecution` asks it. `Interest` is the one that comes with the RTI.
 #pragma once
 
@@ -110,7 +110,8 @@ class DataDistribution {
                                    AttributeSet attributes) = 0;
 
   virtual void object_registered(ObjectSlot slot) = 0;
-  /// Nobody hears of it any more; who knew it still has it in `known`.
+  /// The object is in no federate's scope any more; it stays in `known` of those that discovered
+  /// it.
   virtual void object_deleted(ObjectSlot slot) = 0;
   /// Some of its attributes have another owner than at the last match. Its regions stay until the
   /// new owner associates its own, or their maker deletes them or leaves: falling back to the

@@ -1,4 +1,4 @@
-// What the filter is told beside regions: roles, headings and flights of objects and federates, and
+// What the filter knows beside regions: roles, headings and flights of objects and federates, and
 // by them what a federate owns.
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace rink::rti {
 
-/// The filter forgets what it was told of whom it forgets, so who is new to it is told of anew.
+/// The filter forgets all about a federate or object that it drops, so what is new to it is passed
+/// anew.
 class FilterFacts {
  public:
   /// `filter` must outlive it.

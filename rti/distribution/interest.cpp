@@ -1,4 +1,4 @@
-// Two parts that one change concerns are told in the order in which each may rely on the other.
+// Two parts that one change concerns are notified in the order in which each may rely on the other.
 #include "rti/distribution/interest.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Bounds and uses: each change is told to the filter at once, and what it can't know is listed for
+// Bounds and uses: each change goes to the filter at once, and what it can't know is listed for
 // the next match.
 #include "rti/distribution/region_table.h"
 
@@ -76,7 +76,8 @@ Commit RegionTable::modify(std::uint32_t federate, RegionHandle handle,
   return commit(slot, plane, ranges);
 }
 
-/// The filter ignores roles of whom it does not know yet, so who is new to it is told of with his.
+/// The filter ignores roles of entities that it does not know yet, so a new one is passed with its
+/// role.
 Commit RegionTable::commit(RegionSlot slot, const im::Region& plane,
                            std::span<const Range> ranges) {
   DistributedRegion& region = regions_[slot];

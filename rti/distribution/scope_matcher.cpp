@@ -156,7 +156,7 @@ void ScopeMatcher::reconsider(const DeclaredInterest& declared, ObjectSlot slot)
   interest.by_object[slot] = is;
 }
 
-/// Notes that a federate is told of the attributes `is` of an object from now on.
+/// Notes that the attributes `is` of an object are in a federate's scope from now on.
 void ScopeMatcher::settle(const DeclaredInterest& declared, FederateInterest& interest,
                           ObjectSlot slot, AttributeSet is) {
   const AttributeSet was = interest.attributes_in_scope(slot, parts_.objects[slot].object_class);

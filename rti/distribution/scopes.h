@@ -1,4 +1,5 @@
-// What each federate is told, as the last match decided it, and of which objects that changed.
+// What is in each federate's scope, as the last match decided it, and for which objects that
+// changed.
 #pragma once
 
 #include <cassert>
@@ -21,7 +22,7 @@ struct ScopeEvent {
   im::Transition transition;
 };
 
-/// What one federate is told, as the last match decided it.
+/// What is in one federate's scope, as the last match decided it.
 struct FederateInterest {
   std::uint32_t federate = 0;
   Bitmap known;             ///< discovered and not removed
@@ -41,10 +42,10 @@ struct FederateInterest {
   std::vector<AttributeSet> by_class, by_object;
   std::unique_ptr<Turns> turns;  ///< null unless the filter says that some of those in scope wait
 
-  /// Who is told of by the flush at hand.
+  /// The objects that the flush at hand updates.
   const Bitmap& reflected() const { return turns ? turns->reflected : in_scope; }
 
-  /// What it is told of an object.
+  /// The attributes of an object that are in its scope.
   AttributeSet attributes_in_scope(ObjectSlot slot, std::uint16_t object_class) const {
     if (!in_scope.contains(slot)) return {};
     return is_uniform ? by_class[object_class] : by_object[slot];
@@ -70,7 +71,7 @@ class Scopes {
   /// Valid until it is removed.
   FederateInterest& of(std::uint32_t federate) { return *interests_[federate]; }
   const FederateInterest& of(std::uint32_t federate) const { return *interests_[federate]; }
-  /// Nobody has the object in scope any more; nobody is told so.
+  /// Nobody has the object in scope any more, and no federate is notified.
   void forget(ObjectSlot slot) {
     for (const std::unique_ptr<FederateInterest>& each : interests_)
       if (each) each->in_scope.erase(slot);

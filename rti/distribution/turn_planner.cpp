@@ -1,4 +1,4 @@
-// What waits is told of later by its newest state alone, so a turn that is missed costs nothing.
+// What waits is updated later by its newest state alone, so a turn that is missed costs nothing.
 #include "rti/distribution/turn_planner.h"
 
 #include <algorithm>

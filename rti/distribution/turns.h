@@ -1,4 +1,4 @@
-// Whose turn it is to be told of, where not all who are in scope are told of at once.
+// Whose turn it is to be updated, where not all objects in scope are updated at once.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace rink::rti {
 
 /// One federate's, under a filter that says tiers or has a budget. Sets of objects by slot.
 struct Turns {
-  /// What is in tier k is told of every 2^k-th match, at most this k: objects take turns by their
+  /// An object in tier k is updated every 2^k-th match, at most this k: objects take turns by their
   /// slots, and the turns of 64 of them fit a word.
   static constexpr std::uint32_t tier_max = 6;
 

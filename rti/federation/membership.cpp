@@ -1,4 +1,4 @@
-// Joining, and what others hear of it.
+// Joining, and what others are notified of.
 #include "rti/federation/membership.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Who may join a federation execution, and who is told of those who come and go (IEEE 1516.1-2010,
-// 4.9 and 4.10).
+// Who may join a federation execution, and who is notified when a federate comes or goes (IEEE
+// 1516.1-2010, 4.9 and 4.10).
 #pragma once
 
 #include <cstdint>

@@ -69,7 +69,7 @@ class TimeManagement {
   /// The entry must be waiting.
   virtual void withdraw(std::uint32_t federate, const TimedEntry& entry) = 0;
 
-  /// Tells all that can be told by now.
+  /// Sends all grants that can be given by now.
   virtual void settle(TimeListener& listener) = 0;
 
   /// Greatest available logical time: nothing earlier can be sent to `federate` any more. Infinite

@@ -1,4 +1,4 @@
-// What a federate with another object model is told before it is refused.
+// What a federate with another object model receives before it is refused.
 #pragma once
 
 #include "rti/wire/message.h"

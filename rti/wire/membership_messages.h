@@ -1,4 +1,4 @@
-// The messages by which a federate joins and leaves, and is told of those who do.
+// The messages by which a federate joins and leaves, and is notified of those that do.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Updates that are written value by value, as the central component tells of what it keeps.
+// Updates that are written value by value, as the central component sends what it keeps.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What tells a federate which objects come into its scope and which go out of it.
+// Announces to a federate which objects come into its scope and which go out of it.
 #pragma once
 
 #include <cstddef>

@@ -153,7 +153,7 @@ void BestEffortSender::send(FlushContext& context, Outlet& outlet) {
   basis_.counters.update_bytes_sent += size;
   basis_.counters.datagrams_sent += datagrams.size();
   federate.counts.bytes_received += size;
-  // Who hears of us by datagrams, as its answers tell, needs no heartbeat beside them.
+  // A federate that acknowledges our datagrams needs no heartbeat beside them.
   if (const auto since = channel->ledger.unanswered_since();
       !since || basis_.now - *since < basis_.settings.timeouts.heartbeat_s)
     federate.last_sent = basis_.now;

@@ -24,7 +24,7 @@ struct FlushContext {
   std::uint32_t slot;
   JoinedFederate& federate;
   FederateInterest& interest;
-  std::span<const UpdateRun> runs;  ///< all that this flush tells of
+  std::span<const UpdateRun> runs;  ///< all that this flush sends
   GatheredFrame& frame;
   std::vector<ObjectSlot>& full_state_sent;  ///< their states on entry are in the frame
   DatagramPath path{};

@@ -16,8 +16,8 @@
 
 namespace rink::rti {
 
-/// Grows at its end. What many are told alike is a part of its own, sent from where it lies. Its
-/// memory is used again by the next frame.
+/// Grows at its end. What many federates receive alike is a part of its own, sent from where it
+/// lies. Its memory is used again by the next frame.
 class GatheredFrame {
  public:
   void begin() {

@@ -94,8 +94,8 @@ void Sender::write_content(FlushContext& context, Outlet& outlet) {
   uses_.datagrams.send(context, outlet);
 }
 
-/// What was told whole is fresh no longer; not before, for its updates in this flush are part of
-/// what was told.
+/// What was sent whole needs its full state no longer; not before, for its updates in this flush
+/// are part of what was told.
 void Sender::settle_interest(FlushContext& context) {
   FederateInterest& interest = context.interest;
   interest.events.clear();
@@ -109,7 +109,7 @@ void Sender::settle_interest(FlushContext& context) {
 }
 
 /// Who comes into a large world would be closed for a queue that no reader empties in one tick:
-/// what does not fit is told by the next flushes.
+/// what does not fit is sent by the next flushes.
 std::size_t Sender::entry_room(const FlushContext& context, const Outlet& outlet) const {
   const FederateInterest& interest = context.interest;
   if (interest.events.empty() && !interest.needs_any_full_state && !interest.has_unannounced)

@@ -85,7 +85,7 @@ void ManagementInteractions::report_publications(std::uint32_t asking, std::uint
   });
 }
 
-/// What it hears of each class, by that or a superclass, in whatever region.
+/// What it subscribes to of each class, by that or a superclass, in whatever region.
 void ManagementInteractions::report_subscriptions(std::uint32_t asking, std::uint32_t about) {
   const auto subscribed = [&](std::uint32_t i) {
     return i < basis_.fom.object_classes().size()

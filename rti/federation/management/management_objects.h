@@ -62,13 +62,13 @@ class ManagementObjects {
     AttributeSet asked;
     bool is_due = false;
     double due_at = 0.0;  ///< the next report, if a period is set [s]
-    unsigned state = 0;   ///< of time management, as it was told: it is told when it changes
+    unsigned state = 0;   ///< of time management, as last reported: a change is reported
   };
   void begin();
   void end();
   void add(ReportedObject& reported, ObjectClassHandle object_class);
   void remove(ReportedObject& reported);
-  /// They are told whether they have changed or not.
+  /// They are reported whether they have changed or not.
   void ask(ObjectHandle object, AttributeSet attributes);
   ReportedObject& reported_of(std::uint32_t slot);
   void report_federation();

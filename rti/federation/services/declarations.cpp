@@ -84,8 +84,8 @@ Subscription Declarations::subscribed(std::uint32_t slot, std::size_t row) const
                              : uses_.distribution.subscribed_anywhere(slot, number);
 }
 
-/// What others than `slot` hear of a row. The RTI itself hears what the management object model
-/// lets federates ask of it.
+/// What others than `slot` subscribe to of a row. The RTI itself receives what the management
+/// object model lets federates ask of it.
 Subscription Declarations::others_subscribe(std::uint32_t slot, std::size_t row) const {
   if (is_interaction(row) && basis_.fom.is_for_rti(InteractionClassHandle{number_of(row)}))
     return Relevance::of(Listening::active);
@@ -140,7 +140,7 @@ void Declarations::advise_owners_of(ObjectSlot object) {
   }
 }
 
-/// Of what it owns: what some active subscriber is told.
+/// Of what it owns: what is in the scope of some active subscriber.
 AttributeSet Declarations::subscribed_of(std::uint32_t owner, ObjectSlot object) const {
   AttributeSet subscribed;
   const AttributeSet owned =

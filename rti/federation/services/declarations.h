@@ -1,5 +1,5 @@
-// What federates publish and subscribe, and who is told that somebody hears it (IEEE 1516.1-2010,
-// clause 5; docs/rti.md, "Nobody listens").
+// What federates publish and subscribe, and who is advised that somebody subscribes (IEEE
+// 1516.1-2010, clause 5; docs/rti.md, "Nobody listens").
 #pragma once
 
 #include <cstddef>

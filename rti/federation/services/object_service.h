@@ -38,7 +38,8 @@ class ObjectService {
   Status handle_delete(std::uint32_t slot, Reader& reader);
   Status handle_local_delete(std::uint32_t slot, Reader& reader);
 
-  /// All who know it are told, who deleted it too: up to then it may hear of it.
+  /// All federates that know it receive the removal, the one that deleted it too: until then it may
+  /// receive updates.
   void remove(ObjectSlot object);
   /// One of the RTI's own, whose slot never joined.
   ObjectHandle register_own(std::uint32_t slot, ObjectClassHandle object_class);

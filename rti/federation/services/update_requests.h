@@ -37,7 +37,7 @@ class UpdateRequests {
   /// Those within a region that is about to go. Who makes regions, asks and deletes them faster
   /// than anybody can look is not waited for.
   Status settle_within(std::uint32_t slot, RegionHandle region);
-  /// Looks for the objects that requests mean, and tells their owners. Once per flush.
+  /// Looks for the objects that requests mean, and asks their owners. Once per flush.
   void settle();
   /// From now on as many objects again are looked at for everybody.
   void flushed();
