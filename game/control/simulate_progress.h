@@ -1,4 +1,4 @@
-// Tells whoever waits for a long simulation how far it is.
+// Shows the user how far a long simulation is.
 #pragma once
 
 #include <cstdint>

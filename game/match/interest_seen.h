@@ -25,7 +25,7 @@ struct InterestSeen {
   std::uint32_t view_count = 0, heard_count = 0, hearer_count = 0;
   std::vector<View> views;
   std::vector<std::uint32_t>
-      heard;  ///< ids of what the federate that plays `asked` hears of, ascending
+      heard;  ///< ids of what is in the scope of the federate that plays `asked`, ascending
   friend bool operator==(const InterestSeen&, const InterestSeen&) = default;
 };
 

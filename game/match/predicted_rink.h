@@ -32,8 +32,8 @@ class PredictedRink {
   /// before the last key.
   void press(Key key, bool is_down, double instant);
 
-  /// Takes in what the server told. It is no news if something as new was told before; a match that
-  /// begins anew needs a new PredictedRink.
+  /// Takes in what the server sent. It is no news if something as new was received before; a match
+  /// that begins anew needs a new PredictedRink.
   void receive(const ReceivedRink& received);
 
   /// Back to `now` [s] and what was told: the server says that time has stood still since then.

@@ -82,7 +82,7 @@ class Peer {
   /// After `conclude` said final, before the handovers: from the window's end on, zones are these,
   /// perhaps for more peers, who are not present yet. The same at all peers.
   void divide(const Division& division);
-  /// From now on `change` tells what each commit changed; a first one, after `begin`, tells all.
+  /// From now on `change` lists what each commit changed; a first one, after `begin`, lists all.
   void keep_changes() { keeps_changes_ = true; }
   /// Of the own part, since the window before, or `is_whole`; its step is left out.
   PartChange change(bool is_whole) const;

@@ -1,4 +1,4 @@
-// What a world tells of what happened in it.
+// What a world reports of what happened in it.
 #pragma once
 
 #include <optional>

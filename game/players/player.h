@@ -62,7 +62,7 @@ struct PlayerView {
 };
 
 /// Pure: knows no clock and no network, and the same seat, seed and views give the same keys. The
-/// same player plays on the true state when a log is recorded and on a client's mirror when it
+/// same player plays on the true state when a log is recorded and on a client's replicas when it
 /// plays live.
 class Player {
  public:

@@ -20,7 +20,7 @@ struct Position {
   friend bool operator==(const Position&, const Position&) = default;
 };
 
-/// What a federate is told of a centre at `position` [m].
+/// What a federate is sent of a centre at `position` [m].
 inline Position rounded(const physics::Vector2& position) {
   return {static_cast<float>(position.x()), static_cast<float>(position.y())};
 }

@@ -1,4 +1,4 @@
-// Applies discoveries, reflections and changes of scope to the mirror.
+// Applies discoveries, reflections and changes of scope to the replicas.
 #include "game/replication/replica_set.h"
 
 #include <bit>

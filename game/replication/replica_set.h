@@ -18,7 +18,7 @@
 
 namespace rink::game {
 
-/// An entity as its federate last heard of it.
+/// An entity as the last update that its federate received has it.
 struct EntityReplica {
   rti::ObjectHandle object;
   Shape shape;
@@ -91,7 +91,7 @@ class ReplicaSet {
     return newest_;
   }  ///< the stamp of the newest update of any object
   const ReplicaCounters& counters() const { return counters_; }
-  /// Of tables, the mirror itself not counted.
+  /// Of tables, the set itself not counted.
   std::size_t memory_bytes() const {
     return known_.memory_bytes() + entities_.capacity() * sizeof(EntityReplica);
   }

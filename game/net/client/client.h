@@ -1,5 +1,5 @@
-// The client federate: sends its player's keys, keeps its interest around its bat, and mirrors what
-// it is told.
+// The client federate: sends its player's keys, keeps its interest around its bat, and keeps
+// replicas of what it receives.
 #pragma once
 
 #include <cstdint>
@@ -71,8 +71,8 @@ class Client : public rti::FederateAmbassador {
   /// moves without being heard of.
   void follow_bat(double instant);
 
-  /// Called before the first update with another stamp than the newest is applied: the mirror then
-  /// holds all that was true at the newest, and will not again.
+  /// Called before the first update with another stamp than the newest is applied: the replica set
+  /// then holds all that was true at the newest, and will not again.
   std::function<void()> before_next_stamp;
 
   /// Called after an update is applied, with its stamp, if the update before it had another: so a

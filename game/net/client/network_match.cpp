@@ -1,4 +1,4 @@
-// Each frame: hear, predict, press, show, say.
+// Each frame: receive, predict, press, show, send.
 #include "game/net/client/network_match.h"
 
 #include <algorithm>

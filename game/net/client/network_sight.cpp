@@ -1,4 +1,4 @@
-// What a network match shows, made of what is predicted, what is mirrored, and how the connection
+// What a network match shows, made of what is predicted, of replicas, and of how the connection
 // does.
 #include <algorithm>
 

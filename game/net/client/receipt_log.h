@@ -1,4 +1,4 @@
-// What a watched client was told of scope and state, for who measures it.
+// What a watched client received of scope and state, for whoever measures it.
 #pragma once
 
 #include <cstddef>

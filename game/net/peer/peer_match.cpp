@@ -1,4 +1,4 @@
-// Each frame: hear, predict, press, show.
+// Each frame: receive, predict, press, show.
 #include "game/net/peer/peer_match.h"
 
 #include <algorithm>

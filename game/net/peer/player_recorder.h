@@ -1,4 +1,4 @@
-// What a player was told and believes, as facts for others to judge.
+// What a player received and what its replicas show, as facts for others to judge.
 #pragma once
 
 #include <cstdint>

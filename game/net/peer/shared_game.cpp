@@ -34,7 +34,7 @@ BatController controller_of(const Scene& scene, std::uint32_t player) {
   return BatController(scene.bodies.bats[player].thrust);
 }
 
-/// Tells the user who is gone, and who came.
+/// Notifies the user of peers that are gone, and of those that came.
 class Membership {
  public:
   Membership(const peer::Session& session, const PartOptions& part_options)

@@ -60,7 +60,7 @@ class HostedMatch {
   /// Records of the matches that came to their end, or were given up, since they were last taken;
   /// the first players' is first.
   std::vector<KeyLog> take_finished() { return std::exchange(finished_, {}); }
-  /// Whether the last record could not be written: players are told.
+  /// Whether the last record could not be written: players are notified.
   void set_unrecorded(bool is_unrecorded) { is_unrecorded_ = is_unrecorded; }
 
  private:

@@ -1,4 +1,4 @@
-// What a server tells who watches of its filter's decisions.
+// What a server reports of its filter's decisions to a watcher.
 #pragma once
 
 #include "game/match/interest_seen.h"

@@ -1,4 +1,4 @@
-// What the game tells the RTI's filter beside regions.
+// What the game hands the RTI's filter beside regions.
 #pragma once
 
 #include "game/net/server/server.h"

@@ -107,7 +107,7 @@ Message Session::received(PeerNumber from) {
     const std::vector<std::uint8_t> bytes = mail_.receive(from);
     Message message;
     if (read(bytes, message)) return message;
-    // Those of whom it tells are no news if we have recovered from their loss.
+    // Losses from which we have recovered already are no news.
     if (learns_of_loss(from, bytes)) throw PeerGone(losses_[from]->gone.front(), false, last_loss_);
   }
 }

@@ -84,7 +84,7 @@ class Session {
   const Scoring& scoring() const { return now_.scoring; }
 
   /// The own bodies go to others with the next window, and with the one after that this peer is no
-  /// longer needed. It must be mirrored.
+  /// longer needed. It must be replicated.
   void leave() { wishes_to_leave_ = true; }
   bool has_left() const { return has_left_; }
   /// It went on after a loss after which others may have gone on too, on their own: what it has in
@@ -185,9 +185,10 @@ class Session {
   State now_, before_;
   Division division_;
   std::optional<Peer> peer_;
-  std::vector<PartReplica> replicas_;  // by peer: of those that are mirrored here, and the own part
-  std::vector<Key> log_;               // of an own part that nobody mirrors
-  std::vector<Sent> sent_;             // of the last windows
+  std::vector<PartReplica>
+      replicas_;          // by peer: of those of which this peer keeps a replica, and the own part
+  std::vector<Key> log_;  // of an own part of which nobody keeps a replica
+  std::vector<Sent> sent_;                   // of the last windows
   std::vector<PeerNumber> gone_, finished_;  // lost, sorted; and of these, who left in good order
   std::vector<std::optional<Loss>> losses_;  // the last that each peer told
   std::string last_loss_;

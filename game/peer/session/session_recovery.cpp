@@ -135,7 +135,7 @@ void Session::require_majority() {
        std::to_string(now_.members.size()) + " peers are left: it halts, for the others may go on");
 }
 
-/// This one, and those of the lost that it mirrors.
+/// This one, and those of the lost of which it keeps a replica.
 std::vector<PeerNumber> Session::stood_for() const {
   std::vector<PeerNumber> parts{settings_.number};
   for (const PeerNumber peer : now_.members) {

@@ -1,4 +1,4 @@
-// Who may go on, and what a newcomer is told.
+// Who may go on, and what a newcomer is sent.
 #include "game/peer/session/session_state.h"
 
 #include <cassert>

@@ -1,4 +1,4 @@
-// What one peer's player is told of bodies that the peer neither owns nor has as ghosts.
+// What one peer's player receives of bodies that the peer neither owns nor has as ghosts.
 #pragma once
 
 #include <algorithm>

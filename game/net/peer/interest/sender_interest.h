@@ -18,7 +18,7 @@
 
 namespace rink::game {
 
-/// Where a player looks, as it is told to those whose zones it meets: by cells if the scheme has
+/// Where a player looks, as it is sent to those whose zones it meets: by cells if the scheme has
 /// some, for then the same cells are the same interest.
 struct EncodedInterest {
   enum class Form : std::uint8_t { away, region, cells };
@@ -30,7 +30,7 @@ struct EncodedInterest {
 
 /// `region` in cells of side `cell_size` [m], or as it is if that is 0.
 EncodedInterest interest_at(const im::Region& region, double cell_size);
-/// The region that stands for it with whoever is told: within each cell that it names.
+/// The region that stands for it with whoever receives it: within each cell that it names.
 im::Region region_of(const EncodedInterest& encoded, double cell_size);
 std::vector<std::byte> bytes_of(const EncodedInterest& encoded);
 /// Nothing unless the bytes are one whole interest that a player could have.

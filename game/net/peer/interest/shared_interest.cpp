@@ -1,4 +1,4 @@
-// Around each window: where the player looks, what others are told, and keys.
+// Around each window: where the player looks, what others are sent, and keys.
 #include "game/net/peer/interest/shared_interest.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Interest among peers, seen from one of them: where its player looks, what the others are told of
-// the bodies here, and what it is told of theirs. No clock, no socket.
+// Interest among peers, seen from one of them: where its player looks, what the others receive of
+// the bodies here, and what it receives of theirs. No clock, no socket.
 #pragma once
 
 #include <algorithm>
@@ -75,7 +75,7 @@ class SharedInterest {
   /// How many of the player's keys its bat has felt, by what is known here.
   std::uint32_t felt() const;
 
-  /// What the player sees: bodies here within its view, and others that it is told of.
+  /// What the player sees: bodies here within its view, and others of which it receives updates.
   void list_scope(std::vector<std::uint32_t>& bodies) const;
   /// Where the player believes a body to be that it sees [m], at `instant` [s].
   physics::Vector2 position_at(std::uint32_t body, double instant) const;

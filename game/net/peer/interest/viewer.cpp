@@ -65,7 +65,7 @@ std::vector<std::uint32_t> Viewer::bats() const {
   return bats;
 }
 
-/// Who the members are follows from the step, and nobody hears of a step from somebody who has it
+/// Who the members are follows from the step, and nobody receives a step from a peer that has it
 /// before all others have what leads to it; so all settle before they hear a newcomer's word.
 void Viewer::settle() {
   if (session_->members() == members_) return;

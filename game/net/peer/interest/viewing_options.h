@@ -36,7 +36,7 @@ struct Viewing {
 };
 Viewing make_viewing(const SharedGame& game, PeerNetwork& network, const ViewingOptions& options,
                      double (*now_s)());
-/// What was told, for the report.
+/// What was sent and received, for the report.
 nlohmann::ordered_json report_of(const Viewer& viewer);
 /// What the transport and the kernel counted of the peer's connections.
 nlohmann::ordered_json report_of(const rti::TransportCounters& counters);

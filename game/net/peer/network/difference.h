@@ -1,4 +1,4 @@
-// What peers that cannot play together are told.
+// Why peers cannot play together, in words for their users.
 #pragma once
 
 #include <optional>

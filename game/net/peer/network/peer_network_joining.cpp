@@ -1,4 +1,4 @@
-// Who is let in, as which number, and who is told what.
+// Who is let in, as which number, and what each is sent.
 #include <algorithm>
 #include <utility>
 

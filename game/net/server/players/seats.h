@@ -61,7 +61,7 @@ class Seats {
       offered_.push_back({rti::FederateHandle{federate}, seat->player});
     }
   }
-  /// Those who were told by the last `offer`.
+  /// Those notified by the last `offer`.
   std::span<const Seated> offered() const { return offered_; }
 
   /// Who sits there has taken its turn.
