@@ -1,4 +1,4 @@
-// The path of docs/key-press.md, walked: from a key to the client's own mirror.
+// The path of docs/key-press.md, walked: from a key to the client's own replica.
 #include <gtest/gtest.h>
 
 #include "tests/net/lockstep_rink.h"

@@ -1,4 +1,4 @@
-// Players who see nothing but their client's mirror, in a rink stepped tick by tick.
+// Players who see nothing but their client's replicas, in a rink stepped tick by tick.
 #include "loadgen/run/bots/live_player.h"
 
 #include <gtest/gtest.h>

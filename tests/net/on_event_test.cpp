@@ -10,7 +10,8 @@
 namespace rink::game {
 namespace {
 
-/// How far all mirrors are from the server's exact state, over all entities in scope and all ticks.
+/// How far all replicas are from the server's exact state, over all entities in scope and all
+/// ticks.
 struct Error {
   double squares = 0.0, greatest = 0.0;
   std::size_t count = 0;

@@ -1,4 +1,4 @@
-// Clients' mirrors against the server's own state: filters change the traffic, never the game.
+// Clients' replicas against the server's own state: filters change the traffic, never the game.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Under the policy "snapshot" every mirror knows at every tick, to half the stated resolution,
+// Under the policy "snapshot" every replica has at every tick, to half the stated resolution,
 // where all in its interest are, from differences to what it acknowledged.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The bots' evidence as lines: a header, one line per watched bot, one per sampled mirror.
+// The bots' evidence as lines: a header, one line per watched bot, one per sampled replica set.
 #include "loadgen/measure/truth/bots_trace.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // What the bots say of what they were told and believed, for others to judge: changes of scope, and
-// the mirrors of some at drawn instants.
+// the replica sets of some at drawn instants.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ struct BotsTrace {
     std::uint32_t object = 0;  ///< RTI handle
     bool is_in = false;
   };
-  /// One entity in a mirror. Where it was believed to be is meaningless if it was not in scope.
+  /// One entity in a replica set. Where it was believed to be is meaningless if it was not in
+  /// scope.
   struct Replica {
     std::uint32_t object = 0;
     std::uint32_t bytes = 0;  ///< of its updates that arrived within the window before the sample

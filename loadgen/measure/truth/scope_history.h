@@ -1,4 +1,4 @@
-// What one player had in its mirror, replayed forward in time.
+// What one player had in its replica set, replayed forward in time.
 #pragma once
 
 #include <algorithm>

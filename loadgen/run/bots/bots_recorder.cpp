@@ -1,4 +1,5 @@
-// A mirror with more entities than a sample may hold gives every n-th of them, from a drawn one on.
+// A replica set with more entities than a sample may hold gives every n-th of them, from a drawn
+// one on.
 #include "loadgen/run/bots/bots_recorder.h"
 
 #include <algorithm>
@@ -86,7 +87,8 @@ void BotsRecorder::look_into(std::uint32_t place, double simulated_s) {
       step > 1 ? game::RandomStream(settings_.seed, next_instant_ * 65'536 + place).below(step) : 0;
   const std::size_t first = trace_.replicas.size();
   for (const game::EntityReplica& entity : replica_set.entities()) {
-    // What is left out of a large mirror is not looked up, for bots have little time to sample in.
+    // What is left out of a large replica set is not looked up, for bots have little time to sample
+    // in.
     if (entity.in_scope && ++skipped < step) continue;
     const std::uint32_t bytes = bytes_of(received, entity.object.value);
     if (!entity.in_scope && (bytes == 0 || ++skipped < step)) continue;

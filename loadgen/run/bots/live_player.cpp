@@ -1,5 +1,5 @@
-// Turns a mirror into a player's view: positions where the client believes them to be, velocities
-// from what it was told.
+// Turns a replica set into a player's view: positions where the client believes them to be,
+// velocities from what it was told.
 #include "loadgen/run/bots/live_player.h"
 
 #include <algorithm>

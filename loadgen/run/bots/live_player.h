@@ -1,4 +1,4 @@
-// A player behind a client: it sees what its client's mirror holds, right or stale, and nothing
+// A player behind a client: it sees what its client's replicas show, right or stale, and nothing
 // else.
 #pragma once
 
