@@ -200,7 +200,7 @@ void add_driven_tests() {
   const auto ask = [=](const Point& extent, double reach) {
     return [=](const Encounter& e) {
       const auto [a, b] = motions(e);
-      return meet_rounded_box(a, b, extent, reach, 0.0, 1e3);
+      return meet_rounded_box(a, b, extent, reach, {0.0, 1e3});
     };
   };
   const auto meets = [](const Obstacle& obstacle) {
