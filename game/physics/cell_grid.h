@@ -49,6 +49,11 @@ class CellGrid {
     link(body, place);
   }
 
+  /// Whether a move() would leave all cells where they are in memory.
+  bool has_room_beyond(std::uint32_t body, Direction direction) const {
+    return cells_[neighbour(cell_at(places_[body]), direction) * stride_] + 1 < stride_;
+  }
+
   double side() const { return side_; }
   bool is_listed(std::uint32_t body) const { return places_[body].column != Place{}.column; }
   Place place(std::uint32_t body) const { return places_[body]; }
@@ -122,6 +127,8 @@ class CellGrid {
     const std::uint32_t column = column_of(body), row = row_of(body);
     within({column - std::min(column, 1u), row - std::min(row, 1u), column + 1, row + 1}, visit);
   }
+  std::uint32_t columns() const { return columns_; }
+  std::uint32_t rows() const { return rows_; }
   std::uint32_t column(double x) const { return clamp(x, columns_); }
   std::uint32_t row(double y) const { return clamp(y, rows_); }
 

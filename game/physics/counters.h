@@ -32,6 +32,17 @@ inline constexpr std::array event_kind_names{"puck_puck", "post",   "wall", "puc
 /// Whether two things met.
 constexpr bool is_impact(EventKind kind) { return kind <= EventKind::bat_bat; }
 
+/// Of windows that were played by tiles (WorldSpec::slabs); no part of a snapshot.
+struct SlabCounters {
+  std::uint64_t windows = 0;    ///< those undone among them
+  std::uint64_t undone = 0;     ///< and played in order
+  std::uint64_t put_off = 0;    ///< events, as often as they were put off
+  std::uint64_t last_pass = 0;  ///< events that were left to the last pass
+  std::uint64_t late = 0;       ///< courses that had to be checked
+
+  friend bool operator==(const SlabCounters&, const SlabCounters&) = default;
+};
+
 /// Every count starts at 0 and only grows. Counters are not part of a world's state: cell size and
 /// queue change them, never the motion.
 struct Counters {
@@ -61,6 +72,7 @@ struct Counters {
   std::uint64_t evaluations = 0;   ///< positions evaluated: bodies brought up to the instant of an
                                    ///< event of theirs. What is asked from outside is not counted
   std::uint64_t bodies_touched = 0;  ///< last-event states rewritten
+  SlabCounters slabs{};              ///< bookkeeping
 
   friend bool operator==(const Counters&, const Counters&) = default;
 

@@ -6,10 +6,13 @@
 #include <utility>
 
 #include "game/physics/engine/engine.h"
+#include "game/physics/slabs/slabs.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
-World::World(const WorldSpec& spec) : engine_(std::make_unique<Engine>(spec)) {}
+World::World(const WorldSpec& spec)
+    : engine_(std::make_unique<Engine>(spec)),
+      slabs_(spec.slabs ? std::make_unique<Slabs>(*engine_, *spec.slabs) : nullptr) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -62,7 +65,9 @@ void World::set_thrust(BodyId bat, const Vector2& acceleration) {
 void World::place(BodyId puck, const Vector2& position, const Vector2& velocity) {
   engine_->place(puck.index, position.cast<Real>(), velocity.cast<Real>());
 }
-std::optional<Goal> World::advance(Real until) { return engine_->advance(until); }
+std::optional<Goal> World::advance(Real until) {
+  return slabs_ ? slabs_->advance(until) : engine_->advance(until);
+}
 
 void World::record_events(bool is_wanted) { engine_->record().keep(is_wanted); }
 std::span<const Event> World::events() const { return engine_->record().events(); }

@@ -19,6 +19,7 @@
 namespace rink::physics::inline RINK_PRECISION {
 
 class Engine;
+class Slabs;
 
 /// A set of bodies in a field, and a simulated time that only moves forward. Pure: the same calls
 /// give the same bits, whatever the cell size and however often advance() stops on the way. Method,
@@ -128,6 +129,7 @@ class World final : public Simulator {
   friend class Subdomain;
   explicit World(std::unique_ptr<Engine> engine);
   std::unique_ptr<Engine> engine_;
+  std::unique_ptr<Slabs> slabs_;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -97,10 +97,10 @@ class Bodies {
   void put(std::uint32_t body, const RealVector& position, const RealVector& velocity, Real time) {
     table_.bodies[body].restart(position.x(), position.y(), velocity.x(), velocity.y(), time);
   }
-  /// As if restart() had not been.
-  void take_back(std::uint32_t body, const Flight& before) {
+  /// As if restart() had not been, or nothing else that changed its flight since then.
+  void take_back(std::uint32_t body, const Flight& before, std::uint32_t version) {
     static_cast<Flight&>(table_.bodies[body]) = before;
-    --table_.bodies[body].version;
+    table_.bodies[body].version = version;
   }
   ChangeLog& changes() { return changes_; }
 

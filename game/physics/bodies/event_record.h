@@ -1,6 +1,7 @@
 // What happened, counted, and written down for whoever asked for it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -30,6 +31,12 @@ class EventRecord {
   /// Written down since the last forget(), in order of time.
   std::span<const Event> events() const { return events_; }
   void forget() { events_.clear(); }
+  bool is_kept() const { return is_kept_; }
+  /// Written down by somebody else, in the place of all from `first` on.
+  void replace_from(std::size_t first, std::span<const Event> events) {
+    events_.resize(first);
+    events_.insert(events_.end(), events.begin(), events.end());
+  }
 
  private:
   Counters counters_;

@@ -53,7 +53,8 @@ bool exchange(Stream& stream, Field& field) {
 template <class Stream>
 bool exchange(Stream& stream, WorldSpec& spec) {
   auto& [field, puck_drag, bat_drag, puck_friction, restitution, surface_friction, accounts_energy,
-         contact_time, cell_size, queue, allow_overlap] = spec;
+         contact_time, cell_size, queue, slabs, allow_overlap] = spec;
+  static_cast<void>(slabs);  // whoever restores a world says how it is played
   return exchange(stream, field) &&
          stream.numbers(puck_drag, bat_drag, puck_friction, contact_time, cell_size) &&
          exchange_table(stream, restitution, 1.0) && exchange(stream, surface_friction) &&
@@ -66,8 +67,9 @@ bool exchange(Stream& stream, WorldSpec& spec) {
 template <class Stream>
 bool exchange(Stream& stream, Counters& counters) {
   auto& [disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops,
-         turns, joint, at_once, hop_energy, crossings, stale, predictions, evaluations, touched] =
-      counters;
+         turns, joint, at_once, hop_energy, crossings, stale, predictions, evaluations, touched,
+         slabs] = counters;
+  static_cast<void>(slabs);
   return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops,
                         freezes, stops, turns, joint, at_once, hop_energy, crossings, stale,
                         predictions, evaluations, touched);

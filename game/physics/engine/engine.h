@@ -41,6 +41,28 @@ class Engine {
  public:
   explicit Engine(const WorldSpec& spec);
 
+  /// For who plays windows of time in another order (slabs/).
+  struct Parts {
+    const WorldSpec& spec;
+    Clock& clock;
+    Observers& observers;
+    EventRecord& record;
+    Bodies& bodies;
+    ImpactHistory& history;
+    Jams& jams;
+    Places& places;
+    RestContacts& rests;
+    NextEvents& events;
+  };
+  Parts parts() {
+    return {spec_, clock_, observers_, record_, bodies_, history_, jams_, places_, rests_, events_};
+  }
+  void predict_pending();
+  /// The first event of all, that of `body`.
+  void process(std::uint32_t body, Real time);
+  /// All that follows from the last-event states.
+  void rebuild_from_state();
+
   BodyId add(BodyState state);  ///< at now; the law, the time and 1/mass follow
   void remove(std::uint32_t body);
   void set_thrust(std::uint32_t bat, const RealVector& acceleration);
@@ -86,16 +108,13 @@ class Engine {
   void rebuild_grid();
   void enter_mouth_if_inside(std::uint32_t body);
   void require_prediction(std::uint32_t body);
-  void predict_pending();
   bool is_left_alone(std::uint32_t body) const;
   void cross_cell(std::uint32_t body);
-  void process(std::uint32_t body, Real time);
   void settle();
   void count_event(Real time);
   void score(std::uint32_t body, Real time);
   void stop(std::uint32_t body, Real time);
 
-  void rebuild_from_state();
   void write(std::uint32_t body, const BodyState& state);
 
   WorldSpec spec_;

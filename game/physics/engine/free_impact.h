@@ -2,19 +2,51 @@
 // a gas.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "game/physics/bodies/bodies.h"
 #include "game/physics/bodies/event_record.h"
 #include "game/physics/bodies/observers.h"
 #include "game/physics/bodies/partner.h"
 #include "game/physics/body.h"
+#include "game/physics/contact/contact_problem.h"
 #include "game/physics/engine/contact_detection.h"
 #include "game/physics/engine/next_events.h"
 #include "game/physics/engine/prediction.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {
+
+/// How far apart the two were, squared [m^2].
+struct FreeBounce {
+  Real square;
+};
+
+/// Restarts the flights of both after an elastic impact. Nothing, and nothing done, if they are in
+/// line with an axis, where they might come to rest on each other, or hardly approach.
+inline std::optional<FreeBounce> bounce_freely(Bodies& bodies, std::uint32_t low,
+                                               std::uint32_t high, Real time, Real rest_speed) {
+  const Body &a = bodies[low], &b = bodies[high];
+  const Real elapsed_a = a.time < time ? time - a.time : 0.0,
+             elapsed_b = b.time < time ? time - b.time : 0.0;
+  const Real ax = a.x + a.vx * elapsed_a, ay = a.y + a.vy * elapsed_a, bx = b.x + b.vx * elapsed_b,
+             by = b.y + b.vy * elapsed_b;
+  const Real x = ax - bx, y = ay - by;
+  if (x == 0.0 || y == 0.0) return std::nullopt;
+  const Real approach = x * (b.vx - a.vx) + y * (b.vy - a.vy),
+             length_max = std::abs(x) + std::abs(y), square = x * x + y * y;
+  const Real speed_max = std::abs(a.vx) + std::abs(a.vy) + std::abs(b.vx) + std::abs(b.vy);
+  if (!(approach >= 1.01 * std::max<Real>(rest_speed, separation_min * speed_max) * length_max))
+    return std::nullopt;
+  const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * square);
+  const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
+  bodies.restart(low, {ax, ay}, {a.vx + kick_a * x, a.vy + kick_a * y}, std::max(a.time, time));
+  bodies.restart(high, {bx, by}, {b.vx - kick_b * x, b.vy - kick_b * y}, std::max(b.time, time));
+  return FreeBounce{square};
+}
 
 /// The arithmetic of Impact without its questions, so the same bits.
 class FreeImpact {

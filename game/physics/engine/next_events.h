@@ -47,11 +47,16 @@ class NextEvents {
   NextEvent& slot(std::uint32_t body) { return slots_[body]; }
   /// The body's event is what its slot says.
   void schedule(std::uint32_t body) {
+    const EventOrder order = order_of(body);
+    schedule_.set(body, order.time, order.lower, order.higher);
+  }
+  /// Where its slot says that its event comes.
+  EventOrder order_of(std::uint32_t body) const {
     const NextEvent& slot = slots_[body];
-    if (slot.crossing_time < slot.impact_time) schedule_.set(body, slot.crossing_time, body, body);
-    else
-      schedule_.set(body, slot.impact_time, std::min(body, slot.partner),
-                    std::max(body, slot.partner));
+    return slot.crossing_time < slot.impact_time
+               ? EventOrder{slot.crossing_time, body, body}
+               : EventOrder{slot.impact_time, std::min(body, slot.partner),
+                            std::max(body, slot.partner)};
   }
   /// The body has no event before somebody else's.
   void drop(std::uint32_t body) {
@@ -69,6 +74,8 @@ class NextEvents {
     return slots_[body].is_tied || (is_body(partner) && slots_[partner].is_tied) ||
            schedule_.is_followed_within(instant);
   }
+  /// The windows, if events are kept by them.
+  WindowQueue* windows() { return schedule_.windows(); }
   /// Who comes after the next one.
   const EventSchedule& upcoming() const { return schedule_; }
 

@@ -36,15 +36,21 @@ void Prediction::offer(std::uint32_t body, Real time, Partner p) {
 
 void Prediction::predict(std::uint32_t body) {
   if (bodies_[body].kind == BodyKind::post) return;
-  predict_pairs(body, begin(body));
+  look(body);
   events_.schedule(body);
 }
 
 void Prediction::predict_beyond(std::uint32_t body, CellGrid::Direction direction) {
-  if (bodies_[body].is(Body::curved)) return predict(body);
+  look_beyond(body, direction);
+  events_.schedule(body);
+}
+
+void Prediction::look(std::uint32_t body) { predict_pairs(body, begin(body)); }
+
+void Prediction::look_beyond(std::uint32_t body, CellGrid::Direction direction) {
+  if (bodies_[body].is(Body::curved)) return look(body);
   predict_flight(body);
   predict_pairs(body, grid_.collect_ahead(body, direction, room_for_candidates()));
-  events_.schedule(body);
 }
 
 /// Forgets what was known, asks the field, and makes all who are near candidates; returns how many,

@@ -33,6 +33,9 @@ class Prediction {
   Prediction& operator=(const Prediction&) = delete;
 
   void predict(std::uint32_t body);
+  /// As predict() and predict_beyond(), but for telling the schedule.
+  void look(std::uint32_t body);
+  void look_beyond(std::uint32_t body, CellGrid::Direction direction);
   /// Predicts a puck in straight flight where all are, but for telling the schedule. Returns how
   /// many touch it now, itself included: never too few, hardly ever too many.
   std::uint32_t predict_counting(std::uint32_t body);

@@ -26,6 +26,8 @@ class EventBins {
   void add(std::uint32_t body, const EventOrder& order);
   /// The body whose event comes first, or `none`; the note stays.
   std::uint32_t first(const EventOrder* entries);
+  /// The event that first() has found is no longer of this window.
+  void drop_first() { due_.pop_back(); }
   /// Whether another event may come within `window` [s] of the one at `time` that first() has just
   /// found, or beyond end(). Never misses one.
   bool is_followed_within(const EventOrder* entries, Real window) const;

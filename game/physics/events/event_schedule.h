@@ -43,6 +43,8 @@ class EventSchedule {
     return ask(*this, [&](const auto& queue) { return queue.is_followed_within(window); });
   }
 
+  /// The windows, if events are kept by them.
+  WindowQueue* windows() { return policy_ == QueuePolicy::windows ? &windows_ : nullptr; }
   /// Whether the queue knows who comes after the next one: a heap does not.
   bool knows_upcoming() const { return policy_ != QueuePolicy::heap; }
   /// As of EventQueue, where upcoming events are known.

@@ -18,7 +18,7 @@ void WindowQueue::set(std::uint32_t body, Real time, std::uint32_t lower, std::u
   if (entry == order) return;
   entry = order;
   if (!(time < std::numeric_limits<Real>::infinity())) return;
-  if (is_listed_[body] == 0) is_listed_[body] = 1, listed_.push_back(body);
+  list(body);
   if (time <= bins_.end()) bins_.add(body, order);
   else later_begin_ = std::min(later_begin_, time);
 }
@@ -61,6 +61,13 @@ bool WindowQueue::open(Real until) {
     if (!is_empty) return true;
   }
   return false;
+}
+
+void WindowQueue::reopen(Real begin, Real end, std::span<const std::uint32_t> bodies) {
+  bins_.open(begin, end, bodies.size());
+  later_begin_ = end;  // or later: the next open() finds out
+  for (const std::uint32_t body : bodies)
+    if (entries_[body].time <= end) bins_.add(body, entries_[body]);
 }
 
 std::uint32_t WindowQueue::first(Real until) {

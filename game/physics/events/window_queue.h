@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "game/physics/events/event_bins.h"
@@ -33,6 +34,20 @@ class WindowQueue {
     return bins_.is_followed_within(entries_.data(), window);
   }
 
+  /// For whoever plays a window in parts: the entries, which different threads may rewrite for
+  /// different bodies; all bodies that have an event, among others; and who has one again that had
+  /// none.
+  EventOrder* entries() { return entries_.data(); }
+  std::span<const std::uint32_t> listed() const { return listed_; }
+  bool is_listed(std::uint32_t body) const { return is_listed_[body] != 0; }
+  void list(std::uint32_t body) {
+    if (is_listed_[body] == 0) is_listed_[body] = 1, listed_.push_back(body);
+  }
+  /// Where a window from `begin` on would end.
+  Real next_end(Real begin) const;
+  /// A window in which only `bodies` have events left; all others' come later.
+  void reopen(Real begin, Real end, std::span<const std::uint32_t> bodies);
+
   /// As of EventBins.
   std::int64_t current() const { return bins_.current(); }
   template <class Visit>
@@ -43,7 +58,6 @@ class WindowQueue {
 
  private:
   bool open(Real until);
-  Real next_end(Real begin) const;
 
   LargeArray<EventOrder> entries_;
   std::vector<std::uint32_t> listed_;  // all that have an event, and some that had one

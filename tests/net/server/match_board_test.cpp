@@ -66,11 +66,11 @@ struct Listener final : rti::FederateAmbassador {
 /// An execution that hands on what it says at once.
 class Hall final : public rti::Outlet {
  public:
-  void enter(Listener& observer, std::string_view name) {
+  void enter(Listener& listener, std::string_view name) {
     const auto connection = static_cast<rti::ConnectionId>(listeners_.size());
-    listeners_.push_back(&observer);
+    listeners_.push_back(&listener);
     execution_.connect(connection);
-    observer.ambassador.join("rink", name, "tester");
+    listener.ambassador.join("rink", name, "tester");
     tick();
   }
   void tick() {

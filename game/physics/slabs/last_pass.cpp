@@ -1,0 +1,73 @@
+// A tile without edges, and the engine for all that a tile does not know.
+#include "game/physics/slabs/last_pass.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace rink::physics::inline RINK_PRECISION {
+
+LastPass::LastPass(Engine& engine, SharedWindow& shared, std::uint32_t number, std::uint32_t count)
+    : engine_(engine),
+      parts_(engine.parts()),
+      shared_(shared),
+      tile_(parts_, shared, number, count),
+      images_(parts_.bodies, parts_.history, parts_.jams, parts_.bodies.count()) {}
+
+void LastPass::begin_window() {
+  tile_.begin_window();
+  images_.begin();
+  orders_.clear();
+  is_hopeless_ = false;
+  played_ = 0;
+}
+
+void LastPass::play() {
+  NextEvents& events = parts_.events;
+  for (std::uint32_t body = events.first(shared_.end); body != NextEvents::none && !is_hopeless_;
+       body = events.first(shared_.end)) {
+    ++played_;
+    if (!tile_.play_first_of_all(body)) process(body, events.order_of(body));
+  }
+}
+
+void LastPass::process(std::uint32_t body, const EventOrder& order) {
+  const NextEvent& slot = parts_.events[body];
+  const Partner partner = slot.partner;
+  const bool crosses = slot.crossing_time < slot.impact_time;
+  const bool is_late = tile_.mark(body, crosses ? partner::none : partner, order.time);
+  const Counters before = parts_.record.counters();
+  changed_.clear();
+  time_ = order.time;
+  parts_.observers.before = this;
+  engine_.process(body, order.time);
+  parts_.observers.before = nullptr;
+  const Counters& after = parts_.record.counters();
+  orders_.resize(parts_.record.events().size(), order);
+  const bool is_usual = after.hops == before.hops && after.freezes == before.freezes &&
+                        after.rests == before.rests &&
+                        after.joint_impacts == before.joint_impacts &&
+                        after.goals == before.goals && changed_.size() <= 2;
+  if (!is_usual || parts_.clock.solver_failed) is_hopeless_ = true;
+  if (crosses) tile_.mark(body, partner::none, order.time);  // the cell that it came to
+  if (!is_late) return;
+  if (crosses) tile_.note_late(body, order.time);
+  for (const std::uint32_t other : changed_) tile_.note_late(other, order.time);
+}
+
+void LastPass::keep(std::uint32_t body) {
+  images_.keep(body);
+  replace(body, parts_.bodies[body], parts_.bodies[body].version);
+}
+
+/// A free impact tells when it is over.
+void LastPass::keep_flight(std::uint32_t body, const Flight& flight) {
+  replace(body, flight, parts_.bodies[body].version - 1);
+}
+
+void LastPass::replace(std::uint32_t body, const Flight& flight, std::uint32_t version) {
+  if (std::find(changed_.begin(), changed_.end(), body) != changed_.end()) return;
+  changed_.push_back(body);
+  tile_.courses().replace(body, flight, version, time_, shared_.latest[body]);
+}
+
+}  // namespace rink::physics::inline RINK_PRECISION

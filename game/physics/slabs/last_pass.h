@@ -1,0 +1,55 @@
+// What no tile could play, in the order of the whole field.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "game/physics/bodies/before_images.h"
+#include "game/physics/bodies/observers.h"
+#include "game/physics/engine/engine.h"
+#include "game/physics/events/event_order.h"
+#include "game/physics/real.h"
+#include "game/physics/slabs/tile.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+/// Keeps what the engine's own events change, for the undo.
+class LastPass final : public ChangeObserver {
+ public:
+  LastPass(Engine& engine, SharedWindow& shared, std::uint32_t number, std::uint32_t count);
+
+  void begin_window();
+  /// Plays all that is left of the window. Its tile keeps the courses.
+  void play();
+  Tile& tile() { return tile_; }
+  const Tile& tile() const { return tile_; }
+  /// What the engine's own events changed, as it was before.
+  const BeforeImages& images() const { return images_; }
+  /// Whether it did what only the order of the whole field can tell: more than two bodies at once,
+  /// or what depends on how many events come at one instant.
+  bool solver_failed() const { return is_hopeless_; }
+  /// The order of each event that was written down here.
+  const std::vector<EventOrder>& orders() const { return orders_; }
+  std::uint64_t played() const { return played_; }
+
+  void keep(std::uint32_t body) override;
+  void keep_flight(std::uint32_t body, const Flight& flight) override;
+
+ private:
+  void process(std::uint32_t body, const EventOrder& order);
+  void replace(std::uint32_t body, const Flight& flight, std::uint32_t version);
+
+  Engine& engine_;
+  Engine::Parts parts_;
+  SharedWindow& shared_;
+  Tile tile_;
+  BeforeImages images_;
+  std::vector<std::uint32_t> changed_;  // by the event at hand
+  Real time_ = 0.0;                     // of it
+  bool is_hopeless_ = false;
+  std::uint64_t played_ = 0;
+  std::vector<EventOrder> orders_;
+};
+
+}  // namespace rink::physics::inline RINK_PRECISION

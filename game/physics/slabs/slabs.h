@@ -1,0 +1,102 @@
+// Windows of time in which parts of the field are played apart, with the bits of one order for all.
+//
+// Dependence. A course is one flight of one body, from the event at s that set it until the event
+// at e that replaces it. An event of A and B reads all courses in the 3 x 3 cells around both, a
+// crossing those in three cells ahead. It writes the courses, cells and next events of A and B.
+//
+// In any order. Whoever comes into sight last, by a new course or a crossing, predicts the meeting
+// from the two courses as they are. The result stays with one of the two, or an earlier event does.
+// Prediction is a function of the two courses, symmetric to the bit, and knows no present; so two
+// courses meet at the same bits whoever asks, and whenever.
+//
+// Right or wrong. Let each body's own events come in order of time. Then a window is right if no
+// two of its courses meet while both last. Take the first event in which it differs from the plain
+// loop; until then all courses are equal. An event that the plain loop lacks cannot be, for its two
+// courses are there as well. One that the window lacks is a meeting of two courses that both last.
+//
+// Tiles. They play a window alone, one after the other. They put off what touches a cell at their
+// edge or a blocked cell, and all but crossings, stale events and simple impacts: of two pucks in
+// free flight that give back all, with no third body within 1e-6 m and no other impact of theirs
+// within 1e-9 s. So whether an impact is alone at its instant, which the plain loop asks its whole
+// queue, does not matter to what a tile plays; chains of bodies that touch are left to the last
+// pass. Putting off blocks the cells within the block radius, at least the event's own, so that a
+// body's events keep their order. Tiles shifted by half their size along both axes, then along one
+// and along the other, play what was put off; the last pass knows no tiles and all kinds of events.
+//
+// Check. Within one tile and pass events come in order, so only what was put off can be late: a
+// cell next to its own has seen a later event. Its courses, until their next events, are compared
+// with all replaced courses that end after it. Those belong to bodies that are listed within
+// vT/c cells and two, v being the greatest speed in the window, T what is left of it and c a cell's
+// side. A crossing marks both its cells, so nobody has left the neighbourhood unseen. The block
+// radius changes how much is put off and how often the check fails, never the result.
+//
+// Undo. Where the check fails, or the last pass did what depends on more than the bodies concerned
+// (a joint impact, a hop, many events at one instant), what bodies were before is put back, and the
+// window is played in order. Predictions are made anew, which takes as long as to predict all.
+//
+// Differences from the plain loop: counters of bookkeeping, and the most events at one instant,
+// which is counted by tile.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "game/physics/bodies/before_images.h"
+#include "game/physics/bodies/clock.h"
+#include "game/physics/counters.h"
+#include "game/physics/engine/engine.h"
+#include "game/physics/event.h"
+#include "game/physics/real.h"
+#include "game/physics/slab_plan.h"
+#include "game/physics/slabs/last_pass.h"
+#include "game/physics/slabs/tile.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+/// Plays an engine; what is no free flight by its plain loop.
+class Slabs {
+ public:
+  Slabs(Engine& engine, const SlabPlan& plan);
+  Slabs(const Slabs&) = delete;
+  Slabs& operator=(const Slabs&) = delete;
+
+  /// As Engine::advance().
+  std::optional<Goal> advance(Real until);
+
+ private:
+  SlabCounters& slab_counters() { return parts_.record.counters().slabs; }
+  bool is_in_free_flight() const;
+  void begin_window(Real end);
+  bool play_window();
+  void play_tiles();
+  void play_pass(int shift_columns, int shift_rows, std::span<const std::uint32_t> bodies,
+                 bool is_first);
+  void take_put_off();
+  bool is_right() const;
+  bool meets_replaced(const Courses::Late& late, Real speed) const;
+  const Courses::Replaced& course_at(std::uint32_t at) const;
+  Real greatest_speed() const;
+  void accept();
+  void add_counters();
+  void merge_events();
+  void undo();
+
+  Engine& engine_;
+  Engine::Parts parts_;
+  SlabPlan plan_;
+  SharedWindow shared_;
+  std::vector<std::unique_ptr<Tile>> tiles_;
+  std::unique_ptr<LastPass> last_pass_;
+  std::vector<std::uint32_t> put_off_;
+  std::vector<std::vector<std::uint32_t>> lists_;  // of a pass, by tile
+  Clock clock_before_;
+  Counters counters_before_;
+  std::size_t events_before_ = 0;
+  std::uint32_t jam_count_before_ = 0;
+};
+
+}  // namespace rink::physics::inline RINK_PRECISION

@@ -1,0 +1,106 @@
+// One part of the field that plays a window of time by itself.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "game/physics/bodies/bodies.h"
+#include "game/physics/bodies/clock.h"
+#include "game/physics/bodies/event_record.h"
+#include "game/physics/cell_grid.h"
+#include "game/physics/engine/engine.h"
+#include "game/physics/engine/prediction.h"
+#include "game/physics/events/event_bins.h"
+#include "game/physics/events/window_queue.h"
+#include "game/physics/real.h"
+#include "game/physics/slabs/courses.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+/// Columns and rows of cells, the end excluded.
+struct CellRange {
+  int first_column, first_row, end_column, end_row;
+};
+
+/// What all workers share. Different tiles never write the same body's, nor the same cell's.
+struct SharedWindow {
+  std::vector<Courses::Latest> latest;  ///< by body
+  std::vector<Real> played;             ///< by cell: the latest event there
+  std::uint32_t number = 0;
+  Real begin = 0.0, end = 0.0;  ///< s, the end included
+  int block_radius = 2;         ///< cells
+
+  Real& played_at(int column, int row, int columns) {
+    return played[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                  static_cast<std::size_t>(column)];
+  }
+};
+
+/// A worker's tile: it plays one after the other. It knows free flight, and impacts of two pucks
+/// that are nobody else's business; all else it puts off.
+class Tile {
+ public:
+  Tile(const Engine::Parts& engine, SharedWindow& shared, std::uint32_t number,
+       std::uint32_t count);
+  Tile(const Tile&) = delete;
+  Tile& operator=(const Tile&) = delete;
+
+  /// Nothing has been played of the window.
+  void begin_window();
+  /// Plays the events of `bodies`, all in `range`, and what they bring about. Who was put off in an
+  /// earlier pass `can_be_late`.
+  void play(const CellRange& range, std::span<const std::uint32_t> bodies, bool can_be_late);
+  /// Plays the event of `body`, which is the first of all that are left in the whole field, and
+  /// tells the schedule; false, with nothing done, if that is not for a tile.
+  bool play_first_of_all(std::uint32_t body);
+  /// Notes that the event of `body` and, if it is one, `partner` is late, if it is, before it is
+  /// processed by somebody else; and after that how they go on.
+  bool mark(std::uint32_t body, Partner partner, Real time);
+  void note_late(std::uint32_t body, Real time);
+
+  /// Since begin_window().
+  std::vector<std::uint32_t>& put_off() { return put_off_; }
+  std::span<const std::uint32_t> awakened() const { return awakened_; }
+  Courses& courses() { return courses_; }
+  /// At the latest event since then.
+  const Clock& clock() const {
+    return clock_.instant_begin > latest_.instant_begin ? clock_ : latest_;
+  }
+  EventRecord& record() { return record_; }
+  std::uint64_t at_once_max() const { return at_once_max_; }
+
+ private:
+  using Place = CellGrid::Place;
+
+  bool play_event(std::uint32_t body, Real time);
+  bool cross(std::uint32_t body);
+  bool collide(std::uint32_t body, std::uint32_t other, Real time);
+  void publish(std::uint32_t body);
+  Place target_of(std::uint32_t body) const;
+  bool may_play(const Place& place) const;
+  void put_off(std::uint32_t body, const Place& from, const Place& to);
+  void block(const Place& place);
+  bool is_late(const Place& place, Real time);
+  void mark_cell(const Place& place, Real time);
+  std::uint8_t& blocked_at(int column, int row);
+
+  SharedWindow& shared_;
+  Bodies& bodies_;
+  Places& places_;
+  NextEvents& events_;
+  const RestitutionTable& restitution_;
+  Real rest_speed_;
+  Clock clock_, latest_;  // of this tile, and of the one that came furthest before
+  EventRecord record_;
+  std::uint64_t at_once_max_ = 0;
+  Prediction prediction_;
+  Courses courses_;
+  EventBins bins_;
+  CellRange range_{};
+  bool can_be_late_ = false, is_whole_ = false;
+  std::vector<std::uint8_t> blocked_;  // by cell of the range
+  std::vector<std::uint32_t> put_off_, awakened_;
+};
+
+}  // namespace rink::physics::inline RINK_PRECISION
