@@ -22,7 +22,7 @@ constexpr std::uint64_t at_once_max = Clock::endless_events / 2;
 
 Slabs::Slabs(Engine& engine, const SlabPlan& plan)
     : engine_(engine), parts_(engine.parts()), plan_(plan) {
-  assert(plan.tile_cells >= 4 && plan.block_radius >= 0 && plan.window > 0.0);
+  assert(plan.tile_cells >= 4 && plan.window > 0.0);
 }
 
 std::optional<Goal> Slabs::advance(Real until) {
@@ -53,6 +53,12 @@ bool Slabs::is_in_free_flight() const {
          !spec.allow_overlap && spec.field.goal_width == 0.0;
 }
 
+/// Who is put off and who is played on further should not meet before the window is over: where
+/// cells are hardly wider than discs, those of two neighbours nearly touch.
+int Slabs::block_radius() const {
+  return Real(parts_.places.grid().side()) < 1.5 * 2.0 * parts_.places.reach() ? 2 : 1;
+}
+
 void Slabs::begin_window(Real end) {
   const std::uint32_t count = parts_.bodies.count();
   const CellGrid& grid = parts_.places.grid();
@@ -66,7 +72,7 @@ void Slabs::begin_window(Real end) {
   if (shared_.played.size() != cells) shared_.played.assign(cells, -1.0);
   ++shared_.number;
   shared_.begin = parts_.clock.now, shared_.end = end;
-  shared_.block_radius = plan_.block_radius;
+  shared_.block_radius = plan_.block_radius >= 0 ? plan_.block_radius : block_radius();
   clock_before_ = parts_.clock, counters_before_ = parts_.record.counters();
   events_before_ = parts_.record.events().size();
   jam_count_before_ = parts_.jams.table().count;

@@ -70,6 +70,7 @@ class Slabs {
  private:
   SlabCounters& slab_counters() { return parts_.record.counters().slabs; }
   bool is_in_free_flight() const;
+  int block_radius() const;
   void begin_window(Real end);
   bool play_window();
   void play_tiles();

@@ -78,9 +78,10 @@ Tile::Place Tile::target_of(std::uint32_t body) const {
 /// Not at an edge, beyond which another tile plays, and not blocked.
 bool Tile::may_play(const Place& place) const {
   const CellGrid& grid = places_.grid();
-  const auto is_inside = [](int index, int first, int end, std::uint32_t count) {
-    return index >= first + (first > 0 ? 1 : 0) &&
-           index < end - (end < static_cast<int>(count) ? 1 : 0);
+  const int margin = std::max(1, shared_.block_radius);
+  const auto is_inside = [margin](int index, int first, int end, std::uint32_t count) {
+    return index >= first + (first > 0 ? margin : 0) &&
+           index < end - (end < static_cast<int>(count) ? margin : 0);
   };
   return is_inside(place.column, range_.first_column, range_.end_column, grid.columns()) &&
          is_inside(place.row, range_.first_row, range_.end_row, grid.rows()) &&
