@@ -1,6 +1,8 @@
 // Choice of the cell size; who is in which cell.
 #include "game/physics/cell_grid.h"
 
+#include <cassert>
+
 namespace rink::physics {
 
 namespace {
@@ -24,6 +26,7 @@ std::vector<double> edges_of(std::uint32_t count, double side) {
 /// at packing 0.05, 0.9 at 0.2, the least possible cell at 0.5 and denser.
 void CellGrid::rebuild(double length, double width, double reach, std::uint32_t body_max,
                        double least_cell) {
+  assert(length > 0.0 && width > 0.0 && reach >= 0.0 && least_cell >= 0.0);
   const double spacing = std::sqrt(length * width / std::max(1u, body_max));
   side_ = std::max({1.2 * spacing - 0.5 * reach, least_cell, reach * (1.0 + 1.0 / 16.0),
                     std::max(length, width) / 30000.0});
@@ -39,6 +42,7 @@ void CellGrid::rebuild(double length, double width, double reach, std::uint32_t 
 }
 
 void CellGrid::insert(std::uint32_t body, double x, double y) {
+  assert(body < places_.size() && !is_listed(body));
   link(body, {static_cast<std::uint16_t>(column(x)), static_cast<std::uint16_t>(row(y))});
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -37,11 +38,13 @@ class CellGrid {
     std::uint32_t* cell = &cells_[cell_at(places_[body]) * stride_];
     std::uint32_t* at = cell + 1;
     while (*at != body) ++at;
+    assert(at <= cell + cell[0]);
     *at = cell[cell[0]--];
     places_[body] = Place{};
   }
   void move(std::uint32_t body, Direction direction) {
     Place place = places_[body];
+    assert(is_listed(body));
     remove(body);
     const int step = (direction & 1) != 0 ? 1 : -1;
     std::uint16_t& index = direction <= right ? place.column : place.row;
@@ -158,6 +161,7 @@ class CellGrid {
     return list + from[0];
   }
   void link(std::uint32_t body, Place place) {
+    assert(place.column < columns_ && place.row < rows_);
     places_[body] = place;
     if (cells_[cell_at(place) * stride_] + 1 == stride_) widen();
     std::uint32_t* cell = &cells_[cell_at(place) * stride_];

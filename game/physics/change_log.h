@@ -1,6 +1,7 @@
 // Which bodies changed, for any number of readers that look when they like.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -30,6 +31,7 @@ class ChangeLog {
   /// The next body, by number.
   void add(std::uint32_t body) {
     if (body % 64 == 0) is_listed_.push_back(0);
+    assert(body / 64 + 1 == is_listed_.size());
     note(body);
   }
 
@@ -39,6 +41,7 @@ class ChangeLog {
     const std::uint64_t end = begin_ + entries_.size();
     const bool is_known = cursor.log_ == identity_ && cursor.read_ >= begin_;
     const std::uint64_t from = cursor.read_;
+    assert(begin_ <= unread_ && unread_ <= end && (!is_known || from <= end));
     cursor.log_ = identity_;
     cursor.read_ = end;
     for (std::uint64_t k = unread_; k < end; ++k) {

@@ -2,6 +2,7 @@
 #include "game/physics/subdomain.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -17,6 +18,7 @@ std::uint64_t most_at_once(std::span<const double> times) {
     while (times[first] + roundings * std::numeric_limits<double>::epsilon() * (1.0 + times[k]) <
            times[k])
       ++first;
+    assert(first <= k);
     most = std::max(most, k - first + 1);
   }
   return most;
@@ -48,6 +50,7 @@ Subdomain::Subdomain(const WorldSpec& spec, std::uint32_t body_count)
 Subdomain::~Subdomain() { engine().observe({}); }
 
 BodyState Subdomain::state_in(const World& world, std::uint32_t body) {
+  assert(body < world.body_count());
   return world.engine_->body_state(body);
 }
 
@@ -77,6 +80,7 @@ bool Subdomain::is_possible(const BodyState& state, std::uint32_t body_count) {
 bool Subdomain::is_out_of_play(const BodyState& state) { return (state.flags & Body::gone) != 0; }
 
 bool Subdomain::is_held_along(const BodyState& state, int axis) {
+  assert(axis == 0 || axis == 1);
   return (state.flags & (axis == 0 ? Body::held_x : Body::held_y)) != 0;
 }
 
@@ -86,6 +90,7 @@ void Subdomain::put(std::uint32_t body, const BodyState& state) {
 }
 
 void Subdomain::drop(std::uint32_t body) {
+  assert(body < body_count());
   if (!is_there(body)) return;
   engine().drop(body);
   is_there_[body] = 0;

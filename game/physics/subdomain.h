@@ -2,6 +2,7 @@
 // elsewhere hand them over.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -38,7 +39,10 @@ class Subdomain {
 
   const World& world() const { return world_; }
   std::uint32_t body_count() const { return static_cast<std::uint32_t>(is_there_.size()); }
-  bool is_there(std::uint32_t body) const { return is_there_[body] != 0; }
+  bool is_there(std::uint32_t body) const {
+    assert(body < body_count());
+    return is_there_[body] != 0;
+  }
 
   BodyState state(std::uint32_t body) const { return state_in(world_, body); }
   /// Of a body of any world.
@@ -93,7 +97,10 @@ class Subdomain {
     journal_.rooms = std::move(rooms), journal_.quiet_until = until;
   }
   /// 1 + the room in which the body is; 0: all is entered that happens to it.
-  void set_room(std::uint32_t body, std::uint8_t room) { journal_.rooms_of[body] = room; }
+  void set_room(std::uint32_t body, std::uint8_t room) {
+    assert(body < body_count() && room <= journal_.rooms.size());
+    journal_.rooms_of[body] = room;
+  }
   /// Bodies of which something was entered, so that they have no room any more, since the last
   /// call.
   std::vector<std::uint32_t> take_entered() { return std::exchange(journal_.entered, {}); }

@@ -58,8 +58,12 @@ BodyId World::add(const PostSpec& spec) {
   return engine_->add(state);
 }
 
-void World::remove(BodyId body) { engine_->remove(body.index); }
+void World::remove(BodyId body) {
+  assert(body.index < body_count());
+  engine_->remove(body.index);
+}
 void World::set_thrust(BodyId bat, const Vector2& acceleration) {
+  assert(bat.index < body_count());
   engine_->set_thrust(bat.index, acceleration.cast<Real>());
 }
 void World::place(BodyId puck, const Vector2& position, const Vector2& velocity) {
@@ -75,8 +79,12 @@ void World::forget_events() { engine_->record().forget(); }
 
 Real World::now() const { return engine_->clock().now; }
 
-Motion World::motion(BodyId body) const { return engine_->bodies().motion(body.index); }
+Motion World::motion(BodyId body) const {
+  assert(body.index < body_count());
+  return engine_->bodies().motion(body.index);
+}
 std::uint32_t World::motion_version(BodyId body) const {
+  assert(body.index < body_count());
   return engine_->bodies()[body.index].version;
 }
 
@@ -95,16 +103,35 @@ RealVector World::velocity(BodyId body) const {
 }
 
 std::uint32_t World::body_count() const { return engine_->bodies().count(); }
-BodyKind World::kind(BodyId body) const { return engine_->bodies()[body.index].kind; }
-Real World::radius(BodyId body) const { return engine_->bodies()[body.index].radius; }
+BodyKind World::kind(BodyId body) const {
+  assert(body.index < body_count());
+  return engine_->bodies()[body.index].kind;
+}
+Real World::radius(BodyId body) const {
+  assert(body.index < body_count());
+  return engine_->bodies()[body.index].radius;
+}
 RealVector World::half_extent(BodyId body) const {
   return engine_->bodies().build(body.index).half_extent + RealVector::Constant(radius(body));
 }
-Real World::mass(BodyId body) const { return engine_->bodies().build(body.index).mass; }
-MaterialId World::material(BodyId body) const { return engine_->bodies()[body.index].material; }
-RealVector World::thrust(BodyId body) const { return engine_->bodies().build(body.index).thrust; }
-bool World::is_in_play(BodyId body) const { return !engine_->bodies()[body.index].is(Body::gone); }
+Real World::mass(BodyId body) const {
+  assert(body.index < body_count());
+  return engine_->bodies().build(body.index).mass;
+}
+MaterialId World::material(BodyId body) const {
+  assert(body.index < body_count());
+  return engine_->bodies()[body.index].material;
+}
+RealVector World::thrust(BodyId body) const {
+  assert(body.index < body_count());
+  return engine_->bodies().build(body.index).thrust;
+}
+bool World::is_in_play(BodyId body) const {
+  assert(body.index < body_count());
+  return !engine_->bodies()[body.index].is(Body::gone);
+}
 bool World::is_removed(BodyId body) const {
+  assert(body.index < body_count());
   return (engine_->bodies()[body.index].flags & Body::removed) != 0;
 }
 
@@ -114,13 +141,16 @@ bool World::is_resting(BodyId body) const {
 }
 
 bool World::is_held(BodyId body) const {
+  assert(body.index < body_count());
   return (engine_->bodies()[body.index].flags & (Body::held | Body::frozen)) != 0;
 }
 
 bool World::is_free(const Vector2& centre, double radius) const {
+  assert(radius >= 0.0);
   return physics::is_free(engine_->present(), centre.cast<Real>(), {RealVector(0.0, 0.0), radius});
 }
 bool World::is_free(const Vector2& centre, const Vector2& half_extent) const {
+  assert(half_extent.minCoeff() >= 0.0);
   return physics::is_free(engine_->present(), centre.cast<Real>(), {half_extent.cast<Real>(), 0.0});
 }
 

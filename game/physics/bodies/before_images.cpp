@@ -1,6 +1,8 @@
 // The state of a body, gathered from those who own its parts.
 #include "game/physics/bodies/before_images.h"
 
+#include <cassert>
+
 #include "game/physics/bodies/bodies.h"
 #include "game/physics/bodies/impact_history.h"
 #include "game/physics/bodies/jams.h"
@@ -17,11 +19,13 @@ BodyState state_of(std::uint32_t body, const Bodies& bodies, const ImpactHistory
 }
 
 void BeforeImages::begin() {
+  assert(number_ < 0xfffffffd);  // or marks of an old window would be taken for new ones
   flights_.clear(), states_.clear();
   number_ += 2;
 }
 
 void BeforeImages::keep(std::uint32_t body) {
+  assert(body < marks_.size());
   if (marks_[body].number > number_) return;
   keep_flight(body, bodies_[body]);
   marks_[body].number = number_ + 1;
@@ -31,6 +35,8 @@ void BeforeImages::keep(std::uint32_t body) {
 
 BodyState BeforeImages::state(std::uint32_t body) const {
   const Mark& mark = marks_[body];
+  assert(mark.number <= number_ || states_[mark.state].body == body);
+  assert(mark.number < number_ || flights_[mark.flight].body == body);
   BodyState before =
       mark.number > number_ ? states_[mark.state].state : state_of(body, bodies_, history_, jams_);
   if (mark.number >= number_) before.flight = flights_[mark.flight].flight;
@@ -39,6 +45,7 @@ BodyState BeforeImages::state(std::uint32_t body) const {
 
 std::uint8_t BeforeImages::flags(std::uint32_t body) const {
   const Mark& mark = marks_[body];
+  assert(mark.number <= number_ || states_[mark.state].body == body);
   return mark.number > number_ ? states_[mark.state].state.flags : bodies_[body].flags;
 }
 

@@ -1,6 +1,7 @@
 // Rewriting the last-event states of bodies; nothing else in the engine does.
 #include "game/physics/bodies/bodies.h"
 
+#include <cassert>
 #include <utility>
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -13,7 +14,9 @@ Bodies::Bodies(const WorldSpec& spec, Counters& counters, EnergyLedger& ledger,
       puck_drag_(spec.puck_drag),
       bat_drag_(spec.bat_drag),
       puck_friction_(spec.puck_friction),
-      is_rough_(spec.surface_friction.has_value()) {}
+      is_rough_(spec.surface_friction.has_value()) {
+  assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.puck_friction >= 0.0);
+}
 
 Motion Bodies::motion(std::uint32_t body) const {
   const Body& b = table_.bodies[body];
@@ -26,6 +29,7 @@ Motion Bodies::motion(std::uint32_t body) const {
 }
 
 void Bodies::add(const BodyState& s) {
+  assert(s.mass > 0.0 && s.inverse_mass >= 0.0 && s.flight.radius >= 0.0);
   const std::uint32_t body = count();
   table_.bodies.push_back(
       {s.flight, s.inverse_mass, 0, s.kind, s.material, s.flags, Body::no_mouth});
@@ -40,6 +44,9 @@ void Bodies::add(const BodyState& s) {
 void Bodies::restore(BodyTable table) {
   table_ = std::move(table);
   assert(table_.shapes.size() == count() && table_.laws.size() == count());
+  assert(table_.rest_times.size() == (is_slowed() ? count() : 0u) &&
+         table_.slowing.size() == table_.rest_times.size());
+  assert(table_.spins.size() == (is_rough_ ? count() : 0u));
   curved_count_ = 0;
   for (std::uint32_t body = 0; body < count(); ++body) {
     changes_.add(body);
@@ -61,6 +68,7 @@ void Bodies::read(std::uint32_t body, BodyState& state) const {
 }
 
 void Bodies::write(std::uint32_t body, const BodyState& s) {
+  assert(body < count() && (s.flags & ~Body::lasting) == 0);
   Body& b = table_.bodies[body];
   static_cast<Flight&>(b) = s.flight;
   b.inverse_mass = s.inverse_mass, b.kind = s.kind, b.material = s.material, b.mouth = s.mouth;
@@ -109,6 +117,7 @@ void Bodies::rebase(std::uint32_t body, Real time) {
 }
 
 void Bodies::set_law(std::uint32_t body, int axis, Real acceleration, Real drag) {
+  assert((axis == 0 || axis == 1) && !(drag < 0.0));
   keep(body);
   table_.laws[body].acceleration[axis] = acceleration;
   table_.laws[body].drag[axis] = drag;
@@ -117,7 +126,7 @@ void Bodies::set_law(std::uint32_t body, int axis, Real acceleration, Real drag)
 }
 
 void Bodies::slide(std::uint32_t body, const RealVector& acceleration, Real rest_time) {
-  assert(is_slowed(body));
+  assert(is_slowed(body) && !(rest_time < table_.bodies[body].time));
   table_.laws[body].acceleration = acceleration;
   table_.rest_times[body] = rest_time;
   write_law(body);

@@ -47,10 +47,19 @@ class Bodies {
   const ForceLaw& law(std::uint32_t body) const { return table_.laws[body]; }
   bool has_spins() const { return is_rough_; }
   /// Of worlds with surface friction.
-  Real spin(std::uint32_t body) const { return table_.spins[body]; }
+  Real spin(std::uint32_t body) const {
+    assert(body < table_.spins.size());
+    return table_.spins[body];
+  }
   /// Of worlds with friction.
-  Real rest_time(std::uint32_t body) const { return table_.rest_times[body]; }
-  const RealVector& slowing(std::uint32_t body) const { return table_.slowing[body]; }
+  Real rest_time(std::uint32_t body) const {
+    assert(body < table_.rest_times.size());
+    return table_.rest_times[body];
+  }
+  const RealVector& slowing(std::uint32_t body) const {
+    assert(body < table_.slowing.size());
+    return table_.slowing[body];
+  }
 
   bool is_slowed() const { return puck_friction_ > 0.0; }
   bool is_slowed(std::uint32_t body) const {
@@ -115,11 +124,15 @@ class Bodies {
   void set_velocity(std::uint32_t body, int axis, Real speed) {
     (axis == 0 ? table_.bodies[body].vx : table_.bodies[body].vy) = speed;
   }
-  void set_spin(std::uint32_t body, Real spin) { table_.spins[body] = spin; }
+  void set_spin(std::uint32_t body, Real spin) {
+    assert(is_rough_);
+    table_.spins[body] = spin;
+  }
   void set_thrust(std::uint32_t body, const RealVector& thrust) {
     table_.shapes[body].thrust = thrust;
   }
   void set_slowing(std::uint32_t body, const RealVector& slowing) {
+    assert(is_slowed(body));
     table_.slowing[body] = slowing;
   }
   /// Its law along an axis, from its last event on.

@@ -23,7 +23,10 @@ struct Clock {
   bool solver_failed = false;  ///< no joint impact could be solved at this instant
 
   /// Whether so many events have come at this instant that all that touch shall yield as one.
-  bool is_endless() const { return events_at_once % endless_events == 0; }
+  bool is_endless() const {
+    assert(events_at_once > 0);  // asked while an event is processed
+    return events_at_once % endless_events == 0;
+  }
   /// An event is about to be processed; one that was overlooked may lie some roundings back.
   void reach(Real time) { now = std::max(now, time); }
   /// Nothing is left to do up to `until`.

@@ -2,6 +2,7 @@
 #include "game/physics/bodies/energy_ledger.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -10,6 +11,7 @@ namespace rink::physics::inline RINK_PRECISION {
 /// in that of those who press on it.
 EnergyTransfer energy_transfer_of(const Motion& m, Real time, Real mass,
                                   const RealVector* slowing) {
+  assert(mass > 0.0 && !(m.drag.minCoeff() < 0.0));
   const Real elapsed = std::min(time, m.rest_time) - m.time;
   if (elapsed <= 0.0) return {0.0, 0.0};
   Real pushed = 0.0, dragged = 0.0, rubbed = 0.0;

@@ -2,6 +2,7 @@
 #include "game/physics/bodies/impact_history.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "game/physics/bodies/journal.h"
 #include "game/physics/bodies/tolerances.h"
@@ -25,7 +26,9 @@ ImpactHistory::ImpactHistory(const WorldSpec& spec, Bodies& bodies, const Observ
     : bodies_(bodies),
       observers_(observers),
       contact_time_(spec.contact_time),
-      rest_speed_(rest_speed(spec)) {}
+      rest_speed_(rest_speed(spec)) {
+  assert(spec.contact_time > 0.0);
+}
 
 void ImpactHistory::read(std::uint32_t body, BodyState& state) const {
   const ImpactCounts& counts = impact_counts_[body];
@@ -35,6 +38,7 @@ void ImpactHistory::read(std::uint32_t body, BodyState& state) const {
 }
 
 void ImpactHistory::write(std::uint32_t body, const BodyState& state) {
+  assert(body < impact_counts_.size());
   ImpactCounts& counts = impact_counts_[body];
   counts.window_start = state.impacts_begin, counts.last_hop = state.last_hop,
   counts.impacts = state.impacts, counts.hops = state.hops;
@@ -68,6 +72,7 @@ bool ImpactHistory::is_worn(std::uint32_t body, Real approach, Real time) const 
 }
 
 void ImpactHistory::note_hop(std::span<const std::uint32_t> members, Real time) {
+  assert(!members.empty());
   for (const std::uint32_t body : members) {
     ImpactCounts& counts = impact_counts_[body];
     if (time - counts.last_hop > 8.0 * contact_time_) counts.hops = 0;
@@ -79,6 +84,7 @@ void ImpactHistory::note_hop(std::span<const std::uint32_t> members, Real time) 
 }
 
 void ImpactHistory::count_meeting(const Contact& c, Real instant_begin) {
+  assert(is_body(c.body) && c.body != c.partner);
   for (const Partner p : {c.body, c.partner})
     if (!bodies_.is_fixed(p)) impact_counts_[p].first_contacts.add(instant_begin);
 }

@@ -1,6 +1,7 @@
 // How densely impacts have followed each other for each body, and whether it has had its fill.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,10 +24,14 @@ class ImpactHistory {
   ImpactHistory& operator=(const ImpactHistory&) = delete;
 
   /// Of the next body, by number.
-  void add() { impact_counts_.emplace_back(); }
+  void add() {
+    assert(impact_counts_.size() < bodies_.count());
+    impact_counts_.emplace_back();
+  }
   /// All of them at once.
   const std::vector<ImpactCounts>& impact_counts() const { return impact_counts_; }
   void restore(std::vector<ImpactCounts> impact_counts) {
+    assert(impact_counts.size() == bodies_.count());
     impact_counts_ = std::move(impact_counts);
   }
   void read(std::uint32_t body, BodyState& state) const;

@@ -7,10 +7,12 @@
 namespace rink::physics::inline RINK_PRECISION {
 
 void Jams::read(std::uint32_t body, BodyState& state) const {
+  assert(body < table_.numbers.size());
   state.jam = bodies_[body].is(Body::frozen) ? table_.numbers[body] : 0;
 }
 
 void Jams::write(std::uint32_t body, const BodyState& state) {
+  assert(body < table_.numbers.size());
   std::erase(table_.frozen, body);
   table_.numbers[body] = state.jam;
   if ((state.flags & Body::frozen) != 0) table_.frozen.push_back(body);

@@ -1,6 +1,7 @@
 // Pressed clusters in equilibrium: their members stand still until one of them is woken.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -27,9 +28,15 @@ class Jams {
   Jams& operator=(const Jams&) = delete;
 
   /// The next body, by number.
-  void add() { table_.numbers.push_back(0); }
+  void add() {
+    assert(table_.numbers.size() < bodies_.count());
+    table_.numbers.push_back(0);
+  }
   const JamTable& table() const { return table_; }
-  void restore(JamTable table) { table_ = std::move(table); }
+  void restore(JamTable table) {
+    assert(table.numbers.size() == bodies_.count());
+    table_ = std::move(table);
+  }
   /// Bodies restored by write(), in the order in which they had been frozen.
   void restore(const std::vector<std::uint32_t>& frozen, std::uint32_t count) {
     table_.frozen = frozen, table_.count = count;

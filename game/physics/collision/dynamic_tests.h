@@ -7,6 +7,8 @@
 // contact that has been answered by an impulse is not found again, and nothing is ever moved apart.
 #pragma once
 
+#include <cassert>
+
 #include "game/physics/collision/shapes.h"
 #include "game/physics/collision/straight_flight.h"
 
@@ -32,6 +34,7 @@ template <class Real>
 MaybeContact<Real> time_point_meets_edge(const Given<Vector<Real>>& point,
                                          const Given<Vector<Real>>& velocity,
                                          const Edge<Real>& edge, Given<Real> limit = never<Real>) {
+  assert(edge.from != edge.to);
   const Vector<Real> along = edge.to - edge.from, from = edge.from - point, to = edge.to - point;
   const Real gap = cross<Real>(along, from),
              closing = cross<Real>(along, velocity);  // both times the edge's length

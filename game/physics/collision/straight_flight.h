@@ -34,6 +34,7 @@ struct Entry {
 template <class Real>
 std::optional<Entry<Real>> enter_box(const Vector<Real>& offset, const Vector<Real>& velocity,
                                      const Vector<Real>& half_extent) {
+  assert(!(half_extent.minCoeff() < Real(0)));
   Real enter[2], leave = never<Real>, outside[2], growth[2];
   for (int axis = 0; axis < 2; ++axis) {
     const Real distance = std::abs(offset[axis]);
@@ -108,6 +109,7 @@ MaybeContact<Real> meet_corner(const Vector<Real>& offset, const Vector<Real>& v
 template <class Real>
 MaybeContact<Real> meet_rounded_box(const Vector<Real>& offset, const Vector<Real>& velocity,
                                     const Vector<Real>& half_extent, Real radius, Real limit) {
+  assert(!(radius < Real(0)));
   if (radius == Real(0)) return meet_box<Real>(offset, velocity, half_extent, limit);
   const Vector<Real> outside = offset.cwiseAbs() - half_extent;
   if (outside.minCoeff() > Real(0) && outside.maxCoeff() < radius)

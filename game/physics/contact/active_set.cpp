@@ -23,7 +23,10 @@ bool ActiveSet::solve(ContactProblem& problem, std::span<const std::uint32_t> cl
   velocities_ = problem.velocities;
   pushing_.clear();
   blocked_ = fixed_place;
-  for (const std::uint32_t i : closing) touches[i].impulse = 0.0;
+  for (const std::uint32_t i : closing) {
+    assert(i < touches.size());
+    touches[i].impulse = 0.0;
+  }
   for (std::size_t steps_left = 20 * closing.size() + 20; steps_left > 0;) {
     Real most = 0.25 * rest_of_closing * problem.speed();
     std::uint32_t next = fixed_place;
@@ -72,6 +75,7 @@ bool ActiveSet::push_until_blocked(ContactProblem& problem, std::uint32_t next) 
 /// The triangle of `columns_`, solved for `column_`.
 void ActiveSet::find_shares() {
   const std::size_t count = pushing_.size();
+  assert(column_.size() == count && columns_.size() >= count);
   share_.resize(count);
   for (std::size_t row = count; row-- > 0;) {
     Real sum = column_[row];
@@ -106,11 +110,13 @@ void ActiveSet::append(std::uint32_t touch, Real length) {
   for (RealVector& part : direction_) part /= length;
   basis_[count] = direction_;
   column_.push_back(length);
+  assert(column_.size() == count + 1);  // the next side of the triangle
   columns_[count] = column_;
   pushing_.push_back(touch);
 }
 
 void ActiveSet::drop(ContactProblem& problem, std::size_t place) {
+  assert(place < pushing_.size());
   problem.touches[pushing_[place]].impulse = 0.0;
   const std::vector<std::uint32_t> others(pushing_.begin() + static_cast<std::ptrdiff_t>(place) + 1,
                                           pushing_.end());
@@ -124,6 +130,7 @@ void ActiveSet::drop(ContactProblem& problem, std::size_t place) {
 const std::vector<RealVector>& ActiveSet::reflect(const ContactProblem& problem, Real restitution,
                                                   bool as_wanted) {
   assert(restitution >= 0.0 && restitution <= 1.0);
+  assert(problem.velocities.size() == velocities_.size());  // that it has solved
   velocities_ = problem.velocities;
   share_.assign(pushing_.size(), 0.0);
   for (std::size_t k = 0; k < pushing_.size(); ++k) {

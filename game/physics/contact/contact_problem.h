@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -35,6 +37,7 @@ struct ContactProblem {
     masses.clear(), inverse_masses.clear(), velocities.clear(), is_slowed.clear(), touches.clear();
   }
   void add_body(Real mass, Real inverse_mass, const RealVector& velocity, bool is_slowed_body) {
+    assert(mass > 0.0 && inverse_mass >= 0.0);
     masses.push_back(mass), inverse_masses.push_back(inverse_mass);
     velocities.push_back(velocity), is_slowed.push_back(is_slowed_body);
   }
@@ -42,6 +45,7 @@ struct ContactProblem {
 
   /// Of two fields of velocities, weighed by the masses.
   Real product(const std::vector<RealVector>& a, const std::vector<RealVector>& b) const {
+    assert(a.size() == masses.size() && b.size() == masses.size());
     Real sum = 0.0;
     for (std::size_t place = 0; place < masses.size(); ++place)
       sum += masses[place] * a[place].dot(b[place]);
@@ -53,6 +57,17 @@ struct ContactProblem {
     Real most = 0.0;
     for (const RealVector& velocity : velocities) most = std::max(most, velocity.norm());
     return most;
+  }
+  /// Asserts that arrays agree, and that touches name bodies and have normals of length 1.
+  void check() const {
+    assert(inverse_masses.size() == body_count() && velocities.size() == body_count() &&
+           is_slowed.size() == body_count());
+    for ([[maybe_unused]] const Touch& touch : touches) {
+      assert(touch.body < body_count() && touch.other != touch.body);
+      assert(touch.other < body_count() || touch.other == fixed_place);
+      assert(std::abs(touch.normal.squaredNorm() - 1.0) < 1e-9);
+      assert(touch.restitution >= 0.0 && touch.restitution <= 1.0);
+    }
   }
 };
 

@@ -17,6 +17,7 @@ constexpr int cycles_max = 4;            // of rounds and yielding
 }  // namespace
 
 bool ImpactSolver::solve(ContactProblem& problem, bool all_yield_first) {
+  problem.check();
   const Real energy = problem.energy();
   return find_velocities(problem, all_yield_first) &&
          problem.energy() <= energy * (1.0 + 1e-12 * fineness);
@@ -66,6 +67,7 @@ bool ImpactSolver::propagate_once(ContactProblem& problem, bool& has_ended) {
 /// energy is kept for e = 1 and never grows. e is the least restitution of those that push, at most
 /// `restitution_max`.
 bool ImpactSolver::yield_as_one(ContactProblem& problem, Real restitution_max) {
+  assert(restitution_max >= 0.0 && restitution_max <= 1.0);
   closing_.resize(problem.touches.size());
   std::iota(closing_.begin(), closing_.end(), 0u);
   for (Touch& touch : problem.touches) touch.wanted = 0.0;
@@ -99,6 +101,7 @@ void ImpactSolver::reflect(ContactProblem& problem, Real restitution_max, bool a
   Real least = restitution_max;
   for (const std::uint32_t i : set_.pushing()) {
     least = std::min(least, problem.touches[i].restitution);
+    assert(!(problem.touches[i].impulse < 0.0));  // nothing pulls
     problem.touches[i].has_pushed = true;
   }
   problem.velocities = set_.reflect(problem, least, as_wanted);

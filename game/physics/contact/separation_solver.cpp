@@ -24,6 +24,7 @@ class Groups {
     return member;
   }
   void join(std::uint32_t one, std::uint32_t two) {
+    assert(one < leaders_.size() && two < leaders_.size());
     one = leader(one), two = leader(two);
     leaders_[std::min(one, two)] = std::max(one, two);
   }
@@ -57,18 +58,21 @@ RealVector frame_of(const ContactProblem& problem) {
 
 Real SeparationSolver::part(ContactProblem& problem, Real separation, Real gain_max) {
   assert(!(separation < 0.0) && !(gain_max < 0.0) && problem.body_count() > 0);
+  problem.check();
   const RealVector frame = frame_of(problem);
   const Real energy_before = energy_against(problem, frame), energy_max = energy_before + gain_max;
   separate(problem, separation);
   const Real energy_after = energy_against(problem, frame);
   if (!(energy_after > energy_max)) return energy_after - energy_before;
   const Real share = std::sqrt(energy_max / energy_after);
+  assert(share <= 1.0);
   for (RealVector& velocity : problem.velocities) velocity = frame + share * (velocity - frame);
   return energy_max - energy_before;
 }
 
 bool SeparationSolver::bears(ContactProblem& problem, Real friction, Real remaining_max) {
-  assert(friction >= 0.0);
+  assert(friction >= 0.0 && !(remaining_max < 0.0));
+  problem.check();
   if (friction > 0.0) sweep(problem, 0.0, friction);
   else separate(problem, 0.0);
   return std::none_of(

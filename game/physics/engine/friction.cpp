@@ -2,6 +2,7 @@
 #include "game/physics/engine/friction.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "game/physics/bodies/tolerances.h"
@@ -38,7 +39,9 @@ Real drag_of(const Bodies& bodies, const std::vector<std::uint32_t>& members) {
 }  // namespace
 
 Friction::Friction(const WorldSpec& spec, Bodies& bodies)
-    : bodies_(bodies), friction_(spec.puck_friction), contact_time_(spec.contact_time) {}
+    : bodies_(bodies), friction_(spec.puck_friction), contact_time_(spec.contact_time) {
+  assert(friction_ >= 0.0 && contact_time_ > 0.0);
+}
 
 RealVector Friction::along(const RealVector& velocity) const {
   const Real speed = std::sqrt(velocity.squaredNorm());
@@ -59,6 +62,7 @@ Real Friction::own_push(std::uint32_t body, int axis) const {
 }
 
 void Friction::slide(std::uint32_t body, std::optional<int> pushed_axis) {
+  assert(!pushed_axis || *pushed_axis == 0 || *pushed_axis == 1);
   if (!bodies_.is_slowed(body)) return;
   if (pushed_axis) {
     const int across = 1 - *pushed_axis;
@@ -75,6 +79,7 @@ void Friction::slide(std::uint32_t body, std::optional<int> pushed_axis) {
 }
 
 void Friction::reset_friction(int axis, const std::vector<std::uint32_t>& members) {
+  assert((axis == 0 || axis == 1) && !members.empty());
   const bool is_group_calm = std::abs(bodies_.velocity(members.front())[axis]) <= calm_speed;
   for (const std::uint32_t member : members) {
     bodies_.keep(member);
@@ -101,6 +106,7 @@ Real Friction::push_of(int axis, const std::vector<std::uint32_t>& members) cons
   for (const std::uint32_t member : members) mass += bodies_.build(member).mass;
   for (const std::uint32_t member : members)
     sum += bodies_.build(member).mass * own_push(member, axis);
+  assert(mass > 0.0);
   return sum / mass;
 }
 
@@ -113,6 +119,7 @@ Real Friction::until_stop(int axis, const std::vector<std::uint32_t>& members) c
     if (slides_across(axis, member))
       wait = std::min(wait, speed_lost(bodies_.velocity(member)[across],
                                        bodies_.slowing(member)[across], bodies_.own_drag(member)));
+  assert(!(wait < 0.0));
   return wait;
 }
 
@@ -138,6 +145,7 @@ Real Friction::arc_of(int axis, const std::vector<std::uint32_t>& members) const
 }
 
 void Friction::aim_half_way(int axis, const std::vector<std::uint32_t>& members, Real half) {
+  assert(!(half < 0.0));
   const int across = 1 - axis;
   const Real speed = bodies_.velocity(members.front())[axis], pushing = push_of(axis, members);
   const WarpedTime together = warp_unaccelerated(half, drag_of(bodies_, members));
@@ -157,12 +165,14 @@ Real Friction::aim(int axis, const std::vector<std::uint32_t>& members, Real tim
                    [&](std::uint32_t member) { return bodies_.is_slowed(member); }))
     return infinity;
   const Real arc = arc_of(axis, members);
+  assert(!(arc < contact_time_));  // or arcs would follow each other without end
   if (arc < infinity) aim_half_way(axis, members, 0.5 * std::min(arc, until_stop(axis, members)));
   return time + std::min(arc, until_stop(axis, members));
 }
 
 Real Friction::resist(int axis, const std::vector<std::uint32_t>& members,
                       std::vector<Real>& accelerations) {
+  assert(accelerations.size() == bodies_.count());
   Real change = 0.0;
   for (const std::uint32_t member : members) {
     if (!bodies_.is_slowed(member) || is_sliding(member)) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 
 #include "game/physics/body.h"
@@ -26,6 +27,7 @@ class Places {
   bool fits(std::uint32_t count, Real reach) const { return count <= capacity_ && reach <= reach_; }
   /// From the next rebuild() on it is.
   void fit(std::uint32_t count, Real reach) {
+    assert(reach >= 0.0);
     reach_ = std::max(reach_, reach);
     capacity_ = std::max(64u, 2 * count);
   }

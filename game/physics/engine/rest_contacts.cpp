@@ -2,6 +2,7 @@
 #include "game/physics/engine/rest_contacts.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "game/physics/bodies/journal.h"
 #include "game/physics/bodies/tolerances.h"
@@ -35,6 +36,7 @@ bool RestContacts::are_joined(std::uint32_t a, std::uint32_t b) const {
 }
 
 std::vector<std::uint32_t> RestContacts::group(std::uint32_t body, std::uint8_t axes) const {
+  assert(body < bodies_.count() && axes != 0 && (axes & ~Body::held) == 0);
   std::vector<std::uint32_t> found{body};
   const auto include = [&](Partner p) {
     if (!bodies_.is_fixed(p) && std::find(found.begin(), found.end(), p) == found.end())
@@ -90,6 +92,7 @@ bool RestContacts::is_pushed_twice(int axis, const std::vector<std::uint32_t>& m
 }
 
 bool RestContacts::can_join(const Contact& c) const {
+  assert(c.gap.face >= -1 && c.gap.face <= 1);
   if (c.gap.face < 0 || would_push_twice(c)) return false;
   if (!is_body(c.partner)) return true;
   const int along = 1 - c.gap.face;
@@ -106,6 +109,7 @@ bool RestContacts::can_join(const Contact& c) const {
 }
 
 void RestContacts::join(const Contact& c, Real time) {
+  assert(c.gap.face >= 0 && c.gap.normal[1 - c.gap.face] == 0.0);
   record_.note(EventKind::rest, time, c.body, c.partner);
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
@@ -172,6 +176,7 @@ Real RestContacts::sweep_forces(int axis, const std::vector<std::uint32_t>& memb
     const Real low = bodies_.is_fixed(rest.low) ? Real(0.0) : accelerations_[rest.low],
                high = bodies_.is_fixed(rest.high) ? Real(0.0) : accelerations_[rest.high];
     const Real yielding = bodies_.inverse_mass(rest.low) + bodies_.inverse_mass(rest.high);
+    assert(yielding > 0.0);  // what is fixed presses nothing that is fixed
     Real force = rest.force + (low - high) / yielding;
     if (only_push) force = std::max<Real>(0.0, force);
     const Real step = force - rest.force;
@@ -213,6 +218,7 @@ void RestContacts::share(int axis, const std::vector<std::uint32_t>& members, Re
 
 void RestContacts::let_go_what_is_pulled(int axis, const std::vector<std::uint32_t>& members,
                                          Real time) {
+  assert(!members.empty());  // their common velocity is that of the first
   // Who is pulled is judged by the friction of this instant, as the next impact is, and not by that
   // of an arc.
   if (bodies_.is_slowed()) friction_.reset_friction(axis, members), friction_.face(members);
@@ -276,6 +282,7 @@ void RestContacts::share_part(int axis, const std::vector<std::uint32_t>& part, 
 /// one that would be negative there vanishes on the way.
 void RestContacts::set_pull_times(int axis, const std::vector<std::uint32_t>& part,
                                   Real terminal_speed, Real drag, Real time) {
+  assert(!part.empty() && !(drag < 0.0));
   for (RestContact& rest : rest_contacts_)
     if (is_in_group(rest, axis, part)) rest.pull_time = infinity;
   if (drag == 0.0) return;
@@ -288,6 +295,7 @@ void RestContacts::set_pull_times(int axis, const std::vector<std::uint32_t>& pa
   std::size_t i = 0;
   for (RestContact& rest : rest_contacts_) {
     if (!is_in_group(rest, axis, part)) continue;
+    assert(i < forces.size());  // as many as were counted at the speed of now
     const Real now = forces[i++], finally = rest.force;
     Real scale = 0.0;
     for (const std::uint32_t member : part)
@@ -303,6 +311,7 @@ void RestContacts::set_pull_times(int axis, const std::vector<std::uint32_t>& pa
 }
 
 void RestContacts::dissolve(std::uint32_t body, int axis, Real time) {
+  assert(axis == 0 || axis == 1);
   if (!bodies_[body].is(Body::held_along(axis))) return;
   const std::vector<std::uint32_t> members = group(body, Body::held_along(axis));
   for (const std::uint32_t member : members) rebase_group(member, time);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -32,6 +33,8 @@ class RestContacts {
   void add(std::uint32_t body) { friction_.slide(body, std::nullopt); }
   const std::vector<RestContact>& rest_contacts() const { return rest_contacts_; }
   void restore(std::vector<RestContact> rest_contacts) {
+    assert(std::all_of(rest_contacts.begin(), rest_contacts.end(),
+                       [](const RestContact& rest) { return rest.axis == 0 || rest.axis == 1; }));
     rest_contacts_ = std::move(rest_contacts);
   }
 
@@ -59,6 +62,7 @@ class RestContacts {
   void dissolve(std::uint32_t body, int axis, Real time);
   /// Shares what acts on the group of `body` anew, along an axis along which it is held.
   void share(std::uint32_t body, int axis, Real time) {
+    assert(bodies_[body].is(Body::held_along(axis)));
     share(axis, group(body, Body::held_along(axis)), time);
   }
   /// The law of friction for everything that the event at hand touched. Groups that push a puck

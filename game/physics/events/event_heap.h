@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -30,6 +31,7 @@ class EventHeap {
   /// The twin of the first is one of the next two, if it is there; whoever else may follow is above
   /// or right below it.
   bool is_followed_within(Real window) const {
+    assert(!heap_.empty() && window >= 0.0);
     const EventOrder& first = heap_.front();
     const Real end = first.time + window;
     return std::any_of(
@@ -37,6 +39,9 @@ class EventHeap {
         heap_.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(7, heap_.size())),
         [&](const EventOrder& e) { return e.time <= end && e != first; });
   }
+  /// Asserts that nobody precedes who stands above him, and that bodies and places lead to each
+  /// other.
+  void check() const;
 
  private:
   struct Entry : EventOrder {

@@ -3,6 +3,8 @@
 #include "game/physics/events/event_queue.h"
 
 #include <algorithm>
+#include <bit>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -19,6 +21,7 @@ constexpr double events_per_bucket = 8.0;
 
 void EventQueue::set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher) {
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  assert(body < entries_.size() && time == time && lower <= higher);
   Entry& entry = entries_[body];
   const bool is_noted = entry.time == time;
   if (is_noted && entry.lower == lower && entry.higher == higher) return;
@@ -34,6 +37,7 @@ void EventQueue::set(std::uint32_t body, Real time, std::uint32_t lower, std::ui
 }
 
 void EventQueue::note(std::uint32_t body, Real time, std::int64_t number) {
+  assert(number > current_);  // who comes before is due
   if (number >= horizon_) {
     later_.push_back({time, body});
     later_begin_ = std::min(later_begin_, time);
@@ -58,6 +62,7 @@ void EventQueue::spill(Bucket& bucket) {
     free_.pop_back();
     full_[place] = bucket;
   }
+  assert(place < full_.size());
   bucket.full = place;
 }
 
@@ -76,6 +81,7 @@ void EventQueue::empty(std::size_t place, Visit&& visit) {
   Bucket& bucket = buckets_[place];
   const std::uint32_t count = std::exchange(counts_[place], std::uint8_t{0});
   for (std::uint32_t k = 0; k < count; ++k) visit(bucket.bodies[k], bucket.times[k]);
+  assert(near_count_ >= count);
   near_count_ -= count;
   while (bucket.full != none) {
     const std::uint32_t full = std::exchange(bucket.full, full_[bucket.full].full);
@@ -88,6 +94,7 @@ void EventQueue::empty(std::size_t place, Visit&& visit) {
 
 /// Sorts what the current bucket holds into what is due.
 void EventQueue::gather() {
+  assert(current_ < horizon_);
   constexpr std::size_t few = 32;
   empty(place_of(current_), [&](std::uint32_t body, Real time) {
     ++looked_at_;
@@ -101,6 +108,7 @@ void EventQueue::gather() {
 }
 
 bool EventQueue::is_followed_within(Real window) const {
+  assert(window >= 0.0 && found_ != none);  // by first(), just now
   const Real end = last_time_ + window;
   for (std::size_t k = due_.size(); k-- > 0 && due_[k].entry.time <= end;)
     if (is_valid(due_[k]) && due_[k].entry != entries_[found_]) return true;
@@ -108,6 +116,7 @@ bool EventQueue::is_followed_within(Real window) const {
 }
 
 void EventQueue::rebuild(Real width, std::size_t bucket_count) {
+  assert(width > 0.0 && std::has_single_bit(bucket_count));
   std::vector<Note> pending;
   pending.reserve(count_);
   const auto add = [&](std::uint32_t body, Real time) {
@@ -195,6 +204,7 @@ bool EventQueue::turn(Real until) {
 }
 
 std::uint32_t EventQueue::first(Real until) {
+  assert(until < std::numeric_limits<Real>::infinity());  // or it would look for ever
   for (;;) {
     while (!due_.empty() && !is_valid(due_.back())) due_.pop_back();
     if (due_.empty()) {

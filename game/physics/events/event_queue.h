@@ -2,6 +2,7 @@
 // bodies' ids.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -49,6 +50,7 @@ class EventQueue {
   /// whom may have another event by now.
   template <class Visit>
   void upcoming(std::int64_t distance, Visit&& visit) const {
+    assert(distance > 0);  // what the current one held is due
     if (current_ + distance >= horizon_) return;
     const std::size_t bucket = place_of(current_ + distance);
     for (std::uint32_t k = 0; k < counts_[bucket]; ++k) visit(buckets_[bucket].bodies[k]);

@@ -2,11 +2,13 @@
 #include "game/physics/flight/impact_time.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace rink::physics::inline RINK_PRECISION {
 
 Gap RoundedBox::gap(const RealVector& offset) const {
+  assert(!(radius < 0.0) && !(half_extent.minCoeff() < 0.0));
   const RealVector outside(std::abs(offset.x()) - half_extent.x(),
                            std::abs(offset.y()) - half_extent.y());
   if (outside.x() > 0.0 && outside.y() > 0.0) {

@@ -2,6 +2,7 @@
 // normal.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -75,6 +76,7 @@ namespace detail {
 /// The time in which a gap cannot close: `rate` is its growth, `closing` bounds its acceleration
 /// towards 0. Infinite if it never can.
 inline Real safe_step(Real distance, Real rate, Real closing) {
+  assert(!(distance < 0.0) && !(closing < 0.0));
   const Real root = std::sqrt(rate * rate + 2.0 * closing * distance);
   if (rate > 0.0)
     return closing > 0.0 ? (rate + root) / closing : std::numeric_limits<Real>::infinity();
@@ -92,6 +94,7 @@ std::optional<Real> first_contact(const RelativeMotion& motion, const Shape& sha
       8;  // then it may be worth asking whether a gap that grows can close at all
   constexpr Real least_step =
       1e-9;  // s; while in contact and not closing: what could be missed is below 1e-17 m
+  assert(!(tolerance < 0.0));
   Real time = start;
   for (int step = 0; step < step_max && time <= limit; ++step) {
     const RelativeMotion::Sample sample = motion.at(time);

@@ -1,6 +1,7 @@
 // Warped time and the motion under thrust and linear drag.
 #include "game/physics/flight/motion.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -51,6 +52,7 @@ Motion Motion::at(Real instant) const {
 }
 
 void Motion::slide(Real friction) {
+  assert(friction > 0.0);
   acceleration = RealVector(0.0, 0.0);
   rest_time = std::numeric_limits<Real>::infinity();
   if (velocity == acceleration) return;

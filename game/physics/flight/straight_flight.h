@@ -290,6 +290,7 @@ inline const bool has_fours = __builtin_cpu_supports("avx2") != 0;
 template <class Disc>
 FirstContact first_disc_contact(const Disc* discs, std::uint32_t own, std::uint32_t* near,
                                 std::uint32_t count, Real latest) {
+  assert(count <= flight_max);
 #if defined(RINK_PAIRS_SCALARS)
   return has_fours ? first_disc_contact_in_fours<false>(discs, own, near, count, latest)
                    : first_disc_contact_in_pairs(discs, own, near, count, latest);

@@ -2,11 +2,13 @@
 #include "game/physics/paper/frame_grid.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace rink::physics::paper {
 
 void FrameGrid::clear(const Field& field, std::uint32_t count) {
+  assert(field.length > 0.0 && field.width > 0.0);
   const double side = std::sqrt(field.length * field.width / std::max(1u, count));
   const auto cells_along = [&](double length) {
     return static_cast<std::uint32_t>(std::clamp(length / side, 1.0, 1e4));
@@ -36,6 +38,7 @@ FrameGrid::Range FrameGrid::range(const Extent& box) const {
 
 void FrameGrid::insert(std::uint32_t body, const Extent& box) {
   const Range cells = range(box);
+  assert(cells.right < columns_ && cells.top < rows_);
   if (body >= asked_.size()) asked_.resize(body + 1, 0);
   for (std::uint32_t row = cells.bottom; row <= cells.top; ++row)
     for (std::uint32_t column = cells.left; column <= cells.right; ++column) {

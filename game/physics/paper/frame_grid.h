@@ -2,6 +2,7 @@
 // paths sweep.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -49,6 +50,7 @@ template <class Visit>
 void FrameGrid::around(const Extent& box, const Visit& visit) {
   const Range cells = range(box);
   ++question_;
+  assert(question_ != 0);  // else whoever was never asked would seem to have been
   for (std::uint32_t row = cells.bottom; row <= cells.top; ++row)
     for (std::uint32_t column = cells.left; column <= cells.right; ++column)
       for (std::uint32_t entry = first_[row * columns_ + column]; entry != none;

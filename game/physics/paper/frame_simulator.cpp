@@ -72,6 +72,7 @@ BodyId FrameSimulator::add(Body body) {
 }
 
 void FrameSimulator::remove(BodyId id) {
+  assert(id.index < body_count());
   Body& body = bodies_[id.index];
   if (body.is_in_play) {
     rebase(body, now_);
@@ -83,6 +84,7 @@ void FrameSimulator::remove(BodyId id) {
 }
 
 void FrameSimulator::set_thrust(BodyId id, const Vector2& acceleration) {
+  assert(id.index < body_count());
   Body& bat = bodies_[id.index];
   assert(bat.kind == BodyKind::bat && acceleration.allFinite());
   if (bat.force.thrust == acceleration) return;
@@ -97,6 +99,7 @@ void FrameSimulator::set_thrust(BodyId id, const Vector2& acceleration) {
 }
 
 void FrameSimulator::place(BodyId id, const Vector2& position, const Vector2& velocity) {
+  assert(id.index < body_count());
   Body& puck = bodies_[id.index];
   assert(puck.kind == BodyKind::puck && !puck.is_in_play && !puck.is_removed &&
          position.allFinite() && velocity.allFinite());

@@ -2,6 +2,7 @@
 #include "game/physics/paper/integrator.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace rink::physics::paper {
 
@@ -63,6 +64,7 @@ Step unlimited_step(Integrator integrator, const Vector2& velocity, const Force&
 }  // namespace
 
 Step step(Integrator integrator, const Vector2& velocity, const Force& force, double duration) {
+  assert(duration >= 0.0 && force.friction >= 0.0);
   Step taken = unlimited_step(integrator, velocity, force, duration);
   if (force.friction == 0.0) return taken;
   // A method whose stages lie on both sides of rest may leave the velocity as it was: friction

@@ -2,6 +2,7 @@
 #include "game/physics/paper/naive_simulator.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "game/physics/collision/static_tests.h"
 
@@ -51,6 +52,7 @@ void NaiveSimulator::judge() {
 }
 
 void NaiveSimulator::judge_pair(std::uint32_t low, std::uint32_t high) {
+  assert(low < high);
   const Body &a = bodies_[low], &b = bodies_[high];
   if (a.inverse_mass + b.inverse_mass == 0.0) return;
   ++record_.counters().predictions;

@@ -3,6 +3,7 @@
 #include "game/physics/paper/paper_simulator.h"
 
 #include <algorithm>
+#include <cassert>
 #include <tuple>
 
 #include "game/physics/collision/static_tests.h"
@@ -67,6 +68,7 @@ bool PaperSimulator::may_meet(const Body& a, const Body& b) const {
 }
 
 void PaperSimulator::test_pair(std::uint32_t low, std::uint32_t high) {
+  assert(low < high);
   const Body &a = bodies_[low], &b = bodies_[high];
   if (a.inverse_mass + b.inverse_mass == 0.0 || !may_meet(a, b)) return;
   ++record_.counters().predictions;
@@ -158,6 +160,7 @@ void PaperSimulator::test_goal_edges(std::uint32_t index) {
 
 void PaperSimulator::expect(std::uint32_t body, Partner partner, double start,
                             const collision::Contact<double>& contact) {
+  assert(!(contact.time < 0.0));
   const double time = std::min(start + contact.time, steps_.frame_end());
   impacts_.push_back({time, body, partner, bodies_[body].version,
                       is_body(partner) ? bodies_[partner].version : 0, contact.normal});
