@@ -1,6 +1,7 @@
 // A federate's own regions: their templates, what uses them, and whether they may be used so.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -54,6 +55,7 @@ class RegionBook {
   /// Of a planar region.
   void set_plane(RegionHandle region, const im::Region& bounds);
   void set_plane_unchecked(std::uint32_t number, const im::Region& bounds) {
+    assert(number < entries_.size());
     entries_[number].plane = bounds;
   }
   const im::Region& plane(std::uint32_t number) const { return entries_[number].plane; }

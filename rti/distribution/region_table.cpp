@@ -7,6 +7,8 @@
 #include <cassert>
 #include <utility>
 
+#include "im/basics/checked.h"
+
 namespace rink::rti {
 
 RegionTable::RegionTable(const Fom& fom, const ObjectTable& objects, im::Filter& filter,
@@ -20,10 +22,14 @@ RegionTable::RegionTable(const Fom& fom, const ObjectTable& objects, im::Filter&
 
 void RegionTable::add_federate(std::uint32_t federate) {
   if (federate >= handles_.size()) handles_.resize(federate + std::size_t{1});
+  // Its former regions are gone, or they would be nobody's.
+  assert(
+      std::ranges::all_of(handles_[federate], [](RegionSlot slot) { return slot == no_region; }));
   handles_[federate].clear();
 }
 
 bool RegionTable::has(std::uint32_t federate, RegionHandle region) const {
+  assert(federate < handles_.size());
   const std::vector<RegionSlot>& slots = handles_[federate];
   return region.value < slots.size() && slots[region.value] != no_region;
 }
@@ -39,6 +45,7 @@ RegionSlot RegionTable::take_slot() {
 }
 
 bool RegionTable::create(std::uint32_t federate, RegionHandle region, DimensionSet dimensions) {
+  assert(federate < handles_.size());
   std::vector<RegionSlot>& slots = handles_[federate];
   if (region.value > slots.size() || has(federate, region)) return false;
   if (region.value == slots.size()) slots.push_back(no_region);
@@ -81,6 +88,7 @@ Commit RegionTable::modify(std::uint32_t federate, RegionHandle handle,
 Commit RegionTable::commit(RegionSlot slot, const im::Region& plane,
                            std::span<const Range> ranges) {
   DistributedRegion& region = regions_[slot];
+  assert(region.exists && ranges.empty() == region.is_planar);
   const bool is_first = !region.is_committed;
   region.is_committed = true;
   region.plane = plane;
@@ -98,6 +106,7 @@ Commit RegionTable::commit(RegionSlot slot, const im::Region& plane,
 
 Reassociation RegionTable::remove(std::uint32_t federate, RegionHandle handle) {
   const RegionSlot slot = slot_of(federate, handle);
+  assert(regions_[slot].exists && regions_[slot].federate == federate);
   assert(regions_[slot].subscription_count == 0);
   Reassociation change;
   while (!regions_[slot].objects.empty()) {
@@ -110,6 +119,7 @@ Reassociation RegionTable::remove(std::uint32_t federate, RegionHandle handle) {
   regions_[slot] = {};
   handles_[federate][handle.value] = no_region;
   free_.push_back(slot);
+  if constexpr (checks_whole_structures) check();
   return change;
 }
 
@@ -126,6 +136,7 @@ void RegionTable::add_object(ObjectSlot object) {
 
 void RegionTable::become_entity(RegionSlot slot) {
   DistributedRegion& region = regions_[slot];
+  assert(region.objects.empty());
   if (!region.is_placed) {
     unplaced_.push_back(slot);
     return;
@@ -142,6 +153,7 @@ void RegionTable::become_entity(RegionSlot slot) {
 
 void RegionTable::free_entity(RegionSlot slot, Reassociation& change) {
   const DistributedRegion& region = regions_[slot];
+  assert(region.objects.empty());
   if (!region.is_placed) {
     std::erase(unplaced_, slot);
     return;
@@ -153,6 +165,7 @@ void RegionTable::free_entity(RegionSlot slot, Reassociation& change) {
 }
 
 void RegionTable::use(RegionSlot region, ObjectSlot object) {
+  assert(regions_[region].exists);
   if (regions_[region].objects.empty()) become_entity(region);
   regions_[region].objects.push_back(object);
   facts_.inform_entity(regions_[region]);
@@ -160,7 +173,9 @@ void RegionTable::use(RegionSlot region, ObjectSlot object) {
 
 void RegionTable::stop_using(RegionSlot region, ObjectSlot object, Reassociation& change) {
   std::vector<ObjectSlot>& objects = regions_[region].objects;
-  objects.erase(std::find(objects.begin(), objects.end(), object));
+  const auto found = std::find(objects.begin(), objects.end(), object);
+  assert(found != objects.end());
+  objects.erase(found);
   if (objects.empty()) free_entity(region, change);
   else facts_.inform_entity(regions_[region]);
 }
@@ -179,6 +194,7 @@ std::vector<Association> RegionTable::associations_of(ObjectSlot object) const {
 Reassociation RegionTable::set_associations(ObjectSlot object,
                                             std::vector<Association> associations) {
   std::erase_if(associations, [](const Association& each) { return each.attributes.is_empty(); });
+  assert(object < uses_.size());
   Reassociation change;
   change.objects.push_back(object);
   const std::vector<Association> former = associations_of(object);
@@ -195,6 +211,7 @@ Reassociation RegionTable::set_associations(ObjectSlot object,
     associations_[object] = std::move(associations);
   }
   change.is_mixing_changed = had_several != has_several();
+  assert((used.region == several) == associations_.contains(object));
   return change;
 }
 
@@ -231,6 +248,7 @@ bool RegionTable::overlap_in(const DistributedRegion& a, const DistributedRegion
 }
 
 Range RegionTable::range(const DistributedRegion& region, DimensionHandle dimension) const {
+  assert(region.is_committed && region.dimensions.contains(dimension));
   if (!region.is_planar) return region.ranges[region.dimensions.rank(dimension)];
   return dimension == x_ ? Range{region.plane.low_x, region.plane.high_x}
                          : Range{region.plane.low_y, region.plane.high_y};
@@ -265,6 +283,27 @@ AttributeSet RegionTable::overlapping(const DistributedRegion& asked, ObjectSlot
 void RegionTable::forget_changed() {
   for (const RegionSlot slot : changed_) regions_[slot].is_changed = false;
   changed_.clear();
+  if constexpr (checks_whole_structures) check();
+}
+
+void RegionTable::check() const {
+  [[maybe_unused]] std::uint32_t subscriptions = 0;
+  for (RegionSlot slot = 0; slot < regions_.size(); ++slot) {
+    const DistributedRegion& region = regions_[slot];
+    if (!region.exists) continue;
+    assert(slot_of_holder(region, slot));
+    if (!region.is_placed) subscriptions += region.subscription_count;
+    [[maybe_unused]] const bool is_listed = std::ranges::count(unplaced_, slot) == 1;
+    assert(is_listed == (!region.is_placed && !region.objects.empty()));
+    assert(!region.is_placed || region.objects.empty() || region_of_entity_[region.entity] == slot);
+    assert(region.is_changed == (std::ranges::count(changed_, slot) == 1));
+  }
+  assert(subscriptions == unplaced_subscription_count_);
+}
+
+/// Whether the region's maker has it under one of its handles.
+bool RegionTable::slot_of_holder(const DistributedRegion& region, RegionSlot slot) const {
+  return std::ranges::count(handles_[region.federate], slot) == 1;
 }
 
 }  // namespace rink::rti

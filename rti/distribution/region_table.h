@@ -2,6 +2,7 @@
 // overlap.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -56,6 +57,7 @@ class RegionTable {
   void add_federate(std::uint32_t federate);
   bool has(std::uint32_t federate, RegionHandle region) const;
   RegionSlot slot_of(std::uint32_t federate, RegionHandle region) const {
+    assert(has(federate, region));
     return handles_[federate][region.value];
   }
   /// Handles below it may be in use.
@@ -64,6 +66,7 @@ class RegionTable {
   }
   const DistributedRegion& operator[](RegionSlot slot) const { return regions_[slot]; }
   const DistributedRegion& of_entity(im::Entity entity) const {
+    assert(entity < region_of_entity_.size());
     return regions_[region_of_entity_[entity]];
   }
 
@@ -77,7 +80,10 @@ class RegionTable {
   void count_subscription(RegionSlot slot, bool is_added);
 
   void add_object(ObjectSlot object);
-  const Use& use_of(ObjectSlot object) const { return uses_[object]; }
+  const Use& use_of(ObjectSlot object) const {
+    assert(object < uses_.size());
+    return uses_[object];
+  }
   ObjectSlot object_count() const { return static_cast<ObjectSlot>(uses_.size()); }
   /// Of an object that uses several.
   const std::vector<Association>& several_of(ObjectSlot object) const {
@@ -104,8 +110,11 @@ class RegionTable {
   /// other dimensions than the plane's, or against a region that lacks one of these.
   std::span<const RegionSlot> changed() const { return changed_; }
   void forget_changed();
+  /// Asserts that handles and regions lead to each other, and that lists and counts are right.
+  void check() const;
 
  private:
+  bool slot_of_holder(const DistributedRegion& region, RegionSlot slot) const;
   RegionSlot take_slot();
   Commit commit(RegionSlot slot, const im::Region& plane, std::span<const Range> ranges);
   void become_entity(RegionSlot slot);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,7 @@ class Relevance {
   /// Replaces what `federate` hears of a row. True if that may concern another federate than
   /// before: what two others hear, a third one's coming or going does not change.
   bool set(std::uint32_t federate, std::size_t row, const Subscription& now) {
+    assert(row < rows_.size() && now.subscribed.includes(now.active));
     if (federate >= federates_.size()) federates_.resize(federate + 1);
     auto& own = federates_[federate];
     if (own.empty()) own.resize(rows_.size());
@@ -38,6 +40,7 @@ class Relevance {
   }
   /// What others than `federate` hear of a row.
   Subscription of_others(std::uint32_t federate, std::size_t row) const {
+    assert(row < rows_.size());
     const Subscription own = federate < federates_.size() && !federates_[federate].empty()
                                  ? federates_[federate][row]
                                  : Subscription();
@@ -56,6 +59,7 @@ class Relevance {
       for (std::uint32_t bits = before.bits ^ now.bits; bits != 0; bits &= bits - 1) {
         const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
         std::uint32_t& count = by_attribute[attribute.value];
+        assert(count > 0 || now.contains(attribute));
         count += now.contains(attribute) ? 1u : ~0u;
         const AttributeSet one{attribute};
         any = count > 0 ? any | one : any.without(one);

@@ -2,6 +2,7 @@
 #include "rti/distribution/scope_matcher.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace rink::rti {
@@ -147,6 +148,7 @@ void ScopeMatcher::reconsider_all(const DeclaredInterest& declared) {
 }
 
 void ScopeMatcher::reconsider(const DeclaredInterest& declared, ObjectSlot slot) {
+  assert(slot < parts_.objects.slot_count());
   ++parts_.counters.pairs_reconsidered;
   FederateInterest& interest = parts_.scopes.of(declared.federate);
   const AttributeSet is = wanted(declared, slot);

@@ -24,6 +24,7 @@ Subscriptions::Subscriptions(const Fom& fom, RegionTable& regions, im::Filter& f
 
 void Subscriptions::add_federate(std::uint32_t federate) {
   if (federate >= federates_.size()) federates_.resize(federate + std::size_t{1});
+  assert(!federates_[federate]);
   federates_[federate] = std::make_unique<DeclaredInterest>();
   DeclaredInterest& interest = *federates_[federate];
   interest.federate = federate;
@@ -60,6 +61,8 @@ AttributeSet Subscriptions::active(const ClassInterest& interest,
 
 void Subscriptions::subscribe(std::uint32_t federate, std::uint16_t object_class,
                               const Subscription& attributes, RegionSlot region) {
+  assert(object_class < fom_.object_classes().size());
+  assert(attributes.subscribed.includes(attributes.active));
   DeclaredInterest& interest = *federates_[federate];
   const bool is_regional = region != no_region;
   ClassInterest& classes = is_regional ? regional(interest, region).classes : interest.everywhere;
@@ -104,6 +107,7 @@ Subscription Subscriptions::subscribed_anywhere(std::uint32_t federate,
 
 void Subscriptions::subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class,
                                           RegionSlot region, Listening listening) {
+  assert(region != no_region && interaction_class < fom_.interaction_classes().size());
   auto& interactions = federates_[federate]->interactions;
   std::erase_if(interactions, [&](const auto& each) {
     return each.interaction_class == interaction_class && each.region == region;
@@ -127,6 +131,7 @@ Subscriptions::Regional& Subscriptions::regional(DeclaredInterest& interest, Reg
   for (Regional& each : interest.regionals)
     if (each.region == slot) return each;
   const DistributedRegion& region = regions_[slot];
+  assert(region.exists && region.federate == interest.federate);  // nobody uses another's
   regions_.count_subscription(slot, true);
   Regional& added = interest.regionals.emplace_back();
   added.region = slot;
@@ -173,6 +178,7 @@ void Subscriptions::drop_regional(DeclaredInterest& interest, RegionSlot slot) {
 
 void Subscriptions::follow(RegionSlot slot, bool is_first) {
   const DistributedRegion& region = regions_[slot];
+  assert(region.is_committed);
   if (!region.is_placed || region.subscription_count == 0) return;
   for (const Regional& each : federates_[region.federate]->regionals) {
     if (each.region != slot) continue;

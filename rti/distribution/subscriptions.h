@@ -2,6 +2,7 @@
 // of it last.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -55,7 +56,10 @@ class Subscriptions {
   void add_federate(std::uint32_t federate);
   /// Its regions are gone (asserted), and with them what names them.
   void remove_federate(std::uint32_t federate);
-  const DeclaredInterest& of(std::uint32_t federate) const { return *federates_[federate]; }
+  const DeclaredInterest& of(std::uint32_t federate) const {
+    assert(federate < federates_.size() && federates_[federate]);
+    return *federates_[federate];
+  }
   /// Calls `visit(declared)` for each federate in order of slots.
   template <class Visit>
   void for_each(Visit visit) const {
@@ -94,7 +98,10 @@ class Subscriptions {
   void inform_headings(std::uint32_t federate);
 
   /// The federate whose subscription the filter calls `subscriber`.
-  std::uint32_t federate_of(im::Subscriber subscriber) const { return subscribers_[subscriber]; }
+  std::uint32_t federate_of(im::Subscriber subscriber) const {
+    assert(subscriber < subscribers_.size());
+    return subscribers_[subscriber];
+  }
   /// The filter lets an entity through, or no longer, or puts it into another tier.
   void take(const im::Change& change, bool says_tiers);
   /// The filter's number stands for nothing any more.

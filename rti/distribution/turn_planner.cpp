@@ -2,6 +2,7 @@
 #include "rti/distribution/turn_planner.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "im/stages/priority_order.h"
 
@@ -47,6 +48,7 @@ std::uint32_t TurnPlanner::tier_of(const DeclaredInterest& declared, ObjectSlot 
 
 void TurnPlanner::place(Turns& turns, const DeclaredInterest& declared, ObjectSlot slot,
                         bool is_new) const {
+  assert(says_tiers_);
   const std::uint32_t tier = tier_of(declared, slot);
   bool is_changed = false;
   for (std::uint32_t k = 1; k <= Turns::tier_max; ++k) {
@@ -60,6 +62,7 @@ void TurnPlanner::place(Turns& turns, const DeclaredInterest& declared, ObjectSl
 }
 
 void TurnPlanner::plan_turns(FederateInterest& interest) const {
+  assert(is_needed() && interest.turns);
   Turns& turns = *interest.turns;
   turns.waiting.clear();
   for (std::uint32_t k = 1; k <= Turns::tier_max; ++k) {
@@ -75,7 +78,9 @@ void TurnPlanner::plan_turns(FederateInterest& interest) const {
 /// Once for each match: what comes between two of them waits for the next.
 void TurnPlanner::share_out(FederateInterest& interest,
                             const DataDistribution::BytesDue& bytes_due) {
+  assert(has_budget() && interest.turns);
   Turns& turns = *interest.turns;
+  assert(turns.shared_out <= match_);
   const std::size_t budget = turns.shared_out == match_ ? 0 : budget_;
   turns.shared_out = match_;
   fill(interest, bytes_due, budget);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 
 #include "rti/distribution/late_states.h"
@@ -31,6 +32,7 @@ struct Turns {
 
 /// The slots from 64 i on whose turn it is at `match` in tier `tier`, for every i alike.
 constexpr std::uint64_t turn_of(std::uint64_t match, std::uint32_t tier) {
+  assert(tier <= Turns::tier_max);
   const std::uint32_t period = 1u << tier;
   std::uint64_t slots = 0;
   for (std::uint32_t slot = static_cast<std::uint32_t>((period - match % period) % period);
