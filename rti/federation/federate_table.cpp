@@ -1,6 +1,9 @@
 // Slots, handles and blocks are given out in a fixed order, for all of them show on the wire.
 #include "rti/federation/federate_table.h"
 
+#include <algorithm>
+#include <cassert>
+
 namespace rink::rti {
 
 std::uint32_t FederateTable::take_slot() {
@@ -9,6 +12,7 @@ std::uint32_t FederateTable::take_slot() {
     return size() - 1;
   }
   const std::uint32_t slot = free_.back();
+  assert(slot < size() && !federates_[slot].is_joined);
   free_.pop_back();
   federates_[slot] = {};
   return slot;
@@ -40,6 +44,7 @@ std::uint32_t FederateTable::admit(ConnectionId connection, std::string_view nam
   slot_of_handle_.push_back(slot);
   names_.emplace(federate.name, slot);
   ++joined_count_;
+  assert(names_.size() == joined_count_);
   return slot;
 }
 
@@ -53,6 +58,7 @@ void FederateTable::retire(std::uint32_t slot) {
 
 void FederateTable::release(std::uint32_t slot) {
   assert(!federates_[slot].is_joined);
+  assert(std::ranges::find(free_, slot) == free_.end());
   federates_[slot] = {};
   free_.push_back(slot);
 }

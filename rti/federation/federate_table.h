@@ -52,7 +52,10 @@ class FederateTable {
   bool has_block() const { return !free_blocks_.empty() || next_block_ < object_block_max; }
   std::uint32_t take_block();
   /// None of its handles was ever used.
-  void give_back(std::uint32_t block) { free_blocks_.push_back(block); }
+  void give_back(std::uint32_t block) {
+    assert(block < next_block_);
+    free_blocks_.push_back(block);
+  }
 
  private:
   std::uint32_t take_slot();

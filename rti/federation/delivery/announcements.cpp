@@ -2,6 +2,7 @@
 #include "rti/federation/delivery/announcements.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace rink::rti {
 
@@ -15,6 +16,7 @@ void enqueue(std::vector<std::byte>& bytes, Message message) {
 }  // namespace
 
 void Announcements::write(FlushContext& context, std::size_t end) {
+  assert(std::ranges::is_sorted(context.interest.sent_now));  // they are looked up
   const std::size_t before = context.frame.size();
   if (context.interest.has_unannounced) write_postponed(context, end);
   for (const ScopeEvent& event : context.interest.events) write_event(context, event, end);
@@ -56,6 +58,7 @@ void Announcements::write_event(FlushContext& context, const ScopeEvent& event, 
 void Announcements::announce(std::uint32_t slot, ObjectSlot at, std::vector<std::byte>& bytes) {
   FederateInterest& interest = uses_.distribution.of(slot);
   const Object& object = basis_.objects[at];
+  assert(object.is_alive);
   if (!interest.known.contains(at)) {
     enqueue(bytes, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
     ++basis_.federates[slot].objects_discovered;

@@ -21,7 +21,10 @@ class ArrivalOrders {
     federates_[slot] = {};
   }
   void left(std::uint32_t slot) { federates_[slot] = {}; }
-  void count_frame(std::uint32_t slot) { ++federates_[slot].frames; }
+  void count_frame(std::uint32_t slot) {
+    assert(slot < federates_.size());
+    ++federates_[slot].frames;
+  }
   /// After the one that asked to join.
   std::uint32_t frames_received(std::uint32_t slot) const { return federates_[slot].frames; }
 

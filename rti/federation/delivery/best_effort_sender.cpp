@@ -2,6 +2,7 @@
 #include "rti/federation/delivery/best_effort_sender.h"
 
 #include <bit>
+#include <cassert>
 
 #include "rti/buffering/run_scope.h"
 #include "rti/fom/coded_values.h"
@@ -106,6 +107,7 @@ bool BestEffortSender::add(const FlushContext& context, ObjectSlot object, Attri
 }
 
 bool BestEffortSender::gather(std::size_t index, FlushContext& context) {
+  assert(index < context.runs.size());
   const UpdateRun& run = context.runs[index];
   const FederateInterest& interest = context.interest;
   if (!types_.best_effort(run.object_class).includes(run.attributes)) return false;

@@ -76,6 +76,7 @@ class GatheredFrame {
     std::size_t from = 0, to = 0;
   };
   void take_own() {
+    assert(taken_ <= bytes_.size());
     if (bytes_.size() > taken_) pieces_.push_back({{}, taken_, bytes_.size()});
     taken_ = bytes_.size();
   }

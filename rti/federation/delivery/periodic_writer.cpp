@@ -2,6 +2,7 @@
 #include "rti/federation/delivery/periodic_writer.h"
 
 #include <bit>
+#include <cassert>
 
 #include "rti/wire/baseline_messages.h"
 
@@ -55,6 +56,7 @@ class Wanted {
 }  // namespace
 
 void PeriodicWriter::gather(std::size_t index, FlushContext& context) {
+  assert(index < context.runs.size());
   const UpdateRun& run = context.runs[index];
   const std::uint32_t slot = context.slot;
   const Wanted wanted(run, context.interest);
@@ -78,6 +80,7 @@ void PeriodicWriter::gather(std::size_t index, FlushContext& context) {
 
 /// The records in the federate's interest, bit by bit; those whose baseline it lacks are absolute.
 void PeriodicWriter::cut(const UpdateRun& run, const DeltaBlock& block, FlushContext& context) {
+  assert(block.records.size() == run.records.size());
   const std::uint32_t slot = context.slot;
   context.frame.enqueue(DeltasMessage{run.object_class});
   BitWriter bits(context.frame.bytes());
@@ -101,6 +104,7 @@ void PeriodicWriter::cut(const UpdateRun& run, const DeltaBlock& block, FlushCon
 }
 
 void PeriodicWriter::count(std::size_t records, std::size_t differences) {
+  assert(differences <= records);
   basis_.counters.updates_sent += records;
   baselines_.counters().differences_sent += differences;
   baselines_.counters().absolutes_sent += records - differences;

@@ -2,6 +2,7 @@
 #include "rti/federation/delivery/turn_writer.h"
 
 #include <bit>
+#include <cassert>
 #include <optional>
 
 #include "rti/wire/updates_block.h"
@@ -11,6 +12,7 @@ namespace rink::rti {
 void TurnWriter::apply_turns(FlushContext& context) {
   const std::uint32_t slot = context.slot;
   FederateInterest& interest = context.interest;
+  assert(interest.turns);
   Turns& turns = *interest.turns;
   distribution_.plan_turns(slot);
   note_late(context, turns);
@@ -82,6 +84,7 @@ std::size_t TurnWriter::bytes_due(std::uint32_t slot, ObjectSlot object) const {
 void TurnWriter::catch_up(FlushContext& context) {
   const FederateInterest& interest = context.interest;
   GatheredFrame& frame = context.frame;
+  assert(interest.turns);
   Turns& turns = *interest.turns;
   const std::size_t before = frame.size();
   std::optional<UpdatesBlock> block;

@@ -7,6 +7,7 @@ namespace rink::rti {
 
 void Interactions::joined(std::uint32_t slot) {
   if (slot >= federates_.size()) federates_.resize(slot + 1);
+  assert(basis_.federates[slot].is_joined);
   federates_[slot] = {};
   federates_[slot].subscribed.resize(basis_.fom.interaction_classes().size());
 }

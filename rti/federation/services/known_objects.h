@@ -1,6 +1,7 @@
 // Which objects a federate may name, and what it means if there is none of that handle.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 
 #include "rti/distribution/data_distribution.h"
@@ -28,6 +29,7 @@ class KnownObjects {
     return was_here;
   }
   bool is_known_to(std::uint32_t slot, ObjectSlot object) const {
+    assert(object < objects_.slot_count());
     return objects_[object].owner == slot || distribution_.of(slot).known.contains(object) ||
            !ownership_.owned_by(slot, object).is_empty();
   }

@@ -1,6 +1,7 @@
 // Until when what is known of an object holds: the newest stamp of its owner.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -22,7 +23,10 @@ class NewestStamps {
   }
   void left(std::uint32_t slot) { newest_[slot] = {}; }
   /// By its latest update.
-  void note(std::uint32_t slot, const Stamp& stamp) { newest_[slot] = stamp; }
+  void note(std::uint32_t slot, const Stamp& stamp) {
+    assert(slot < newest_.size());
+    newest_[slot] = stamp;
+  }
   /// By one that may have been overtaken on its way.
   void note_unless_older(std::uint32_t slot, const Stamp& stamp) {
     if (stamp.time >= newest_[slot].time) newest_[slot] = stamp;
@@ -38,6 +42,7 @@ class NewestStamps {
   }
   /// It changes hands, and holds until `newest` at least.
   void inherit(ObjectSlot object, const Stamp& newest) {
+    assert(object < objects_.slot_count());
     if (object >= inherited_.size()) inherited_.resize(objects_.slot_count());
     inherited_[object] = newest;
   }

@@ -2,6 +2,7 @@
 #include "rti/federation/services/object_names.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace rink::rti {
 
@@ -30,6 +31,7 @@ bool ObjectNames::reserve(FederateHandle federate, std::vector<std::string>& nam
                          return name.starts_with("HLA") || names_.contains(name);
                        });
   if (!is_free || names_.size() + names.size() > name_max_) return false;
+  assert(federate);  // or the names would seem to be in use
   for (const std::string& name : names) names_.emplace(name, federate);
   return true;
 }

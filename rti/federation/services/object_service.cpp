@@ -34,6 +34,7 @@ Status ObjectService::handle_register(std::uint32_t slot, Reader& reader) {
   const std::size_t own = alive(slot);
   if (own >= settings.objects_per_federate_max) return Violation::over_limit;
   Registered& registered = federates_[slot];
+  assert(registered.count <= object_block);
   if (registered.count == object_block && !extend_block(slot)) return Violation::over_limit;
   // Handles come in order, so that a stranger can't make the table grow by naming a great one.
   if (message.object != basis_.federates[slot].block * object_block + registered.count)
@@ -63,6 +64,7 @@ std::size_t ObjectService::alive(std::uint32_t slot) const {
 /// Goes on in the block that it was given; false if no block was left to give.
 bool ObjectService::extend_block(std::uint32_t slot) {
   Registered& registered = federates_[slot];
+  assert(registered.count == object_block);  // the present one is used up
   if (!registered.further_block) return false;
   std::uint32_t& block = basis_.federates[slot].block;
   basis_.objects.close_block(block);
@@ -76,6 +78,7 @@ bool ObjectService::extend_block(std::uint32_t slot) {
 void ObjectService::promise_block(std::uint32_t slot) {
   if (!basis_.federates.has_block()) return;
   const std::uint32_t block = basis_.federates.take_block();
+  assert(!federates_[slot].further_block);
   federates_[slot].further_block = block;
   basis_.federates[slot].outbox.before_updates(FurtherBlockMessage{block});
 }

@@ -167,6 +167,7 @@ void OwnershipService::give(std::uint32_t slot, ObjectSlot object, OwnershipRequ
 }
 
 void OwnershipService::moved(ObjectSlot object, const Stamp& newest) {
+  assert(basis_.objects[object].is_alive);
   uses_.newest.inherit(object, newest);
   uses_.distribution.owner_changed(object);
   has_moved_ = true;

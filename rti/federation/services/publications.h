@@ -23,7 +23,10 @@ class Publications {
     federates_[slot].objects.assign(object_classes_, {});
     federates_[slot].interactions.assign(interaction_classes_, false);
   }
-  void left(std::uint32_t slot) { federates_[slot] = {}; }
+  void left(std::uint32_t slot) {
+    assert(slot < federates_.size());
+    federates_[slot] = {};
+  }
 
   AttributeSet of_class(std::uint32_t slot, std::uint32_t object_class) const {
     assert(object_class < object_classes_);

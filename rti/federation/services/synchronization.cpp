@@ -2,6 +2,7 @@
 #include "rti/federation/services/synchronization.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace rink::rti {
@@ -18,6 +19,7 @@ Status Synchronization::handle_register(std::uint32_t slot, Reader& reader) {
   point.label = message.label;
   point.tag.assign(message.tag.begin(), message.tag.end());
   point.awaited = point.members;
+  assert(!point.members.empty() && std::ranges::is_sorted(point.members));
   for (const std::uint32_t member : point.members) announce(point, member);
   points_.push_back(std::move(point));
   return std::nullopt;
@@ -68,6 +70,7 @@ Status Synchronization::handle_achieved(std::uint32_t slot, Reader& reader) {
 void Synchronization::joined(std::uint32_t slot) {
   for (SynchronizationPoint& point : points_) {
     if (!point.is_for_all) continue;
+    assert(std::ranges::find(point.members, slot) == point.members.end());
     point.members.push_back(slot);
     point.awaited.push_back(slot);
     announce(point, slot);

@@ -2,6 +2,7 @@
 #include "rti/federation/services/update_requests.h"
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 
 #include "rti/wire/region_messages.h"
@@ -49,6 +50,7 @@ Status UpdateRequests::handle(std::uint32_t slot, Reader& reader) {
 
 void UpdateRequests::ask_within(std::uint32_t slot, RegionHandle region, std::uint16_t object_class,
                                 AttributeSet attributes) {
+  assert(distribution_.has_region(slot, region));
   AttributeSet& asked = requests_[{slot, region.value, object_class, std::string()}];
   asked = asked | attributes;
 }
@@ -98,6 +100,7 @@ void UpdateRequests::settle() {
   }
   for (const auto& [whom, attributes] : to_provide_) {
     const auto& [owner, object, tag] = whom;
+    assert(basis_.federates[owner].is_joined && !attributes.is_empty());
     basis_.federates[owner].outbox.after_updates(
         ProvideUpdateMessage{object, attributes.bits, as_bytes_of(tag)});
   }

@@ -1,6 +1,8 @@
 // One update after the other, from a block to the objects' states and the next flush.
 #include "rti/federation/services/update_service.h"
 
+#include <cassert>
+
 #include "rti/wire/declaration_messages.h"
 #include "rti/wire/update_block.h"
 
@@ -56,6 +58,7 @@ Status UpdateService::take(std::uint32_t slot, const UpdatesMessage& message, Ob
 
 void UpdateService::store(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
                           const Stamp& stamp, Bytes values) {
+  assert(basis_.objects[object].is_alive && !attributes.is_empty());
   basis_.objects.store(object, attributes, values);
   uses_.sender.append(slot, object, attributes, stamp, values);
   ++basis_.counters.updates_received;
