@@ -2,6 +2,7 @@
 #include "game/net/sampling.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -18,6 +19,7 @@ std::vector<std::uint32_t> sampled_players(const SamplingSettings& settings) {
   const std::uint32_t wanted = std::min(settings.player_max, settings.clients);
   for (std::uint32_t i = 0; i < wanted; ++i)
     std::swap(players[i], players[i + random.below(settings.clients - i)]);
+  assert(wanted <= players.size());
   players.resize(wanted);
   return players;
 }

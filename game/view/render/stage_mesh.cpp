@@ -202,6 +202,7 @@ void add_board(Mesh& mesh, const Sizes& s, const Table& table, const Scoreboard&
   const float width = 0.17f * unit, height = 1.6f * width,
               bottom = 0.5f * (low + high) - 0.5f * height, front = 0.002f * unit;
   const auto digit = [&](float across, std::uint32_t number, const Colour& colour) {
+    assert(number < 10);
     const float from = static_cast<float>(number) / 10.0f;
     mesh.quad(
         {place(across - 0.5f * width, bottom, front), place(across + 0.5f * width, bottom, front),

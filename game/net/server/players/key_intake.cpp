@@ -29,6 +29,7 @@ void KeyIntake::enter(std::uint32_t player, double now_s) {
 }
 
 void KeyIntake::leave(std::uint32_t player) {
+  assert(player < hands_.size());
   std::erase_if(waiting_, [player](const Waiting& key) { return key.player == player; });
 }
 

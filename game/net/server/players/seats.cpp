@@ -28,6 +28,7 @@ void Seats::enter(rti::FederateHandle federate, std::uint32_t player) {
 void Seats::leave(rti::FederateHandle federate, bool takes_bat) {
   assert(find(federate) != nullptr);
   const Seat seat = *seats_[federate.value];
+  assert(is_taken_[seat.player] && player_count_ > 0);
   if (seat.is_turn_done) --turns_done_;
   --player_count_;
   is_taken_[seat.player] = false;
@@ -52,6 +53,7 @@ void Seats::end_turn(rti::FederateHandle federate) {
   Seat& seat = *seats_[federate.value];
   turns_done_ += seat.is_turn_done ? 0u : 1u;
   seat.is_turn_done = true;
+  assert(turns_done_ <= player_count_);
 }
 
 void Seats::begin_turns() {

@@ -1,6 +1,7 @@
 // Who plays which bat: seats by federate and by player, and whose turn is done.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -34,7 +35,10 @@ class Seats {
   /// played yet.
   void leave(rti::FederateHandle federate, bool takes_bat);
   /// Whether the bat went, or is to go, with who played it last.
-  bool is_leaving(std::uint32_t player) const { return is_leaving_[player]; }
+  bool is_leaving(std::uint32_t player) const {
+    assert(player < is_leaving_.size());
+    return is_leaving_[player];
+  }
 
   /// Null if it has no seat.
   const Seat* find(rti::FederateHandle federate) const;
