@@ -26,6 +26,7 @@ void cut_values(const ObjectClass& object_class, AttributeSet set, AttributeSet 
 
 void BestEffortSender::append(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
                               const Stamp& stamp, Bytes values) {
+  assert(basis_.objects[object].is_alive && !attributes.is_empty());
   const ObjectUpdate update{.owner = slot,
                             .slot = object,
                             .object = basis_.objects[object],
