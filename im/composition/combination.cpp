@@ -94,7 +94,8 @@ bool follow(const std::vector<Step>& steps, std::uint16_t says, bool is_still) {
     else if (step == Step::is_still) stack = stack << 1 | (is_still ? 1u : 0u);
     else stack = stack << 1 | (says >> static_cast<unsigned>(step) & 1u);
   }
-  return (stack & 1u) != 0;
+  assert(stack <= 1);  // one answer is left
+  return stack != 0;
 }
 
 std::unique_ptr<Filter> make_combination(std::vector<std::unique_ptr<Filter>> operands,

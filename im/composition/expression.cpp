@@ -1,6 +1,7 @@
 // Reads expressions by recursive descent.
 #include "im/composition/expression.h"
 
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -24,6 +25,7 @@ class Reader {
 
   std::string read(Expression& expression) {
     expression = whole();
+    assert(!complaint_.empty() || depth_ == -1);  // each level has ended
     if (complaint_.empty() && !token_.empty()) complain("expected 'and', 'or', 'with' or the end");
     return complaint_;
   }
@@ -43,6 +45,7 @@ class Reader {
     is_number_ = length > 0 && (is_digit(rest_.front()) || rest_.front() == '-' ||
                                 rest_.front() == '.' || rest_.front() == '+');
     while (length > 0 && length < rest_.size() && is_part(rest_[length])) ++length;
+    assert(length <= rest_.size());
     token_ = rest_.substr(0, length);
     rest_.remove_prefix(length);
   }
@@ -57,7 +60,10 @@ class Reader {
     complained_at_ = here();
   }
 
-  Expression::Place here() const { return {static_cast<std::size_t>(token_.data() - begin_)}; }
+  Expression::Place here() const {
+    assert(token_.data() >= begin_);
+    return {static_cast<std::size_t>(token_.data() - begin_)};
+  }
 
   Expression whole() {
     if (++depth_ > depth_max)

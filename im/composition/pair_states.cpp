@@ -1,6 +1,8 @@
 // Gathers the news of all filters, one line per pair.
 #include "im/composition/pair_states.h"
 
+#include <cassert>
+
 namespace rink::im {
 
 PairStates::Entry* PairStates::find(Buffer<Entry>& entries, Entity entity) {
@@ -38,6 +40,7 @@ void PairStates::take(std::size_t k, std::span<const Change> changes) {
   assert(k < filter_max);
   const auto bit = static_cast<Says>(1u << k);
   for (const Change& change : changes) {
+    assert(change.transition != Transition::tier_changed);  // of pairs, a filter says in or out
     if (change.transition == Transition::entered)
       news_.push_back({change.subscriber, change.entity, bit, 0});
     if (change.transition == Transition::left)

@@ -1,5 +1,6 @@
 // The scheme `grid`: an entity matters to a subscriber while the cell of its centre is one that the
 // subscriber's region touches.
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -19,6 +20,9 @@ class GridFilter final : public OverlapFilter {
     const Region centre = centre_of(region);
     const std::uint64_t cell = packed(centre.low_x, centre.low_y);
     if (entity < cells_.size() && cells_[entity] == cell && cell != unpacked) return;
+    // Packed and unpacked it is the same cell, or an entity would not be where its cell is.
+    assert(cell == unpacked ||
+           cells_of(centre, world_, cell_size_).low_x == static_cast<std::int32_t>(cell >> 32));
     OverlapFilter::set_update_region(entity, cells_of(centre, world_, cell_size_));
     if (entity >= cells_.size()) cells_.resize(entity + std::size_t{1}, unpacked);
     cells_[entity] = cell;

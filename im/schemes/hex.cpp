@@ -1,6 +1,7 @@
 // The scheme `hex`: an entity matters to a subscriber while the hexagon that its centre is in
 // touches the subscriber's region.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -39,7 +40,9 @@ struct TouchesHexagon {
 class HexFilter final : public PredicateFilter<TouchesHexagon> {
  public:
   HexFilter(const Region& world, double cell_size)
-      : PredicateFilter(world, {cell_size}), world_(world), width_(cell_size) {}
+      : PredicateFilter(world, {cell_size}), world_(world), width_(cell_size) {
+    assert(width_ > 0.0);
+  }
 
   void set_update_region(Entity entity, const Region& region) override {
     PredicateFilter::set_update_region(entity, hexagon_around(centre_of(region)));
@@ -63,6 +66,7 @@ class HexFilter final : public PredicateFilter<TouchesHexagon> {
     double x, y, distance_squared;
   };
   Middle nearest(const Region& centre, double shift) const {
+    assert(shift == 0.0 || shift == 0.5);  // every other row stands half a hexagon aside
     const auto place = [shift](double coordinate, double origin, double size) {
       return std::clamp(
           origin + (std::floor((coordinate - origin) / size - shift + 0.5) + shift) * size,

@@ -1,6 +1,8 @@
 // The scheme `hybrid`: an entity matters to a subscriber while `grid` says so and their closed
 // rectangles overlap.
 #include "im/schemes/cells.h"
+
+#include <cassert>
 #include "im/schemes/predicate_filter.h"
 
 namespace rink::im {
@@ -31,7 +33,9 @@ struct InTouchedCell {
 class HybridFilter final : public PredicateFilter<InTouchedCell> {
  public:
   HybridFilter(const Region& world, double cell_size)
-      : PredicateFilter(world, {.world = world, .cell_size = cell_size}), cell_size_(cell_size) {}
+      : PredicateFilter(world, {.world = world, .cell_size = cell_size}), cell_size_(cell_size) {
+    assert(cell_size_ > 0.0);
+  }
   double cell_size() const override { return cell_size_; }
 
  private:

@@ -1,6 +1,8 @@
 // Keeps where regions were and are, and asks the engine what changed.
 #include "im/schemes/overlap_filter.h"
 
+#include <cassert>
+
 namespace rink::im {
 
 void OverlapFilter::set_update_region(Entity entity, const Region& region) {
@@ -28,6 +30,7 @@ std::span<const Change> OverlapFilter::find() {
   const std::uint64_t tested_before = join_.pairs_tested();
   const std::span<const Change> changes =
       join_.find(entities_, moved_entities, subscribers_, moved_subscribers);
+  assert(join_.pairs_tested() >= tested_before);
   counters_.pairs_tested += join_.pairs_tested() - tested_before;
   return changes;
 }
@@ -38,6 +41,7 @@ void OverlapFilter::settle(std::span<const Change> changes) {
   counters_.changes += changes.size();
   for (const Change& change : changes)
     counters_.entries += change.transition == Transition::entered ? 1u : 0u;
+  assert(counters_.entries <= counters_.changes);
 }
 
 std::span<const Change> OverlapFilter::match() {

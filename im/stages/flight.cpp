@@ -97,6 +97,7 @@ TimeSpan touching_boxes(const Flight& a, const HalfExtent& a_half, const Flight&
 /// The disc grown by the box: two boxes that cross, and a disc at each corner.
 TimeSpan touching_disc(const Flight& a, const HalfExtent& a_half, const Flight& b, double radius,
                        double drag) {
+  assert(radius >= 0.0 && a_half.x >= 0.0 && a_half.y >= 0.0);
   const Approach way(a, b, drag);
   WarpedSpan stretch =
       either(both(within(way.x, way.u, a_half.x + radius), within(way.y, way.v, a_half.y)),

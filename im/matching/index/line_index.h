@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -96,6 +97,7 @@ class LineIndex {
     std::uint32_t cell, packed;
   };
   std::size_t level_of(const FloatBox& box) const {
+    assert(levels_.size() > 0);
     return levels_.size() == 1 ? 0 : sizes_.level(longer_side(box));
   }
   Place place_of(std::size_t level, const FloatBox& box) const;
