@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "game/view/render/shaders.h"
-#include "game/view/render/shading.h"
+#include "game/view/render/shaders/shaders.h"
+#include "game/view/render/shaders/shading.h"
 #include "game/view/render/stage_mesh.h"
 #include "game/view/render/textures.h"
 

@@ -1,8 +1,8 @@
 // A mesh of one table, made anew when another one is drawn.
 #include "game/view/render/plain_table.h"
 
-#include "game/view/render/shaders.h"
-#include "game/view/render/shading.h"
+#include "game/view/render/shaders/shaders.h"
+#include "game/view/render/shaders/shading.h"
 #include "game/view/render/stage_mesh.h"
 
 namespace rink::view {

@@ -8,8 +8,8 @@
 
 #include "game/view/render/marks.h"
 #include "game/view/render/overlay_triangles.h"
-#include "game/view/render/shaders.h"
-#include "game/view/render/shading.h"
+#include "game/view/render/shaders/shaders.h"
+#include "game/view/render/shaders/shading.h"
 
 namespace rink::view {
 namespace {

@@ -1,6 +1,6 @@
 // What every shader knows: the lamp over the table, the hall that glossy things mirror, the print
 // on the table.
-#include "game/view/render/shaders.h"
+#include "game/view/render/shaders/shaders.h"
 
 namespace rink::view {
 

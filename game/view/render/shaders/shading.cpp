@@ -1,5 +1,5 @@
 // The values that all these shaders ask for.
-#include "game/view/render/shading.h"
+#include "game/view/render/shaders/shading.h"
 
 namespace rink::view {
 namespace {

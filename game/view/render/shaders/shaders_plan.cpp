@@ -1,6 +1,6 @@
 // The view from above: thousands of discs as points with the circle in the fragment shader, large
 // pieces and boxes as quads, a plain table for a camera that moves; and overlays.
-#include "game/view/render/shaders.h"
+#include "game/view/render/shaders/shaders.h"
 
 namespace rink::view {
 

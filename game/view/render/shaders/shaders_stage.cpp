@@ -1,5 +1,5 @@
 // The standing scene: floor, table, surround box, goals, scoreboard.
-#include "game/view/render/shaders.h"
+#include "game/view/render/shaders/shaders.h"
 
 namespace rink::view {
 
