@@ -32,7 +32,7 @@ TEST(HardDiscs, TwoMeetHeadOnAndReturnFromTheWalls) {
   HardDiscs discs(1.0, 0.05, {left, right});
   std::vector<HardDiscs::Collision> collisions;
   discs.advance(0.9, [&](const HardDiscs::Collision& c) { collisions.push_back(c); });
-  ASSERT_EQ(collisions.size(), 1u);  // the next one comes at 1
+  ASSERT_EQ(collisions.size(), 1u);             // the next one comes at 1
   EXPECT_NEAR(collisions[0].time, 0.2, 1e-15);  // 0.5 - 2 radii apart, closing at 2
   EXPECT_NEAR(discs.disc(0).vx, 1.0, 1e-15);    // turned at 0.2, and at the wall 0.4 later
   EXPECT_NEAR(discs.disc(0).time, 0.6, 1e-15);

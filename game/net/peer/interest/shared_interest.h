@@ -122,7 +122,7 @@ class SharedInterest {
   bool is_undone_ = false;                    ///< what was said before counts no more
   std::vector<bool> is_informed_;  ///< by peer: it knows the present interest, or an earlier one,
                                    ///< and must be told of its end
-  KeyCounts keys_;                           ///< by peer, of its player
+  KeyCounts keys_;                 ///< by peer, of its player
   std::vector<peer::PeerNumber> handed_to_;  ///< by peer: who got its bat from us
 };
 
