@@ -98,7 +98,7 @@ class Subdomain {
   }
   /// 1 + the room in which the body is; 0: all is entered that happens to it.
   void set_room(std::uint32_t body, std::uint8_t room) {
-    assert(body < body_count() && room <= journal_.rooms.size());
+    assert(body < body_count());
     journal_.rooms_of[body] = room;
   }
   /// Bodies of which something was entered, so that they have no room any more, since the last
