@@ -1,7 +1,6 @@
 // What an ambassador does that concerns several of its services.
 #include "rti/federate/ambassador_parts.h"
 
-#include "rti/federate/federate_message_table.h"
 #include "rti/wire/membership_messages.h"
 #include "rti/wire/time_messages.h"
 
@@ -84,7 +83,7 @@ bool AmbassadorParts::handle_message(Reader& reader, ReadContext& context) {
   const auto kind = static_cast<MessageKind>(number);
   if (time.clock().holds_receive_order() && context.timed == nullptr && is_receive_ordered(kind))
     return postpone(reader, kind, context);
-  return rti::handle_message(*this, kind, reader, context);
+  return dispatch(kind, reader, context);
 }
 
 bool AmbassadorParts::postpone(Reader& reader, MessageKind kind, const ReadContext& context) {

@@ -70,6 +70,9 @@ class AmbassadorParts final {
   bool handle_bytes(Bytes bytes);
   bool handle_frame(Bytes frame);
   bool handle_message(Reader& reader, ReadContext& context);
+  /// Hands a message whose kind was read to its service (federate_message_table.cpp). False if it
+  /// makes no sense, or not now.
+  bool dispatch(MessageKind kind, Reader& reader, ReadContext& context);
   bool postpone(Reader& reader, MessageKind kind, const ReadContext& context);
   bool release_postponed();
 

@@ -1,7 +1,7 @@
-// One line for each kind of message that the RTI may send.
-#include "rti/federate/federate_message_table.h"
-
+// Which service answers for which kind of message that the RTI may send: one line for each.
 #include <array>
+
+#include "rti/federate/ambassador_parts.h"
 
 namespace rink::rti {
 
@@ -182,9 +182,8 @@ constexpr FederateMessageTable federate_message_table;
 
 }  // namespace
 
-bool handle_message(AmbassadorParts& parts, MessageKind kind, Reader& reader,
-                    ReadContext& context) {
-  return federate_message_table.handle(parts, kind, reader, context);
+bool AmbassadorParts::dispatch(MessageKind kind, Reader& reader, ReadContext& context) {
+  return federate_message_table.handle(*this, kind, reader, context);
 }
 
 }  // namespace rink::rti
