@@ -17,13 +17,13 @@ void LastPass::begin_window() {
   tile_.begin_window();
   images_.begin();
   orders_.clear();
-  is_hopeless_ = false;
+  solver_failed_ = false;
   played_ = 0;
 }
 
 void LastPass::play() {
   NextEvents& events = parts_.events;
-  for (std::uint32_t body = events.first(shared_.end); body != NextEvents::none && !is_hopeless_;
+  for (std::uint32_t body = events.first(shared_.end); body != NextEvents::none && !solver_failed_;
        body = events.first(shared_.end)) {
     ++played_;
     if (!tile_.play_first_of_all(body)) process(body, events.order_of(body));
@@ -47,7 +47,7 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
                         after.rests == before.rests &&
                         after.joint_impacts == before.joint_impacts &&
                         after.goals == before.goals && changed_.size() <= 2;
-  if (!is_usual || parts_.clock.solver_failed) is_hopeless_ = true;
+  if (!is_usual || parts_.clock.solver_failed) solver_failed_ = true;
   if (crosses) tile_.mark(body, partner::none, order.time);  // the cell that it came to
   if (!is_late) return;
   if (crosses) tile_.note_late(body, order.time);

@@ -28,7 +28,7 @@ class LastPass final : public ChangeObserver {
   const BeforeImages& images() const { return images_; }
   /// Whether it did what only the order of the whole field can tell: more than two bodies at once,
   /// or what depends on how many events come at one instant.
-  bool solver_failed() const { return is_hopeless_; }
+  bool solver_failed() const { return solver_failed_; }
   /// The order of each event that was written down here.
   const std::vector<EventOrder>& orders() const { return orders_; }
   std::uint64_t played() const { return played_; }
@@ -47,7 +47,7 @@ class LastPass final : public ChangeObserver {
   BeforeImages images_;
   std::vector<std::uint32_t> changed_;  // by the event at hand
   Real time_ = 0.0;                     // of it
-  bool is_hopeless_ = false;
+  bool solver_failed_ = false;
   std::uint64_t played_ = 0;
   std::vector<EventOrder> orders_;
 };

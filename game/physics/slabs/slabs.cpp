@@ -67,6 +67,7 @@ void Slabs::begin_window(Real end) {
     tiles_.clear();
     tiles_.push_back(std::make_unique<Tile>(parts_, shared_, 0, 2));
     last_pass_ = std::make_unique<LastPass>(engine_, shared_, 1, 2);
+    all_tiles_ = {&last_pass_->tile(), tiles_.front().get()};
   }
   const std::size_t cells = std::size_t{grid.columns()} * grid.rows();
   if (shared_.played.size() != cells) shared_.played.assign(cells, -1.0);
@@ -78,8 +79,9 @@ void Slabs::begin_window(Real end) {
   jam_count_before_ = parts_.jams.table().count;
   put_off_.clear();
   const bool is_kept = parts_.record.is_kept();
-  for (const auto& tile : tiles_) tile->begin_window(), tile->record().keep(is_kept);
-  last_pass_->begin_window(), last_pass_->tile().record().keep(is_kept);
+  for (const auto& tile : tiles_) tile->begin_window();
+  last_pass_->begin_window();
+  for (Tile* tile : all_tiles_) tile->record().keep(is_kept);
 }
 
 /// False if it must be played in order.
@@ -155,21 +157,16 @@ const Courses::Replaced& Slabs::course_at(std::uint32_t at) const {
 
 Real Slabs::greatest_speed() const {
   Real square = 0.0;
-  const auto look = [&](Tile& tile) {
-    for (const Courses::Replaced& r : tile.courses().replaced())
-      square = std::max({square, r.flight.vx * r.flight.vx + r.flight.vy * r.flight.vy});
-  };
-  for (const auto& tile : tiles_) look(*tile);
-  look(last_pass_->tile());
+  for (Tile* tile : all_tiles_)
+    for (const Courses::Replaced& r : tile->courses().replaced())
+      square = std::max(square, r.flight.vx * r.flight.vx + r.flight.vy * r.flight.vy);
   return std::sqrt(square);
 }
 
 bool Slabs::is_right() const {
   if (last_pass_->solver_failed() || parts_.clock.events_at_once >= at_once_max) return false;
-  std::vector<Tile*> all{&last_pass_->tile()};
-  for (const auto& tile : tiles_) all.push_back(tile.get());
   Real speed = -1.0;
-  for (Tile* tile : all) {
+  for (Tile* tile : all_tiles_) {
     if (tile->at_once_max() >= at_once_max) return false;
     for (const Courses::Late& late : tile->courses().late()) {
       if (speed < 0.0) speed = greatest_speed();
@@ -206,9 +203,7 @@ bool Slabs::meets_replaced(const Courses::Late& late, Real speed) const {
 void Slabs::accept() {
   WindowQueue& queue = *parts_.events.windows();
   Clock& clock = parts_.clock;
-  std::vector<Tile*> all{&last_pass_->tile()};
-  for (const auto& tile : tiles_) all.push_back(tile.get());
-  for (Tile* tile : all) {
+  for (Tile* tile : all_tiles_) {
     for (const std::uint32_t body : tile->awakened()) queue.list(body);
     for (const Courses::Replaced& r : tile->courses().replaced())
       parts_.bodies.changes().note(r.body);
@@ -226,9 +221,7 @@ void Slabs::accept() {
 
 void Slabs::add_counters() {
   Counters& sum = parts_.record.counters();
-  std::vector<Tile*> all{&last_pass_->tile()};
-  for (const auto& tile : tiles_) all.push_back(tile.get());
-  for (Tile* tile : all) {
+  for (Tile* tile : all_tiles_) {
     const Counters& part = tile->record().counters();
     sum.disc_impacts += part.disc_impacts, sum.crossings += part.crossings;
     sum.stale_events += part.stale_events, sum.predictions += part.predictions;
@@ -248,9 +241,7 @@ void Slabs::merge_events() {
   const std::span<const Event> own = parts_.record.events().subspan(events_before_);
   for (std::size_t k = 0; k < own.size(); ++k)
     merged.push_back({last_pass_->orders()[events_before_ + k], own[k]});
-  std::vector<Tile*> all{&last_pass_->tile()};
-  for (const auto& tile : tiles_) all.push_back(tile.get());
-  for (Tile* tile : all)
+  for (Tile* tile : all_tiles_)
     for (const Event& event : tile->record().events())
       merged.push_back({{event.time, event.body.index, event.other->index}, event});
   std::stable_sort(merged.begin(), merged.end(),
@@ -270,9 +261,7 @@ void Slabs::undo() {
     parts_.history.write(kept.body, state);
     parts_.jams.write(kept.body, state);
   }
-  std::vector<Tile*> all{&last_pass_->tile()};
-  for (const auto& tile : tiles_) all.push_back(tile.get());
-  for (Tile* tile : all)
+  for (Tile* tile : all_tiles_)
     for (const Courses::Replaced& r : tile->courses().replaced())
       if (r.earlier == Courses::none) parts_.bodies.take_back(r.body, r.flight, r.version);
   parts_.rests.restore({});

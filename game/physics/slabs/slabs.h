@@ -92,6 +92,7 @@ class Slabs {
   SharedWindow shared_;
   std::vector<std::unique_ptr<Tile>> tiles_;
   std::unique_ptr<LastPass> last_pass_;
+  std::vector<Tile*> all_tiles_;  // that of the last pass, then the others
   std::vector<std::uint32_t> put_off_;
   std::vector<std::vector<std::uint32_t>> lists_;  // of a pass, by tile
   Clock clock_before_;
