@@ -24,9 +24,7 @@ class EventRecord {
   void keep(bool is_wanted) { is_kept_ = is_wanted; }
   void note(EventKind kind, Real time, std::uint32_t body, Partner other = partner::none) {
     ++counters_.of(kind);
-    if (is_kept_)
-      events_.push_back(
-          {time, kind, BodyId{body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
+    if (is_kept_) write(kind, time, body, other);
   }
   /// Written down since the last forget(), in order of time.
   std::span<const Event> events() const { return events_; }
@@ -39,6 +37,12 @@ class EventRecord {
   }
 
  private:
+  /// Kept apart: events are counted always, and written down for few.
+  [[gnu::noinline]] void write(EventKind kind, Real time, std::uint32_t body, Partner other) {
+    events_.push_back(
+        {time, kind, BodyId{body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
+  }
+
   Counters counters_;
   bool is_kept_ = false;
   std::vector<Event> events_;

@@ -109,7 +109,7 @@ class Engine {
   void enter_mouth_if_inside(std::uint32_t body);
   void require_prediction(std::uint32_t body);
   bool is_left_alone(std::uint32_t body) const;
-  void cross_cell(std::uint32_t body);
+  [[gnu::always_inline]] inline void cross_cell(std::uint32_t body);
   void settle();
   void count_event(Real time);
   void score(std::uint32_t body, Real time);

@@ -20,15 +20,12 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-/// How far apart the two were, squared [m^2].
-struct FreeBounce {
-  Real square;
-};
-
-/// Restarts the flights of both after an elastic impact. Nothing, and nothing done, if they are in
-/// line with an axis, where they might come to rest on each other, or hardly approach.
-inline std::optional<FreeBounce> bounce_freely(Bodies& bodies, std::uint32_t low,
-                                               std::uint32_t high, Real time, Real rest_speed) {
+/// Restarts the flights of both after an elastic impact, and returns the square of the distance of
+/// their centres [m^2]. Nothing, and nothing done, if they are in line with an axis, where they
+/// might come to rest on each other, or hardly approach.
+[[gnu::always_inline]] inline std::optional<Real> bounce_freely(Bodies& bodies, std::uint32_t low,
+                                                                std::uint32_t high, Real time,
+                                                                Real rest_speed) {
   const Body &a = bodies[low], &b = bodies[high];
   const Real elapsed_a = a.time < time ? time - a.time : 0.0,
              elapsed_b = b.time < time ? time - b.time : 0.0;
@@ -45,7 +42,7 @@ inline std::optional<FreeBounce> bounce_freely(Bodies& bodies, std::uint32_t low
   const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
   bodies.restart(low, {ax, ay}, {a.vx + kick_a * x, a.vy + kick_a * y}, std::max(a.time, time));
   bodies.restart(high, {bx, by}, {b.vx - kick_b * x, b.vy - kick_b * y}, std::max(b.time, time));
-  return FreeBounce{square};
+  return square;
 }
 
 /// The arithmetic of Impact without its questions, so the same bits.

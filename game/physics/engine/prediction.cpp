@@ -45,14 +45,6 @@ void Prediction::predict_beyond(std::uint32_t body, CellGrid::Direction directio
   events_.schedule(body);
 }
 
-void Prediction::look(std::uint32_t body) { predict_pairs(body, begin(body)); }
-
-void Prediction::look_beyond(std::uint32_t body, CellGrid::Direction direction) {
-  if (bodies_[body].is(Body::curved)) return look(body);
-  predict_flight(body);
-  predict_pairs(body, grid_.collect_ahead(body, direction, room_for_candidates()));
-}
-
 /// Forgets what was known, asks the field, and makes all who are near candidates; returns how many,
 /// the body itself among them.
 std::uint32_t Prediction::begin(std::uint32_t body) {

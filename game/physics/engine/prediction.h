@@ -34,8 +34,12 @@ class Prediction {
 
   void predict(std::uint32_t body);
   /// As predict() and predict_beyond(), but for telling the schedule.
-  void look(std::uint32_t body);
-  void look_beyond(std::uint32_t body, CellGrid::Direction direction);
+  void look(std::uint32_t body) { predict_pairs(body, begin(body)); }
+  void look_beyond(std::uint32_t body, CellGrid::Direction direction) {
+    if (bodies_[body].is(Body::curved)) return look(body);
+    predict_flight(body);
+    predict_pairs(body, grid_.collect_ahead(body, direction, room_for_candidates()));
+  }
   /// Predicts a puck in straight flight where all are, but for telling the schedule. Returns how
   /// many touch it now, itself included: never too few, hardly ever too many.
   std::uint32_t predict_counting(std::uint32_t body);

@@ -145,11 +145,11 @@ bool Tile::collide(std::uint32_t body, std::uint32_t other, Real time) {
     return false;
   const Flight before_a = a, before_b = b;
   const NextEvent slot_a = events_[low], slot_b = events_[high];
-  const auto bounce = bounce_freely(bodies_, low, high, time, rest_speed_);
-  if (!bounce) return false;
+  const auto square = bounce_freely(bodies_, low, high, time, rest_speed_);
+  if (!square) return false;
   const Real touching = a.radius + b.radius + Real(0.5 * clear_of_touching);
   const std::uint64_t predictions = record_.counters().predictions;
-  if (!(bounce->square <= touching * touching && prediction_.predict_counting(low) == 2 &&
+  if (!(*square <= touching * touching && prediction_.predict_counting(low) == 2 &&
         prediction_.predict_counting(high) == 2)) {
     bodies_.take_back(low, before_a, a.version - 1);
     bodies_.take_back(high, before_b, b.version - 1);
