@@ -52,8 +52,8 @@ struct CountingFederate : rti::FederateAmbassador {
   }
 };
 
-/// The RTI and, in the same process, a federate that updates entities; others hear of them over
-/// the transport that is handed in.
+/// The RTI and, in the same process, a federate that updates entities. Other federates receive the
+/// updates over the transport that is handed in.
 struct EntityFederation {
   static constexpr int seen_count = 275;  ///< entities that each client sees: 5 % of 5,500
 

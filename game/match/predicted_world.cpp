@@ -25,7 +25,7 @@ PredictedWorld::PredictedWorld(const Scene& scene)
       ids_(scene.bodies.bats.size() + scene.bodies.pucks.size()),
       held_(scene.bodies.bats.size()),
       left_at_(ids_.size(), Vector2(0.0, 0.0)) {
-  scene_.world.allow_overlap = true;  // what is told is rounded
+  scene_.world.allow_overlap = true;  // received positions are rounded
 }
 
 void PredictedWorld::set_up(const ReceivedRink& received) {
@@ -112,7 +112,7 @@ Vector2 PredictedWorld::inside(const Vector2& position, const physics::BatSpec& 
   return position.cwiseMax(low).cwiseMin(high);
 }
 
-/// Likewise a puck, which may be on its way into a goal.
+/// Rounding may have put a puck a little into a wall. At a goal it may be beyond the end line.
 Vector2 PredictedWorld::inside(const Vector2& position, double radius) const {
   const physics::Field& field = scene_.world.field;
   const bool is_at_goal = std::abs(position.y() - field.width / 2) < field.goal_width / 2;

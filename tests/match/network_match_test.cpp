@@ -182,7 +182,7 @@ TEST_F(ANetworkMatch, IsShownAsItIsAtAnyDelay) {
     EXPECT_GT(feel.keys, 50u) << "or the test shows nothing";
     EXPECT_EQ(feel.late_keys, 0u);
     EXPECT_LE(feel.own.p50, 0.5e-3)
-        << "what is told is rounded, and the keys are felt when their player counted on it";
+        << "received states are rounded, and the keys are felt when their player counted on it";
     EXPECT_LE(feel.own.p90, delay_s <= 0.1 ? 1e-3 : 0.1)
         << "the rest is the other's keys of the last round trip, which a shared puck passes on";
     EXPECT_LE(feel.own.p99, delay_s == 0.0 ? 1e-3 : 0.25);

@@ -1,5 +1,5 @@
-// A stranger's scene is checked before it is read; what is told of its bodies, before it is
-// believed.
+// Checks the scene that a stranger hosts before reading it, and the states received of its bodies
+// before using them.
 #include "game/net/client/hosted_scene.h"
 
 #include <algorithm>

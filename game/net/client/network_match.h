@@ -25,9 +25,9 @@ struct NetworkMatchSettings {
                               ///< hosts no matches too
 };
 
-/// Owns the client federate and its link, and shows what they hear of as PredictedRink predicts it
-/// (docs/play.md). Reads no clock. A server that is gone, refuses, or says what is no match ends in
-/// the phase `lost`, with the reason as `notice`.
+/// Owns the client federate and its link, and shows the match that they receive as PredictedRink
+/// predicts it (docs/play.md). Reads no clock. A server that is gone, refuses, or says what is no
+/// match ends in the phase `lost`, with the reason as `notice`.
 class NetworkMatch final : public MatchSource {
  public:
   /// `connection` was opened by `transport`, which is polled here and has no other listener; it and

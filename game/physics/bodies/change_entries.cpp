@@ -1,4 +1,4 @@
-// How the part of each body in an event is told.
+// Writes what an event did to each of its bodies into the journal.
 #include "game/physics/bodies/change_entries.h"
 
 #include <bit>

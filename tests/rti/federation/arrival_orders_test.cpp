@@ -15,9 +15,12 @@ namespace {
 /// Of class 0: two attributes by best effort, and one that is reliable.
 const Fom& sea() {
   static const Fom fom = Fom::parse(R"(<objectModel><objects><objectClass><name>Root</name>
-<attribute><name>place</name><dataType>HLAfloat64LE</dataType><transportation>HLAbestEffort</transportation></attribute>
-<attribute><name>speed</name><dataType>HLAfloat64LE</dataType><transportation>HLAbestEffort</transportation></attribute>
-<attribute><name>name</name><dataType>HLAfloat64LE</dataType><transportation>HLAreliable</transportation></attribute>
+<attribute><name>place</name><dataType>HLAfloat64LE</dataType>
+<transportation>HLAbestEffort</transportation></attribute>
+<attribute><name>speed</name><dataType>HLAfloat64LE</dataType>
+<transportation>HLAbestEffort</transportation></attribute>
+<attribute><name>name</name><dataType>HLAfloat64LE</dataType>
+<transportation>HLAreliable</transportation></attribute>
 </objectClass></objects></objectModel>)",
                                     "sea");
   return fom;

@@ -108,7 +108,7 @@ class SenderInterest {
   std::vector<std::uint8_t> is_here_;  ///< by body: in the filter
   std::vector<std::uint32_t> here_;
   std::unordered_map<std::uint32_t, LastSent>
-      last_sent_;  ///< of bodies that are here, what all hear who hear of it
+      last_sent_;  ///< by body that is here: the state that every interested peer was sent
   std::uint64_t motions_sent_ = 0;
 };
 

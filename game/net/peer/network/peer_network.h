@@ -180,7 +180,7 @@ class PeerNetwork final : public peer::Mail, public SideChannel, private rti::Tr
   std::map<rti::ConnectionId, Link> links_;
   std::vector<std::optional<rti::ConnectionId>> peers_;  ///< by number
   std::vector<PeerInfo>
-      peer_infos_;  ///< by number: whom the first peer has let in, or who has said that it was
+      peer_infos_;  ///< by number: peers that the first peer admitted, or that said so themselves
   std::uint32_t peer_info_count_ = 1, bats_taken_ = 0;  ///< of a first peer
   std::deque<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>>
       deferred_;  ///< that were not heard yet
