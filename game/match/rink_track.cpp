@@ -46,7 +46,7 @@ ShownBody RinkTrack::at(std::size_t body, double time) const {
   return {before->positions[body] + part * way, before->velocities[body], time};
 }
 
-void RinkTrack::check(std::size_t body_count) const {
+void RinkTrack::check([[maybe_unused]] std::size_t body_count) const {
   for (std::size_t k = 0; k < samples_.size(); ++k) {
     assert(samples_[k].positions.size() == body_count);
     assert(samples_[k].velocities.size() == body_count);
