@@ -67,6 +67,15 @@ function(rink_sources variable)
   set(${variable} ${sources} PARENT_SCOPE)
 endfunction()
 
+# rink_inlining(VARIABLE): flags that inline as if each source were compiled alone. g++ stops inlining in a source that has grown by 40 %, unless it is small; of
+# sources compiled together, 1,000 pucks then took 10 % more instructions and updates to 100 clients 19 %. A precompiled header has to be made with the same flag,
+# which g++ else ignores without a word.
+function(rink_inlining variable)
+  if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    set(${variable} --param=inline-unit-growth=400 PARENT_SCOPE)
+  endif()
+endfunction()
+
 # rink_module(NAME DEPENDS targets... PRIVATE targets...): a static library of the sources in the calling folder and below it.
 function(rink_module name)
   cmake_parse_arguments(module "" "" "DEPENDS;PRIVATE" ${ARGN})
@@ -81,10 +90,15 @@ function(rink_module name)
   target_include_directories(rink_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/rink>)
   target_compile_features(rink_${name} PUBLIC cxx_std_20)
   target_link_libraries(rink_${name} PUBLIC ${module_DEPENDS} PRIVATE $<BUILD_INTERFACE:rink_options> ${module_PRIVATE})
+  set(flags)
+  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/(im|rti|game/physics|game/replication)(/|$)")
+    rink_inlining(flags)
+    target_compile_options(rink_${name} PRIVATE ${flags})
+  endif()
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/(im|rti)(/|$)")
-    rink_precompile(rink_${name} standard)
+    rink_precompile(rink_${name} standard ${flags})
   else()
-    rink_precompile(rink_${name} game)
+    rink_precompile(rink_${name} game ${flags})
   endif()
 endfunction()
 

@@ -19,10 +19,14 @@ struct ManagementHandles {
 
   explicit ManagementHandles(const Fom& fom) {
     const auto object = [&fom](const char* name) {
-      return own(fom, fom.object_class(std::string("HLAobjectRoot.HLAmanager.") + name));
+      std::string whole = "HLAobjectRoot.HLAmanager.";
+      whole += name;
+      return own(fom, fom.object_class(whole));
     };
     const auto interaction = [&fom](const char* name) {
-      return own(fom, fom.interaction_class(std::string("HLAinteractionRoot.HLAmanager.") + name));
+      std::string whole = "HLAinteractionRoot.HLAmanager.";
+      whole += name;
+      return own(fom, fom.interaction_class(whole));
     };
     federation = object("HLAfederation");
     federate = object("HLAfederate");
