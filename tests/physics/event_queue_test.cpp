@@ -148,6 +148,29 @@ TEST(EventQueue, LosesNoEventThatLiesBeforeTheLastWhereItIsMadeAnew) {
   }
 }
 
+TEST(EventQueue, SaysThatNoEventIsLeftWhateverInstantItIsAskedFor) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr std::uint32_t count = 200;
+  EventQueue queue;
+  queue.resize(count);
+  EXPECT_EQ(queue.first(infinity), EventQueue::none) << "before the first";
+  for (std::uint32_t body = 0; body < count; ++body)  // most of them far beyond the buckets
+    queue.set(body, 1e-3 * body * body, body, body);
+  for (std::uint32_t body = 0; body < count; ++body) {
+    ASSERT_EQ(queue.first(infinity), body);
+    queue.set(body, infinity, body, body);
+  }
+  EXPECT_EQ(queue.first(infinity), EventQueue::none) << "all are taken";
+  for (std::uint32_t body = 0; body < count; ++body) {
+    queue.set(body, 50.0 + body, body, body);
+    queue.set(body, infinity, body, body);
+  }
+  EXPECT_EQ(queue.first(infinity), EventQueue::none)
+      << "only notes of what was called off are left";
+  queue.set(7, 60.0, 7, 7);
+  EXPECT_EQ(queue.first(infinity), 7u);
+}
+
 TEST(EventQueue, DoesNoMoreWorkForBodiesWithoutAnEvent) {
   const auto looked_at = [](std::uint32_t count) {
     EventQueue queue;

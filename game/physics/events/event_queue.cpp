@@ -171,13 +171,14 @@ bool EventQueue::adapt() {
 
 /// Moves the horizon on; false if nothing is due by `until`.
 bool EventQueue::refill(Real until) {
+  const auto has_none = [&] { return later_.empty() || later_begin_ > until; };
   if (near_count_ == 0) {
-    if (later_begin_ > until) return false;
+    if (has_none()) return false;
     std::erase_if(later_, [&](const Note& note) { return entries_[note.body].time != note.time; });
     looked_at_ += later_.size();
     later_begin_ = std::numeric_limits<Real>::infinity();
     for (const Note& note : later_) later_begin_ = std::min(later_begin_, note.time);
-    if (later_begin_ > until) return false;
+    if (has_none()) return false;
     current_ = std::max(current_, bucket_number(later_begin_) - 1);
     last_time_ = std::max(last_time_, later_begin_);
   }
@@ -204,7 +205,7 @@ bool EventQueue::turn(Real until) {
 }
 
 std::uint32_t EventQueue::first(Real until) {
-  assert(until < std::numeric_limits<Real>::infinity());  // or it would look for ever
+  assert(until == until);
   for (;;) {
     while (!due_.empty() && !is_valid(due_.back())) due_.pop_back();
     if (due_.empty()) {
