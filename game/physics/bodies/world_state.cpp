@@ -133,12 +133,21 @@ bool exchange_state(Stream& stream, WorldState& state) {
   return true;
 }
 
+/// Posts cannot be moved, nor what was removed and left its number empty; all else can, or an
+/// impact would divide by the sum of two inverse masses of 0.
+bool has_sound_mass(const Body& b, const BodyShape& build) {
+  if (!(build.mass > 0.0) || b.inverse_mass != build.inverse_mass) return false;
+  if (b.kind == BodyKind::post || (b.is(Body::removed) && build.inverse_mass == 0.0))
+    return build.inverse_mass == 0.0;
+  return build.inverse_mass > 0.0 && std::isfinite(build.inverse_mass) &&
+         build.inverse_mass == Real(1.0) / build.mass;
+}
+
 bool is_sound(const Body& b, const BodyShape& build, const ForceLaw& law, const WorldState& state) {
   const auto is_finite = [](const RealVector& v) { return v.allFinite(); };
   return is_finite({b.x, b.y}) && is_finite({b.vx, b.vy}) && is_finite(law.acceleration) &&
          is_finite(build.half_extent) && is_finite(build.thrust) && b.time <= state.clock.now &&
-         b.radius >= 0.0 && std::isfinite(b.radius) && build.mass > 0.0 &&
-         build.inverse_mass >= 0.0 && b.inverse_mass == build.inverse_mass &&
+         b.radius >= 0.0 && std::isfinite(b.radius) && has_sound_mass(b, build) &&
          b.material < state.spec.restitution.material_count() && b.mouth <= Body::right_mouth &&
          law.drag.minCoeff() >= 0.0;
 }
