@@ -58,15 +58,15 @@ bool has_installed_scene(const std::string& name, const std::string& text) {
   }
 }
 
-/// Whether a name of a manifest is one below its folder.
+/// True if a name of a manifest lies below its folder.
 bool is_inside(const std::string& file) {
   const std::filesystem::path path(file);
   return path.is_relative() && !file.empty() && file.find('\0') == std::string::npos &&
          std::ranges::none_of(path, [](const std::filesystem::path& step) { return step == ".."; });
 }
 
-/// Those of the runs, which `--seeds` and `--until-width` may have chosen otherwise than the file
-/// says; its own where no run is left.
+/// Sets the seeds of the runs, which `--seeds` and `--until-width` may have chosen; the file's own
+/// where no run is left.
 void set_seeds(Experiment& experiment, std::span<const RunRecord> runs) {
   const auto those_of = [runs](const std::string& part, std::vector<std::uint64_t>& seeds) {
     std::vector<std::uint64_t> found;

@@ -22,7 +22,7 @@ class ReportFolderError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes what the experiment was: experiment.toml, scene.toml and a recorded key log that it
+/// Writes the experiment's inputs: experiment.toml, scene.toml and a recorded key log that it
 /// names, if that lies below the experiment's folder. Throws OutputError.
 void keep_inputs(const ResultsDirectory& results, const Experiment& experiment);
 
@@ -42,10 +42,10 @@ Experiment experiment_of_report(const std::filesystem::path& folder);
 /// ReportFolderError, which names the line, if they cannot be read.
 Journal journal_of_report(const std::filesystem::path& folder);
 
-/// How runs said again what they had said.
+/// The comparison of repeated runs with the original ones.
 struct Repetition {
   std::size_t virtual_runs = 0,
-              virtual_same = 0;  ///< in virtual time, which must say the same in every figure
+              virtual_same = 0;  ///< in virtual time, which must agree in every figure
   std::size_t games = 0,
               games_same =
                   0;  ///< runs by the clock with replayed keys, which must end in the same state
@@ -53,14 +53,15 @@ struct Repetition {
       0.0;  ///< of runs by the clock: the greatest |again / before - 1| of payload
   std::size_t compared = 0,
               left_out = 0;  ///< runs that count on both sides; runs that only the earlier side has
-  std::vector<std::string> differing;  ///< which run, and in what
+  std::vector<std::string> differing;  ///< the run and its differing figures
   bool is_same() const { return differing.empty() && compared > 0; }
 };
 
-/// Runs of the same cells; what only one side has is compared with nothing.
+/// Compares runs of the same cells; cells of one side alone are ignored.
 Repetition repetition_of(std::span<const RunRecord> before, std::span<const RunRecord> again);
 std::string words_for(const Repetition& repetition, const std::filesystem::path& folder);
-/// That the folder's runs were made by another commit than this program's; empty if they were not.
+/// A warning that the folder's runs were made by another commit than this program's; empty if they
+/// were not.
 std::string commit_words(const Journal& journal, const std::filesystem::path& folder);
 
 }  // namespace rink::loadgen

@@ -173,7 +173,7 @@ constexpr std::array of_figures{
                "bots, or peers"},
 };
 
-/// Of the columns that a table has beside the cell's and figures; they are no fields of runs.jsonl.
+/// Further columns of a table beside the cell's and figures; they are no fields of runs.jsonl.
 struct TableColumns {
   const char* table;  ///< the file's name without its ending
   std::span<const Definition> columns;
@@ -322,7 +322,7 @@ struct NameEnding {
   std::string_view unit{};  ///< empty: that of the field
 };
 
-/// What figures add to the field that they are a member of.
+/// The endings that figures add to their field's name.
 constexpr std::array endings{
     NameEnding{"", ""},
     NameEnding{"_rms", "; root mean square over all samples"},

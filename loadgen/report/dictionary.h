@@ -1,4 +1,4 @@
-// What the names in tables of results mean, once, for whoever reads the files without the program's
+// Definitions of the names in tables of results, for readers of the files without the program's
 // documents.
 #pragma once
 
@@ -7,25 +7,25 @@
 
 namespace rink::loadgen {
 
-/// What one key of a line of runs.jsonl holds. Figures of a sample, such as update_age_ms, have a
-/// member each for its percentiles.
+/// The definition of one key of a line of runs.jsonl. Figures of a sample, such as update_age_ms,
+/// have a member for each percentile.
 struct Definition {
   const char* field;    ///< the key
   const char* unit;     ///< empty: a name or a truth value; "1": a count or a fraction
-  const char* alias;    ///< what the literature calls it where that differs; may be empty
+  const char* alias;    ///< the name in the literature where that differs; may be empty
   const char* meaning;  ///< a sentence without its stop
 };
 
-/// Of the keys that name a cell, every parameter among them.
+/// Definitions of the keys that name a cell, every parameter among them.
 std::span<const Definition> cell_definitions();
-/// Of the keys that `figures()` are read from.
+/// Definitions of the keys that `figures()` are read from.
 std::span<const Definition> figure_definitions();
 
-/// The one that the figure called `name` is a member of, e.g. update_age_ms of update_age_ms_p99;
-/// null if there is none.
+/// The definition whose member is the figure called `name`, e.g. update_age_ms of
+/// update_age_ms_p99; null if there is none.
 const Definition* definition_of(const std::string& name);
 
-/// That of the figure called `name`, of which there must be a definition (asserted).
+/// The unit of the figure called `name`, which must have a definition (asserted).
 std::string unit_of(const std::string& name);
 
 /// Every column of the cell, every figure, and every further column of the tables of results as

@@ -19,7 +19,7 @@ class Page {
  public:
   /// `id` of letters and dashes.
   void add(const std::string& id, const std::string& title, SectionContent content);
-  /// The page with `introduction`, markup, above the contents; `title` is text.
+  /// Finishes the page with `introduction`, markup, above the contents; `title` is text.
   Report finished(const std::string& title, const std::string& introduction) &&;
 
  private:

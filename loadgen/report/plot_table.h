@@ -11,7 +11,7 @@ namespace rink::loadgen {
 
 /// `name` becomes plots/NAME.csv; a column's unit is part of its name.
 struct PlotTable {
-  std::string name, about;  ///< `about` says in a sentence what a row is
+  std::string name, about;  ///< `about` is a sentence about what a row is
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows{};  ///< each as long as `columns`
 
@@ -22,8 +22,8 @@ struct PlotTable {
 /// provenance; readers that know no comments skip them by that sign.
 std::string to_csv(const PlotTable& table, const Provenance& provenance);
 
-/// A closed `<details>` that holds the rows, or says where they are if there are more than a reader
-/// would want to scroll through.
+/// A closed `<details>` with the rows, or with the file's name if there are too many to scroll
+/// through.
 std::string to_details(const PlotTable& table);
 
 }  // namespace rink::loadgen

@@ -1,4 +1,4 @@
-// Reads what the system says about itself and times its wake-ups.
+// Reads facts about the system and times its wake-ups.
 #include "loadgen/report/provenance.h"
 
 #include <gnu/libc-version.h>

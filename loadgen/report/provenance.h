@@ -1,4 +1,4 @@
-// Where and how figures were taken, so that others can judge and repeat them.
+// Where and how figures were taken, so that others can assess and repeat them.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -23,8 +23,8 @@ Histogram wake_up_lateness();
 /// governor, virtualisation, kernel, packages), the time, the load, and the timer's calibration.
 Provenance provenance_of(const std::vector<std::string>& command_line, const Histogram& wake_ups);
 
-/// The same of a run in virtual time: without time, load, calibration and what names the place of
-/// the results, so that a second run writes the same bytes.
+/// The provenance of a run in virtual time: without time, load, calibration and the folder of the
+/// results, so that a second run writes the same bytes.
 Provenance reproducible_provenance_of(const std::vector<std::string>& command_line);
 
 /// The facts as an object, in their order.

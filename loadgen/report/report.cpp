@@ -65,7 +65,7 @@ std::string span_text(const Experiment& experiment) {
          short_number(experiment.warm_up_s) + " s of warm-up" + from + ", ";
 }
 
-/// What each part of which there are rows differs in.
+/// Describes the differences between the parts that have rows.
 std::string parts_text(const Experiment& experiment, std::span<const RunRecord> runs) {
   std::string text = "Scene " + experiment.scene + ". ";
   for (const Experiment& part : experiment.parts) {
@@ -90,7 +90,7 @@ std::string setting_text(const Experiment& experiment, std::span<const RunRecord
                      " population, players " + experiment.players + ", " + rates_text(experiment) +
                      " Hz, " + span_text(experiment) + view_text(experiment) + "; ";
   text += transport_text(experiment) + "; ";
-  // A search runs cells of its own choice beside those of the experiment.
+  // A search runs further cells beside those of the experiment.
   const std::vector<Cell> cells = cells_of(experiment);
   const bool is_plan = std::all_of(runs.begin(), runs.end(), [&cells](const RunRecord& run) {
     return std::find(cells.begin(), cells.end(), run.cell) != cells.end();

@@ -12,13 +12,13 @@
 
 namespace rink::loadgen {
 
-/// A section that another part of the load generator has to say, e.g. where the server saturates.
+/// A section from another part of the load generator, e.g. where the server saturates.
 struct ReportSection {
   std::string id, title;  ///< `id` of letters and dashes
   SectionContent content;
 };
 
-/// What a page may show besides runs.
+/// Findings that a page may show besides runs.
 struct MoreFindings {
   std::span<const CellLatencies> latencies{};
   std::span<const CellDiscoveries> discoveries{};
@@ -27,13 +27,13 @@ struct MoreFindings {
 
 /// The page: plots, tables, the runs that did not count with their reasons, definitions, how to
 /// reproduce, and provenance. Light and dark follow the reader's setting; print is light. All text
-/// from outside is escaped. The same input gives the same bytes. What was not measured is left out
-/// with a sentence.
+/// from outside is escaped. The same input gives the same bytes. A sentence replaces what was not
+/// measured.
 Report report_of(const Experiment& experiment, std::span<const RunRecord> runs,
                  const Provenance& provenance, const MoreFindings& more = {});
 
-/// The whole histograms of the valid `runs` from their reports in `cells`; whatever is missing or
-/// unreadable there is left out.
+/// The whole histograms of the valid `runs` from their reports in `cells`; missing or unreadable
+/// ones are left out.
 std::vector<CellLatencies> latencies_in(const std::filesystem::path& cells,
                                         std::span<const RunRecord> runs);
 

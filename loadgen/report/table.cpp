@@ -28,7 +28,7 @@ std::string fraction_text(const std::optional<double>& fraction) {
                   : "-";
 }
 
-/// How many times less than the baseline, with its interval.
+/// The factor by which it is less than the baseline, with its interval.
 std::string times_less(const std::optional<Ratio>& ratio) {
   if (!ratio) return "-";
   const Ratio less = ratio->inverse();
@@ -84,8 +84,8 @@ std::string values_of(const SummaryRow& row, const Columns& columns) {
   return text;
 }
 
-/// What else of the row is not the default, in words; parameters that differ have columns, and the
-/// block's title has those that do not.
+/// The other values of the row that are not the default, in words; parameters that differ have
+/// columns, and the block's title has those that do not.
 std::string rest_of(SummaryRow row) {
   row.parameters = Parameters{};
   return variant_of(row);
@@ -156,7 +156,7 @@ const RunRecord& run_of(const Cell& row, std::span<const RunRecord> runs) {
                        [&row](const RunRecord& run) { return without_seed(run.cell) == row; });
 }
 
-/// What all rows have in common; what they differ in has a column.
+/// The common values of all rows; those that differ have columns.
 std::string block_title(const std::vector<SummaryRow>& rows, const SummaryRow& row,
                         const RunRecord& run, const Columns& columns) {
   const auto differs = [&columns](const std::string& key) {
@@ -180,7 +180,7 @@ std::string block_title(const std::vector<SummaryRow>& rows, const SummaryRow& r
          "\n";
 }
 
-/// What filter and policy save apart and together, a line for each row that has both.
+/// The savings by filter and policy alone and together, a line for each row that has both.
 std::string gains_text(const std::vector<SummaryRow>& rows, const Baseline& baseline) {
   std::string text;
   if (baseline.scheme.empty() || baseline.policy.empty()) return text;
@@ -188,7 +188,7 @@ std::string gains_text(const std::vector<SummaryRow>& rows, const Baseline& base
     return std::find(rows.begin(), rows.end(), cell);
   };
   constexpr std::ptrdiff_t lines_max =
-      8;  // of more than so many rows only that with the fewest bytes of each game
+      8;  // beyond so many rows only the row with the fewest bytes of each game
   const bool is_long = std::ranges::count_if(rows, [&](const SummaryRow& row) {
                          return row.scheme != baseline.scheme && row.policy != baseline.policy;
                        }) > lines_max;

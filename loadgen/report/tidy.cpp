@@ -1,4 +1,4 @@
-// Lines of runs, each begun by what names its cell.
+// Writes a line for each figure of a run, which begins with the cell's keys.
 #include "loadgen/report/tidy.h"
 
 #include "loadgen/experiment/cell_key.h"

@@ -11,8 +11,8 @@ namespace rink::loadgen {
 
 /// CSV (RFC 4180), a line for each figure that a run has, in the order of `runs` and of
 /// `figures()`: part, mode, scheme, policy, clients, pucks, bats, server_cores, every parameter,
-/// seed, valid (true or false), figure, unit, value. Runs that do not count are in it; a figure
-/// that is absent has no line.
+/// seed, valid (true or false), figure, unit, value. Invalid runs are included; a figure that is
+/// absent has no line.
 std::string tidy_csv(std::span<const RunRecord> runs);
 
 }  // namespace rink::loadgen

@@ -1,4 +1,4 @@
-// Takes the runs from the journal, and what they call relevant from the experiment.
+// Reads the runs from the journal, and their definition of relevance from the experiment.
 #include "loadgen/report/traces.h"
 
 #include <string>

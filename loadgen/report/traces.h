@@ -1,4 +1,4 @@
-// Where everything was in the runs of a report, for programs that judge them again.
+// Writes all true positions in the runs of a report, for programs that check the figures.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +6,10 @@
 
 namespace rink::loadgen {
 
-/// Plays each valid run of the report folder that left evidence again and writes
-/// cells/NAME.truth.jsonl (loadgen/measure/truth/trace.h). Returns how many. Throws
-/// ReportFolderError if the folder is not as it was written, game::TraceError if evidence
-/// contradicts itself, std::runtime_error if a file cannot be written.
+/// Replays each valid run of the report folder that has traces and writes cells/NAME.truth.jsonl
+/// (loadgen/measure/truth/trace.h). Returns how many. Throws ReportFolderError if the folder was
+/// altered, game::TraceError if a trace contradicts itself, std::runtime_error if a file cannot be
+/// written.
 std::size_t write_traces(const std::filesystem::path& folder);
 
 }  // namespace rink::loadgen

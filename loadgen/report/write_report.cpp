@@ -1,4 +1,4 @@
-// Writes the page last, so that a page that is there has its plots and tables.
+// Writes the page last, so that a page always has its plots and tables.
 #include "loadgen/report/write_report.h"
 
 #include <system_error>
@@ -13,7 +13,7 @@ void write_report(const ResultsDirectory& results, const Experiment& experiment,
                                    .discoveries = discoveries_in(results.path() / "cells", runs),
                                    .sections = more_sections});
   const std::filesystem::path plots = results.subdirectory("plots");
-  std::error_code ignored;  // what cannot be removed is overwritten or stays
+  std::error_code ignored;  // a file that cannot be removed is overwritten or stays
   for (const auto& entry : std::filesystem::directory_iterator(plots, ignored)) {
     const auto ending = entry.path().extension();
     if (ending == ".csv" || ending == ".svg")

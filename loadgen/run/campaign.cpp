@@ -31,7 +31,7 @@ std::string played_game(const Experiment& experiment, const Cell& cell) {
 }
 
 /// Game name to key log, all written before the first cell starts, so that an impossible one is
-/// found before anything was waited for.
+/// found at once.
 std::map<std::string, std::filesystem::path> write_key_logs(const Campaign& campaign) {
   std::map<std::string, std::filesystem::path> logs;
   const std::filesystem::path folder = campaign.results.subdirectory("keys");
@@ -71,7 +71,8 @@ using Clock = std::chrono::steady_clock;
 
 /// Runs cells and takes their records in the order in which they were started: those in virtual
 /// time beside each other on all processors, for nothing in them depends on how fast they run; all
-/// others alone. What these say is judged as soon as as many wait for it as there are processors.
+/// others alone. Finished runs of processes are compared with truth once there are as many of them
+/// as processors.
 class CellQueue {
  public:
   CellQueue(const Campaign& campaign, Progress& progress, Outcome& outcome)
@@ -95,8 +96,8 @@ class CellQueue {
       return take(run(settings_, part, cell, key_log));
     }
     if (!judge_what_ran()) return false;
-    idle_workers_.acquire();  // whichever ends first, be it not the first in line: cells take from
-                              // 0.05 to 1 s
+    idle_workers_.acquire();  // for the first cell to end, in any order: cells take from 0.05 to 1
+                              // s
     while (is_first_done())
       if (!take_first()) return false;
     progress_.starts(cell);
@@ -109,7 +110,7 @@ class CellQueue {
     return true;
   }
 
-  /// Takes the records of what is under way.
+  /// Takes the records of all cells that still run.
   bool finish() { return judge_what_ran() && take_all(); }
 
  private:
@@ -136,7 +137,7 @@ class CellQueue {
     return !was_interrupted || take({});
   }
 
-  /// Adds what truth says to the runs of processes that wait for it, beside each other.
+  /// Adds the figures of truth to finished runs of processes, several at once.
   bool judge_what_ran() {
     if (ran_.empty()) return true;
     for (ProcessRun& run : std::exchange(ran_, {}))

@@ -1,4 +1,4 @@
-// Runs all cells of an experiment in order and keeps what was measured, whatever ends it.
+// Runs all cells of an experiment in order and keeps all measurements, even if it is interrupted.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace rink::loadgen {
 /// the cell, OutputError if the file cannot be written.
 using KeyLogWriter = std::function<void(const Cell& cell, const std::filesystem::path& file)>;
 
-/// How a campaign went.
+/// The result of a campaign.
 struct Outcome {
   std::vector<RunRecord>
       runs;  ///< in the order of cells_of(), those that were kept from before among them
@@ -24,7 +24,7 @@ struct Outcome {
                                ///< runs after that
 };
 
-/// What is run, with what, and where its results go.
+/// The cells to run, the programs, and the folder of the results.
 struct Campaign {
   const Experiment& experiment;
   const RunnerSettings& settings;
@@ -38,7 +38,7 @@ struct Campaign {
 Outcome run_campaign(const Campaign& campaign, Progress& progress,
                      std::vector<RunRecord> kept = {});
 
-/// Those of an earlier start's `runs` that are cells of `experiment`, each once.
+/// The `runs` of an earlier start that are cells of `experiment`, each once.
 std::vector<RunRecord> runs_to_keep(const Experiment& experiment,
                                     const std::vector<RunRecord>& runs);
 

@@ -110,7 +110,7 @@ class CellRun {
       has_failed = has_failed || fails_now;
       if (Clock::now() > deadline) break;
     }
-    // Who failed by itself is named before who was merely still waiting for it.
+    // A program that failed is named before one that was only waiting for it.
     std::string why;
     const auto add = [&why](const std::string& reason) {
       why += (why.empty() ? "" : "; ") + reason;

@@ -14,15 +14,15 @@
 
 namespace rink::loadgen {
 
-/// Where the two programs are, where they may write, and how long anybody waits for them.
+/// The places of the two programs and of their files, and the time limits.
 struct RunnerSettings {
   std::filesystem::path serve, bots, peer;  ///< the executables rink-serve, rink-bots and rink-peer
   std::filesystem::path directory;          ///< an existing folder for the processes' own reports
   std::vector<int> server_processors,
-      bots_processors;      ///< what each is pinned to; empty: not pinned
+      bots_processors;      ///< the processors that each is pinned to; empty: not pinned
   bool wants_truth = true;  ///< evidence is taken, and the run judged by a re-simulation
   bool keeps_traces_of_curves = false;  ///< of the hundreds of runs that are points of curves too
-  bool keeps_traces = true;             ///< in files; in virtual time the same seed gives it again
+  bool keeps_traces = true;             ///< in files; in virtual time the same seed reproduces them
   double listen_limit_s =
       30.0;  ///< from the server's start to its line `listening on ADDRESS:PORT`
   double join_limit_s =
@@ -51,20 +51,19 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
                                         const std::string& address,
                                         const std::filesystem::path& report);
 
-/// Runs `cell` and returns its record; whatever goes wrong, a program that cannot be started
-/// included, makes it invalid and says why. Nothing if it was interrupted. Both processes are gone
-/// when this returns.
+/// Runs `cell` and returns its record; every failure, also of starting a program, makes it invalid
+/// and is its reason. Nothing if it was interrupted. Both processes have ended when this returns.
 std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experiment& experiment,
                                   const Cell& cell, const std::filesystem::path& key_log);
 
-/// What the processes of a cell said, before the figures of truth.
+/// The results of a cell's processes, before the figures of truth.
 struct ProcessRun {
   RunRecord record;
-  bool has_reports = false;  ///< false: something went wrong, and `record` says what
+  bool has_reports = false;  ///< false: the run failed, for the reason in `record`
 };
 /// The two halves of `run_cell`: the processes, beside which nothing else may run, and the figures
-/// of truth, which take one processor a third of a second and may be found beside others. Throws
-/// OutputError if the delays of discovery cannot be written.
+/// of truth, which take one processor a third of a second and may be computed several at once.
+/// Throws OutputError if the delays of discovery cannot be written.
 std::optional<ProcessRun> run_processes(const RunnerSettings& settings,
                                         const Experiment& experiment, const Cell& cell,
                                         const std::filesystem::path& key_log);

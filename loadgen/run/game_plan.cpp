@@ -15,7 +15,7 @@
 namespace rink::loadgen {
 namespace {
 
-/// A game's key log is written for the first of its cells, so the largest of them counts.
+/// A game's key log is written for the first of its cells, so the largest cell counts.
 void expect_bats_for_all(const Experiment& experiment, const Cell& first, std::size_t bat_count) {
   std::uint32_t most = first.clients;
   for (const Cell& cell : cells_of(experiment))
@@ -27,9 +27,9 @@ void expect_bats_for_all(const Experiment& experiment, const Cell& first, std::s
       " bats; allowed is at most as many clients, or population = \"per_client\"");
 }
 
-/// Random players never look, so their keys need no game; those who look play it here, on its true
-/// state. Live players who look will play on what they are told, so there is nothing to record.
-/// What names no kind of player is the path of a recorded log.
+/// Random players never look, so their keys need no game; players that look play it here, on its
+/// true state. Live players that look will play by their replicas, so there is nothing to record. A
+/// name of no kind of player is the path of a recorded log.
 std::vector<game::InputEvent> keys_of(const Experiment& experiment, const Cell& cell,
                                       const game::Scene& scene) {
   const double until_s = experiment.end_s();
@@ -47,7 +47,7 @@ std::vector<game::InputEvent> keys_of(const Experiment& experiment, const Cell& 
   return playing.keys();
 }
 
-/// The game of `keys` by `instant_s`, played as fast as it goes.
+/// The state of the game of `keys` at `instant_s`.
 std::vector<std::uint8_t> state_at(double instant_s, const game::Scene& scene,
                                    const std::vector<game::InputEvent>& keys) {
   game::Game game(scene);

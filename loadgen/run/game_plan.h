@@ -1,4 +1,5 @@
-// The key log of a cell's game: what the experiment's players press, for all bats of its scene.
+// Writes the key log of a cell's game: the keys of the experiment's players, for all bats of its
+// scene.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +9,13 @@
 
 namespace rink::loadgen {
 
-/// What the server of `cell` is told to play.
+/// The scene that the server of `cell` is started with.
 game::SceneChoice choice_of(const Experiment& experiment, const Cell& cell);
 
 /// The scene as the server of `cell` makes it from its arguments. Throws game::SceneError.
 game::Scene scene_of(const Experiment& experiment, const Cell& cell);
 
-/// The saved game from which the runs of `key_log`'s game begin, beside it.
+/// The file of the saved game from which the runs of `key_log`'s game begin, beside the log.
 std::filesystem::path state_file_of(const std::filesystem::path& key_log);
 
 /// Writes the keys of `cell`'s game, all from the scene's beginning, to `file`,

@@ -1,4 +1,4 @@
-// What a machine says about itself in its files, as far as figures depend on it.
+// Facts about the machine, from its files, on which figures depend.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +7,11 @@
 
 namespace rink::loadgen {
 
-/// Each reads files below `root`, which is / but in tests; what they do not say is "unknown".
+/// Each reads files below `root`, which is / but in tests; missing facts are "unknown".
 
-/// How the first processor chooses its frequency, such as "performance"; "none" where nothing does.
+/// The first processor's frequency governor, such as "performance"; "none" if there is none.
 std::string governor(const std::filesystem::path& root);
-/// "none seen", or what hosts the machine: "virtual machine", "container", both, with the vendor's
-/// name for it.
+/// "none seen", or the kind of host: "virtual machine", "container", both, with the vendor's name.
 std::string virtualisation(const std::filesystem::path& root);
 /// The mean number of runnable processes over the last 1, 5 and 15 minutes.
 std::string load(const std::filesystem::path& root);

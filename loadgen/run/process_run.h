@@ -1,4 +1,4 @@
-// What all runs have in common that wait for processes: a clock, limits, and numbers as arguments.
+// Helpers of runs that wait for processes: a clock, limits, and numbers as arguments.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ inline Clock::time_point after(double seconds) {
          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-/// Reads back as the same number.
+/// A text that reads back as the same number.
 inline std::string decimal(double number) {
   std::ostringstream text;
   text.precision(17);

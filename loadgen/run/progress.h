@@ -1,4 +1,4 @@
-// Tells the user which cell runs and how long the rest will take.
+// Shows the user which cell runs and how long the rest will take.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@ class Progress {
   /// `expected_cell_s` [s] is the guess until cells have finished; after that their mean is.
   Progress(std::ostream& out, bool is_terminal, std::size_t cell_count, double expected_cell_s);
 
-  /// From now on the time left follows from what each cell was expected to take, of which `all_s`
-  /// [s] are still to come, and how much longer those that have finished took.
+  /// Estimates the time left from now on by each cell's expected time, of which `all_s` [s] are
+  /// still to come, corrected by the ratio for finished cells.
   void expect(std::function<double(const Cell&)> cell_s, double all_s) {
     expected_of_ = std::move(cell_s), expected_s_ = all_s;
   }
 
   /// Cell number `finished_count() + 1` starts.
   void starts(const Cell& cell);
-  /// It ended after `took_s` [s]. An invalid one is always named with its reason.
+  /// The cell ended after `took_s` [s]. An invalid one is always named with its reason.
   void finished(const RunRecord& record, double took_s);
   /// Clears the line that is overwritten in place.
   void clear();

@@ -7,7 +7,7 @@
 namespace rink::loadgen {
 namespace {
 
-/// Why runs of `found` do not belong beside those of `own`; empty if they do.
+/// The reason why runs of `found` cannot be combined with those of `own`; empty if they can.
 std::string mismatch_of(const Journal& found, const JournalHead& own) {
   if (!found.head) return "its first line does not say which experiment and program they come from";
   if (found.head->experiment != own.experiment)

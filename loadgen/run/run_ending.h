@@ -1,11 +1,11 @@
-// How a run ends that has no result.
+// The endings of a run without a result.
 #pragma once
 
 #include <string>
 
 namespace rink::loadgen {
 
-/// The user wants an end.
+/// The user interrupted the run.
 struct Interrupted {};
 /// A run that cannot go on; `why` becomes the record's reason.
 struct Failure {

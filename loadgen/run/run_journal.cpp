@@ -1,4 +1,4 @@
-// Line by line; only the last one may be cut off.
+// Reads the journal line by line; only the last one may be cut off.
 #include "loadgen/run/run_journal.h"
 
 #include <cerrno>

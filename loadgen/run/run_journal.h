@@ -1,4 +1,4 @@
-// Reads runs.jsonl back: what a campaign that was cut short had already measured.
+// Reads runs.jsonl back: the runs that an interrupted campaign had finished.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace rink::loadgen {
 /// recorded keys (FNV-1a).
 std::string identity_of(const Experiment& experiment);
 
-/// The first line of a journal: under which conditions all its runs were made.
+/// The first line of a journal: the conditions of all its runs.
 struct JournalHead {
   std::string experiment;  ///< see `identity_of`
   std::string commit;      ///< of the program, with a mark if it had been changed since
@@ -25,7 +25,7 @@ struct JournalHead {
 
 nlohmann::ordered_json to_json(const JournalHead& head);
 
-/// A journal as found.
+/// The content of a journal.
 struct Journal {
   std::optional<JournalHead> head;  ///< absent in files that start with a run
   std::vector<RunRecord> runs;
@@ -34,7 +34,7 @@ struct Journal {
 };
 
 /// Reads the journal at `file`. Throws OutputError, which names the line, if it cannot be read or a
-/// whole line is not what a journal holds.
+/// whole line is malformed.
 Journal read_journal(const std::filesystem::path& file);
 
 }  // namespace rink::loadgen

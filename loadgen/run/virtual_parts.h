@@ -1,4 +1,4 @@
-// What all runs in virtual time have in common: instants, the network of an experiment, and files.
+// Helpers of runs in virtual time: instants, the network of an experiment, and files.
 #pragma once
 
 #include <cmath>
@@ -20,11 +20,11 @@
 namespace rink::loadgen {
 
 /// The record of `cell`, which `run` fills; nothing if it throws Interrupted. Throws
-/// ExperimentError for what of the scene or the key log cannot be read.
+/// ExperimentError if the scene or the key log cannot be read.
 std::optional<RunRecord> recorded(const Experiment& experiment, const Cell& cell,
                                   const std::function<void(RunRecord&)>& run);
 
-/// What a server listens at in the network of a run.
+/// The server's name in the network of a run.
 inline constexpr const char* server_name = "server";
 
 inline constexpr std::int64_t second_ns = 1'000'000'000;
@@ -34,11 +34,11 @@ inline std::int64_t nanoseconds(double seconds) { return std::llround(1e9 * seco
 /// nanoseconds.
 std::int64_t not_before(double instant_s);
 
-/// Each replication meets fates of its own. Cuts count from the start, which is not known yet, so
-/// there are none.
+/// The network's conditions, with random numbers of the replication's own. Cuts count from the
+/// start, which is not known yet, so there are none.
 rti::NetworkConditions network_conditions(const Experiment& experiment, const Cell& cell);
-/// What one packet may take, once or twice lost, the wait for others apart. Nobody speaks meanwhile
-/// at the end, so four of these must stay below the RTI's patience.
+/// The time that one packet may take if it is lost once or twice, without waiting for others. At
+/// the end all are silent meanwhile, so four of these must stay below the RTI's timeout.
 std::int64_t settling_ns(const Experiment& experiment);
 
 /// Throws OutputError.

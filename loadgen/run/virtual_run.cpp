@@ -1,5 +1,4 @@
-// A discrete-event loop: whatever is due next, an arrival, a key or a tick, is when the clock moves
-// to.
+// A discrete-event loop: the clock moves to the next due event, an arrival, a key or a tick.
 #include "loadgen/run/virtual_run.h"
 
 #include <algorithm>
@@ -34,7 +33,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What is played. `state_file` is read only where the game does not begin with the scene.
+/// The game to play. `state_file` is read only if the game does not begin with the scene.
 struct PlannedGame {
   const game::Scene& scene;
   const std::vector<game::InputEvent>& keys;
@@ -49,10 +48,10 @@ class VirtualRun {
   void run();
   Json server_report() const;
   Json bots_report() const;
-  /// What server and bots saw; only if the run is to be judged by truth.
+  /// The traces of server and bots; only if the run is compared with truth.
   game::ServerTrace server_trace() const;
   BotsTrace bots_trace() const { return crowd_.trace().value(); }
-  /// What the connections carried from first to last; after `end`.
+  /// The traffic of all connections from first to last; call it after `end`.
   void end(Json& server_report);
 
  private:
@@ -76,7 +75,7 @@ class VirtualRun {
   const Experiment& experiment_;
   const Cell& cell_;
   std::string state_file_;           ///< empty: the game begins with the scene
-  std::vector<std::uint8_t> state_;  ///< what is in it
+  std::vector<std::uint8_t> state_;  ///< its content
   std::optional<game::Game> begun_;
   rti::NetworkModel model_;
   rti::VirtualNetwork network_;
@@ -161,7 +160,7 @@ std::int64_t VirtualRun::next_instant_ns() const {
   return next_ns;
 }
 
-/// Lets everything happen that happens up to `until_ns`, itself included.
+/// Handles all events up to and at `until_ns`.
 void VirtualRun::advance_until(std::int64_t until_ns) {
   for (std::int64_t next_ns = next_instant_ns(); next_ns <= until_ns; next_ns = next_instant_ns()) {
     network_.advance_to(next_ns);
@@ -171,8 +170,8 @@ void VirtualRun::advance_until(std::int64_t until_ns) {
   network_.advance_to(until_ns);
 }
 
-/// Publishes every tick's time, as the server does before the start, until `is_met`. Every step of
-/// the way takes a delay or a tick, and there are few.
+/// Publishes every tick's time, as the server does before the start, until `is_met`. Every step
+/// takes a delay or a tick, and there are few.
 template <class Condition>
 void VirtualRun::await(const std::string& what, Condition is_met) {
   constexpr std::int64_t steps_max = 64;

@@ -1,5 +1,5 @@
 // Runs one cell in this process under a virtual clock: server, network and bots of a real run, and
-// time that passes only when it is told to.
+// time that only this loop advances.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Axes of a plot: from values to coordinates, and where the ticks stand.
+// Axes of a plot: from values to coordinates, and the places of ticks.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@ struct Axis {
   bool is_logarithmic = false;
 
   double at(double value) const;
-  /// The same, but never beyond the ends; what a logarithmic axis cannot show stands at its low
+  /// The coordinate, clamped to the ends; a value that a logarithmic axis cannot show gets its low
   /// end.
   double clamped_at(double value) const;
 };
 
 struct Ticks {
-  std::vector<std::pair<double, std::string>> major;  ///< where and what is written there
+  std::vector<std::pair<double, std::string>> major;  ///< places and labels
   std::vector<double> minor;
 };
 

@@ -1,4 +1,4 @@
-// Draws the bars from the bottom up, then the mark that they are held against.
+// Draws the bars from the bottom up, then the mark to compare them with.
 #include "loadgen/report/plots/bars.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Box plots over replications, lying, so that their names can be read.
+// Horizontal box plots over replications, so that their names can be read.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace rink::loadgen {
 
-/// What a box plot draws of a sample (Tukey, Exploratory Data Analysis, 1977, 2): hinges are the
-/// medians of the halves, each holding the middle value of an odd sample; whiskers end at the
-/// outermost values within 1.5 hinge spreads of the hinges; what lies beyond is outside.
+/// The figures of a box plot (Tukey, Exploratory Data Analysis, 1977, 2): hinges are the medians of
+/// the halves, each including the middle value of an odd sample; whiskers end at the outermost
+/// values within 1.5 hinge spreads of the hinges; values beyond are outside.
 struct BoxFigures {
   double low_whisker = 0.0, low_hinge = 0.0, median = 0.0, high_hinge = 0.0, high_whisker = 0.0;
   std::vector<double> outside;

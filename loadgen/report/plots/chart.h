@@ -1,4 +1,4 @@
-// What a chart says, as plain data: its axes, and lines, bars or boxes over them.
+// A chart as plain data: its axes, and lines, bars or boxes over them.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ namespace rink::loadgen {
 struct PlotPoint {
   double x = 0.0, y = 0.0;
   std::optional<std::pair<double, double>> y_interval, x_interval;  ///< error bars
-  std::string title;  ///< what a pointer held over the mark reads
+  std::string title;                                                ///< the tooltip of the mark
   std::string
-      label{};  ///< written beside the mark where there is room; its title should say the same
+      label{};  ///< written beside the mark where there is room; its title should contain it
 };
 
 struct PlotLine {
@@ -25,8 +25,8 @@ struct PlotLine {
   std::size_t mark_stride = 1;  ///< every so many points have a mark, at least 1
 };
 
-/// A faint curve to read the data against, named where it begins or, where another name stands
-/// already, farther along.
+/// A faint reference curve, named where it begins or, if another name is there already, farther
+/// along.
 struct ReferenceCurve {
   std::string name;
   std::vector<std::pair<double, double>> points;
@@ -38,7 +38,7 @@ struct Bar {
   std::string flag;  ///< written above the bar, e.g. that it was too much
 };
 
-/// A value that bars are held against.
+/// A value to compare bars with.
 struct BarMark {
   double value = 0.0;
   std::string name;
@@ -75,7 +75,7 @@ struct ChartAxis {
 struct Chart {
   std::string title{};
   ChartAxis x{}, y{};
-  std::string alternative{};  ///< what the picture shows, for those who cannot see it
+  std::string alternative{};  ///< a description for readers who cannot see the picture
   double width = 480.0, frame_height = 250.0;
   bool has_legend = true;
 

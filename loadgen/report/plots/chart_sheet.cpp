@@ -1,4 +1,4 @@
-// The frame stands below the legend, however many rows that has.
+// Places the frame below the legend, however many rows that has.
 #include "loadgen/report/plots/chart_sheet.h"
 
 #include <cassert>

@@ -1,4 +1,4 @@
-// What all charts are drawn on: title, legend, frame and axes.
+// The sheet of every chart: title, legend, frame and axes.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ class ChartSheet {
   void draw(const std::string& svg) { svg_ += svg; }
   void draw_x_axis(bool has_grid = false);
   void draw_y_axis();
-  /// The whole picture, with so much room `below` the axis x and its title.
+  /// The whole picture, with room `below` the axis x and its title.
   std::string finished(double below = 0.0) const;
 
  private:

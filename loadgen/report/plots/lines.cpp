@@ -1,5 +1,5 @@
 // Draws reference curves, error bars, lines, marks and their labels, in this order, so that data
-// cover what is said about them.
+// cover their labels.
 #include "loadgen/report/plots/lines.h"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ std::string data_of(const Chart& chart, const Axis& x, const Axis& y) {
   return lines + marks;
 }
 
-/// What text or mark takes.
+/// The box that a text or mark takes.
 struct Box {
   double left, top, right, bottom;
   bool overlaps(const Box& other) const {
@@ -109,7 +109,7 @@ Box note_box(double left, double middle, const std::string& words) {
   return {left, middle - 6.0, left + 0.85 * text_width(words), middle + 6.0};
 }
 
-/// Whether `box` lies within the frame and on nothing that is `taken`; if so it is taken too.
+/// True if `box` lies within the frame and overlaps no `taken` box; it is taken then, too.
 bool takes_place(const Box& box, const Axis& x, const Axis& y, std::vector<Box>& taken) {
   const bool is_inside =
       x.from <= box.left && box.right <= x.to && y.to <= box.top && box.bottom <= y.from;
@@ -120,8 +120,8 @@ bool takes_place(const Box& box, const Axis& x, const Axis& y, std::vector<Box>&
   return true;
 }
 
-/// Aslant of its mark, where no error bar runs, or else beside it, wherever nothing stands yet;
-/// left out if all places are taken.
+/// Puts each label diagonally off its mark, where no error bar runs, or else beside it, at the
+/// first free place; leaves it out if all are taken.
 std::string labels_of(const Chart& chart, const Axis& x, const Axis& y, std::vector<Box> taken) {
   const auto for_each_shown = [&](const auto& visit) {
     for (const PlotLine& line : chart.lines)

@@ -1,4 +1,4 @@
-// A plot as a file of its own, so that a paper can include it.
+// Writes a plot as a file of its own, so that a paper can include it.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ struct Picture {
   std::string name, svg;
 };
 
-/// Names that are there already get -2, -3 and so on.
+/// Repeated names get -2, -3 and so on.
 std::vector<Picture> numbered(std::vector<Picture> pictures);
 
-/// An SVG document that stands alone, on white: width and height in its own units and a little more
-/// on each side than the page leaves, and all styles with their colours in place, for many readers
-/// of SVG know no CSS variables.
+/// A self-contained SVG document on white: width and height in its own units, a little more room on
+/// each side than on the page, and all styles with their colours in place, since many readers of
+/// SVG do not support CSS variables.
 std::string to_file(const Picture& picture);
 
 }  // namespace rink::loadgen

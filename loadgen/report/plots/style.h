@@ -10,7 +10,7 @@ namespace rink::loadgen {
 inline constexpr const char* light_colours =
     R"css(--ink:#1b1f24;--faint:#59636e;--paper:#fff;--card:#f6f8fa;--grid:#dfe3e8;--warn:#b3261e;--link:#0b5cad;--s0:#0072b2;--s1:#c24e00;--s2:#007a58;--s3:#b3498a;--s4:#8a5d00;--s5:#5b6470;--s6:#6a51a3;--s7:#1b1f24;--p0:#8a94a0;--p1:#e69f00;--p2:#56b4e9;--p3:#b3498a)css";
 
-/// What the page has above its pictures' rules: colours in the dark, texts and boxes.
+/// The page's rules before those of pictures: colours in the dark, texts and boxes.
 inline constexpr const char* page_style = R"css(
 @media screen and (prefers-color-scheme:dark){:root{--ink:#e6e9ec;--faint:#9aa4af;--paper:#14171a;--card:#1c2126;--grid:#30363d;--warn:#ff8a80;
 --link:#7fbcf5;--s0:#56b4e9;--s1:#ff8a3d;--s2:#2fc79a;--s3:#e08cc0;--s4:#f0c040;--s5:#b4bcc6;--s6:#b9a3ea;--s7:#f4f4f4;--p0:#7d8793;--p1:#e69f00;--p2:#56b4e9;--p3:#e08cc0}}
@@ -25,7 +25,8 @@ figure{margin:0;padding:.8rem;background:var(--card);border-radius:.5rem;break-i
 svg{width:100%;max-width:44rem;height:auto;display:block;overflow:visible}figcaption{font-size:.85rem;color:var(--faint);margin-top:.3rem}
 )css";
 
-/// Whatever pictures name, on the page and as files of their own: each class has a rule here.
+/// The rules of pictures, on the page and as files of their own: each class that they use has one
+/// here.
 inline constexpr const char* picture_style = R"css(
 text{fill:var(--ink);font:12px system-ui,sans-serif}.title{font-weight:600;font-size:14px}.axis,.note{fill:var(--faint)}.note{font-size:10.5px}
 .middle{text-anchor:middle}.end{text-anchor:end}.tick,.legend{font-variant-numeric:tabular-nums}
@@ -44,7 +45,7 @@ text{fill:var(--ink);font:12px system-ui,sans-serif}.title{font-weight:600;font-
 .bar{stroke:none}.p0{fill:var(--p0)}.p1{fill:var(--p1)}.p2{fill:var(--p2)}.p3{fill:var(--p3)}
 )css";
 
-/// And what it has below: tables, and how it prints.
+/// The page's rules after those of pictures: tables and print.
 inline constexpr const char* page_style_below = R"css(
 .data{font-size:.85rem;color:var(--faint);margin-top:.4rem}summary{cursor:pointer}
 .scroll{overflow-x:auto}table{border-collapse:collapse;font-size:.8rem;font-variant-numeric:tabular-nums}
@@ -59,7 +60,7 @@ pre{background:var(--card);padding:.8rem;border-radius:.5rem;overflow-x:auto;fon
 .scroll{overflow:visible}table{font-size:8px}.wide{font-size:6px}th,td{padding:.12rem .22rem}pre{white-space:pre-wrap}.mark-line,.line,rect,.mark,.dot{print-color-adjust:exact}}
 )css";
 
-/// All of it.
+/// The whole style sheet.
 inline std::string report_style() {
   return std::string("\n:root{color-scheme:light dark;") + light_colours + "}" + page_style +
          picture_style + page_style_below;

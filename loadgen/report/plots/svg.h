@@ -14,8 +14,8 @@ namespace rink::loadgen {
 
 inline constexpr std::size_t colour_count = 8;
 
-/// How a line is told from others: the page's colour classes s0 to s7, dash classes d0 to d3, and
-/// one of six shapes, so that colour is never alone.
+/// A line's distinguishing style: the page's colour classes s0 to s7, dash classes d0 to d3, and
+/// one of six shapes, so that colour is never the only difference.
 struct Style {
   std::size_t colour = 0, dash = 0, shape = 0;
 };
@@ -31,7 +31,7 @@ std::string attributes(std::initializer_list<std::pair<const char*, double>> pai
 std::string svg_text(double x, double y, const std::string& classes, const std::string& content);
 std::string svg_line(double x1, double y1, double x2, double y2, const std::string& classes);
 std::string svg_path(const std::string& path, const std::string& classes);
-/// A marker centred at (x, y); `title` is what a pointer held over it reads.
+/// A marker centred at (x, y); `title` is its tooltip.
 std::string svg_marker(const Style& style, double x, double y, const std::string& title = "");
 
 /// Width [user units] that `text` takes at the page's 12 px, on the safe side.
@@ -41,12 +41,12 @@ double text_width(const std::string& text);
 /// of schemes differ at their ends as often as at their beginnings.
 std::string fitted(const std::string& text, double width);
 
-/// The first lines of a picture: its size, its title, and `alternative` for those who cannot see
+/// The first lines of a picture: its size, its title, and `alternative` for readers who cannot see
 /// it.
 std::string svg_opening(double width, double height, const std::string& title,
                         const std::string& alternative);
 
-/// A line's name beside a sample of it; bars have a colour class alone.
+/// A line's name beside a sample of it; bars have only a colour class.
 struct LegendEntry {
   std::string name;
   Style style;

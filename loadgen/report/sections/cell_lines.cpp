@@ -18,7 +18,7 @@ Cell without_clients(Cell cell) {
   return cell;
 }
 
-/// A number that lines may differ in beside scheme and policy, and how a name says it.
+/// A number that lines may differ in beside scheme and policy, and its text in names.
 struct Setting {
   std::function<double(const Cell&)> of;
   const char *before, *after;
@@ -81,7 +81,7 @@ void name_and_style(std::vector<CellLine>& lines) {
   }
   if (schemes.size() > 1) return;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    lines[i].style.colour = i;  // of one scheme, colours tell what differs
+    lines[i].style.colour = i;  // of one scheme, colours show the differences
 }
 
 MeanInterval mean_interval(const std::vector<double>& values, Scale scale) {

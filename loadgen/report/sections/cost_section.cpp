@@ -1,4 +1,4 @@
-// What a tick costs the server by part, held against the time there is.
+// The cost of a server's tick by part, beside the time available.
 #include <algorithm>
 
 #include "loadgen/report/plots/chart_svg.h"

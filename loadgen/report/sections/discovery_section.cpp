@@ -1,4 +1,4 @@
-// Distribution functions as stairs: how high a curve ends is the part that was ever discovered.
+// Draws distribution functions as stairs: a curve ends at the fraction that was ever discovered.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -27,7 +27,7 @@ constexpr Discovered discovered_kinds[] = {
      "state of it, of all such contacts. ",
      "no player touched a body that it did not know of", &Discoveries::missed_contact}};
 
-/// The delays of one cell that are drawn.
+/// The drawn delays of one cell.
 struct DrawnDelays {
   CellLine line;
   CellGroup group;
@@ -61,7 +61,8 @@ std::vector<DrawnDelays> drawn_of(const Findings& findings, const std::string& p
   return all;
 }
 
-/// From `low` [ms], which a logarithmic axis needs, to `high`, where it says how many never were.
+/// From `low` [ms], which a logarithmic axis needs, to `high`, where the curve shows how many were
+/// never discovered.
 std::vector<PlotPoint> stairs(const DrawnDelays& drawn, double low, double high) {
   std::vector<PlotPoint> points{{low, 0.0, {}, {}, ""}};
   for (const auto& [delay_ms, fraction] : drawn.points) {

@@ -1,4 +1,4 @@
-// Rivals at equal displayed error and recall: who sends how much more, and the curves behind it.
+// Rivals at equal displayed error and recall: how much more each sends, and the curves behind it.
 #include <algorithm>
 #include <map>
 #include <set>

@@ -1,4 +1,4 @@
-// Ratios paired by seed, and who is compared with whom.
+// Ratios paired by seed, and the choice of what is compared.
 #include "loadgen/report/sections/gains.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace rink::loadgen {
 namespace {
 
-/// Whether the two play the same game for the same crowd.
+/// True if the two play the same game for the same crowd.
 bool is_comparable(const Cell& a, const Cell& b) {
   return a.mode == b.mode && a.part == b.part && a.clients == b.clients && a.pucks == b.pucks &&
          a.bats == b.bats && a.server_cores == b.server_cores;

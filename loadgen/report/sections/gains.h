@@ -1,4 +1,5 @@
-// What a filter and an update policy save, alone and together, each against the named baseline.
+// The savings by a filter and an update policy, alone and together, each against the named
+// baseline.
 #pragma once
 
 #include <optional>
@@ -10,8 +11,8 @@
 
 namespace rink::loadgen {
 
-/// How many times `figure` of `baseline` that of `own` is, paired by seed since both played the
-/// same game. Nothing if no seed has both, or one of them is not above 0.
+/// The ratio of `figure` of `baseline` to that of `own`, paired by seed since both played the same
+/// game. Nothing if no seed has both, or one of them is not above 0.
 std::optional<Ratio> paired_ratio(const CellGroup& baseline, const CellGroup& own, FigureOf figure);
 
 /// One cell beside the baseline of its client count.
@@ -29,7 +30,7 @@ struct Gain {
 std::vector<Gain> gains_of(const Findings& findings);
 
 /// The largest gain at the largest client count in a sentence with its error; empty if there is no
-/// gain to speak of.
+/// notable gain.
 std::string headline_of(const Findings& findings);
 
 }  // namespace rink::loadgen

@@ -1,5 +1,5 @@
-// What is drawn of the largest number of clients alone: bytes by what they are about, how far off
-// what is displayed is, and recall by delay.
+// Draws for the largest number of clients alone: bytes by purpose, the displayed error, and recall
+// by delay.
 #include <algorithm>
 #include <cmath>
 #include <string>

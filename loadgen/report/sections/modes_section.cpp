@@ -1,4 +1,4 @@
-// With and without a server: who carries what, and for what.
+// The load of nodes with and without a server, by purpose.
 #include <algorithm>
 
 #include "game/model/listed.h"

@@ -1,5 +1,4 @@
-// Every run with its figures, those that do not count with their reasons, and how the load
-// generator fared.
+// Every run with its figures, invalid ones with their reasons, and the state of the load generator.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// A row per search: what held, what failed and why, and what the edge costs.
+// A row per search: the clients that held and that failed, why, and the cost at the edge.
 #include "loadgen/report/sections/saturation_section.h"
 
 #include "loadgen/report/plots/text.h"

@@ -1,4 +1,4 @@
-// What all sections share: figures, absences, and the columns that name a cell.
+// The common parts of sections: figures, absences, and the columns that name a cell.
 #include "loadgen/report/sections/section_content.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What stages give for their numbers: expressions that differ in numbers alone are a curve, bytes
-// against the error that players see and against what they hold.
+// The effect of stages' numbers: expressions that differ only in numbers form a curve, bytes
+// against displayed error and against recall.
 #include <algorithm>
 #include <cctype>
 
@@ -35,7 +35,7 @@ Shape shape_of(const std::string& expression) {
       at = end;
       continue;
     }
-    // A key that is given again, as tiers have it, is one of the same list.
+    // A repeated key, as tiers have it, continues one list.
     const std::string name = expression.substr(at, end - at);
     const std::size_t last = expression.find_first_of(" )", end);
     shape.numbers +=
@@ -49,7 +49,7 @@ Shape shape_of(const std::string& expression) {
 }
 
 struct Curve {
-  Cell cell;  ///< with the form in place of its scheme
+  Cell cell;  ///< its scheme is replaced by the form
   CellLine line;
   std::vector<std::string> labels;
 };

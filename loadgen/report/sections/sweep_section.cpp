@@ -1,4 +1,4 @@
-// What each swept parameter does: precision against recall and bytes against both, a curve per
+// The effect of each swept parameter: precision against recall and bytes against both, a curve per
 // scheme along the parameter's values.
 #include <algorithm>
 #include <functional>
@@ -120,7 +120,7 @@ PlotTable table_of(const std::vector<CellLine>& curves, const std::string& name,
   return table;
 }
 
-/// The same for a reader.
+/// The values as a table on the page.
 std::string html_of(const std::vector<CellLine>& curves, const ParameterKind& kind) {
   std::string html = "<div class=\"scroll\"><table><thead><tr><th class=\"text\">filter</th><th>" +
                      escaped(kind.axis) +

@@ -10,15 +10,15 @@
 namespace rink::loadgen {
 namespace {
 
-/// Lines over numbers of clients, and what to say of them.
+/// Lines over numbers of clients, and their description.
 struct Traffic {
   std::vector<RunRecord> runs{};  ///< of parts put together; else empty
   std::vector<CellLine> lines;
   std::string words{};
 };
 
-/// What other sections draw, or if that is of a single number of clients: what ran in virtual time
-/// without delay for several, whatever parts those were of.
+/// The lines that other sections draw or, if those have a single number of clients, the runs in
+/// virtual time without delay for several numbers, from all parts.
 Traffic traffic_of(const Findings& findings) {
   Traffic traffic{.lines = plotted_lines(findings)};
   if (client_counts(traffic.lines).size() > 1 || findings.experiment.parts.empty()) return traffic;
@@ -38,7 +38,7 @@ Traffic traffic_of(const Findings& findings) {
   return traffic;
 }
 
-/// Who sends most and least at the largest client count, in a sentence.
+/// A sentence about which schemes send most and least at the largest client count.
 std::string extremes(const std::vector<CellLine>& lines, FigureOf figure) {
   const auto counts = client_counts(lines);
   if (counts.empty()) return "";

@@ -1,4 +1,4 @@
-// One loop for all bots: what arrives is applied at once, what is due is pressed at once.
+// One loop for all bots: arriving updates are applied and due keys are pressed at once.
 #include "loadgen/run/bots/bot_crowd.h"
 
 #include <algorithm>
@@ -80,7 +80,7 @@ void BotCrowd::on_close(rti::ConnectionId connection, rti::CloseReason reason,
   crowd_.lose(crowd_.of(connection), detail.empty() ? to_string(reason) : detail, status);
 }
 
-/// What is read at once may hold several ticks' news, and datagrams bring those of one tick between
+/// One read may bring the updates of several ticks, and datagrams bring those of one tick between
 /// those of others: each tick counts once.
 void BotCrowd::note_news(Bot& bot, const rti::Stamp& stamp) {
   if (bot.client.state() != game::Client::State::playing || stamp.tag == 0) return;
@@ -100,7 +100,7 @@ void BotCrowd::after_receiving(Bot& bot) {
                       has_started() ? std::optional(clock_.simulated_s(now_s_())) : std::nullopt);
   sample_when_due();
   take_turn(bot);
-  act_when_due();  // between two bots' batches too: with many bots a tick's batches take longer
+  act_when_due();  // between two bots' batches too: with many bots, handling a tick takes longer
                    // than a key may be late
   const game::EntityReplica* own = bot.client.bat();
   if (own != nullptr && !clock_.is_synchronous() && !(own->trajectory && has_started()))
@@ -138,8 +138,8 @@ void BotCrowd::run_once() {
   measure_span();
 }
 
-/// A bat on a trajectory moves without being heard of, so the interest follows it by the clock; one
-/// that is told positions is followed when they come.
+/// A bat on a trajectory moves between updates, so the interest follows it by the clock; a bat
+/// updated by positions is followed when they come.
 void BotCrowd::follow_bats() {
   const double now = now_s_();
   if (clock_.is_synchronous() || now < bats_followed_s_ + follow_period_s) return;
@@ -167,7 +167,7 @@ std::optional<double> BotCrowd::next_due_s() const {
   return next_s;
 }
 
-/// Heartbeats, four times a second: often enough for them, and nothing for the rest.
+/// Advances clocks four times a second, which suffices for heartbeats and costs little.
 void BotCrowd::advance_clocks() {
   const double now = now_s_();
   if (now - clocks_advanced_s_ < 0.25) return;
@@ -183,8 +183,8 @@ void BotCrowd::start_clock(double origin_s, double simulated_s) {
   decisions_.begin(simulated_s);
 }
 
-/// The server waits for this bot: it presses what its plan or its wits say by the newest tick,
-/// looks about, and hands the turn back.
+/// The server waits for this bot: it presses the keys that are due by the newest tick, by plan or
+/// decision, updates its interest, and ends its turn.
 void BotCrowd::take_turn(Bot& bot) {
   game::Client& client = bot.client;
   if (!bot.is_playing() || !client.turns().has_turn()) return;
@@ -213,7 +213,7 @@ void BotCrowd::press_due_keys() {
   }
 }
 
-/// All changes of one instant go out in one write.
+/// Sends all changes of one instant in one write.
 void BotCrowd::press(Bot& bot, std::span<const KeyChange> changes, double instant) {
   const bool is_counted = meter_.measurements().is_counted(instant);
   meter_.measurements().keys_due += is_counted ? changes.size() : 0u;
@@ -227,8 +227,8 @@ void BotCrowd::press(Bot& bot, std::span<const KeyChange> changes, double instan
 }
 
 void BotCrowd::decide_when_due() {
-  constexpr int most = 64;  // at once: who cannot keep the schedule must go on receiving, or it
-                            // would lose its connections besides
+  constexpr int most = 64;  // at once: bots behind their schedule must go on receiving, or they
+                            // would lose their connections too
   if (decisions_.is_empty()) return;
   for (int made = 0; made < most; ++made) {
     const double instant = decisions_.next_s();

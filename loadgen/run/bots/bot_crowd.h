@@ -23,21 +23,21 @@ namespace rink::loadgen {
 
 struct BotCrowdSettings {
   std::string federation = "rink";
-  std::uint32_t first = 0, count = 0;  ///< so many bots play bats first, first + 1, ...
+  std::uint32_t first = 0, count = 0;  ///< bots for bats first, first + 1, ...
   std::vector<std::string> names{};    ///< by bat, of those that bear others than the bats' own
   double view_fraction = 0.05, view_area = 0.0, view_margin = 0.0;  ///< see game::ClientSettings
   bool declares_regions = true;                                     ///< see game::ClientSettings
   bool extrapolates = true;                                         ///< see game::ClientSettings
-  double start_s = 0.0;  ///< simulated time at which the game begins: what the plan says up to then
-                         ///< has been pressed
+  double start_s = 0.0;  ///< simulated time at which the game begins: earlier keys of the plan have
+                         ///< been pressed
   double warm_up_s = 0.0;    ///< simulated time from which on things are counted
   double duration_s = 10.0;  ///< simulated time at which the bots stop
   LivePlayers players{};     ///< unless they are random, they decide for themselves and the plan is
                              ///< not looked at
 };
 
-/// Drives the bots: connects them, presses their keys when due, and measures. Reads no clock: it is
-/// handed `now_s` [s], the clock that the server's stamps use.
+/// Drives the bots: connects them, presses their keys when due, and measures. Reads no clock
+/// itself: `now_s` [s] returns the time that the server's stamps use.
 class BotCrowd : public rti::TransportListener {
  public:
   using Clock = std::function<double()>;
@@ -47,9 +47,9 @@ class BotCrowd : public rti::TransportListener {
   BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrowdSettings& settings,
            const std::vector<game::InputEvent>& plan, Clock now_s);
 
-  /// Watches some of the bots, drawn from `seed`; to be called before `connect`.
+  /// Watches some of the bots, drawn from `seed`; call it before `connect`.
   void collect_trace(std::uint64_t seed);
-  /// What they heard and believed, if it was asked for.
+  /// The trace of watched bots, if `collect_trace` was called.
   std::optional<BotsTrace> trace() const;
   std::size_t evidence_bytes() const { return recorder_ ? recorder_->memory_bytes() : 0; }
 
@@ -59,7 +59,7 @@ class BotCrowd : public rti::TransportListener {
   /// Waits for the transport, at most until the next key or decision is due, and handles what came;
   /// then presses what is due. Call it until `is_over`.
   void run_once();
-  /// The instant on the clock [s] from which on `run_once` has something to do though nothing came;
+  /// The next instant on the clock [s] at which `run_once` has something to do without an arrival;
   /// nothing if it only waits. Heartbeats, which are not urgent, are left out.
   std::optional<double> next_due_s() const;
 

@@ -1,5 +1,5 @@
-// A replica set with more entities than a sample may hold gives every n-th of them, from a drawn
-// one on.
+// Samples every n-th entity, from a drawn one on, of a replica set with more than a sample may
+// have.
 #include "loadgen/run/bots/bots_recorder.h"
 
 #include <algorithm>
@@ -87,8 +87,8 @@ void BotsRecorder::look_into(std::uint32_t place, double simulated_s) {
       step > 1 ? game::RandomStream(settings_.seed, next_instant_ * 65'536 + place).below(step) : 0;
   const std::size_t first = trace_.replicas.size();
   for (const game::EntityReplica& entity : replica_set.entities()) {
-    // What is left out of a large replica set is not looked up, for bots have little time to sample
-    // in.
+    // Skipped entities of a large replica set are not looked up, since bots have little time to
+    // sample.
     if (entity.in_scope && ++skipped < step) continue;
     const std::uint32_t bytes = bytes_of(received, entity.object.value);
     if (!entity.in_scope && (bytes == 0 || ++skipped < step)) continue;

@@ -1,5 +1,5 @@
-// Watches some of a crowd's bots: notes every change of their scope and, at drawn instants, what
-// they believe; all in memory.
+// Watches some of a crowd's bots: notes every change of their scope and, at drawn instants, their
+// replica sets; all in memory.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ class BotsRecorder {
   BotsRecorder(const game::SamplingSettings& settings, const std::vector<game::Client*>& clients);
 
   bool watches(std::uint32_t bot) const { return bot < place_.size() && place_[bot] != nobody; }
-  /// To be called after each reception of a watched bot; `simulated_s` is the clock's simulated
-  /// instant, or nothing before the start.
+  /// Call it after each reception of a watched bot; `simulated_s` is the clock's simulated instant,
+  /// or nothing before the start.
   void listen(std::uint32_t bot, std::optional<double> simulated_s);
-  /// The next instant at which `sample` wants to be called; infinity if there is none.
+  /// The next instant at which a sample is due; infinity if there is none.
   double next_sample_s() const;
   /// Takes every due sample, of all watched bots as of the same instant.
   void sample(double simulated_s);
@@ -46,13 +46,13 @@ class BotsRecorder {
 
   game::SamplingSettings settings_;
   std::vector<game::Client*> clients_;  ///< of the watched bots
-  std::vector<std::uint32_t> place_;    ///< by bot: its place among the watched, or nobody
+  std::vector<std::uint32_t> place_;    ///< by bot: its place among the watched ones, or `nobody`
   std::vector<double> instants_;
   std::size_t next_instant_ = 0, change_count_ = 0;
   std::vector<std::vector<Received>>
       received_;  ///< by place, within the window before the next instant
   std::vector<std::vector<rti::ObjectHandle>>
-      awaited_;  ///< by place: in scope, but not told yet where; a budget may keep that for later
+      awaited_;  ///< by place: in scope, but without a position yet, which a budget may delay
   std::vector<double> matched_s_;  ///< by place: the newest stamp
   BotsTrace trace_;
 };

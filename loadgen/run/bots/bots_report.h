@@ -1,4 +1,4 @@
-// What a crowd of bots counted, as its report says it.
+// Makes the report of a crowd of bots.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

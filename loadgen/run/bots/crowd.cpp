@@ -1,4 +1,4 @@
-// Sums over bots; who was lost is left out of nothing but of what is still to be said.
+// Connects, sums and ends bots; lost bots count in all sums but send nothing more.
 #include "loadgen/run/bots/crowd.h"
 
 #include <cassert>

@@ -1,5 +1,5 @@
-// The bots of a crowd with their connections: who speaks where, who was lost and why, and what it
-// all carried.
+// The bots of a crowd with their connections: the bot of each connection, lost bots with reasons,
+// and the traffic.
 #pragma once
 
 #include <array>
@@ -43,21 +43,21 @@ class Crowd {
   /// `transport` must outlive it.
   explicit Crowd(rti::Transport& transport) : transport_(transport) {}
 
-  /// Adds a bot, which stays where it is in memory.
+  /// Adds a bot, whose address stays valid.
   Bot& add(std::unique_ptr<Bot> bot);
   void connect(const Connect& connect);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(bots_.size()); }
   Bot& operator[](std::uint32_t number) { return *bots_[number]; }
   Bot& of(rti::ConnectionId connection) { return *bots_[bot_of_connection_[connection]]; }
-  /// Calls `visit(bot)` for all who were not lost.
+  /// Calls `visit(bot)` for all bots that were not lost.
   template <class Visit>
   void for_each_present(Visit visit) {
     for (const std::unique_ptr<Bot>& bot : bots_)
       if (!bot->is_lost) visit(*bot);
   }
 
-  /// Hands the transport what the bot has to say.
+  /// Sends the bot's waiting bytes.
   void send(Bot& bot);
   void lose(Bot& bot, const std::string& why, game::ExitStatus status);
   /// Makes every bot resign, so that the server sees an orderly end.
@@ -65,15 +65,15 @@ class Crowd {
 
   std::uint32_t lost_count() const { return lost_; }
   bool are_all_lost() const { return lost_ == bots_.size(); }
-  /// Why the first bot that was lost or refused was; empty if none was.
+  /// The reason why the first lost or refused bot was; empty if none was.
   const std::string& first_error() const { return first_error_; }
   game::ExitStatus first_status() const { return first_status_; }
 
-  /// Since the start, now.
+  /// The traffic from the start until now.
   CarriedSoFar carried() const { return {traffic(), received_by_bot()}; }
   CrowdTraffic traffic() const;
   std::uint64_t unanswered_keys() const;
-  /// What all clients keep of the world, with their buffers [bytes].
+  /// Memory of all clients' replicas, with their buffers [bytes].
   std::size_t memory_bytes() const;
 
  private:

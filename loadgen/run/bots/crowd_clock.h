@@ -1,4 +1,4 @@
-// Simulated time as a crowd of bots knows it: by the clock since the first tick, or by the server's
+// The simulated time of a crowd of bots: by the clock since the first tick, or by the server's
 // turns.
 #pragma once
 
@@ -14,14 +14,14 @@ class CrowdClock {
   /// The clock showed `origin_s` at simulated time 0.
   void start(double origin_s) { origin_s_ = origin_s; }
   bool has_started() const { return origin_s_.has_value(); }
-  /// A server that waits for turns has come to `simulated_s` [s]: simulated time is that of the
-  /// newest turn from now on, no matter the clock.
+  /// A server that waits for turns has reached `simulated_s` [s]: simulated time follows turns from
+  /// now on, not the clock.
   void take_turn(double simulated_s) {
     is_synchronous_ = true;
     turn_s_ = std::max(turn_s_, simulated_s);
   }
   bool is_synchronous() const { return is_synchronous_; }
-  /// Whether things come due by the clock.
+  /// True if keys and decisions come due by the clock.
   bool runs() const { return has_started() && !is_synchronous_; }
 
   /// The instant on the clock of simulated `simulated_s`; it must have started (asserted).

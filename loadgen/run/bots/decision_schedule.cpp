@@ -1,4 +1,5 @@
-// Phases are the players' own, so that a bot decides when the same player beside the game would.
+// Phases are the players' own, so that a bot decides at the instants at which the same player
+// inside the game would.
 #include "loadgen/run/bots/decision_schedule.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// When each bot of a crowd that decides for itself does so.
+// The instants at which bots decide that choose their own keys.
 #pragma once
 
 #include <cstdint>
@@ -6,23 +6,24 @@
 
 namespace rink::loadgen {
 
-/// Bots take turns, each by its phase within game::decision_period. Decisions have a schedule of
-/// their own, as planned keys have: a bot that is late is late for it.
+/// Bots take turns, each by its phase within game::decision_period. Decisions have a fixed
+/// schedule, as planned keys have, so that a late bot counts as late.
 class DecisionSchedule {
  public:
-  /// Nobody decides.
+  /// No bot decides.
   DecisionSchedule() = default;
-  /// `count` bots, who play bats `first`, first + 1, ...
+  /// `count` bots, which play bats `first`, first + 1, ...
   DecisionSchedule(std::uint32_t first, std::uint32_t count);
 
   bool is_empty() const { return order_.empty(); }
-  /// Who joins a game that runs already, at `simulated_s` [s], decides from then on.
+  /// A crowd that joins a running game at `simulated_s` [s] decides from then on.
   void begin(double simulated_s);
-  /// The simulated instant of the next decision of all [s]; not if it is empty (asserted).
+  /// The simulated instant of the next decision of all bots [s]; the schedule must not be empty
+  /// (asserted).
   double next_s() const;
-  /// Whose that is; the next one comes after it.
+  /// Takes that decision and returns its bot.
   std::uint32_t take();
-  /// Of a crowd that takes the server's turns: true if `bot` is to decide by `instant` [s], at most
+  /// For a crowd in the server's turns: true if `bot` has a decision due by `instant` [s], at most
   /// once in each period.
   bool take_due(std::uint32_t bot, double instant);
 

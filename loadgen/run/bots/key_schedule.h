@@ -1,4 +1,4 @@
-// The keys that a crowd's bots are to press: all in order of time, and each bot's by itself.
+// The keys that a crowd's bots press: all in order of time, and each bot's alone.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct DueKey {
   KeyChange change;
 };
 
-/// Whose keys of a plan a crowd presses, and of which part.
+/// The players and the time from which a crowd takes keys of a plan.
 struct PlanPart {
   std::uint32_t first = 0, count = 0;  ///< players
   double begun_s = 0.0;                ///< keys up to then have been pressed; 0: none
@@ -35,9 +35,9 @@ class KeySchedule {
   /// `plan` is ordered by time.
   KeySchedule(std::span<const game::InputEvent> plan, const PlanPart& part);
 
-  /// When the next key of all is due [s]; nothing if all were taken.
+  /// The instant of the next key of all bots [s]; nothing if all were taken.
   std::optional<double> next_s() const;
-  /// That key; there must be one (asserted).
+  /// Takes that key; there must be one (asserted).
   const DueKey& take();
   /// The next key of `bot` that is due by `instant` [s], or null.
   const DueKey* take_due(std::uint32_t bot, double instant);

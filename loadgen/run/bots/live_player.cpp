@@ -1,5 +1,5 @@
-// Turns a replica set into a player's view: positions where the client believes them to be,
-// velocities from what it was told.
+// Turns a replica set into a player's view: positions as the client believes them, velocities from
+// its updates.
 #include "loadgen/run/bots/live_player.h"
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 namespace rink::loadgen {
 namespace {
 
-/// An entity that was not heard of for so long [s] stands still, as far as its last two positions
-/// are to say: one that moves is told of at every tick.
+/// An entity without an update for so long [s] is taken to stand still, since a moving one is
+/// updated at every tick.
 constexpr double silence_s = 0.15;
 
 }  // namespace
@@ -25,7 +25,7 @@ game::PlayerRules rules_on(game::PlayerRules rules, const game::Extent& extent) 
 
 bool is_playable(const game::Extent& extent, const game::Shape& bat) {
   constexpr float field_max = 1e9f;                // as in scenes
-  const auto fits = [](float half, float whole) {  // false for what is no number
+  const auto fits = [](float half, float whole) {  // false for NaN
     return whole > 0.0f && whole <= field_max && half >= 0.0f && 2.0f * half <= whole;
   };
   return fits(bat.half_length, extent.length) && fits(bat.half_width, extent.width);

@@ -1,5 +1,4 @@
-// A player behind a client: it sees what its client's replicas show, right or stale, and nothing
-// else.
+// A player behind a client: it sees only its client's replicas, right or stale.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +21,14 @@ struct LivePlayers {
   bool do_decide() const { return kind != "random"; }
 };
 
-/// The rules of the same game on a field of `extent`, in whose width the goals take the same part.
+/// The rules of the game on a field of `extent`, with goals of the same fraction of its width.
 game::PlayerRules rules_on(game::PlayerRules rules, const game::Extent& extent);
 
-/// Whether a player can be sat down to what a stranger says of its field and of the player's bat:
-/// sizes that a scene could have [m], and a bat that fits.
+/// True if a player can play on the field and with the bat that a server describes: sizes that a
+/// scene could have [m], and a bat that fits.
 bool is_playable(const game::Extent& extent, const game::Shape& bat);
 
-/// Closed loop: what it does depends on what it was told, and when.
+/// Closed loop: its keys depend on the updates that it received, and when.
 class LivePlayer {
  public:
   /// Plays bat `number`.
@@ -41,7 +40,7 @@ class LivePlayer {
   game::KeysHeld decide(const game::Client& client, double instant);
 
  private:
-  /// What was last seen of an entity: two positions make a velocity.
+  /// The last observations of an entity: two positions make a velocity.
   struct Track {
     rti::ObjectHandle object;
     game::Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};

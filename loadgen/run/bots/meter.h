@@ -1,4 +1,4 @@
-// What a crowd of bots measures within the measured span, and what its connections carried by then.
+// Measurements of a crowd of bots within the measured span, and the traffic of its connections.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace rink::loadgen {
 
-/// What the connections of a crowd carried, summed.
+/// The traffic of a crowd's connections, summed.
 struct CrowdTraffic {
   std::uint64_t bytes_sent = 0, bytes_received = 0, segments_sent = 0, kernel_bytes_sent = 0,
                 kernel_bytes_received = 0, updates_received = 0;
@@ -17,7 +17,7 @@ struct CrowdTraffic {
   friend bool operator==(const CrowdTraffic&, const CrowdTraffic&) = default;
 };
 
-/// All that was carried up to an instant: the sum, and each bot's received bytes.
+/// The traffic up to an instant: the sum, and each bot's received bytes.
 struct CarriedSoFar {
   CrowdTraffic traffic;
   std::vector<std::uint64_t> received_by_bot;
@@ -36,13 +36,13 @@ class Meter {
 
   /// The span begins at `now_s` on the clock, once (asserted).
   void begin(double now_s, const CarriedSoFar& carried);
-  /// It ends; it must have begun and not ended (asserted).
+  /// The span ends; it must have begun and not ended (asserted).
   void end(double now_s, const CarriedSoFar& carried);
   bool has_begun() const { return begin_s_.has_value(); }
   bool has_ended() const { return has_ended_; }
   bool is_measuring() const { return has_begun() && !has_ended_; }
 
-  /// Within the span, once it has ended, and its length on the clock [s].
+  /// The traffic within the span, once it has ended, and its length on the clock [s].
   const CrowdTraffic& traffic() const { return within_; }
   double measured_s() const { return measured_s_; }
   /// Payload received by each bot within the span.

@@ -1,4 +1,4 @@
-// Evidence and reports under the names of a server's run.
+// Writes traces and reports of peers under the names of a server's run.
 #include "loadgen/run/peers/peer_judgement.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What the peers of a run say together, as a server and its bots would have said it: for those in
-// this process and for those in their own.
+// Combines the reports of a run's peers into those of a server and its bots, for peers in this
+// process and in their own.
 #pragma once
 
 #include <string>
@@ -14,16 +14,16 @@
 
 namespace rink::loadgen {
 
-/// Of a run under recorded `keys` up to its last window; decisions are still to be added.
+/// The trace of a run under recorded `keys` up to its last window; decisions are added later.
 game::ServerTrace trace_of(const Experiment& experiment, const Cell& cell, const game::Game& start,
                            const std::vector<game::InputEvent>& keys,
                            const std::string& state_hash);
-/// Without bots.
+/// An empty trace of bots for the run of `server`.
 BotsTrace bots_trace_of(const game::ServerTrace& server);
-/// The next watched player.
+/// Adds the next watched player.
 void add_player(BotsTrace& bots, const game::PlayerTrace& player);
 
-/// What peers say together.
+/// The combined results of peers.
 struct PeersFindings {
   const PeerTotals& totals;
   const Measurements& measured;
@@ -31,8 +31,8 @@ struct PeersFindings {
   BotsTrace bots;
 };
 
-/// Writes NAME.peers.json, NAME.bots.json and, where truth is wanted, both kinds of evidence; and
-/// judges the run by them.
+/// Writes NAME.peers.json, NAME.bots.json and, where truth is wanted, both kinds of traces; and
+/// evaluates the run by them.
 void judge_peers(const RunnerSettings& settings, const Experiment& experiment, RunRecord& record,
                  PeersFindings findings);
 

@@ -1,5 +1,4 @@
-// Starts the first peer, then all others, waits for them within limits, and puts together what each
-// says of itself.
+// Starts the first peer, then all others, waits for them within limits, and combines their reports.
 #include "loadgen/run/peers/peer_processes.h"
 
 #include <algorithm>
@@ -157,7 +156,7 @@ void PeerProcesses::await() {
                   " peers had not ended after " + decimal(limit_s) + " s"};
 }
 
-/// Who failed by itself is named, and not who ended because another one was gone.
+/// Names peers that failed themselves, not those that ended because another was gone.
 void PeerProcesses::name_failures() {
   std::string why;
   std::size_t others = 0;
@@ -197,7 +196,7 @@ void PeerProcesses::read() {
     }
     std::error_code ignored;
     std::filesystem::remove(file_of(k, ".jsonl"),
-                            ignored);  // what it says goes into the files of the whole
+                            ignored);  // its content is in the combined files
   }
 }
 
@@ -264,7 +263,7 @@ PeerTotals PeerProcesses::totals() const {
   return totals;
 }
 
-/// What each owner decided of its own bodies, together.
+/// Combines the decisions of all owners about their bodies.
 void PeerProcesses::add_decisions(game::ServerTrace& server, const game::Game& start) const {
   const std::vector<std::uint32_t> bats = game::seated_division(start, cell_.clients).bats;
   std::map<std::pair<double, std::uint32_t>, std::vector<std::uint32_t>> scopes;
@@ -280,7 +279,7 @@ void PeerProcesses::add_decisions(game::ServerTrace& server, const game::Game& s
   for (auto& [key, scope] : scopes) {
     std::sort(scope.begin(), scope.end());
     scope.erase(std::unique(scope.begin(), scope.end()),
-                scope.end());  // a hand-over is seen at either end at nearly the same instant
+                scope.end());  // a handover is seen at both ends at nearly the same instant
     const std::size_t first = server.in_scope.size();
     server.in_scope.insert(server.in_scope.end(), scope.begin(), scope.end());
     server.decisions.push_back({key.first, key.second, first, server.in_scope.size()});

@@ -1,4 +1,4 @@
-// What peers counted, under the names by which the reports of a server and its bots say the same.
+// Counts of peers under the names in reports of a server and its bots.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace rink::loadgen {
 
-/// What all peers sent, and each carried, since their start or within a span.
+/// The traffic of all peers, and of each, since their start or within a span.
 struct TrafficTotals {
   game::TrafficBytes by_subject{};  ///< with frames
   std::uint64_t messages = 0, bytes = 0, writes = 0, segments = 0, acknowledgements = 0,
@@ -23,7 +23,7 @@ struct TrafficTotals {
   std::vector<std::uint64_t> sent, received;  ///< bytes by peer
   std::vector<std::uint64_t> events;          ///< of physics, by peer
 
-  /// The next peer's.
+  /// Adds the next peer's traffic.
   void add(const game::PeerNode& node, const rti::TransportCounters& counters);
   void add(const game::PeerLoad& load);
 };
@@ -43,14 +43,14 @@ struct PeerTotals {
       known = 0,
       on_time = 0;  ///< measured windows of each peer, and those known before the next one's end
   peer::PeerCounters counters;       ///< of all peers, from start to end
-  std::uint64_t whole_received = 0;  ///< bytes; and what the kernel counted, if there is one:
+  std::uint64_t whole_received = 0;  ///< bytes; and the kernel's counts, if there is one:
   std::optional<std::uint64_t> kernel_sent, kernel_received, busiest_rss;  ///< bytes
   std::string error;  ///< why the players' part of the run does not count
   std::string state_hash;
 };
 
-/// As a server's and as its bots': what is sent counts as what goes down, and what is received as
-/// what goes up, of which there is as much.
+/// The reports as a server's and as its bots': sent bytes count as downwards, received ones as
+/// upwards, which are as many.
 nlohmann::ordered_json peers_report(const Cell& cell, const PeerTotals& totals);
 nlohmann::ordered_json players_report(const Cell& cell, const PeerTotals& totals,
                                       const Measurements& measured);

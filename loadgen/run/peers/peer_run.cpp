@@ -1,5 +1,5 @@
-// The loop of virtual_run.cpp for stations instead of a server and its bots: whatever is due next,
-// an arrival, a key, a window's end or a sample.
+// The loop of virtual_run.cpp for peers instead of a server and its bots: the clock moves to the
+// next arrival, key, window's end or sample.
 #include "loadgen/run/peers/peer_run.h"
 
 #include <algorithm>
@@ -24,8 +24,8 @@
 namespace rink::loadgen {
 namespace {
 
-/// A station at its end of the network, with a connection to each other one. Who connects says its
-/// number first.
+/// A station at its end of the network, with a connection to each other one. The connecting end
+/// sends its number first.
 class NetworkedStation : private rti::TransportListener {
  public:
   NetworkedStation(rti::VirtualNetwork& network, PeerStation& station, peer::PeerNumber number,
@@ -33,7 +33,7 @@ class NetworkedStation : private rti::TransportListener {
       : end_(network), station_(station), number_(number), connections_(count) {
     end_.listen(name_of(number));
   }
-  /// To all whose number is lower.
+  /// Connects to all stations with a lower number.
   void connect() {
     for (peer::PeerNumber other = 0; other < number_; ++other)
       note(end_.connect(name_of(other)), other);
@@ -109,7 +109,7 @@ class PeerRun {
           const game::Scene& scene, const std::vector<game::InputEvent>& keys);
 
   void run();
-  /// After that.
+  /// Evaluates the run; call it at the end.
   void judge(RunRecord& record) const;
 
  private:
@@ -220,7 +220,7 @@ void PeerRun::act_when_due() {
     for (const std::uint32_t player : players_) stations_[node_of_player_[player]].sample();
 }
 
-/// Lets everything happen that happens up to `until_ns`, itself included.
+/// Handles all events up to and at `until_ns`.
 void PeerRun::advance_until(std::int64_t until_ns) {
   for (;;) {
     settings_.heed_interrupt();
@@ -295,7 +295,7 @@ TrafficTotals PeerRun::traffic() const {
   return totals;
 }
 
-/// Who is to be told of what, by the owners' latest decisions.
+/// Notes which player receives which entities, by the owners' latest decisions.
 void PeerRun::note_decisions(double instant_s) {
   for (const std::uint32_t player : players_) {
     const peer::PeerNumber node = node_of_player_[player];

@@ -1,5 +1,5 @@
 // Runs one cell of the mode peer-to-peer in this process under a virtual clock: a peer for each
-// player, and the same network, keys, evidence and judgement as with a server.
+// player, and the same network, keys, traces and evaluation as with a server.
 #pragma once
 
 #include <filesystem>

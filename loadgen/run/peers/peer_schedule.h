@@ -1,4 +1,4 @@
-// What is to be done at known instants of a game among peers.
+// The events at known instants of a game among peers.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class PeerSchedule {
     samples_.instants = std::move(samples);
   }
 
-  /// Of what is still to be done; infinite if that is nothing.
+  /// The instant of the next event; infinite if there is none.
   double next_s() const {
     const double key_s = next_key_ < keys_.size() ? keys_[next_key_].time : never;
     return std::min({key_s, decisions_.next_s(), samples_.next_s()});

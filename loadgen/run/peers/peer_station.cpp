@@ -1,4 +1,4 @@
-// Messages as frames, instants as latencies, and a player's scope as changes.
+// Sends messages as frames, turns instants into latencies, and notes changes of a player's scope.
 #include "loadgen/run/peers/peer_station.h"
 
 #include <cstring>
@@ -54,7 +54,7 @@ void PeerStation::receive(peer::PeerNumber from, rti::Bytes bytes) {
     throw peer::ProtocolError("peer " + std::to_string(from) + " sent what is no frame");
 }
 
-/// All of a window is known: as old as it is now, it is what an update is to a client.
+/// All of a window is known, which counts as an update does for a client.
 void PeerStation::note_commit() {
   const double simulated_s = node_.windows_final() / rate_hz_;
   probe_.news_applied(clock_.start_s + simulated_s, clock_.now_s,

@@ -15,7 +15,7 @@
 
 namespace rink::loadgen {
 
-/// Bytes around each message: a frame's head, and what it is about.
+/// Bytes around each message: a frame's head and its purpose.
 inline constexpr std::size_t peer_message_head = game::frame_head + 1;
 
 /// The clock of a run: simulated time is that since its start. All in seconds.
@@ -24,7 +24,7 @@ struct RunClock {
   double simulated_s() const { return now_s - start_s; }
 };
 
-/// What stations measure by and where they put it; both must outlive them, and may be shared.
+/// The clock and the measurements of stations; both must outlive them, and may be shared.
 struct PeerMeasuring {
   const RunClock& clock;
   Measurements& measurements;
@@ -36,18 +36,18 @@ class PeerStation {
               const peer::Division& division, peer::PeerNumber number,
               const PeerMeasuring& measuring);
 
-  /// Keeps evidence of what the player was told and believes.
+  /// Records the player's updates and replicas.
   void watch();
 
   void due() { node_.due(); }
   /// The player's key that was due at simulated `instant` [s].
   void press(double instant);
-  /// Bytes of another peer's stream, cut anywhere. Throws peer::ProtocolError for what no peer
-  /// says.
+  /// Bytes of another peer's stream, cut anywhere. Throws peer::ProtocolError for bytes that no
+  /// peer sends.
   void receive(peer::PeerNumber from, rti::Bytes bytes);
-  /// What is to be sent to `to`; the caller takes it.
+  /// The bytes to send to `to`; the caller takes them.
   std::vector<std::uint8_t>& outbox(peer::PeerNumber to) { return outboxes_[to]; }
-  /// Takes a sample of what the player believes now.
+  /// Takes a sample of the player's present replicas.
   void sample() { recorder_->sample(clock_.simulated_s()); }
 
   game::PeerNode& node() { return node_; }
@@ -57,7 +57,7 @@ class PeerStation {
   /// one's end.
   std::uint64_t windows_known() const { return known_; }
   std::uint64_t windows_on_time() const { return on_time_; }
-  /// Of a watched one.
+  /// The trace of a watched player.
   const game::PlayerTrace& trace() const { return recorder_->trace(); }
 
  private:

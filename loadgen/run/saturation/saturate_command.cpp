@@ -26,7 +26,7 @@ std::string figures_text(const RunRecord& record) {
                    record.update_age_ms.p99 ? "p99" : "max", age.value_or(0.0));
 }
 
-/// One search and what its probes left behind.
+/// One search and the runs of its probes.
 class SaturationSearch {
  public:
   SaturationSearch(const Cell& cell, const SaturationProbing& probing) : probing_(probing) {
@@ -72,8 +72,7 @@ class SaturationSearch {
     return judgement.verdict;
   }
 
-  /// The edge itself and what lies beyond it are left out: a fit through them would know the
-  /// answer.
+  /// The edge itself and larger crowds are left out, since a fit through them would use the answer.
   void predict() {
     std::vector<RunRecord> below;
     std::ranges::copy_if(records_, std::back_inserter(below), [this](const RunRecord& record) {
@@ -143,8 +142,8 @@ Outcome run_saturation(const Campaign& campaign, const SaturateOptions& options,
     const auto record = run_cell(campaign.settings, experiment, cell, key_log);
     std::error_code ignored;
     std::filesystem::remove(state_file_of(key_log), ignored);
-    std::filesystem::remove(key_log, ignored);  // drawn again from its seed by anybody who wants
-                                                // it; thousands of players' plans fill a disk
+    std::filesystem::remove(key_log, ignored);  // its seed reproduces it, and plans of thousands of
+                                                // players fill a disk
     if (!record) return std::nullopt;
     outcome.runs.push_back(*record);
     campaign.results.append(*record);

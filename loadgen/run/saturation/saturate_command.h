@@ -14,14 +14,14 @@
 
 namespace rink::loadgen {
 
-/// What one search found.
+/// The result of one search.
 struct Saturation {
   Cell cell;  ///< as in every probe, but for clients and seed
   Search search;
   std::optional<RunRecord>
       edge;  ///< the last run of `search.held` clients that held: cost and bytes at saturation
-  std::string why;  ///< why `search.failed` clients did not hold, as its last run said; empty if
-                    ///< none failed
+  std::string why;  ///< why `search.failed` clients did not hold, by the last run; empty if none
+                    ///< failed
   std::optional<double>
       predicted;  ///< clients by the cost of the probes below the edge (capacities_of); nothing if
                   ///< they are of fewer than three numbers
@@ -44,7 +44,7 @@ struct SaturationProbing {
   const ServiceLevel& level;
   const SearchLimits& limits;
   CellRunning run;
-  std::ostream& out;                     ///< is told what each probe showed
+  std::ostream& out;                     ///< receives a line for each probe
   std::span<const RunRecord> earlier{};  ///< runs of an interrupted search, not run again
 };
 
@@ -54,26 +54,27 @@ struct SaturationProbing {
 std::vector<Saturation> saturate(const Experiment& experiment, const SaturationProbing& probing,
                                  const SaturationKeeping& keep);
 
-/// What `--saturate` is asked for.
+/// The options of `--saturate`.
 struct SaturateOptions {
   bool is_wanted = false;
   ServiceLevel level;
   std::uint32_t most = 0;  ///< never more clients than this; 0: the experiment's largest number
   double resolution = 0.1;
-  std::uint32_t allowed_clients = 0xffffffffu;  ///< what the limit on open files leaves
+  std::uint32_t allowed_clients = 0xffffffffu;  ///< the most that the limit on open files allows
 };
 
 /// Searches with real runs, each appended to the results, and writes saturation.csv and
-/// saturation.json after each search; `found` is what the probes say so far. The outcome holds all
-/// probes. Throws ExperimentError if the scene cannot serve the first probe, or under a virtual
-/// clock, where no tick is ever late.
+/// saturation.json after each search; `found` are the results so far. The outcome holds all probes.
+/// Throws ExperimentError if the scene cannot serve the first probe, or under a virtual clock,
+/// where no tick is ever late.
 Outcome run_saturation(const Campaign& campaign, const SaturateOptions& options, std::ostream& out,
                        std::vector<Saturation>& found);
 
-/// What was found in words, e.g. "at least 400", "905", "none".
+/// The result in words, e.g. "at least 400", "905", "none".
 std::string held_text(const Search& search);
 
-/// The clients predicted and from how many, e.g. "850 (400)"; "-" if nothing is.
+/// The predicted clients and the largest number that the prediction used, e.g. "850 (400)"; "-" if
+/// there is none.
 std::string predicted_text(const Saturation& saturation);
 
 /// saturation.csv (RFC 4180): a line per search, with cost per tick by part and bytes at the edge.

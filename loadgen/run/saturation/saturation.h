@@ -13,15 +13,15 @@
 
 namespace rink::loadgen {
 
-/// What a run must keep to hold.
+/// The level of service that a run must keep.
 struct ServiceLevel {
   double on_time_fraction_min = 0.99;  ///< of the ticks, 0 to 1
   double age_p99_ms_max =
       100.0;  ///< the 99th percentile of the update age lies below this [ms], above 0
 };
 
-/// What one probe said. `invalid`: the run does not count, whatever its figures; the server may or
-/// may not have been the reason.
+/// The result of one probe. `invalid`: the run does not count, whatever its figures; the server may
+/// or may not be the reason.
 enum class Verdict : std::uint8_t { holds, fails, invalid };
 
 /// A verdict and its reason in words, empty if it holds.
@@ -46,12 +46,12 @@ enum class SearchEnd : std::uint8_t {
   bracketed,   ///< `held` holds, `failed` fails
   most_holds,  ///< even `SearchLimits::most` holds: at least that many
   one_fails,   ///< not even one client holds
-  not_valid,   ///< runs of `failed` clients do not count: at least `held`, and what lies beyond was
-               ///< not measured
+  not_valid,   ///< runs of `failed` clients do not count: at least `held`, and more was not
+               ///< measured
   interrupted  ///< `held` and `failed` are as far as the search got
 };
 
-/// One probe as it was made.
+/// One probe.
 struct Trial {
   std::uint32_t clients = 0;
   std::uint32_t attempt = 0;  ///< 0, 1, ... of these clients
