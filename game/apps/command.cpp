@@ -18,7 +18,7 @@ double now_s() {
                                         .count());
 }
 
-/// spdlog's own choice would mix complaints with the report on the standard output.
+/// spdlog's default would mix errors with the report on the standard output.
 void speak_as(const std::string& command) {
   spdlog::set_default_logger(spdlog::stderr_color_mt(command));
   spdlog::set_pattern("%n: %v");

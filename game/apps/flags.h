@@ -1,4 +1,4 @@
-// The flags of a command: what each is called, means and may be, and how a wrong one is refused.
+// The flags of a command: the name, meaning and range of each, and the refusal of a wrong one.
 #pragma once
 
 #include <concepts>
@@ -21,11 +21,11 @@ class Validator;
 
 namespace rink::game {
 
-/// What a flag's value must be.
+/// A condition on a flag's value.
 class Check {
  public:
-  /// `objection` answers what is wrong with a text, or nothing; `description` stands for the value
-  /// in the help.
+  /// `objection` returns the fault of a text, or nothing; `description` stands for the value in the
+  /// help.
   template <class Objection>
   requires std::convertible_to<std::invoke_result_t<Objection, const std::string&>, std::string>
   Check(Objection objection, const std::string& description = "")
@@ -33,7 +33,7 @@ class Check {
   Check(std::function<std::string(const std::string&)> objection, const std::string& description);
   explicit Check(const CLI::Validator& validator);
 
-  /// What is wrong with `text`; empty if nothing is.
+  /// The fault of `text`; empty if there is none.
   std::string objection(const std::string& text) const;
   const CLI::Validator& validator() const { return *validator_; }
 
@@ -57,22 +57,22 @@ Check one_of(const std::vector<std::string>& names);
 Check existing_file();
 Check existing_folder();
 
-/// What else is said of one flag. A handle: the flag itself belongs to its `Flags`.
+/// Further properties of one flag. A handle: the flag itself belongs to its `Flags`.
 class Flag {
  public:
   Flag& check(const Check& check);
-  /// The help says what the value is without it.
+  /// Makes the help show the default value.
   Flag& shows_default();
   Flag& is_required();
   Flag& needs(const Flag& other);
   Flag& excludes(const Flag& other);
-  /// The title in the help under which it stands.
+  /// Sets its title in the help.
   Flag& group(const std::string& title);
-  /// What stands for the value in the help, e.g. HOST:PORT.
+  /// Sets the placeholder of the value in the help, e.g. HOST:PORT.
   Flag& value_name(const std::string& name);
-  /// Its values may be given at once, with `delimiter` between them.
+  /// Allows several values in one argument, with `delimiter` between them.
   Flag& delimiter(char delimiter);
-  /// It may be given again and again, each time with one value.
+  /// Allows the flag repeatedly, each time with one value.
   Flag& repeats();
 
  private:
@@ -97,27 +97,27 @@ concept FlagValue = std::same_as<T, std::string> || std::same_as<T, std::vector<
 /// All flags of a command. Their values must outlive it.
 class Flags {
  public:
-  /// `name` is what the help calls the command; empty: by the name of its program.
+  /// `name` is the command's name in the help; empty: the name of its program.
   explicit Flags(const std::string& description = "", const std::string& name = "");
   ~Flags();
   Flags(Flags&&) = delete;
 
   void name(const std::string& name);
   void description(const std::string& text);
-  /// What stands after the flags in the help.
+  /// Sets the text after the flags in the help.
   void footer(const std::string& text);
-  /// What --version prints.
+  /// Sets the text that --version prints.
   void version(const std::string& line);
 
   /// A value `flag`, or the next word of the command line if `flag` does not begin with a dash.
   template <FlagValue Value>
   Flag option(const std::string& flag, Value& value, const std::string& meaning);
-  /// A value that `take` reads; what it throws as FlagError is explained.
+  /// A value that `take` reads; a FlagError of `take` is explained to the user.
   Flag option(const std::string& flag, const std::function<void(const std::string&)>& take,
               const std::string& meaning);
-  /// What is true if `flag` is given; "!--no-x" makes it false, "--x,!--no-x" either.
+  /// A value that is true if `flag` is given; "!--no-x" makes it false, "--x,!--no-x" either.
   Flag flag(const std::string& flag, bool& value, const std::string& meaning);
-  /// One that was added before.
+  /// A flag that was added before.
   Flag find(const std::string& flag) const;
 
   /// Reads the command line; the status with which to end if nothing is to be done: 0 after

@@ -1,4 +1,4 @@
-// What --help of rink peer says.
+// Defines the flags of rink peer and its help text.
 #include "game/apps/peer_flags.h"
 
 #include "game/net/limits.h"

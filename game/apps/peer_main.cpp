@@ -39,7 +39,8 @@ void write_record(const PeerOptions& options, const SharedGame& shared, const Pl
                 shared.record_of(part, scene_text(options.scene)));
 }
 
-/// Until all who begin are there, or those who play already have told us of each other.
+/// Waits until all first peers are connected, or until the playing peers have introduced each
+/// other.
 void meet(const PeerOptions& options, const Terms& terms, PeerNetwork& network) {
   if (options.join.empty()) {
     network.found(terms);
@@ -60,7 +61,7 @@ void meet(const PeerOptions& options, const Terms& terms, PeerNetwork& network) 
                        "expected no --bots");
 }
 
-/// When the clock shows that simulated time, if need be from the first time that is asked for on.
+/// Maps simulated time to the clock, from the first request on if no start is given.
 class Pace {
  public:
   explicit Pace(std::optional<double> offset_s) : offset_s_(offset_s) {}
@@ -75,8 +76,8 @@ class Pace {
 
 PlayedPart play(const PeerOptions& options, SharedGame& shared, PeerNetwork& network,
                 const Viewing& viewing, double start_s) {
-  // Whoever measures how old a window is when it is known plays it when its end has come, as a
-  // server its ticks.
+  // A peer that measures the age of windows plays each when its end has come, as a server plays its
+  // ticks.
   Pace pace(viewing.recorder ? std::optional(start_s + network.terms().window) : std::nullopt);
   PartOptions part_options{.players = options.players,
                            .before_window = {},
@@ -85,7 +86,7 @@ PlayedPart play(const PeerOptions& options, SharedGame& shared, PeerNetwork& net
                            .members = network.members(),
                            .when_taken = {},
                            .observer = viewing.viewer.get()};
-  // Who shows what others have looks up there what bodies are.
+  // A viewer that shows others' bodies looks up their kinds in the start.
   if (!viewing.viewer) part_options.when_taken = [&shared] { shared.forget_start(); };
   part_options.before_window = [&](double time) {
     network.note_window();
@@ -105,7 +106,8 @@ Json whole_report(const PlayedPart& part, const PeerNetwork& network, const View
   return report;
 }
 
-/// What a run leaves, of which what cannot be had again comes first should a file refuse.
+/// Writes the results of a run; those that cannot be recomputed come first in case a file cannot be
+/// written.
 ExitStatus leave_behind(const PeerOptions& options, const SharedGame& shared,
                         const PlayedPart& part, const Json& report) {
   if (!options.report.empty()) write_file(options.report, report.dump(2));
@@ -122,8 +124,8 @@ ExitStatus leave_behind(const PeerOptions& options, const SharedGame& shared,
   return part.has_left ? ExitStatus::interrupted : is_told ? ExitStatus::ok : ExitStatus::failed;
 }
 
-/// From the first word to the last; a connected peer learns why it ends early. Throws
-/// peer::SentAway of a newcomer that may ask again.
+/// Runs the whole session; connected peers are sent the reason of an early end. Throws
+/// peer::SentAway for a newcomer that may try again.
 ExitStatus share(const PeerOptions& options, const Terms& terms, SharedGame& shared,
                  PeerNetwork& network) {
   try {

@@ -1,4 +1,4 @@
-// Ranks say nothing to a terminal but through the first of them.
+// Runs rink peer as ranks of MPI, of which only the first prints to the terminal.
 #include "game/apps/peer_ranks.h"
 
 #include <chrono>
@@ -17,15 +17,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Looks again at once as long as an answer may be a matter of microseconds, then leaves the
-/// processor to others, of whom there may be more than processors.
+/// Looks again at once while an answer may take microseconds only, then yields the processor to
+/// other ranks, since there may be more ranks than processors.
 void wait_for_ranks(std::uint32_t looks) {
   if (looks < 64) return;
   if (looks < 256) return std::this_thread::yield();
   std::this_thread::sleep_for(std::chrono::microseconds(20));
 }
 
-/// What each rank did, told by the first one.
+/// The report of all ranks, printed by the first one.
 void report_ranks(const Json& own, RankMail& mail) {
   const std::string text = own.dump();
   if (mail.number() != 0) return mail.send(0, {text.begin(), text.end()});
@@ -54,7 +54,7 @@ ExitStatus share_among_ranks(PeerOptions options) {
   SharedGame shared = game_of(options);
   rti::Ranks ranks;
   options.terms.peer_count = ranks.count();
-  options.terms.balance_windows = 0;    // zones stay: ranks have said nothing of that to each other
+  options.terms.balance_windows = 0;    // zones stay: ranks do not agree on a balance
   options.terms.is_replicated = false;  // MPI ends all of them if one is lost
   RankMail mail(ranks, options.patience_s, now_s, wait_for_ranks);
   try {

@@ -1,4 +1,4 @@
-// rink peer as a rank of MPI.
+// Runs rink peer as a rank of MPI.
 #pragma once
 
 #include "game/apps/peer_flags.h"
@@ -6,7 +6,7 @@
 
 namespace rink::game {
 
-/// The whole part of one rank; a rank that must end early ends all.
+/// Plays the part of one rank; a rank that must end early ends all.
 ExitStatus share_among_ranks(PeerOptions options);
 
 }  // namespace rink::game

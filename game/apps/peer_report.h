@@ -1,4 +1,4 @@
-// What a peer did, as its report says it, and the game that it shares.
+// Makes the report of a peer and of its part of the game.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace rink::game {
 
-/// Of this process [s].
+/// Processor time of this process [s].
 double processor_s();
 
 SharedGame game_of(const PeerOptions& options);
 
-/// Goes last, where readers look for it.
+/// Adds the hash at the end, where readers look for it.
 void add_hash(nlohmann::ordered_json& report, const PlayedPart& part);
 
-/// Of a part that was played among those who met, by whichever transport; without the hash.
+/// The report of a part that was played over `network`, without the hash.
 template <class Network>
 nlohmann::ordered_json report_of(const PlayedPart& part, const Network& network, std::uint32_t bots,
                                  double playing_s) {

@@ -1,4 +1,4 @@
-// What --help of rink play says, and what its flags wish.
+// Defines the flags of rink play and its help text, and reads the wanted match from them.
 #include "game/apps/play_flags.h"
 
 #include <cstdio>
@@ -9,7 +9,7 @@
 namespace rink::view {
 using game::existing_file, game::one_of, game::whole_number_from;
 
-/// To play among peers, without a server; excludes `others`.
+/// Adds the flags of play among peers, without a server, which exclude `others`.
 void add_peer_options(game::Flags& flags, PlayOptions& options,
                       const std::vector<game::Flag>& others) {
   constexpr const char* group = "Among peers, without a server";
@@ -157,7 +157,7 @@ void add_options(game::Flags& flags, PlayOptions& options) {
       "draw without a window or a display, 60 frames to a second; needs --script or --screenshot");
 }
 
-/// What the command line wishes to play at once; nothing: the menu.
+/// The match to play at once by the command line; nothing: the menu.
 std::optional<MatchWish> wish_of(const PlayOptions& options) {
   using Kind = MatchWish::Kind;
   if (options.is_two) return MatchWish{.kind = Kind::two, .address = {}};

@@ -29,7 +29,7 @@ struct PlayOptions {
 
 void add_options(game::Flags& flags, PlayOptions& options);
 
-/// What the command line wishes to play at once; nothing: the menu.
+/// The match to play at once by the command line; nothing: the menu.
 std::optional<MatchWish> wish_of(const PlayOptions& options);
 
 std::optional<Viewpoint> viewpoint_of(const PlayOptions& options);

@@ -1,4 +1,4 @@
-// rink play: the window, its clock, and the matches that the player wishes.
+// rink play: the window, its clock, and the matches that the player starts.
 #include <unistd.h>
 
 #include <chrono>
@@ -55,8 +55,8 @@ std::string records_folder(const view::PlayOptions& options) {
   return "matches";
 }
 
-/// Where a host keeps its records: a folder that cannot be written to is told of and replaced, for
-/// it is the match that matters.
+/// The folder of a host's records: one that cannot be written is reported and left out, since the
+/// match matters more.
 std::string host_records(const std::string& folder) {
   const auto problem = game::MatchRecords(folder).test();
   if (!problem) return folder;
@@ -65,8 +65,8 @@ std::string host_records(const std::string& folder) {
   return other;
 }
 
-/// A local match whose records are kept, also of one that is given up. A record that cannot be
-/// written is told of; the match goes on.
+/// A local match whose records are kept, also of one that is abandoned. A record that cannot be
+/// written is reported; the match goes on.
 class RecordedMatch final : public game::MatchSource {
  public:
   RecordedMatch(const game::Scene& scene, const game::LocalMatchSettings& settings,
@@ -99,8 +99,8 @@ class RecordedMatch final : public game::MatchSource {
   game::MatchRecords records_;
 };
 
-/// A match that is hosted here and played here: the server is there before the connection to it,
-/// and ends after it.
+/// A match that is hosted and played here: the server starts before the connection to it, and ends
+/// after it.
 class HostedMatch final : public game::MatchSource {
  public:
   HostedMatch(const std::string& port, const std::string& records, const std::string& key_file)
@@ -122,7 +122,7 @@ class HostedMatch final : public game::MatchSource {
   game::JoinedMatch match_;
 };
 
-/// A part of a game that peers share, with what it has to say.
+/// A part of a game that peers share, with its messages for the terminal.
 class SharedMatch final : public game::MatchSource {
  public:
   explicit SharedMatch(const game::PlayingPeerSettings& settings) : peer_(settings, now_s) {}
@@ -181,7 +181,7 @@ std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish,
   return std::make_unique<RecordedMatch>(scene, settings, records);
 }
 
-/// The application with what it needs of the process: settings on disk, sound, standard error.
+/// The application with its resources of the process: settings on disk, sound, standard error.
 class Process {
  public:
   explicit Process(const view::PlayOptions& options)
@@ -206,7 +206,7 @@ class Process {
   void run_offscreen(const view::WindowSize& size);
 
  private:
-  /// What draws must be gone before its context is.
+  /// The renderer must be destroyed before its context.
   class Opened {
    public:
     Opened(Process& process, view::Window* window) : process_(process) {
@@ -234,7 +234,7 @@ class Process {
 
   view::PlayOptions options_;
   std::string settings_file_, errors_;
-  bool is_misread_ = false;  ///< there is more in the settings' file than was understood
+  bool is_misread_ = false;  ///< the settings' file has unknown content
   view::Settings settings_;
   std::vector<view::ScriptStep> script_;
   std::size_t next_step_ = 0;
@@ -277,7 +277,7 @@ void Process::draw(const view::WindowSize& size, GLuint framebuffer, double now,
                      {framebuffer, 0, 0, size.width, size.height}, now);
 }
 
-/// Several things may be asked of one instant: keys first, then the frame, then its picture.
+/// At one instant keys come first, then the frame, then its picture.
 void Process::run_in_window(const view::WindowSize& size) {
   view::Window window("Rink", size.width, size.height, settings_.is_full_screen);
   const Opened opened(*this, &window);
@@ -289,7 +289,8 @@ void Process::run_in_window(const view::WindowSize& size) {
     const auto due = view::due_steps(script_, next_step_, begin_s - start_s);
     for (const view::ScriptStep& step : due)
       for (const view::WindowEvent& event : step.events) application_->receive(event);
-    // One that is too small to be seen goes on unseen: a match over a network must not fall silent.
+    // A window that is too small to be seen still runs: a match over a network must not fall
+    // silent.
     const view::WindowSize now_size = window.size();
     const bool is_seen = now_size.width > 0 && now_size.height > 0;
     draw(is_seen ? now_size : size, 0, begin_s, is_seen);
@@ -304,8 +305,8 @@ void Process::run_in_window(const view::WindowSize& size) {
   }
 }
 
-/// Time is counted in frames, so the same script gives the same pictures; frames that nobody asks a
-/// picture of are not drawn. Who plays over a network has others to keep pace with.
+/// Time is counted in frames, so the same script gives the same pictures; frames of which no
+/// picture is taken are not drawn. A match over a network runs in real time.
 void Process::run_offscreen(const view::WindowSize& size) {
   const view::OffscreenContext context;
   const Opened opened(*this, nullptr);

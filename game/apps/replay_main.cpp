@@ -1,4 +1,4 @@
-// rink replay: plays a recorded game again and says whether it ends as it did.
+// rink replay: replays a recorded game and reports whether it ends in the same state.
 #include <chrono>
 #include <exception>
 #include <iostream>

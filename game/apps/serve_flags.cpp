@@ -1,4 +1,4 @@
-// What --help of rink serve says.
+// Defines the flags of rink serve and its help text.
 #include "game/apps/serve_flags.h"
 
 #include "game/net/exit_status.h"

@@ -8,7 +8,7 @@ namespace rink::game {
 
 void add_options(Flags& flags, ServeOptions& options);
 
-/// What a host of matches does unless it is told otherwise.
+/// Sets the defaults of a host of matches.
 void host_by_default(const Flags& flags, ServeOptions& options);
 
 }  // namespace rink::game

@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Asks a running server, once or again and again.
+/// Queries a running server, once or repeatedly.
 ExitStatus show_status(const ServeOptions& options) try {
   const auto [address, port] = address_and_port("--status", options.status);
   do {
@@ -71,7 +71,7 @@ ExitStatus serve(ServeOptions& options) {
   const std::string missing = is_complete ? "" : process.missing();
   if (is_complete) process.run();
   Json report = process.report();
-  // Both before the players leave, for the hash is of now.
+  // Trace and record come before the players leave, since the hash is of this instant.
   std::optional<ServerTrace> trace = process.trace(played);
   const KeyLog log = options.record.empty() || !options.hosted.empty()
                          ? KeyLog{}

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The due instant in stamps from before the start, when nothing is due yet.
+/// The due instant in stamps before the start, when nothing is due yet.
 constexpr double not_started_s = 0.0;
 
 }  // namespace
@@ -81,7 +81,7 @@ void ServerProcess::exchange_until(double until_s) {
   while (now_s() < until_s && !is_interrupted);
 }
 
-/// However long the players think, silence is noticed and the RTI is heard to live.
+/// However long the players take, silence is noticed and heartbeats are sent.
 void ServerProcess::await_turns() {
   while (!is_interrupted && server_.error().empty() && !server_.may_step()) {
     serving_.exchange(0.25);
@@ -89,10 +89,10 @@ void ServerProcess::await_turns() {
   }
 }
 
-/// The clock of the RTI goes on whatever the players do: frozen while they made their way to the
-/// barrier, it let the server's own federate hear nothing for so long that it took the RTI for
-/// dead, and its next update was refused with "join first". With datagrams, which nothing holds
-/// back, crowds took that long.
+/// The clock of the RTI goes on whatever the players do: when it stood still until all had reached
+/// the barrier, the server's own federate received nothing for so long that it took the RTI for
+/// dead, and its next update was refused with "join first". Crowds with datagrams, which nothing
+/// delays, took that long.
 void ServerProcess::wait(double seconds) {
   TickCosts uncounted;
   serving_.exchange(seconds);
@@ -189,7 +189,7 @@ void ServerProcess::try_records() {
   if (const auto error = records_.test()) complain(*error, "; matches are played without a record");
 }
 
-/// Once: who sends too much could fill the terminal as well.
+/// Reported once, since a federate that sends too much could fill the terminal too.
 void ServerProcess::report_flood() {
   const KeyCounters& counters = server_.keys().counters();
   if (counters.over_limit == 0 || std::exchange(is_flood_reported_, true)) return;
@@ -197,7 +197,7 @@ void ServerProcess::report_flood() {
        options_.key_limit_per_s, " key changes a second (--key-limit): what is more is not felt");
 }
 
-/// Players are told on their screens if there is none.
+/// Players see on their screens if there is no record.
 void ServerProcess::keep_records() {
   if (!server_.hosted()) return;
   for (const KeyLog& log : server_.hosted()->take_finished()) {

@@ -18,7 +18,7 @@
 
 namespace rink::game {
 
-/// What the run cost, summed over the measured ticks.
+/// The costs of the run, summed over the measured ticks.
 struct Costs {
   std::uint64_t ticks = 0, ticks_on_time = 0;
   double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, send_max_s = 0.0;
@@ -34,24 +34,24 @@ class ServerProcess {
   ServerProcess(const ServeOptions& options, const rti::Fom& fom, const ServedGame& played,
                 const std::string& federation);
 
-  /// Says at once if matches cannot be recorded; they can be played all the same.
+  /// Reports at once if matches cannot be recorded; they can be played all the same.
   void try_records();
   std::uint16_t listen() { return sockets_.listen(options_.address, options_.port); }
 
   /// Waits for the players and the start barrier; false if they did not all come in time.
   bool start();
   void run();
-  /// Lets the clients take their leave.
+  /// Lets the clients resign.
   void end();
 
   const Server& server() const { return server_; }
-  /// Whom the federation file lists and who has not come, as a clause of a complaint; empty if
+  /// The federates in the federation file that have not joined, as a clause of an error; empty if
   /// none.
   std::string missing() const;
   nlohmann::ordered_json report() const;
-  /// What the run was and what its filter decided, if `--evidence` asked for it.
+  /// The trace of the run and of its filter's decisions, if `--evidence` asked for it.
   std::optional<ServerTrace> trace(const ServedGame& played) const;
-  /// What the connections carried from first to last.
+  /// The traffic of all connections from first to last.
   rti::TransportCounters totals() const { return sockets_.totals(); }
 
  private:

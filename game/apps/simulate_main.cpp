@@ -68,7 +68,7 @@ void close(std::ofstream& stream, const std::string& file) {
   if (!stream) throw game::SceneError(file + ": cannot be written to its end");
 }
 
-/// Where results go. All files are open before the first step.
+/// The files of results, all of which are opened before the first step.
 struct Outputs {
   explicit Outputs(const Options& options)
       : states(opened(options.states)),
@@ -78,9 +78,9 @@ struct Outputs {
   std::ofstream states, events, summary, record;
 };
 
-/// Goes in strides of about a tenth of a second, so that progress is told and events are written as
-/// they come. Where a game stops on the way changes nothing in it. `played` is a Game or a Playing,
-/// `game` the game itself. Answers how long it took [s].
+/// Advances in strides of about a tenth of a second, so that progress is shown and events are
+/// written as they come. The strides do not affect the game. `played` is a Game or a Playing,
+/// `game` the game itself. Returns how long it took [s].
 template <class Played>
 double play(Played& played, const game::Game& game, const Options& options, std::ofstream& events) {
   constexpr double stride_least_s = 0.05, stride_most_s = 0.2;
@@ -114,8 +114,8 @@ void write_results(const Options& options, const game::Game& game, double wall_s
   close(outputs.summary, options.summary);
 }
 
-/// All that it takes to play the game again on the exact engine, and, if that played it, the hash
-/// to compare.
+/// Writes all that a replay on the exact engine needs, and, if that engine played, the hash to
+/// compare.
 void write_record(const Options& options, const game::Scene& scene, const game::Game& game,
                   std::vector<game::InputEvent> events, std::ofstream& record) {
   if (options.record.empty()) return;
@@ -144,7 +144,7 @@ void simulate(const Options& options) {
   write_record(options, scene, playing.game(), playing.keys(), outputs.record);
 }
 
-/// What is wrong with the engine that was asked for, if anything.
+/// Throws if the chosen engine has a fault.
 void require_engine(const Options& options) {
   if (const auto objection = physics::objection(options.engine)) throw game::SceneError(*objection);
   if (options.engine.engine == "exact" && (options.has_integrator || options.has_dt))

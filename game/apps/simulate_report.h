@@ -1,4 +1,4 @@
-// What rink simulate writes: states and events as CSV, and a summary as JSON.
+// The output of rink simulate: states and events as CSV, and a summary as JSON.
 #pragma once
 
 #include <ostream>

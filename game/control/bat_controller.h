@@ -1,4 +1,4 @@
-// Turns the keys that a player holds into the thrust of a bat.
+// Turns the keys that a player holds into the acceleration of a bat.
 #pragma once
 
 #include <cassert>
@@ -10,7 +10,7 @@
 
 namespace rink::game {
 
-/// Where held keys push: opposed ones cancel.
+/// The direction of the held keys: opposed ones cancel.
 inline physics::Vector2 direction(const KeysHeld& keys) {
   const auto along = [&keys](Key plus, Key minus) {
     return static_cast<double>(keys.is_down(plus)) - static_cast<double>(keys.is_down(minus));
@@ -18,13 +18,13 @@ inline physics::Vector2 direction(const KeysHeld& keys) {
   return {along(Key::right, Key::left), along(Key::up, Key::down)};
 }
 
-/// One player's hands. Each held key adds the bat's thrust in its direction, as the paper
+/// One player's keys. Each held key adds the bat's acceleration in its direction, as the paper
 /// accumulates forces, so opposed keys cancel and two neighbours push diagonally.
 class BatController {
  public:
   /// `thrust` [m/s^2] is 0 or more.
   explicit BatController(double thrust) : BatController(thrust, {}, 0) {}
-  /// Hands that hold `keys` after so many inputs.
+  /// A controller that holds `keys` after so many inputs.
   BatController(double thrust, const KeysHeld& keys, std::uint32_t input_count)
       : thrust_(thrust), keys_(keys), input_count_(input_count) {
     assert(std::isfinite(thrust) && thrust >= 0.0);

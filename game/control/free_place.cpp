@@ -1,5 +1,5 @@
-// A search over square rings, which needs neither sine nor sorting and so gives the same place on
-// every machine.
+// Searches square rings, which needs neither sine nor sorting and so gives the same place on every
+// machine.
 #include "game/control/free_place.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Where to put a body when the place it should have may be taken.
+// Finds a free place for a body whose intended place may be taken.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ namespace rink::game {
 std::optional<physics::Vector2> nearest_free_disc(const physics::Simulator& simulator,
                                                   const physics::Vector2& spot, double radius);
 
-/// The places among which that looks, in their order: `count` from the `first` on, fewer where they
-/// end.
+/// The places that `nearest_free_disc` tries, in its order: `count` from the `first` on, fewer
+/// where they end.
 std::vector<physics::Vector2> places_for_disc(const physics::Field& field,
                                               const physics::Vector2& spot, double radius,
                                               std::size_t first, std::size_t count);

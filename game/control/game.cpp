@@ -1,5 +1,4 @@
-// Goes from one instant at which something happens to the next, and lets the world move exactly in
-// between.
+// Advances from one event to the next, and lets the world move exactly in between.
 #include "game/control/game.h"
 
 #include <algorithm>

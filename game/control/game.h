@@ -1,5 +1,5 @@
-// The game: makes all entities from a scene, applies what players do at the exact instant, keeps
-// the score, and tells observers what changed.
+// The game: makes all entities from a scene, applies inputs at their exact instants, keeps the
+// score, and lists changes for observers.
 #pragma once
 
 #include <cassert>
@@ -21,7 +21,7 @@ namespace rink::game {
 /// An entity is a body of the game's world; a bat that left and came back is a new one.
 using EntityId = physics::BodyId;
 
-/// What an entity is for as long as it exists.
+/// The constant properties of an entity.
 struct Entity {
   EntityId id;
   physics::BodyKind kind = physics::BodyKind::puck;
@@ -42,24 +42,24 @@ struct Score {
   friend bool operator==(const Score&, const Score&) = default;
 };
 
-/// Factory and mediator. Knows no clock: `advance` is told how far. What happens depends on the
-/// scene and the inputs alone, never on how often or how far `advance` is called. Of one instant's
-/// happenings, motion and goals come first, then face-offs, then inputs in order of player, each
+/// Factory and mediator. Knows no clock: the caller says how far to `advance`. The game depends on
+/// the scene and the inputs alone, never on how often or how far `advance` is called. At one
+/// instant motion and goals come first, then face-offs, then inputs in order of player, each
 /// player's in order of submission.
 class Game {
  public:
-  /// Every bat of the scene is there from the start, and the scene's scripted keys are submitted.
+  /// All bats of the scene are in play from the start, and the scene's scripted keys are submitted.
   /// `engine` moves the bodies; there must be no objection to it (asserted).
   explicit Game(const Scene& scene, const physics::SimulatorChoice& engine = {});
 
-  /// Another game that goes on from here with the same bits; its engine must be the exact one
+  /// Another game that continues from here with the same bits; the engine must be the exact one
   /// (asserted).
   Game copy() const { return Game(*this); }
   Game(Game&&) = default;
   Game& operator=(Game&&) = default;
 
   /// Queues `event` for its own instant, which must be finite and not before now(); its player must
-  /// have a bat in the scene (both asserted). Keys for a bat that is not there at that instant,
+  /// have a bat in the scene (both asserted). Keys for a bat that is not in play at that instant,
   /// entering twice and leaving twice have no effect. `enter` puts the bat back at its home or, if
   /// that is taken, at the nearest free place, and tries again every `placement_retry` seconds when
   /// there is none. If inputs or face-offs of now() have been played already, that instant is over,
@@ -73,9 +73,9 @@ class Game {
 
   static constexpr double placement_retry = 0.1;  ///< s
 
-  /// From now on `events` tells all that happens to a body; off at first, when it costs nothing.
+  /// Makes `events` list all events of bodies; off at first, when it costs nothing.
   void record_events(bool is_wanted) { simulator_->record_events(is_wanted); }
-  /// Of the last `advance`, in order of time.
+  /// The events of the last `advance`, in order of time.
   std::span<const physics::Event> events() const { return simulator_->events(); }
 
   double now() const { return simulator_->now(); }
@@ -87,11 +87,10 @@ class Game {
   }
   const MatchRules& rules() const { return rules_; }
 
-  /// All that is there now, in order of id. A scored puck is still there, out of play, until its
-  /// face-off.
+  /// All present entities, in order of id. A scored puck stays, out of play, until its face-off.
   std::span<const Entity> entities() const { return entities_; }
   bool is_there(EntityId entity) const;
-  const Entity& entity(EntityId entity) const;  ///< which must be there
+  const Entity& entity(EntityId entity) const;  ///< which must exist
   Vector2 position(EntityId entity) const {
     return simulator_->position(entity);
   }  ///< at now() [m]
@@ -99,7 +98,7 @@ class Game {
     return simulator_->velocity(entity);
   }  ///< at now() [m/s]
 
-  /// Bats of the scene, there or not.
+  /// The number of the scene's bats, in play or not.
   std::uint32_t player_count() const { return static_cast<std::uint32_t>(seats_.size()); }
   std::optional<EntityId> bat(std::uint32_t player) const {
     assert(player < player_count());
@@ -109,7 +108,7 @@ class Game {
     assert(player < player_count());
     return seats_[player].controller.keys();
   }
-  /// Key events that `player`'s bat has felt since the start.
+  /// Key events that have taken effect on `player`'s bat since the start.
   std::uint32_t input_count(std::uint32_t player) const {
     assert(player < player_count());
     return seats_[player].controller.input_count();
@@ -118,8 +117,8 @@ class Game {
   const Score& score() const { return score_; }
   bool is_over() const { return is_over_; }
 
-  /// What the last `advance` did, each in the order in which it happened; valid until the next.
-  /// What was there from the start is in none of them.
+  /// The changes of the last `advance`, in order of time; valid until the next. Entities from the
+  /// start are in none of them.
   std::span<const Entity> spawned() const { return spawned_; }
   std::span<const Entity> removed() const { return removed_; }
   std::span<const ScoredGoal> scored() const { return scored_; }
@@ -128,8 +127,8 @@ class Game {
   /// equal games.
   std::uint64_t hash() const;
 
-  /// Asserts that entities and seats name each other, that what is to come is in its order and not
-  /// in the past, and that the score can be.
+  /// Asserts that entities and seats refer to each other, that queued inputs are in order and not
+  /// in the past, and that the score is possible.
   void check() const;
 
  private:
@@ -147,7 +146,7 @@ class Game {
     std::tuple<double, std::uint32_t, std::uint64_t> turn() const {
       return {event.time, event.player, number};
     }
-    /// A heap's order: the input that is to be applied first is the greatest.
+    /// A heap's order: the input to apply first is the greatest.
     static bool is_later(const QueuedInput& a, const QueuedInput& b) { return a.turn() > b.turn(); }
   };
   struct FaceOff {
@@ -183,8 +182,8 @@ class Game {
   std::vector<ScoredGoal> scored_;
 };
 
-/// Of a game's hash: the world's, all that is in it, what the players hold, in order of player, and
-/// the score; pending face-offs come after that. For those who have the game in parts.
+/// The beginning of a game's hash, for games in parts: the world's hash, its entities, the keys
+/// held, in order of player, and the score; pending face-offs follow.
 StateHash begun_game_hash(std::uint64_t world, std::span<const Entity> entities,
                           std::span<const BatController* const> players, const Score& score);
 

@@ -1,4 +1,4 @@
-// What a game's future depends on, in one order for writing and reading.
+// Reads and writes all that a game's future depends on, by one function.
 #include "game/control/game_state.h"
 
 #include <algorithm>
@@ -104,8 +104,7 @@ bool GameState::exchange(Stream& stream, Game& game) {
   return true;
 }
 
-/// Whether it can be played: the checksum speaks against damage, this against whoever writes such
-/// bytes by hand.
+/// True if the state can be played: the checksum detects damage, this detects forged bytes.
 bool GameState::is_sound(const Game& game) {
   const std::uint32_t bodies = game.simulator_->body_count();
   for (std::size_t i = 0; i < game.entities_.size(); ++i) {

@@ -1,4 +1,4 @@
-// A game as bytes and as a file: saved at an instant, it goes on from there with the same bits.
+// A game as bytes and as a file: restored from an instant, it continues with the same bits.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,17 @@ namespace rink::game {
 
 /// Saves and restores. The bytes begin with the format's name and version and the scene's
 /// fingerprint, and end with a checksum; the world's part is physics::World::save(). Recorded
-/// events and what the last `advance` did are an observer's and not among them.
+/// events and the changes of the last `advance` are for observers and not saved.
 class GameState {
  public:
-  /// A game, or why there is none.
+  /// A game, or the reason why it cannot be restored.
   struct Restored {
     std::optional<Game> game;
     std::string error;
   };
 
-  /// Of a game of `scene` on the exact engine (asserted); the same on every machine for the same
-  /// bits.
+  /// Saves a game of `scene` on the exact engine (asserted); equal games give equal bytes on every
+  /// machine.
   static std::vector<std::uint8_t> save(const Game& game, const Scene& scene);
   static Restored restore(std::span<const std::uint8_t> bytes, const Scene& scene);
 

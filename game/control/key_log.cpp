@@ -1,4 +1,4 @@
-// A log of the keys of a scene: made for it, and held against it.
+// Makes key logs for scenes, and checks that a log fits a scene.
 #include "game/control/key_log.h"
 
 namespace rink::game {

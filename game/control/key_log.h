@@ -1,4 +1,4 @@
-// A recorded log of everything the players did: enough to play the very same game again.
+// A recorded log of all inputs: enough to replay the same game.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,23 @@ namespace rink::game {
 /// The greatest instant of an event [s], as in scenes (docs/scenes.md, "Limits").
 inline constexpr double key_time_max = 1e9;
 
-/// Which game was played and how. As a file: packed (key_log_packed.h) of matches, else text: a
-/// line `rink-keys 1`, one line each for scene, seed and, if known, bats, fingerprint, until, hash,
-/// the scene's own text behind bars, then one line per event: time with 17 significant digits,
-/// which read back to the same bits, player, what (down, up, enter, leave) and, for down and up,
-/// the key. The last line, `end`, has the number of events and a checksum of all lines above.
+/// The game that was played, and its inputs. As a file: packed (key_log_packed.h) of matches, else
+/// text: a line `rink-keys 1`, one line each for scene, seed and, if known, bats, fingerprint,
+/// until, hash, the scene's own text behind bars, then one line per event: time with 17 significant
+/// digits, which read back to the same bits, player, what (down, up, enter, leave) and, for down
+/// and up, the key. The last line, `end`, has the number of events and a checksum of all lines
+/// above.
 struct KeyLog {
   std::string scene;  ///< as given to load_scene
   std::uint64_t seed = 1;
   std::optional<std::uint32_t> bats;  ///< of the scaled scene
   std::optional<std::uint32_t> bat_count{},
-      puck_count{};  ///< of a scene with so many on the same field (with_count)
+      puck_count{};  ///< of a scene with changed numbers on the same field (with_count)
   std::optional<std::uint64_t> fingerprint;  ///< of the scene
   std::optional<double> until;               ///< how far it was played [s]
   std::optional<std::uint64_t> hash;         ///< of the game at `until`, on the exact engine
   std::string scene_text;  ///< the scene's file, so that the log needs no other; may be empty
-  bool is_sealed = false;  ///< has its last line, so nothing is missing
+  bool is_sealed = false;  ///< has its last line, so it is complete
   std::vector<InputEvent> events;  ///< ordered by time; events of one instant in the order in which
                                    ///< they are to be submitted
   friend bool operator==(const KeyLog&, const KeyLog&) = default;

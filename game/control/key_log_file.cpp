@@ -41,7 +41,7 @@ std::optional<Number> number_of(const std::string& text, Base... base) {
   return number;
 }
 
-/// For messages: the beginning of what stands there, and no byte that a terminal would obey.
+/// For messages: the beginning of the text, without bytes that control a terminal.
 std::string printable(const std::string& text) {
   constexpr std::size_t shown_max = 60;
   std::string shown = text.substr(0, shown_max);
@@ -51,7 +51,7 @@ std::string printable(const std::string& text) {
   return text.size() > shown_max ? shown + "..." : shown;
 }
 
-/// Over lines with their ends.
+/// A checksum over lines with their ends.
 class LineChecksum {
  public:
   void add(const std::string& line) {

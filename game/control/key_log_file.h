@@ -14,7 +14,7 @@ void write_key_log(std::ostream& stream, const KeyLog& log);
 /// Throws SceneError if the file cannot be written.
 void write_key_log(const std::filesystem::path& file, const KeyLog& log);
 
-/// Reads text and packed logs. Throws SceneError naming file, line, what stands there and what was
+/// Reads text and packed logs. Throws SceneError naming file, line, the text there and what was
 /// expected.
 KeyLog read_key_log(const std::filesystem::path& file);
 /// As above; `name` is named in errors.

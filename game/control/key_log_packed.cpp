@@ -1,4 +1,5 @@
-// A first line as in the other form, a checksum, the number of bytes that follow, and these.
+// Writes and reads packed logs: a first line as in the text form, a checksum, the number of bytes
+// that follow, and these.
 #include "game/control/key_log_packed.h"
 
 #include <algorithm>
@@ -20,12 +21,11 @@ namespace {
 
 constexpr std::uint64_t packed_size_max = 1u << 28;  // bytes: a crowd's keys of some days
 constexpr double millisecond = 1e-3;
-constexpr std::int64_t ulps_max =
-    127;  // so far is what a player's arithmetic makes of a whole millisecond
+constexpr std::int64_t ulps_max = 127;  // arithmetic on whole milliseconds errs by at most so much
 
-/// How an event's time is told.
+/// The encoding of an event's time.
 enum class TimeForm : std::uint8_t { on_grid, near_millisecond, in_full };
-/// Whether a number that may lack is there, by its place in the log's first byte.
+/// The optional numbers, by their bits in the log's first byte.
 enum class Part : std::uint8_t { bats, bat_count, puck_count, fingerprint, until, hash };
 
 constexpr unsigned player_bits = 2, player_elsewhere = (1u << player_bits) - 1;
@@ -33,7 +33,7 @@ constexpr unsigned player_bits = 2, player_elsewhere = (1u << player_bits) - 1;
 /// The bits of a time, which is not below 0: neighbours in them are neighbours in time.
 std::int64_t bits_of(double time) { return std::bit_cast<std::int64_t>(time); }
 
-/// Where a time is among the multiples of a step, and what its event adds to that.
+/// A time as a number of steps.
 std::uint64_t steps_of(double time, double step) {
   assert(time >= 0.0 && step > 0.0);
   return static_cast<std::uint64_t>(std::floor(time / step));
@@ -217,8 +217,7 @@ class PackedReader {
   const std::string& name_;
 };
 
-/// At most `size` bytes, as many as there are; a piece at a time, since the size was told by a
-/// stranger.
+/// At most `size` bytes, as many as there are; a piece at a time, since the size may be forged.
 std::string read_up_to(std::istream& stream, std::uint64_t size) {
   constexpr std::uint64_t piece = 1u << 16;
   std::string bytes;

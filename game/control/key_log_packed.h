@@ -1,4 +1,4 @@
-// Key logs in as few bytes as they need: matches are recorded so.
+// Key logs in few bytes, the form in which matches are recorded.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,11 @@ inline constexpr const char* packed_version_line = "rink-keys 2";
 /// Three to four bytes for each key that was pressed on key_grid or at whole milliseconds, eleven
 /// for any other (docs/play.md, "Recorded matches"). Seals the log, whatever `is_sealed` says.
 void write_packed_key_log(std::ostream& stream, const KeyLog& log);
-/// Throws SceneError if the file cannot be written; then there is none.
+/// Throws SceneError if the file cannot be written; then no file is left.
 void write_packed_key_log(const std::filesystem::path& file, const KeyLog& log);
 
-/// What follows the first line. Throws SceneError naming the file, `name`, and what is wrong with
-/// it: cut off, altered, or longer than it says. read_key_log() reads both forms.
+/// Reads what follows the first line. Throws SceneError naming the file, `name`, and its fault: cut
+/// off, altered, or longer than stated. read_key_log() reads both forms.
 KeyLog read_packed_key_log(std::istream& stream, const std::string& name);
 
 }  // namespace rink::game

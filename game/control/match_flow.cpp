@@ -1,4 +1,4 @@
-// Each call is one arrow between two phases.
+// The transitions between phases of a match.
 #include "game/control/match_flow.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void MatchFlow::count_down(double now_s) {
   state_.until_s = now_s + times_.countdown_s;
 }
 
-/// Simulated time stands from now on.
+/// Stops simulated time.
 void MatchFlow::stop(double now_s) {
   state_.clock_simulated_s = simulated_at(state_, now_s);
   state_.clock_real_s = now_s;
@@ -77,7 +77,7 @@ void MatchFlow::enter(std::uint32_t player, double now_s) {
   if (is_here_[player]) return;
   is_here_[player] = true;
   if (!are_all_here()) return;
-  // Over, but for lack of the other: that one's successor plays anew.
+  // Over because the other player left: a successor begins a new match.
   if (state_.phase == MatchPhase::waiting || state_.phase == MatchPhase::over) begin_match(now_s);
   else if (state_.phase == MatchPhase::away) count_down(now_s);
   if constexpr (checks_whole_structures) check();
@@ -91,7 +91,7 @@ void MatchFlow::leave(std::uint32_t player, double now_s) {
   stop(now_s);
   const bool is_anybody_here = is_here_[0] || is_here_[1];
   if (!is_anybody_here || state_.phase == MatchPhase::over) {
-    state_.phase = MatchPhase::waiting;  // who stays after the end waits for somebody new
+    state_.phase = MatchPhase::waiting;  // a player that stays after the end waits for a new one
     state_.winner.reset();
     state_.wants_rematch = {};
   } else if (state_.phase != MatchPhase::waiting) {

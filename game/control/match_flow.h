@@ -1,5 +1,5 @@
-// How two players get from one match to the next: countdown, pause, who is away, win, rematch. Runs
-// on real time; the game itself stands still unless `runs()`.
+// The flow of matches between two players: countdown, pause, absence, win, rematch. It runs on real
+// time; the game itself stands still unless `runs()`.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace rink::game {
 
-/// Where a match stands. Simulated time runs in `playing` only.
+/// The phases of a match. Simulated time runs in `playing` only.
 enum class MatchPhase : std::uint8_t {
   waiting,    ///< for the other player
   countdown,  ///< to the face-off that opens it, or to go on after a pause
@@ -20,39 +20,39 @@ enum class MatchPhase : std::uint8_t {
   paused,
   away,  ///< a player has left and has some time to come back
   over,
-  lost  ///< the connection, or whatever else ended it: no flow gets there by itself
+  lost  ///< the connection or the match was lost: only callers set this
 };
 inline constexpr std::uint8_t match_phase_max = static_cast<std::uint8_t>(MatchPhase::lost);
 
-/// What all who play or watch know of a match, besides the game.
+/// The state of a match, besides the game, that players and watchers receive.
 struct MatchState {
   std::uint32_t number = 0;  ///< of the match, from 1; 0 before the first
   MatchPhase phase = MatchPhase::waiting;
-  double until_s = 0.0;  ///< when countdown or patience with who is away end [s, real time]
+  double until_s = 0.0;  ///< end of the countdown or of the wait for an absent player [s, real
+                         ///< time]
   double clock_real_s = 0.0,
-         clock_simulated_s = 0.0;       ///< it was this simulated instant at this real time; while
-                                        ///< playing, both go on from there [s]
+         clock_simulated_s = 0.0;       ///< a simulated instant and its real time; while playing,
+                                        ///< both advance from there [s]
   std::array<bool, 2> wants_rematch{};  ///< by player
   std::optional<Team> winner;           ///< once it is over
-  bool is_unrecorded = false;  ///< what was played last could not be recorded; the host's to say,
-                               ///< no rule depends on it
+  bool is_unrecorded = false;  ///< the last match could not be recorded; set by the host, no rule
+                               ///< depends on it
   friend bool operator==(const MatchState&, const MatchState&) = default;
 };
 
-/// The simulated instant [s] at real time `real_s`, as far as `state` tells; the end of a countdown
-/// is foreseen.
+/// The simulated instant [s] at real time `real_s` by `state`; the end of a countdown is predicted.
 double simulated_at(const MatchState& state, double real_s);
 
-/// Why `scene` is not one for a match of two with a winner; nothing if it is.
+/// The reason why `scene` is not for a match of two with a winner; nothing if it is.
 std::optional<std::string> match_objection(const Scene& scene);
 
 /// How long things take [s].
 struct FlowTimes {
   double countdown_s = 3.0;
-  double patience_s = 30.0;  ///< with a player who is away
+  double patience_s = 30.0;  ///< wait for an absent player
 };
 
-/// The rules around a match of two. Pure: every call is told the real time [s], which never falls.
+/// The rules around a match of two. Pure: every call takes the real time [s], which never falls.
 /// Player 0 is on the left.
 class MatchFlow {
  public:
@@ -60,27 +60,28 @@ class MatchFlow {
     assert(times.countdown_s >= 0.0 && times.patience_s >= 0.0);
   }
 
-  /// Lets time pass: countdowns end, patience runs out.
+  /// Lets time pass: countdowns and waits end.
   void advance(double now_s);
-  /// `player` takes the seat; one who was away may go on where the match stopped.
+  /// `player` takes the seat; one that was absent may continue where the match stopped.
   void enter(std::uint32_t player, double now_s);
   void leave(std::uint32_t player, double now_s);
-  /// Any player may stop a match that is played, and any may have it go on, after a countdown.
+  /// Any player may pause a running match, and any may resume it, after a countdown.
   void pause(bool is_wanted, double now_s);
-  /// Counts once the match is over. When both have asked the next one begins.
+  /// Has effect once the match is over. When both have asked the next match begins.
   void ask_rematch(std::uint32_t player, double now_s);
-  /// The game that is played has come to the last goal of `winner`, a team that has an end.
+  /// `winner`, a team that has an end, has scored the last goal of the game.
   void win(Team winner, double now_s);
 
   const MatchState& state() const { return state_; }
-  /// Whether simulated time runs.
+  /// True while simulated time runs.
   bool runs() const { return state_.phase == MatchPhase::playing; }
   bool is_here(std::uint32_t player) const {
     assert(player < is_here_.size());
     return is_here_[player];
   }
 
-  /// Asserts that the phase agrees with who is here, who won and who asks for another match.
+  /// Asserts that the phase agrees with the players present, the winner and the requests for a
+  /// rematch.
   void check() const;
 
  private:

@@ -1,4 +1,4 @@
-// The first number that is free.
+// Writes records under the first free number.
 #include "game/control/match_records.h"
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// Where the records of matches are kept: a folder with one key log for each.
+// The folder of match records, with one key log for each match.
 #pragma once
 
 #include <filesystem>
@@ -9,19 +9,20 @@
 
 namespace rink::game {
 
-/// Names files match-1.keys, match-2.keys and so on; none that is there is overwritten.
+/// Files are named match-1.keys, match-2.keys and so on; none is overwritten.
 class MatchRecords {
  public:
   /// The folder is made when it is needed.
   explicit MatchRecords(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Where it stands now. Throws SceneError if it cannot be written.
+  /// Writes a record and returns its path. Throws SceneError if it cannot be written.
   std::filesystem::path write(const KeyLog& log);
-  /// The same for a match that goes on all the same: what went wrong, when it begins to.
+  /// Writes a record without throwing, since the match goes on. Returns the error when it first
+  /// occurs.
   std::optional<std::string> keep(const KeyLog& log);
-  /// What would go wrong if a match were kept now; nothing if nothing would.
+  /// The error that writing a record now would give; nothing if none.
   std::optional<std::string> test();
-  /// Whether the last record could not be kept.
+  /// True if the last record could not be written.
   bool is_failing() const { return is_failing_; }
 
  private:

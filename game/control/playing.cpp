@@ -1,5 +1,4 @@
-// Advances the game from one decision to the next; where a game stops on the way changes nothing in
-// it.
+// Advances the game from one decision to the next; these stops do not affect the game.
 #include "game/control/playing.h"
 
 #include <algorithm>
@@ -83,8 +82,8 @@ void Playing::advance(double until) {
         static_cast<double>(turn_ / seats_.size()) * decision_period + seat.phase;
     if (instant > until) break;
     if (game_.now() < instant)
-      play_until(instant);  // those who decide at one instant see the same and press together, as
-                            // they will when the log is played
+      play_until(instant);  // players that decide at one instant see the same state and press
+                            // together, as in the replay of the log
     assert(game_.now() == instant);
     decide(seat, instant);
   }
@@ -113,7 +112,7 @@ void Playing::decide(Seat& seat, double instant) {
         instant);
 }
 
-/// To choose by, positions up to a decision old will do; finding them anew for every player would
+/// Positions up to a decision old suffice for choosing; finding them anew for every player would
 /// take three quarters of all the work.
 void Playing::look_about(Seat& seat, const Vector2& from, double instant) {
   seat.watched.clear(seat.player->pucks_wanted());

@@ -1,4 +1,4 @@
-// Players who play a game on its true state, offline, and the log of what they did.
+// Players that play a game offline on its true state, and the log of their keys.
 #pragma once
 
 #include <memory>
@@ -11,18 +11,18 @@
 
 namespace rink::game {
 
-/// A game and a player for each of its bats. Everybody decides on the true state every
-/// decision_period, each at a phase of its own; keys take effect at that very instant. The same
-/// arguments give the same events, and submitting these to a Game of the same scene gives the same
-/// game, bit for bit.
+/// A game and a player for each of its bats. Each player decides on the true state every
+/// decision_period, at a phase of its own; keys take effect at that instant. The same arguments
+/// give the same events, and submitting these to a Game of the same scene gives the same game, bit
+/// for bit.
 class Playing {
  public:
-  /// The kind of a bat that nobody decides for: whoever calls press() plays it.
+  /// The kind of a bat without a player of its own: the caller plays it by press().
   static constexpr const char* hand = "hand";
 
   /// `kinds`, at least one: bat k is played by kind k modulo their number, each `hand`, "random" or
-  /// one of player_kinds() (asserted). `until`: how long random players are to press keys [s].
-  /// `engine`: what moves the bodies.
+  /// one of player_kinds() (asserted). `until`: how long random players press keys [s]. `engine`:
+  /// what moves the bodies.
   Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed,
           double until, const physics::SimulatorChoice& engine = {});
 
@@ -34,10 +34,10 @@ class Playing {
   void press(std::uint32_t player, Key key, bool is_down);
 
   const Game& game() const { return game_; }
-  /// As Game's: from now on `events` tells all that happens to a body, of the last `advance`.
+  /// As Game's: makes `events` list all events of bodies in the last `advance`.
   void record_events(bool is_wanted);
   std::span<const physics::Event> events() const { return happened_; }
-  /// All that was pressed up to now(), ordered by time, then player.
+  /// All keys pressed up to now(), ordered by time, then player.
   std::vector<InputEvent> keys() const;
 
   /// Asserts that seats are in order of phase and keys in order of time, each of a player.

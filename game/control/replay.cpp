@@ -1,4 +1,4 @@
-// The same scene, and the same keys at the same instants.
+// Replays the same keys at the same instants in the same scene.
 #include "game/control/replay.h"
 
 #include <algorithm>
@@ -87,7 +87,7 @@ void Replay::check() const {
   assert(kept_.back().now() <= end());
 }
 
-/// Where a game stops on the way changes nothing in it.
+/// Stops on the way do not affect the game.
 void Replay::play(double until) {
   for (double stop = kept_every * static_cast<double>(kept_.size()); stop <= until;
        stop += kept_every) {

@@ -1,4 +1,4 @@
-// A recorded game played again from its key log alone, to the hash in which it ended.
+// Replays a recorded game from its key log alone, and compares the final hash.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,24 @@
 
 namespace rink::game {
 
-/// Throws SceneError, naming `file` and all that is missing, unless the log tells how far the game
-/// was played, in which hash it ended, and has its last line.
+/// Throws SceneError, naming `file` and all that is missing, unless the log has the length of the
+/// game, its final hash, and its last line.
 void require_complete(const KeyLog& log, const std::string& file);
 
 /// The scene that was played: from the log's own text, or by its name if it has none; with the
 /// log's seed and number of bats. Throws SceneError, naming `file`, if there is no such scene, or
-/// it is another than the one that was recorded.
+/// it differs from the recorded one.
 Scene recorded_scene(const KeyLog& log, const std::string& file);
 
 /// The hash of the game at the end of a complete log (asserted), played in `scene`.
 std::uint64_t replay(const KeyLog& log, const Scene& scene);
 
-/// The complete log of `game`, played in `scene` with `events`, which may hold some that are still
-/// to come; these are left out.
+/// The complete log of `game`, played in `scene` with `events`; future events are left out.
 KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text,
               std::vector<InputEvent> events);
 
-/// A recorded game that can be looked at in any order. Going back costs no more than going forward:
-/// what was played is kept every few seconds.
+/// A recorded game that can be viewed in any order. Going back costs no more than going forward,
+/// since the game is kept every few seconds.
 class Replay {
  public:
   static constexpr double kept_every = 5.0;  ///< simulated seconds
@@ -43,13 +42,13 @@ class Replay {
   const Scene& scene() const { return scene_; }
   const KeyLog& log() const { return log_; }
 
-  /// Goes to `instant` [s], or to the nearest there is. The game is the same, bit for bit, however
-  /// one gets there.
+  /// Goes to `instant` [s], or to the nearest one in the record. The game is the same, bit for bit,
+  /// in whatever order it is viewed.
   void seek(double instant);
-  /// Whether the game was at its end in the state that was recorded; nothing before it was there.
+  /// Whether the game ended in the recorded state; nothing before the end was reached.
   std::optional<bool> is_as_recorded() const { return is_as_recorded_; }
 
-  /// Asserts that the games that are kept are those of the instants at which they are looked for.
+  /// Asserts that the kept games are those of their instants.
   void check() const;
 
  private:

@@ -1,4 +1,4 @@
-// Shows the user how far a long simulation is.
+// Shows the progress of a long simulation.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 namespace rink::game {
 
 /// A line that is overwritten in place on a terminal, one plain line every few seconds elsewhere.
-/// Short runs say nothing. Handed the time, it reads no clock.
+/// Short runs show nothing. It reads no clock; callers pass the time.
 class SimulateProgress {
  public:
   SimulateProgress(std::ostream& out, bool is_terminal, double until)
       : out_(out), is_terminal_(is_terminal), until_(until) {}
 
-  /// `simulated_s` of the run's time and `event_count` events are done after `wall_s`. Says so if
-  /// it is time to.
+  /// `simulated_s` of the run's time and `event_count` events are done after `wall_s`. Shows it if
+  /// a line is due.
   void reached(double simulated_s, std::uint64_t event_count, double wall_s);
   /// Clears the line that is overwritten in place.
   void clear();

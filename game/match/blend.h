@@ -1,4 +1,4 @@
-// How a place that turned out to be wrong is left behind without a jump.
+// Blends a wrongly predicted place into the right one without a jump.
 #pragma once
 
 #include <cassert>
@@ -14,8 +14,7 @@ class Blend {
  public:
   static constexpr double duration = 0.1;  ///< s
 
-  /// From `now` [s] on `offset` [m] is to vanish; what was still left of an earlier one must be
-  /// part of it.
+  /// Makes `offset` [m] vanish from `now` [s] on; it must include the rest of an earlier one.
   void begin(const physics::Vector2& offset, double now) {
     assert(now >= since_);
     offset_ = offset;

@@ -1,5 +1,4 @@
-// What interest management decided, as whoever runs it tells a watcher: regions, cells, and who
-// hears of what.
+// Decisions of interest management for a watcher: regions, cells, and which player receives what.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +6,15 @@
 
 namespace rink::game {
 
-/// Decisions of one instant about one thing that was asked of. Counts are of all there are; lists
-/// may hold fewer, what a message can carry.
+/// Decisions at one instant about one thing that the watcher asked about. Counts are complete;
+/// lists may be cut to the size of a message.
 struct InterestSeen {
   static constexpr std::uint32_t nothing = 0xffffffffu;
 
-  /// Where one player's federate subscribes.
+  /// The region to which one player's federate subscribes.
   struct View {
-    std::uint32_t bat = nothing;  ///< that it plays, by the id of its Thing
-    bool hears = false;           ///< of what was asked of
+    std::uint32_t bat = nothing;  ///< the player's bat, by the id of its Thing
+    bool hears = false;           ///< receives the thing asked about
     float low_x = 0.0f, low_y = 0.0f, high_x = 0.0f, high_y = 0.0f;  ///< m
     friend bool operator==(const View&, const View&) = default;
   };
@@ -25,7 +24,7 @@ struct InterestSeen {
   std::uint32_t view_count = 0, heard_count = 0, hearer_count = 0;
   std::vector<View> views;
   std::vector<std::uint32_t>
-      heard;  ///< ids of what is in the scope of the federate that plays `asked`, ascending
+      heard;  ///< ids of the things in the scope of the federate that plays `asked`, ascending
   friend bool operator==(const InterestSeen&, const InterestSeen&) = default;
 };
 

@@ -1,4 +1,4 @@
-// Where bodies are shown while what was predicted of them is put right.
+// Shows bodies while wrong predictions of them are corrected.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,10 @@
 
 namespace rink::game {
 
-/// m: a puck that is further off was put elsewhere, in a goal or on a spot.
+/// m: a puck that is further off was moved by the rules, into a goal or onto a spot.
 inline constexpr double blended_furthest = 0.3;
 
-/// How far the pictures of one kind of body jumped, before the jump was blended away, whenever the
-/// server told of it.
+/// The jumps of one kind of body on updates of the server, before they are blended away.
 struct Corrections {
   static constexpr double visible = 2e-3;  ///< m: a pixel of a field 2.4 m long on 1,280 pixels
   std::uint64_t visible_count = 0;
@@ -30,7 +29,7 @@ struct Corrections {
   }
 };
 
-/// Blends jumps of bats, then pucks, away, and counts how far they would have been seen to jump.
+/// Blends away jumps of bats, then pucks, and measures them.
 class JumpBlends {
  public:
   JumpBlends(std::size_t bats, std::size_t pucks, std::optional<std::uint32_t> own_bat)
@@ -38,7 +37,7 @@ class JumpBlends {
     assert(!own_bat || *own_bat < bats);
   }
 
-  /// `body` was shown `jump` [m] from where it has turned out to be at the instant `now` [s].
+  /// `body` was shown `jump` [m] away from its place at the instant `now` [s] by the latest update.
   void jump(std::size_t body, const physics::Vector2& jump, double now) {
     assert(body < blends_.size());
     const double length = jump.norm();
@@ -47,13 +46,13 @@ class JumpBlends {
     corrections_of(body).count(length);
     blends_[body].begin(jump + blends_[body].at(now), now);
   }
-  /// From now on it is shown where it is.
+  /// Shows the body at its place from now on.
   void forget(std::size_t body) {
     assert(body < blends_.size());
     blends_[body] = {};
   }
   void forget_all() { blends_.assign(blends_.size(), {}); }
-  /// What is added to the place of `body` [m].
+  /// The offset of the shown place of `body` [m].
   physics::Vector2 at(std::size_t body, double now) const {
     assert(body < blends_.size());
     return blends_[body].at(now);

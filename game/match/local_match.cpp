@@ -1,4 +1,4 @@
-// Lets the flow of the match decide when the game runs, and shows the game as it is.
+// Runs the game while the flow of the match allows, and shows it as it is.
 #include "game/match/local_match.h"
 
 #include <algorithm>

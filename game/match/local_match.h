@@ -1,5 +1,4 @@
-// A match that is played here: by two at one keyboard, by one against a bot, or by two bots for the
-// pleasure of looking on.
+// A match on this machine: two at one keyboard, one against a bot, or two bots to watch.
 #pragma once
 
 #include <memory>
@@ -25,11 +24,11 @@ struct LocalMatchSettings {
   std::string scene_text{};  ///< the scene's file, so that records need no other
 };
 
-/// Real time becomes simulated time as it comes, but for pauses, countdowns and frames that took
-/// longer than `frame_max_s`.
+/// Simulated time follows real time, except in pauses, countdowns and frames longer than
+/// `frame_max_s`.
 class LocalMatch final : public MatchSource {
  public:
-  /// `scene` is one for a match of two with a winner (asserted).
+  /// `scene` must be for a match of two with a winner (asserted).
   LocalMatch(const Scene& scene, const LocalMatchSettings& settings);
 
   static constexpr double frame_max_s = 0.1;
@@ -43,11 +42,11 @@ class LocalMatch final : public MatchSource {
 
   /// One line for the player, shown until another is set.
   void set_notice(std::string notice) { sight_.notice = std::move(notice); }
-  /// The match ends here, so that there is a record of it.
+  /// Ends the match, so that it is recorded.
   void finish();
-  /// Records of the matches that came to their end, or were given up, since they were last taken.
+  /// Records of the matches that ended or were abandoned since the last call.
   std::vector<KeyLog> take_finished() { return std::exchange(finished_, {}); }
-  /// What was played since the last face-off that opened a match.
+  /// The game since the last face-off that opened a match.
   const Playing& playing() const { return *playing_; }
 
  private:
@@ -63,7 +62,7 @@ class LocalMatch final : public MatchSource {
   Scene scene_;
   LocalMatchSettings settings_;
   MatchFlow flow_;
-  std::vector<std::uint32_t> hands_;  ///< bats that hands play
+  std::vector<std::uint32_t> hands_;  ///< bats that persons play
   std::unique_ptr<Playing> playing_;
   std::vector<PressedKey> pressed_;
   std::vector<KeyLog> finished_;
@@ -71,7 +70,7 @@ class LocalMatch final : public MatchSource {
   std::uint32_t match_number_ = 0;
   double now_s_ = -1.0;
   double played_s_ = 0.0;  ///< simulated time of the present match; the game stops at multiples of
-                           ///< key_grid, where hands press their keys
+                           ///< key_grid, at which persons press keys
   MatchSight sight_;
   GameSight game_sight_;
   NoiseDetector noises_;

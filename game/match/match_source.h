@@ -1,5 +1,5 @@
-// What a match looks like at one instant and what its players may do: the same for a match played
-// here, one played over a network, and one that was recorded.
+// The interface of a match for windows, its picture at one instant and its players' actions: the
+// same for local, networked and recorded matches.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace rink::game {
 
-/// A body where it is to be drawn.
+/// A body at its place to be drawn.
 struct Thing {
   std::uint32_t id = 0;
   physics::BodyKind kind = physics::BodyKind::puck;
@@ -24,7 +24,7 @@ struct Thing {
   Vector2 half_extent{0.0, 0.0};                   ///< m; both the radius for discs
 };
 
-/// What is to be heard.
+/// A sound to play.
 struct Noise {
   enum class Kind : std::uint8_t {
     puck_on_wall,
@@ -41,18 +41,18 @@ struct Noise {
   double place = 0.5;     ///< along the field, 0 to 1
 };
 
-/// How the connection does; shown on request.
+/// Figures of the connection; shown on request.
 struct LinkFigures {
   double ping_ms = 0.0, jitter_ms = 0.0,
          loss = 0.0;  ///< `loss` is a fraction: of questions that had no answer within a second
-  std::uint64_t tick = 0;            ///< ticks heard of
+  std::uint64_t tick = 0;            ///< ticks received
   double payload_bytes_per_s = 0.0;  ///< received, over the last second
   double lead_ms = 0.0;  ///< how far the own bat is shown ahead of the other (docs/play.md)
   std::uint64_t corrections = 0;  ///< of the own bat, that could be seen
   double last_correction_mm = 0.0;
 };
 
-/// All that there is to see and hear after one call of advance().
+/// All that is seen and heard after one call of advance().
 struct MatchSight {
   double time = 0.0;  ///< simulated [s]
   physics::Field field;
@@ -65,9 +65,9 @@ struct MatchSight {
   std::optional<Team> scorer;  ///< of the goal whose face-off is still to come
   double since_goal_s = 0.0;   ///< real seconds since then
   std::optional<Team> winner;
-  std::optional<Team>
-      own_team;  ///< of a player who has a window of his own: from that end it is seen
-  std::optional<std::uint32_t> own_thing;  ///< the id of the bat of one who plays in a crowd
+  std::optional<Team> own_team;  ///< of the player of this window, if it is one's own: the field is
+                                 ///< seen from that end
+  std::optional<std::uint32_t> own_thing;  ///< the id of the player's bat in a crowd
   bool can_rematch = true;                 ///< once it is over
   bool wants_rematch = false, other_wants_rematch = false;
   std::string notice;                    ///< one line for the player, or nothing
@@ -77,8 +77,7 @@ struct MatchSight {
   std::optional<ZonesSeen> zones;        ///< of a game that peers share
 };
 
-/// A match that is going on. Knows no clock: `now_s` is real time [s] from any origin and never
-/// falls.
+/// A running match. Knows no clock: `now_s` is real time [s] from any origin and never falls.
 class MatchSource {
  public:
   virtual ~MatchSource() = default;
@@ -87,20 +86,20 @@ class MatchSource {
   virtual void advance(double now_s) = 0;
   virtual const MatchSight& sight() const = 0;
 
-  /// Persons who play at this keyboard: 0 (who watches), 1 or 2. Person k's keys are given to
-  /// press() as hand k.
+  /// The number of persons that play at this keyboard: 0 for watchers, 1 or 2. Person k's keys are
+  /// passed to press() as hand k.
   virtual std::uint32_t hand_count() const = 0;
   /// Directions are those of the field: `right` is towards larger x. Takes effect at the instant of
   /// the next advance().
   virtual void press(std::uint32_t hand, Key key, bool is_down) = 0;
 
-  /// Stops or resumes the match, if this player may.
+  /// Pauses or resumes the match, if this player may.
   virtual void pause(bool is_wanted) = 0;
-  /// Asks for another match once this one is over; it starts when everybody has asked.
+  /// Asks for another match once this one is over; it starts when all players have asked.
   virtual void rematch() = 0;
 
-  /// Who watches a crowd wants to see what interest management decides of this thing, or of nothing
-  /// in particular; to be said again as long as it is wanted.
+  /// A watcher of a crowd asks for interest management's decisions about this thing, or for none in
+  /// particular; repeated as long as they are wanted.
   virtual void inspect(std::uint32_t) {}
 };
 

@@ -1,5 +1,5 @@
-// How late news comes, as measured: so far behind the own bat everything is known, and the other
-// can be shown where it is.
+// Measures the delay of updates: so far behind the own bat all is known, and the other bat can be
+// shown at its true place.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace rink::game {
 
-/// One who is shown at P - delay is shown right if nothing is heard later of instants up to there.
-/// News with the stamp T speaks of what happened since the tick before, T - tick; so it came late
+/// A body that is shown at P - delay is right if no later update is about instants up to there. An
+/// update with the stamp T is about what happened since the tick before, T - tick; so it came late
 /// by P - (T - tick), P being that of the last frame in which it was not known. The most of that
 /// which was seen of late, but for the latest of every 32, holds all that delays it: both ways,
 /// their jitter, the server's ticks and how late it is with them, and the frames in which the
@@ -19,20 +19,21 @@ namespace rink::game {
 /// for. Pure.
 class NewsDelay {
  public:
-  static constexpr double spare = 2e-3;     ///< s: for what did not happen of late
-  static constexpr double late_most = 2.0;  ///< s: what is later was held up by something else
+  static constexpr double spare = 2e-3;     ///< s: reserve beyond the recent delays
+  static constexpr double late_most = 2.0;  ///< s: greater delays have other causes and do not
+                                            ///< count
   static constexpr std::size_t remembered = 64,
                                needed =
                                    16;  ///< pieces of news: of five seconds, and one, of a match
 
-  /// The last frame without it showed the own bat at `shown_s`; it tells of what happened from
-  /// `since_s` on [s, simulated].
+  /// An update about events from `since_s` on came; the last frame before it showed the own bat at
+  /// `shown_s` [s, simulated].
   void received(double shown_s, double since_s) {
     if (shown_s - since_s > late_most) return;
     late_.push_back(shown_s - since_s);
     if (late_.size() > remembered) late_.pop_front();
   }
-  /// The delay to show the other by [s]; nothing until enough was heard.
+  /// The delay by which to show the other bat [s]; nothing until there are enough updates.
   std::optional<double> delay() const {
     if (late_.size() < needed) return std::nullopt;
     std::vector<double> sorted(late_.begin(), late_.end());

@@ -1,4 +1,4 @@
-// A puck whose velocity changed at once hit something; what, is what is nearest.
+// A puck whose velocity jumped hit the nearest thing.
 #include "game/match/noises.h"
 
 #include <algorithm>
@@ -8,8 +8,10 @@ namespace rink::game {
 namespace {
 
 constexpr double quietest = 0.1,
-                 loudest = 3.0;  ///< change of velocity [m/s]: below is not heard, above no louder
-constexpr double reach = 0.03;   ///< m: so far from its surface what was hit may be after a frame
+                 loudest = 3.0;  ///< changes of velocity [m/s]: below the first silent, above the
+                                 ///< second no louder
+constexpr double reach = 0.03;   ///< m: distance from the puck's surface to the thing that it hit,
+                                 ///< a frame later
 
 double gap(const Thing& puck, const Thing& other) {
   const Vector2 offset = puck.position - other.position;

@@ -1,5 +1,5 @@
-// What can be heard in a match, from nothing but what is seen of it: so a match sounds alike
-// wherever it is played.
+// Derives the sounds of a match from its picture alone, so that local and networked matches sound
+// alike.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The own player's keys between being pressed here and being felt at the server.
+// The own player's keys between being pressed here and taking effect at the server.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace rink::game {
 
-/// Holds each key until it is known to be felt, in order of time, so that a prediction that begins
-/// again can apply all of them again.
+/// Keeps each key until an update includes its effect, in order of time, so that reconciliation can
+/// apply them again.
 class PendingKeys {
  public:
   struct PressedKey {
@@ -22,23 +22,24 @@ class PendingKeys {
     bool is_down;
   };
 
-  /// `count` keys were felt before all that are pressed here.
+  /// `count` keys took effect before all that are pressed here.
   void count_from(std::uint32_t count) { felt_ = std::max(felt_, count); }
-  /// It takes effect at `instant` [s], but not before the last one.
+  /// Adds a key that takes effect at `instant` [s], but not before the last one.
   void press(Key key, bool is_down, double instant) {
     assert(std::isfinite(instant));
     keys_.push_back(
         {keys_.empty() ? instant : std::max(instant, keys_.back().instant), key, is_down});
   }
-  /// The first `count` of all keys ever pressed are felt, and the others are to be applied again.
+  /// Drops the first `count` of all keys ever pressed, whose effect is known, and marks the others
+  /// to be applied again.
   void felt(std::uint32_t count) {
     for (; felt_ < count && !keys_.empty(); ++felt_) keys_.pop_front();
     felt_ = std::max(felt_, count);
     applied_ = 0;
   }
   void apply_again() { applied_ = 0; }
-  /// The next that is to be applied up to `instant`, and counts as applied from then on; null if
-  /// there is none. Valid until the next key is pressed.
+  /// The next key to apply up to `instant`, which then counts as applied; null if there is none.
+  /// Valid until the next key is pressed.
   const PressedKey* take_until(double instant) {
     return next_instant() <= instant ? &keys_[applied_++] : nullptr;
   }

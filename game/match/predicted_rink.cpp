@@ -1,5 +1,5 @@
-// Begins again from what was told, presses again what was not felt yet, plays forward, and looks at
-// each body at the instant that is its own.
+// Starts again from the newest update, applies pending keys again, plays forward, and samples each
+// body at its own instant.
 #include "game/match/predicted_rink.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ constexpr double sample_step =
 constexpr double kept_longest = 2.0;  ///< s of the past
 constexpr double near_bat =
     0.12;  ///< m from a bat's front, within which a puck is in its owner's time
-constexpr double slowest = 0.3, fastest = 3.0;  ///< of a puck's time as it goes from one player's
-                                                ///< to the other's, against real time
+constexpr double slowest = 0.3, fastest = 3.0;  ///< of a puck's time, against real time, on its way
+                                                ///< from one player's time to the other's
 
 }  // namespace
 
@@ -63,8 +63,8 @@ void PredictedRink::receive(const ReceivedRink& received) {
   if constexpr (checks_whole_structures) check();
 }
 
-/// Where each body would be shown, but for its blend; nothing of those that are not known, or
-/// before anything was shown.
+/// The shown place of each body without its blend; nothing of unknown ones, or before anything was
+/// shown.
 std::vector<std::optional<Vector2>> PredictedRink::seen() const {
   std::vector<std::optional<Vector2>> places(world_.body_count());
   for (std::size_t body = 0; has_looked_ && body < places.size(); ++body)
@@ -89,8 +89,8 @@ void PredictedRink::begin() {
   track_.add(world_.sample(received_time()));
 }
 
-/// A key that was due before what was told, but not felt by then, was late: it is felt at the next
-/// occasion.
+/// A key that was due before the newest update but is not in it was late: it takes effect at the
+/// next occasion.
 void PredictedRink::apply_keys_until(double instant) {
   while (const PendingKeys::PressedKey* pressed = keys_.take_until(instant))
     world_.press(*own_, pressed->key, pressed->is_down);
@@ -135,8 +135,7 @@ ShownBody PredictedRink::shown(std::size_t body) const {
   return shown;
 }
 
-/// Solves lag = delay w(x(now - lag)), as far as a puck's time may run slower or faster than real
-/// time.
+/// Solves lag = delay w(x(now - lag)), within the limits of a puck's time against real time.
 double PredictedRink::puck_lag(std::size_t puck, double lag, double dt) const {
   assert(puck < lags_.size() && dt >= 0.0);
   double wanted = std::min(lag, delay_);
@@ -161,8 +160,8 @@ double PredictedRink::portion_of_delay(const Vector2& puck) const {
   return std::clamp((direction * (puck.x() - own_x) - near_bat) / span, 0.0, 1.0);
 }
 
-/// Among many bats, or where the other is out of sight: 0 near the own one, on all sides, and 1
-/// where that cannot get soon.
+/// Among many bats, or if the other is out of sight: 0 near the own one, on all sides, and 1 where
+/// it cannot get soon.
 double PredictedRink::portion_in_crowd(const Vector2& puck) const {
   assert(own_ && *own_ < world_.bat_count());
   const Vector2 beside =

@@ -1,5 +1,5 @@
-// What a player is shown of a match that is played elsewhere: the own bat at once, by the same
-// closed forms; all else on its path, as late as it must be.
+// The prediction of a match that is played elsewhere: the own bat at once, by the engine's closed
+// forms; all else on its path, with the necessary delay.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +12,30 @@
 
 namespace rink::game {
 
-/// Pure: time, keys and what was told are handed in. Keeps a world of its own, set up anew from
-/// each thing told and played forward to the instant at which a key that is pressed now will be
-/// felt.
+/// Pure: time, keys and updates are arguments. Keeps a world of its own, rebuilt from each update
+/// and played forward to the instant at which a key that is pressed now takes effect.
 class PredictedRink {
  public:
   /// m from the own bat: among more bats than two, pucks that are further away are shown in the
   /// others' time.
   static constexpr double crowd_reach = 0.6;
 
-  /// `own_player` plays that bat of the scene; nobody for one who watches.
+  /// `own_player` plays that bat of the scene; none for a watcher.
   PredictedRink(const Scene& scene, std::optional<std::uint32_t> own_player);
 
-  /// The own player has pressed `count` keys before, in other matches, which are of no account
-  /// here.
+  /// The own player has pressed `count` keys before, in other matches, which do not count here.
   void count_from(std::uint32_t count) { keys_.count_from(count); }
 
   /// The own player's next key takes effect at `instant` [s], not before now() (asserted), nor
   /// before the last key.
   void press(Key key, bool is_down, double instant);
 
-  /// Takes in what the server sent. It is no news if something as new was received before; a match
-  /// that begins anew needs a new PredictedRink.
+  /// Applies an update of the server unless one as new was received before; a new match needs a new
+  /// PredictedRink.
   void receive(const ReceivedRink& received);
 
-  /// Back to `now` [s] and what was told: the server says that time has stood still since then.
-  /// What was pressed stays pressed.
+  /// Returns to `now` [s] and the newest update, since the server's time has stood still since
+  /// then. Held keys stay held.
   void rewind(double now);
 
   /// Shows the own bat at `now` [s], the other at `now - delay`, and pucks at an instant between,
@@ -47,7 +45,7 @@ class PredictedRink {
   const std::vector<ShownBody>& bats() const { return shown_bats_; }
   const std::vector<ShownBody>& pucks() const { return shown_pucks_; }
   double now() const { return now_; }
-  double received_time() const { return world_.received().time; }  ///< of what was told last
+  double received_time() const { return world_.received().time; }  ///< of the newest update
   bool has_received() const { return world_.is_set_up(); }
   const Corrections& own_corrections() const { return blends_.of_own_bat(); }
   const Corrections& other_corrections() const { return blends_.of_other_bats(); }
@@ -56,8 +54,8 @@ class PredictedRink {
     return keys_.count();
   }  ///< pressed, but not yet known to be felt
 
-  /// Asserts that there is one of everything for each body, that keys and track are in order of
-  /// time, and that what is shown of pucks is no later than now.
+  /// Asserts that all lists have an entry for each body, that keys and track are in order of time,
+  /// and that pucks are shown at no later instant than now.
   void check() const;
 
  private:

@@ -1,4 +1,4 @@
-// How a world is set up from what was told, however roughly.
+// Builds a world from a rounded update.
 #include "game/match/predicted_world.h"
 
 #include <algorithm>

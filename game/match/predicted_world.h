@@ -1,4 +1,4 @@
-// A world that takes up what a server told of it.
+// A world that continues from a server's update.
 #pragma once
 
 #include <cstddef>
@@ -12,42 +12,42 @@
 
 namespace rink::game {
 
-/// A bat or a puck as the server told it.
+/// A bat or a puck in a server's update.
 struct ReceivedBody {
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
   KeysHeld held;                                   ///< of bats
   bool is_in_play = true;                          ///< of pucks: not in a goal
-  bool is_known = true;  ///< otherwise it is shown at `position` and stands in nobody's way: one of
-                         ///< a crowd that is too far away to matter
+  bool is_known = true;  ///< otherwise it is shown at `position` and does not collide: one of a
+                         ///< crowd that is too far away to matter
 };
 
-/// All that was true at the simulated instant `time` [s]: of every bat and puck of the scene, in
-/// their order there.
+/// The state at the simulated instant `time` [s] of every bat and puck of the scene, in their order
+/// there.
 struct ReceivedRink {
   double time = 0.0;
   std::vector<ReceivedBody> bats, pucks;
   std::uint32_t own_felt = 0;  ///< how many of the own player's keys were felt until then
 };
 
-/// Built anew from each thing told, and played forward from there. Bodies are counted bats first,
-/// then pucks.
+/// Rebuilt from each update, and played forward from there. Bodies are numbered bats first, then
+/// pucks.
 class PredictedWorld {
  public:
   explicit PredictedWorld(const Scene& scene);
 
   void set_up(const ReceivedRink& received);
-  /// To the instant that was told last. It must be set up.
+  /// Returns to the instant of the newest update. It must be set up.
   void rewind();
-  /// From here on the bat's player holds that key or not. It must be set up.
+  /// The bat's player presses or releases a key. It must be set up.
   void press(std::uint32_t bat, Key key, bool is_down);
-  /// To the instant `until` [s], not before the last.
+  /// Plays to the instant `until` [s], not before the last.
   void advance(double until);
 
   bool is_set_up() const { return world_.has_value(); }
-  /// What it was set up from; the time is 0 before.
+  /// The update that it was set up from; its time is 0 before.
   const ReceivedRink& received() const { return received_; }
   bool is_known(std::size_t body) const;
-  /// Where all is at present, which is the instant `time`.
+  /// The present places of all bodies, at the instant `time`.
   RinkSample sample(double time) const;
   std::size_t bat_count() const { return held_.size(); }
   std::size_t puck_count() const { return ids_.size() - held_.size(); }
@@ -63,10 +63,10 @@ class PredictedWorld {
 
   Scene scene_;
   std::optional<physics::World> world_;
-  ReceivedRink received_;  ///< what the world was set up from; it counts its time from there
+  ReceivedRink received_;  ///< the update that the world was set up from, and its time origin
   std::vector<std::optional<physics::BodyId>> ids_;  ///< nothing for a puck that was out of play
   std::vector<KeysHeld> held_;                       ///< by bat
-  std::vector<Vector2> left_at_;  ///< where it was told to be while out of play, or not known
+  std::vector<Vector2> left_at_;  ///< its received place while it is out of play or not known
 };
 
 }  // namespace rink::game

@@ -1,4 +1,4 @@
-// Real time, times speed, is where in the record to look.
+// Shows the record at real time multiplied by the speed.
 #include "game/match/replay_match.h"
 
 #include <algorithm>
@@ -43,15 +43,16 @@ void ReplayMatch::advance(double now_s) {
   assert(wanted_ >= 0.0 && wanted_ <= end());
   replay_.seek(wanted_);
   game_sight_.show(replay_.game(), sight_);
-  sight_.phase = wanted_ == end() ? MatchPhase::over
-                                  : MatchPhase::playing;  // one who stops it wants to look at it
+  sight_.phase =
+      wanted_ == end() ? MatchPhase::over : MatchPhase::playing;  // a stopped replay is still shown
+                                                                  // as playing
   const Score& score = sight_.score;
   sight_.winner.reset();
   if (replay_.game().is_over()) sight_.winner = score.left > score.right ? Team::left : Team::right;
   sight_.notice = replay_.is_as_recorded() == false
                       ? "this is not the game that was recorded: its end differs"
                       : "";
-  if (is_sought_) noises_ = {}, goals_ = {};  // what lies between is not heard
+  if (is_sought_) noises_ = {}, goals_ = {};  // events in between make no sound
   is_sought_ = false;
   goals_.look(sight_, now_s, replay_.scene().rules.face_off_delay);
   noises_.listen(sight_);

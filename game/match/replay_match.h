@@ -1,4 +1,4 @@
-// A recorded match as it is watched: stopped, sought in, slowed down.
+// A recorded match for watching, with pause, seeking and slow motion.
 #pragma once
 
 #include <filesystem>
@@ -21,17 +21,17 @@ class ReplayMatch final : public MatchSource {
   std::uint32_t hand_count() const override { return 0; }
   void press(std::uint32_t, Key, bool) override {}
   void pause(bool is_wanted) override { is_paused_ = is_wanted; }
-  /// Once more from the start.
+  /// Starts again from the beginning.
   void rematch() override;
 
   double end() const { return replay_.end(); }  ///< simulated [s]
-  /// Goes to `instant` [s], or to the nearest there is; shown by the next advance().
+  /// Goes to `instant` [s], or to the nearest one in the record; the next advance() shows it.
   void seek(double instant);
   /// Simulated seconds in a real one: 1 at first, 0 or more.
   void set_speed(double speed);
   double speed() const { return speed_; }
   bool is_paused() const { return is_paused_; }
-  /// Whether the game was at its end in the state that was recorded; nothing before it was there.
+  /// Whether the game ended in the recorded state; nothing before the end was reached.
   std::optional<bool> is_as_recorded() const { return replay_.is_as_recorded(); }
 
  private:

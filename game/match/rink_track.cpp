@@ -1,4 +1,4 @@
-// What a track holds of the past and the future, and what lies between its samples.
+// Keeps past and predicted samples, and interpolates between them.
 #include "game/match/rink_track.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Where everything on a rink was and will be, at instants a few milliseconds apart.
+// Past and predicted places of everything on a rink, at instants a few milliseconds apart.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ struct ShownBody {
   double time = 0.0;  ///< the simulated instant that is shown of it [s]
 };
 
-/// Where everything is at one instant: bats, then pucks.
+/// All places at one instant: bats, then pucks.
 struct RinkSample {
   double time = 0.0;
   std::vector<Vector2> positions, velocities;
@@ -28,11 +28,11 @@ class RinkTrack {
   bool is_empty() const { return samples_.empty(); }
   double end() const;  ///< time of the last sample [s]
   void add(RinkSample sample);
-  /// Forgets what was predicted of `time` and later.
+  /// Drops samples at `time` and later, which were predicted.
   void drop_from(double time);
-  /// Forgets what nobody who asks for `time` or later needs.
+  /// Drops samples that are not needed for `time` and later.
   void forget_before(double time);
-  /// Before the first and after the last sample as there.
+  /// Before the first and after the last sample, the place there.
   ShownBody at(std::size_t body, double time) const;
   void check(std::size_t body_count) const;
 

@@ -1,5 +1,5 @@
-// The latest arrival and the longest round trip of late are what is counted on, so that keys are
-// seldom late and truth is seldom missing; but for what was held up.
+// Estimates use the latest recent arrival and the longest recent round trip, so that keys are
+// seldom late and updates seldom missing; stalled samples are left out.
 #include "game/match/server_clock.h"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ double slewed(double from, double to, double most, double jump_from) {
 
 std::optional<std::uint64_t> ServerClock::ask(double now_s) {
   if (now_s < next_at_s_) return std::nullopt;
-  // The first few in quick succession: one would not say how much to spare, nor which of them a
-  // window that is still opening has held up.
+  // The first few follow quickly: a single one would neither show the spread nor which of them a
+  // window that is still opening has delayed.
   next_at_s_ = now_s + (next_ <= hasty ? 0.1 : 1.0) * question_period;
   questions_.push_back({next_, now_s, false});
   while (questions_.size() > 2 * remembered) questions_.pop_front();
@@ -68,8 +68,8 @@ void ServerClock::advance(double now_s) {
   const auto middle = trips.begin() + static_cast<std::ptrdiff_t>(answers_.size() / 2);
   const auto end = std::ranges::transform(answers_, trips.begin(), &Answer::round_trip).out;
   std::nth_element(trips.begin(), middle, end);
-  // A process that was stopped, a window that was drawn anew: to count on that would make all that
-  // follows late by as much.
+  // A stopped process or a redrawn window delays samples: counting on them would delay all that
+  // follows by as much.
   const double held_up_from = held_up_times * *middle + held_up_more;
   double offset = -std::numeric_limits<double>::infinity(), round_trip = 0.0;
   for (const Answer& answer : answers_) {

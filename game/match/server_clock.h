@@ -1,5 +1,4 @@
-// When what is sent now arrives at the server, by the server's own clock; and how the connection
-// does.
+// Estimates when bytes sent now arrive, by the server's own clock, and measures the connection.
 #pragma once
 
 #include <cassert>
@@ -9,9 +8,9 @@
 
 namespace rink::game {
 
-/// Estimates from questions and answers (Cristian 1989), without supposing that both ways take
-/// equally long: an answer tells at which instant of the server's clock the question arrived, and
-/// that is all that a key's stamp needs. Pure: real time is handed in and never falls.
+/// Estimates from questions and answers (Cristian 1989), without the assumption that both ways take
+/// equally long: an answer has the instant of the server's clock at which the question arrived,
+/// which is all that a key's stamp needs. Pure: real time is an argument and never falls.
 class ServerClock {
  public:
   static constexpr double question_period = 1.0;  ///< s
@@ -19,16 +18,16 @@ class ServerClock {
   /// The number of the question to send now, if one is due.
   std::optional<std::uint64_t> ask(double now_s);
   /// Question `number` reached the server at `server_s` by its clock; the answer came at `now_s`.
-  /// Answers to what was never asked count for nothing.
+  /// Answers to unknown questions are ignored.
   void answered(std::uint64_t number, double server_s, double now_s);
   /// Moves the estimates on to `now_s`, without jumps unless they are far off.
   void advance(double now_s);
 
   bool is_set() const { return !answers_.empty(); }
-  /// The server's clock when what is sent at `now_s` arrives, with a little to spare [s].
+  /// The server's clock when bytes sent at `now_s` arrive, with a small reserve [s].
   double arrival(double now_s) const { return now_s + offset_; }
-  /// How far behind arrival() everything is known that the server has said [s], if it says
-  /// something every `tick_s`.
+  /// How far behind arrival() all of the server's updates are known [s], if it sends one every
+  /// `tick_s`.
   double delay(double tick_s) const {
     assert(tick_s >= 0.0);
     return round_trip_ + tick_s + margin;
@@ -42,16 +41,15 @@ class ServerClock {
   }                     ///< mean difference of one round trip to the next (RFC 3550, 6.4.1)
   double loss() const;  ///< fraction of the last questions that had no answer within a second
 
-  /// Asserts that questions are numbered in order, that no more is remembered than is looked at,
-  /// and that estimates exist once there is an answer.
+  /// Asserts that questions are numbered in order, that no more samples are kept than are used, and
+  /// that estimates exist once there is an answer.
   void check() const;
 
  private:
-  static constexpr double margin =
-      5e-3;  ///< s: for what the network does that it did not do of late
+  static constexpr double margin = 5e-3;  ///< s: reserve for delays greater than the recent ones
   static constexpr double slew =
       0.1;  ///< how fast estimates move: a tenth of real time is not noticed
-  static constexpr double jump_from = 0.25;      ///< s: what is further off jumps
+  static constexpr double jump_from = 0.25;      ///< s: greater errors are corrected by a jump
   static constexpr std::size_t remembered = 16;  ///< answers: a quarter of a minute
   static constexpr std::uint64_t hasty = 12;  ///< questions at the start, a tenth of a second apart
   static constexpr double

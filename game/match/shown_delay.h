@@ -1,4 +1,4 @@
-// How far behind the own bat everything else is shown.
+// The delay behind the own bat with which everything else is shown.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace rink::game {
 
-/// Goes to the delay that news is measured to have, without a jump in the time that is shown.
+/// Approaches the measured delay of updates without a jump in the shown time.
 class ShownDelay {
  public:
   /// How much slower or faster than real time the others' time may run while the delay changes.
@@ -16,11 +16,11 @@ class ShownDelay {
 
   /// As NewsDelay::received.
   void received(double shown_s, double since_s) { news_.received(shown_s, since_s); }
-  /// What is shown begins anew, without delay.
+  /// Starts anew, without delay.
   void begin() { seconds_ = 0.0; }
-  /// The delay of news [s], or `estimate` until enough was heard.
+  /// The measured delay [s], or `estimate` until there are enough updates.
   double measured_or(double estimate) const { return news_.delay().value_or(estimate); }
-  /// Towards `wanted` [s], as far as `dt` [s] of real time allow.
+  /// Moves towards `wanted` [s], as far as `dt` [s] of real time allow.
   void move(double wanted, double dt) {
     assert(dt >= 0.0);
     seconds_ =

@@ -14,15 +14,14 @@ namespace rink::game {
 MatchSight sight_of(const Scene& scene);
 
 /// Shows time, score and bodies of a game; of pucks, those in play, and once the match is over all.
-/// What rests where it was shown last costs nothing.
+/// A body at rest where it was shown last costs nothing.
 class GameSight {
  public:
   /// `sight` must be the one of the last call, if any, but for its `things` if these were changed
   /// in number.
   void show(const Game& game, MatchSight& sight);
 
-  /// Asserts that every thing of `sight`, which was shown last, is at the place that is noted of
-  /// it.
+  /// Asserts that every thing of `sight`, which was shown last, is at its noted place.
   void check(const MatchSight& sight) const;
 
  private:
@@ -35,7 +34,7 @@ class GameSight {
   bool is_over_ = false;  ///< of the match that is shown
 };
 
-/// Follows who scored last and how long ago, until the puck is in play again.
+/// Keeps the last scorer and the time since the goal, until the puck is in play again.
 class GoalWatch {
  public:
   /// Fills in `scorer` and `since_goal_s` from score, time and phase of the `sight` of real time

@@ -1,4 +1,4 @@
-// How much a connection carries at present.
+// The present rate of a connection's traffic.
 #pragma once
 
 #include <cassert>
@@ -6,7 +6,7 @@
 
 namespace rink::game {
 
-/// Works out a rate once a second from a count that only rises.
+/// Computes a rate once a second from a count that only rises.
 class TrafficRate {
  public:
   /// Bytes per second, as of the last whole second; `bytes` have come by `now_s` [s].

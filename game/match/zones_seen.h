@@ -1,5 +1,5 @@
-// How peers share the field, as one of them knows it: zones, its halo, and where it has each body
-// from.
+// The division of the field among peers, as one of them knows it: zones, its halo, and the source
+// of each body.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct ZonesSeen {
   std::vector<Zone> zones;
   std::vector<std::uint32_t> ghosts;  ///< ids of the things that are
   std::vector<std::uint32_t>
-      received;  ///< and of those beyond, which their owners tell of because the player sees them
+      received;  ///< and of those beyond, which their owners send because the player sees them
   std::uint64_t own_count = 0;  ///< of bodies in the own zones
 };
 

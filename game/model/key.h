@@ -20,7 +20,7 @@ constexpr char key_character(Key key) {
   return "adws"[static_cast<std::size_t>(key)];
 }
 
-/// Nothing if `character` is none of a, d, w, s.
+/// Nothing unless `character` is one of a, d, w, s.
 constexpr std::optional<Key> key_from_character(char character) {
   for (const Key key : all_keys)
     if (key_character(key) == character) return key;

@@ -7,7 +7,7 @@
 
 namespace rink::game {
 
-/// Adds `word` to `list`, behind a comma unless it is the first.
+/// Adds `word` to `list`, after a comma unless it is the first.
 inline void add_to_list(std::string& list, std::string_view word) {
   if (!list.empty()) list += ", ";
   list += word;

@@ -51,8 +51,8 @@ std::vector<Outline> outlines(const Bodies& bodies) {
   return all;
 }
 
-/// Fills a field body by body; a world of its own answers what is free, so that the answer is the
-/// engine's.
+/// Fills a field body by body; an engine's world checks whether a place is free, so that placement
+/// and engine agree.
 class Placement {
  public:
   explicit Placement(Scene& scene)
@@ -75,7 +75,7 @@ class Placement {
   /// parking in the plane) and get slow before.
   static constexpr double random_packing_max = 0.4;
   static constexpr double clearance =
-      1e-9;  ///< between the sites of a lattice, relative, so that rounding makes nobody overlap
+      1e-9;  ///< between the sites of a lattice, relative, so that rounding causes no overlap
 
   /// Bodies that the scene asks for, and those that have a place.
   std::uint64_t wanted_count() const {
@@ -129,7 +129,7 @@ class Placement {
     throw PlacementError(body.name, text.str());
   }
 
-  /// The part of the field that a bat of `team` keeps to.
+  /// The part of the field in which a bat of `team` must stay.
   physics::Half half_of(Team team) const {
     if (!field_.bats_keep_to_half || team == Team::none) return physics::Half::both;
     return team == Team::left ? physics::Half::left : physics::Half::right;

@@ -1,4 +1,4 @@
-// What the game draws at random: points, directions and speeds, the same bits on every machine.
+// Random points, directions and speeds, with the same bits on every machine.
 #pragma once
 
 #include <cassert>

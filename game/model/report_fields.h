@@ -1,5 +1,5 @@
-// The fields of reports that one process writes and another reads, or that several write: what
-// each is called and what it holds. docs/metrics.md says what they mean.
+// The fields of reports that one process writes and another reads, or that several write: their
+// names and types. docs/metrics.md defines them.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace rink::game {
 
-/// `Held` is what whoever reads it expects there.
+/// `Held` is the type of the value.
 template <class Held>
 struct ReportField {
   const char* key;
@@ -28,7 +28,7 @@ using AmountsField = ReportField<std::vector<double>>;
 
 namespace report {
 
-// Of a server, of peers in its place, and in part of the bots.
+// Fields of a server, of peers in its place, and in part of the bots.
 inline constexpr TextField mode{"mode"}, scheme{"scheme"}, policy{"policy"};
 inline constexpr AmountField threshold{"threshold"}, clients{"clients"},
     tick_rate_hz{"tick_rate_hz"};
@@ -48,12 +48,12 @@ inline constexpr AmountField bytes_sent{"bytes_sent"}, bytes_received{"bytes_rec
 inline constexpr CountField lost_federates{"lost_federates"},
     dropped_connections{"dropped_connections"}, keys_over_limit{"keys_over_limit"};
 
-// From first to last, as counted here and by the kernel.
+// Totals from first to last, as counted here and by the kernel.
 inline constexpr AmountField total_bytes_sent{"total_bytes_sent"},
     total_bytes_received{"total_bytes_received"}, kernel_bytes_sent{"kernel_bytes_sent"},
     kernel_bytes_received{"kernel_bytes_received"};
 
-// Of the bots.
+// Fields of the bots.
 inline constexpr DurationsField update_age_ms{"update_age_ms"},
     key_to_effect_ms{"key_to_effect_ms"}, send_lateness_ms{"send_lateness_ms"};
 inline constexpr CountField keys_due{"keys_due"}, keys_sent{"keys_sent"},
@@ -63,20 +63,20 @@ inline constexpr AmountField late_sends_fraction{"late_sends_fraction"}, cpu_sha
 inline constexpr TextField schedule_trouble{"schedule_trouble"};
 inline constexpr AmountsField bytes_received_by_bot{"bytes_received_by_bot"};
 
-// Of peers together; the bytes are in the order of game::Traffic.
+// Fields of peers together; the bytes are in the order of game::Traffic.
 inline constexpr std::array<AmountField, 6> traffic_bytes{
     AmountField{"halo_bytes"},     AmountField{"claims_bytes"},  AmountField{"agreement_bytes"},
     AmountField{"interest_bytes"}, AmountField{"updates_bytes"}, AmountField{"keys_bytes"}};
 inline constexpr AmountField busiest_node_bytes{"busiest_node_bytes"},
     busiest_node_events{"busiest_node_events"};
 
-// Of one peer's process.
+// Fields of one peer's process.
 inline constexpr CountField windows{"windows"}, repeats{"repeats"}, own_events{"own_events"},
     ghost_events{"ghost_events"}, hand_overs{"hand_overs"}, held_max{"held_max"},
     rss_bytes{"rss_bytes"};
 inline constexpr AmountField mean_ghosts{"mean_ghosts"};
 inline constexpr TextField hash{"hash"};
-/// What its connections carried, an object.
+/// The traffic of its connections, an object.
 inline constexpr const char* transport = "transport";
 
 }  // namespace report

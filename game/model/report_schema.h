@@ -1,4 +1,4 @@
-// The form of the JSON and the tables that commands write for programs.
+// The schema of the JSON and the tables that commands write for programs.
 #pragma once
 
 namespace rink::game {

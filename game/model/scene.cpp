@@ -1,4 +1,4 @@
-// Scenes derived from scenes: another seed, another size; and what tells two scenes apart.
+// Scenes derived from scenes, by another seed or size, and the fingerprint of a scene.
 #include "game/model/scene.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ void require_reachable(const Scene& scene, BodyKind kind, std::uint64_t wanted) 
                      name + ": expected at least " + std::to_string(least));
 }
 
-/// Scripted keys of players who are not there any more would have nobody to feel them.
+/// Removes scripted keys of players whose bats are gone.
 void drop_keys_of_absent(Scene& scene, std::uint32_t bat_count) {
   std::erase_if(scene.keys,
                 [bat_count](const InputEvent& event) { return event.player >= bat_count; });

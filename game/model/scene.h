@@ -23,8 +23,7 @@ class SceneError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A body or population, named `body`, that has no place: a file's reader adds the line on which it
-/// stands.
+/// A body or population, named `body`, that has no place: a file's reader adds its line.
 class PlacementError : public SceneError {
  public:
   PlacementError(std::string name, const std::string& what)
@@ -35,7 +34,7 @@ class PlacementError : public SceneError {
 /// Left defends the goal at x = 0.
 enum class Team : std::uint8_t { left, right, none };
 
-/// The name as it stands in scene files: "left", "right" or "none".
+/// The name in scene files: "left", "right" or "none".
 const char* team_name(Team team);
 
 struct Puck {
@@ -91,8 +90,8 @@ struct MatchRules {
                                     ///< field's length, within (0, 1)
 };
 
-/// What a game is made of. `bodies` is all there is: first what the scene places itself, then the
-/// populations.
+/// The description of a game. `bodies` are all bodies: first those that the scene places itself,
+/// then the populations.
 struct Scene {
   std::string name;
   std::uint64_t seed = 1;
@@ -124,8 +123,8 @@ Scene scaled_to_bats(Scene scene, std::uint32_t bat_count);
 /// be reached, PlacementError if they do not fit.
 Scene with_count(Scene scene, physics::BodyKind kind, std::uint32_t count);
 
-/// FNV-1a of all that decides a game but its name and keys: scenes that differ in anything else
-/// differ in this (but for chance).
+/// FNV-1a of all that decides a game, without its name and keys: scenes that differ in anything
+/// else differ in this (but for chance).
 std::uint64_t fingerprint(const Scene& scene);
 
 }  // namespace rink::game

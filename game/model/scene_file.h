@@ -15,7 +15,7 @@ namespace rink::game {
 /// SceneError naming file, line, key, value and what was expected.
 Scene load_scene(const std::string& scene);
 
-/// What stands in the file that load_scene() reads. Throws SceneError if it cannot be read.
+/// The text of the file that load_scene() reads. Throws SceneError if it cannot be read.
 std::string scene_text(const std::string& scene);
 
 /// The scene that `text` describes; `file` is named in errors and, without its extension, names a

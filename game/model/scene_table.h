@@ -33,15 +33,16 @@ struct Range {
 inline constexpr Range from_zero{0.0};
 inline constexpr Range part_of_one{0.0, 1.0};
 
-/// What a scene may say, far beyond any rink: within it nothing overflows, a clock in doubles still
-/// tells impacts apart, and bodies are larger than the gap at which pressed ones count as touching,
-/// 2e-6 m (docs/scenes.md, "Limits"). A puck at 1e300 m/s would never get to the end of a second.
+/// The ranges of a scene's numbers, far beyond any rink: within them nothing overflows, a clock in
+/// doubles still separates impacts, and bodies are larger than the gap at which pressed ones count
+/// as touching, 2e-6 m (docs/scenes.md, "Limits"). A puck at 1e300 m/s would never get to the end
+/// of a second.
 namespace limit {
 inline constexpr double field_max = 1e9, speed_max = 1e6, thrust_max = 1e4, rate_max = 1e4,
                         spin_max = 1e9, time_max = 1e9;
-inline constexpr Range field{1e-3, field_max};  ///< its sides [m]
-inline constexpr Range position{-field_max,
-                                field_max};    ///< m; whether it lies on the field is seen later
+inline constexpr Range field{1e-3, field_max};           ///< its sides [m]
+inline constexpr Range position{-field_max, field_max};  ///< m; a later check finds whether it lies
+                                                         ///< on the field
 inline constexpr Range size{1e-5, field_max};  ///< radii and half extents [m]
 inline constexpr Range mass{1e-6, 1e14};       ///< kg
 inline constexpr Range velocity{-speed_max, speed_max}, speed{0.0, speed_max};  ///< m/s
@@ -53,11 +54,11 @@ inline constexpr Range time{0.0, time_max}, delay{1e-9, time_max};  ///< s
 }  // namespace limit
 
 /// A key that is absent leaves the value as it is; the functions that are called `require_` refuse
-/// that. Every function throws SceneError. Call `finish` when all keys were asked for: it refuses
-/// those that nobody asked for.
+/// that. Every function throws SceneError. Call `finish` at the end: it refuses keys that were not
+/// read.
 class SceneTable {
  public:
-  /// `name` is what the table is called in errors. `table` and `file` must outlive this.
+  /// `name` is the table's name in errors. `table` and `file` must outlive this.
   SceneTable(const toml::table& table, const std::string& file, std::string name)
       : table_(table), file_(file), name_(std::move(name)) {}
 
@@ -97,7 +98,7 @@ class SceneTable {
   std::vector<SceneTable> tables(const char* key);
 
   [[noreturn]] void refuse(const char* key, const std::string& expected) const;
-  /// About the table as a whole.
+  /// Throws an error about the table as a whole.
   [[noreturn]] void refuse_all(const std::string& why) const;
   void finish() const;
 

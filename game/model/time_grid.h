@@ -8,7 +8,7 @@ namespace rink::game {
 
 /// Keys of matches are pressed at multiples of this [s]: 15 us, a thousandth of a frame.
 inline constexpr double key_grid = 0x1p-16;
-/// Hosts of matches stop the game at multiples of this [s] and tell what it is then: their stamps
+/// Hosts of matches stop the game at multiples of this [s] and publish its state then: their stamps
 /// take 4 bytes of 8, and are at most a millisecond early.
 inline constexpr double tick_grid = 0x1p-10;
 

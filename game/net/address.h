@@ -1,4 +1,4 @@
-// Where a server is, as players write it.
+// Reads the address of a server as players write it.
 #pragma once
 
 #include <cstdint>

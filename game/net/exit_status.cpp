@@ -1,4 +1,4 @@
-// Of what a transport may throw, what scripts can tell apart.
+// Exit statuses for the errors of transports.
 #include "game/net/exit_status.h"
 
 #include "rti/transport/transport.h"

@@ -1,4 +1,4 @@
-// What the networked commands return, so that a script can tell one failure from another.
+// Exit statuses of networked commands, so that a script can tell one failure from another.
 #pragma once
 
 #include <exception>
@@ -21,7 +21,7 @@ enum class ExitStatus : int {
   connection_lost = 16,
   nobody_came = 17,     ///< the players that were waited for did not all join in time
   no_display = 18,      ///< and so no window, or no OpenGL 3.3
-  may_have_split = 19,  ///< a peer went on alone, and the other may have done so too
+  may_have_split = 19,  ///< a peer continued alone, and the other may have done so too
   interrupted = 130
 };
 
@@ -37,12 +37,12 @@ constexpr ExitStatus exit_status(rti::Refusal refusal) {
   return ExitStatus::not_admitted;
 }
 
-/// What a command ends with if a transport failed.
+/// A command's exit statuses for failures of a transport.
 struct TransportStatuses {
   ExitStatus bad_address, too_many_files, otherwise;
 };
 
-/// Where `error` is no failure of a transport: `bad_input`. A bad address is in use, none of this
+/// `bad_input` if `error` is no failure of a transport. A bad address is in use, not of this
 /// machine, or not allowed.
 ExitStatus exit_status(const std::exception& error, const TransportStatuses& statuses);
 

@@ -1,4 +1,4 @@
-// Found beside the executable, so that neither build nor installation has to be told where it is.
+// Finds the file beside the executable, so that neither build nor installation needs its path.
 #include "game/net/fom_file.h"
 
 #include <filesystem>

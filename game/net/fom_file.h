@@ -1,4 +1,4 @@
-// Where Rink's own object model is.
+// The path of Rink's own object model.
 #pragma once
 
 #include <string>

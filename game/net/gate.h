@@ -1,4 +1,4 @@
-// What stands between a command's socket and its federates: a shared key and a rate limit, where
+// The stages between a command's socket and its federates: a shared key and a rate limit, where
 // flags ask for them.
 #pragma once
 
@@ -12,15 +12,15 @@
 namespace rink::game {
 
 struct GateSettings {
-  std::string key_file{};  ///< empty: no key is asked for
+  std::string key_file{};  ///< empty: no key is required
   rti::Role role = rti::Role::rti;
   std::string federation = "rink";
   rti::RateLimit rate_limit{};
 };
 
-/// Adds to `transport` the stages that the settings ask for. The rate counts from the socket on, so
-/// a stranger is held to it too. Throws std::runtime_error, which names the key file, if it can't
-/// be read or is too short. Returns `transport`.
+/// Adds to `transport` the stages that the settings ask for. The rate counts at the socket, so it
+/// holds for unproven connections too. Throws std::runtime_error, which names the key file, if it
+/// can't be read or is too short. Returns `transport`.
 inline rti::StagedTransport& add_gate(rti::StagedTransport& transport, const GateSettings& settings,
                                       const rti::TransportStage::Clock& now_s) {
   if (settings.rate_limit.bytes_per_s > 0.0 || settings.rate_limit.frames_per_s > 0.0) {

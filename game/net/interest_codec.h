@@ -1,4 +1,4 @@
-// How a server's decisions travel to who watches: the parameters of Inspect and Interest.
+// The parameters of Inspect and Interest, by which a server's decisions reach watchers.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace rink::game {
 
-/// What a watcher asks of: an object's handle, or InterestSeen::nothing.
+/// The object that a watcher asks about, by its handle, or InterestSeen::nothing.
 struct Inspection {
   std::uint32_t object = InterestSeen::nothing;
 };
@@ -30,8 +30,8 @@ bool exchange(Stream& stream, InterestSeen::View& view) {
          stream.number(view.high_y);
 }
 
-/// The counts, the views, and up to the end the steps from one object that is heard of to the next,
-/// of which all but the first are short.
+/// The counts, the views, and up to the end the steps from one received object to the next, of
+/// which all but the first are short.
 template <class Stream>
 bool exchange(Stream& stream, InterestSeen& seen) {
   auto views = static_cast<std::uint16_t>(seen.views.size());

@@ -1,5 +1,5 @@
-// The wish of a user or of the system that a command end in good order: records written, peers
-// told.
+// Signals by which a user or the system ends a command in good order: records are written, peers
+// notified.
 #pragma once
 
 #include <atomic>
@@ -7,12 +7,12 @@
 
 namespace rink::game {
 
-/// Set once a signal asked for the end; the latter if it was that the terminal went away.
+/// Set once a signal asked for the end; the latter if the terminal closed.
 inline std::atomic<bool> is_interrupted = false, is_hung_up = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal may come at any time");
 
-/// From now on SIGINT, SIGTERM and SIGHUP set `is_interrupted`, and a peer or a reader that is gone
-/// is an error of writing instead of a signal.
+/// Makes SIGINT, SIGTERM and SIGHUP set `is_interrupted`, and a closed connection or pipe an error
+/// of writing instead of a signal.
 inline void hear_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     std::signal(signal, [](int number) {

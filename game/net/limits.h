@@ -1,4 +1,4 @@
-// What flags and experiments may ask for at most.
+// The greatest values that flags and experiments may have.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Complaints name the flag, the file and the reason.
+// Opens and writes files; errors name the flag, the file and the reason.
 #include "game/net/record_file.h"
 
 #include <cerrno>

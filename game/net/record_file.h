@@ -1,4 +1,4 @@
-// Files for what a run is to leave, tried out before the run.
+// Files for the results of a run, which are tested before the run.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ void require_writable(const std::string& flag, const std::string& path);
 /// `text` and an end of line. Throws std::runtime_error if it cannot be written.
 void write_file(const std::string& path, const std::string& text);
 
-/// If the run leaves no record, nor does it leave the empty file of that trial.
+/// A run without a record does not leave the empty file of that test either.
 class RecordFile {
  public:
   /// `path` may be empty: no file. Throws std::runtime_error, naming `flag`, if it cannot be

@@ -1,4 +1,4 @@
-// Which kinds of bodies are relevant to everybody, wherever they are: what the scheme `always` lets
+// The kinds of bodies that are relevant to all, wherever they are, as the scheme `always` lets them
 // through.
 #pragma once
 
@@ -32,11 +32,11 @@ class RelevantKinds {
   std::array<bool, 3> has_{};
 };
 
-/// How they are called, by number.
+/// Their names, by number.
 inline const std::vector<std::string> relevant_kind_names{"puck", "bat", "post"};
 
-/// What a player of `scene` expects if nothing is said: posts, which never move, and the pucks of a
-/// match that ends at a number of goals.
+/// The default for `scene`: posts, which never move, and the pucks of a match that ends at a number
+/// of goals.
 inline RelevantKinds relevant_kinds_of(const Scene& scene) {
   RelevantKinds kinds;
   kinds.add(physics::BodyKind::post);
@@ -44,7 +44,7 @@ inline RelevantKinds relevant_kinds_of(const Scene& scene) {
   return kinds;
 }
 
-/// Those called `names`, others apart; those of `scene` if there are none.
+/// The kinds called `names`, or the default for `scene` if there are none.
 inline RelevantKinds relevant_kinds_of(const Scene& scene, const std::vector<std::string>& names) {
   if (names.empty()) return relevant_kinds_of(scene);
   RelevantKinds kinds;

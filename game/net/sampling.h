@@ -1,5 +1,5 @@
-// Which players and which instants evidence is taken of: drawn from a seed, so that the same seed
-// samples the same.
+// Draws the players and instants of traces from a seed, so that the same seed gives the same
+// sample.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct SamplingSettings {
   std::uint64_t seed = 1;
   std::uint32_t clients = 0;
   double from_s = 0.0, until_s = 0.0;
-  std::uint32_t player_max = 32;  ///< players that are looked at, all of them if there are fewer
+  std::uint32_t player_max = 32;       ///< players that are watched, all of them if there are fewer
   std::size_t record_max = 1'000'000;  ///< records kept of each kind, a bound of memory and file
 };
 

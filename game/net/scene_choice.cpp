@@ -1,4 +1,4 @@
-// The order in which a scene is changed: scaled, then counted, then seeded.
+// Changes a scene in this order: scaled, then counted, then seeded.
 #include "game/net/scene_choice.h"
 
 #include <utility>

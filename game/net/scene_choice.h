@@ -1,5 +1,4 @@
-// Which scene a server plays, in the words of its command line; enough to make the very same scene
-// again.
+// The choice of a server's scene by its command line, which is enough to make the same scene again.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@ namespace rink::game {
 struct SceneChoice {
   std::string scene = "crowd";                  ///< see load_scene
   std::uint32_t bats = 0;                       ///< scaled to so many at the scene's density
-  std::uint32_t bat_count = 0, puck_count = 0;  ///< so many on the same field instead
+  std::uint32_t bat_count = 0, puck_count = 0;  ///< numbers on the same field instead
   std::uint64_t seed = 0;
   friend bool operator==(const SceneChoice&, const SceneChoice&) = default;
 };

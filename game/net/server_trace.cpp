@@ -1,4 +1,4 @@
-// The server's evidence as lines: a header with counts, ticks, keys, object names, then one line
+// Writes and reads a server's trace: a header with counts, ticks, keys, object names, then one line
 // per sampled decision.
 #include "game/net/server_trace.h"
 
@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int version = 2;  // 2: may begin from a saved game
 
-/// Ascending numbers as first and length of each run: what `none` decides is one run.
+/// Ascending numbers as first and length of each run; the decisions of `none` are one run.
 Json runs_of(std::span<const std::uint32_t> numbers) {
   Json runs = Json::array();
   for (std::size_t i = 0; i < numbers.size();) {
@@ -72,7 +72,7 @@ Json header_of(const ServerTrace& trace, const std::filesystem::path& file) {
   return header;
 }
 
-/// A folder of evidence that is moved takes its saved games along.
+/// Saved games are found relative to the folder, so that it can be moved.
 void read_state(const nlohmann::json& begins_from, const std::filesystem::path& folder,
                 ServerTrace& trace) {
   const std::filesystem::path file =

@@ -1,5 +1,5 @@
-// What a server says of its own run for others to judge: how to play the game again, what each tick
-// took, and samples of what its filter decided.
+// A server's trace of its run, from which quality is computed: the data for a replay, the cost of
+// each tick, and samples of its filter's decisions.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace rink::game {
 
-/// Plain facts; nothing in it is a judgement. docs/metrics.md describes the file.
+/// Facts without evaluation. docs/metrics.md describes the file.
 struct ServerTrace {
   struct Tick {
     double simulated_s = 0.0, physics_s = 0.0, filter_s = 0.0, send_s = 0.0;
@@ -22,8 +22,8 @@ struct ServerTrace {
     std::uint32_t object = 0,
                   body = 0;  ///< RTI object handle and number of the body in the game's world
   };
-  /// Which objects `player` was told of by the decision in force at `instant_s`: `in_scope[first]`
-  /// up to `in_scope[last - 1]`.
+  /// The objects in the scope of `player` by the decision in force at `instant_s`:
+  /// `in_scope[first]` up to `in_scope[last - 1]`.
   struct Decision {
     double instant_s = 0.0;
     std::uint32_t player = 0;
@@ -33,7 +33,7 @@ struct ServerTrace {
   SceneChoice choice;
   std::string state_file;           ///< of the saved game from which the run began
                                     ///< (game/control/game_state.h); empty: the scene's beginning
-  std::vector<std::uint8_t> state;  ///< what is in it
+  std::vector<std::uint8_t> state;  ///< its content
   std::string scheme, policy;
   std::uint32_t clients = 0;
   double rate_hz = 0.0;

@@ -1,4 +1,5 @@
-// Where in logical time a server's ticks and its players' turns lie; the same numbers at both ends.
+// The places of a server's ticks and its players' turns in logical time; the same numbers at both
+// ends.
 #pragma once
 
 #include <cmath>
@@ -16,21 +17,22 @@ struct TickGrid {
   double rate_hz = 1.0;
 
   double lookahead() const { return 0.25 / rate_hz; }
-  /// A player's time once it has heard tick `number`.
+  /// A player's time once it has received tick `number`.
   double received(std::uint64_t number) const {
     return (static_cast<double>(number) + 0.125) / rate_hz;
   }
-  /// The first tick that a player who was granted `time` may not have heard; at least 1, for tick 0
-  /// is the start, which is told without a time stamp.
+  /// The first tick that a player that was granted `time` may not have received; at least 1, for
+  /// tick 0 is the start, which is sent without a time stamp.
   std::uint64_t next(double time) const {
     const std::uint64_t number = last(time);
     return number > 0 && received(number) > time ? number : number + 1;
   }
-  /// The last tick that was heard at `time`, which is below 1e12 ticks: 0 if none.
+  /// The last tick that was received at `time`, which is below 1e12 ticks: 0 if none.
   std::uint64_t last(double time) const {
     return static_cast<std::uint64_t>(std::fmax(0.0, std::floor(time * rate_hz - 0.125 + 1e-6)));
   }
-  /// The server's time once it has heard all turns that lead to the tick after the one at `tick_s`.
+  /// The server's time once it has received all turns that lead to the tick after the one at
+  /// `tick_s`.
   double turns_heard(double tick_s) const { return tick_s + 0.5 / rate_hz; }
 };
 

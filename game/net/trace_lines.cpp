@@ -1,4 +1,4 @@
-// The last line tells whether the others are all there and as they were written.
+// Writes and reads lines; the last one shows whether all others are complete and unaltered.
 #include "game/net/trace_lines.h"
 
 #include <iterator>

@@ -1,4 +1,4 @@
-// Files of evidence: a JSON value per line and a last line that proves that none is missing or
+// Files of traces: a JSON value per line and a last line that proves that none is missing or
 // altered.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace rink::game {
 
-/// Evidence that cannot be used; the message names file, line and what was expected.
+/// A trace that cannot be used; the message names file, line and what was expected.
 class TraceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -39,17 +39,16 @@ class TraceWriter {
 /// Reads what TraceWriter wrote, whole or not at all.
 class TraceReader {
  public:
-  /// Throws TraceError if the file cannot be read, has no last line as above, or differs from
-  /// what it says.
+  /// Throws TraceError if the file cannot be read, has no last line as above, or does not match it.
   explicit TraceReader(std::string file);
   /// The next line. Throws TraceError if there is none or it is not JSON.
   nlohmann::json next();
-  /// The same as text, without its end, whatever it holds; valid as long as the reader.
+  /// The next line as text, without its end, unchecked; valid as long as the reader.
   std::string_view next_text();
   bool is_at_end() const { return read_ == lines_; }
   [[noreturn]] void refuse(const std::string& expected) const;
   /// Refuses `what` of another version than the wanted one, and names both; 0 stands for a file
-  /// that names none.
+  /// without a version.
   void require_version(int found, int wanted, const std::string& what) const;
 
  private:

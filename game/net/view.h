@@ -1,5 +1,4 @@
-// How far a player sees: one rule for the region that clients declare and for the relevance that
-// truth is measured against.
+// The size of a player's view: one rule for the region that clients declare and for true relevance.
 #pragma once
 
 #include <algorithm>

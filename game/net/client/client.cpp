@@ -27,7 +27,8 @@ Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettin
   if (settings.extrapolates) replicas_.extrapolate();
   ambassador_.join(settings.federation, settings.name,
                    settings.only_watches ? watcher_federate_type : player_federate_type);
-  // In one frame with the join, so that the server cannot offer a seat before we listen.
+  // These are in one frame with the join, so that the server cannot offer a seat before this client
+  // subscribes.
   for (const rti::InteractionClassHandle interaction :
        {model_.key_down, model_.key_up, model_.update})
     ambassador_.publish_interaction_class(interaction);
@@ -56,8 +57,7 @@ void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::B
   else ambassador_.resign();
 }
 
-/// Seat and field come by separate messages, in either order; who only watches waits for the field
-/// alone.
+/// Seat and field come by separate messages, in either order; a watcher waits for the field alone.
 void Client::subscribe_once_seated() {
   if (state() != State::joining || !replicas_.field()) return;
   if (settings_.only_watches) joining_.watch();
@@ -105,9 +105,9 @@ void Client::announce_synchronization_point(std::string_view label, rti::Bytes) 
   reach_barrier_once_ready();
 }
 
-/// The barrier is reached with the own bat in sight, so that nothing of the start-up falls into the
-/// measured time. Who joined late, when ticks are due already, plays at once, and so does who takes
-/// part in a match, which waits for its players by itself.
+/// The barrier is reached with the own bat in sight, so that the start-up is not measured. A client
+/// that joined late, when ticks are due already, plays at once, and so does one in a match, which
+/// itself waits for its players.
 void Client::reach_barrier_once_ready() {
   const EntityReplica* own = bat();
   if (own != nullptr && own->in_scope && own->is_placed) joining_.see_bat();

@@ -26,19 +26,20 @@ struct ClientSettings {
   std::string name;             ///< of the federate; "bat-17" asks for that bat
   double view_fraction = 0.05;  ///< area of the square view around the bat, as a fraction of the
                                 ///< field's; at least 1: everything
-  double view_area = 0.0;       ///< area of the view [m^2] instead; 0: as the fraction says
+  double view_area = 0.0;       ///< area of the view [m^2] instead; 0: use the fraction
   /// How far the declared region reaches beyond the view on each side [m]. It is declared anew when
-  /// the bat is half of that from its middle: the other half covers what the bat moves until the
-  /// RTI has heard of it.
+  /// the bat is half of that from its middle: the other half covers the bat's motion until the RTI
+  /// has received it.
   double view_margin = 0.0;
   /// Whether the view is declared as a region that follows the bat. Without it the subscription is
-  /// to the default region, that is everything: for a scheme that looks at no places (`none`),
-  /// under which declarations would be bytes for nothing.
+  /// to the default region, that is everything: for the scheme `none`, which ignores places, so
+  /// that declarations would be wasted bytes.
   bool declares_regions = true;
-  /// Whether entities that are told positions alone are shown ahead by the velocity between the
-  /// last two; without it, as in the paper, where they were told last.
+  /// Whether entities that are updated by positions alone are extrapolated by the velocity between
+  /// the last two; without it they are shown at the last one, as in the paper.
   bool extrapolates = true;
-  bool plays_match = false;   ///< a hosted one: hears of it, may stop it and ask for another
+  bool plays_match = false;   ///< a hosted one: receives its state, may pause it and ask for
+                              ///< another
   bool only_watches = false;  ///< takes no bat; sees the whole field
 };
 
@@ -54,34 +55,34 @@ class Client : public rti::FederateAmbassador {
   rti::Ambassador& ambassador() { return ambassador_; }
   const rti::Ambassador& ambassador() const { return ambassador_; }
 
-  /// Sends KeyDown or KeyUp; counts it in `keys_sent`. Only while playing. In a hosted match the
-  /// key is to take effect at the simulated `instant` [s] if that is still to come when it arrives
-  /// there; else at its arrival, as in every other game.
+  /// Sends KeyDown or KeyUp and counts it in `keys_sent`. Only while playing. In a hosted match the
+  /// key takes effect at the simulated `instant` [s] unless that has passed when it arrives; else,
+  /// and in every other game, at its arrival.
   void press(Key key, double instant = 0.0);
   void release(Key key, double instant = 0.0);
   std::uint32_t keys_sent() const { return keys_sent_; }
-  /// Synchronous mode: says that this player's turn is done; under time management it then asks to
-  /// advance to the next tick, so only while it has the turn (asserted).
+  /// Synchronous mode: ends this player's turn; under time management it then asks to advance to
+  /// the next tick, so only while it has the turn (asserted).
   void end_turn();
   const TurnTaker& turns() const { return turns_; }
   /// Moves the interest region to where the bat was last seen; call it after each batch received.
   /// Sends nothing if the bat did not move (by half the margin).
   void follow_bat() { follow_bat(replicas_.newest().time); }
-  /// The same to where the bat is believed to be at simulated `instant` [s]: one on a trajectory
-  /// moves without being heard of.
+  /// Moves the region to the bat's believed place at simulated `instant` [s], since a bat on a
+  /// trajectory moves between updates.
   void follow_bat(double instant);
 
   /// Called before the first update with another stamp than the newest is applied: the replica set
-  /// then holds all that was true at the newest, and will not again.
+  /// then has the whole state at the newest stamp for the last time.
   std::function<void()> before_next_stamp;
 
-  /// Called after an update is applied, with its stamp, if the update before it had another: so a
-  /// batch calls it once, and each of several that are read at once does. The state of an entity
-  /// that comes into scope is no news of its stamp, which is its owner's newest and may be of a
-  /// tick long before; it calls nothing.
+  /// Called after an update is applied, with its stamp, if the update before it had another: once
+  /// for each batch, also if several are read at once. The full state of an entity that comes into
+  /// scope does not call it, since its stamp is its owner's newest and may be of a tick long
+  /// before.
   std::function<void(const rti::Stamp&)> on_news;
 
-  /// What it hears, for who measures it; off at first.
+  /// A log of received updates for measurements; off at first.
   ReceiptLog& received() { return received_; }
   /// Null unless it plays hosted matches.
   MatchRemote* remote() { return remote_ ? &*remote_ : nullptr; }
@@ -92,10 +93,10 @@ class Client : public rti::FederateAmbassador {
   const Joining& joining() const { return joining_; }
   /// The interest region as last declared; it follows the bat by one round trip.
   const im::Region& view() const { return view_.bounds(); }
-  /// The own bat as last heard of; null before the first update.
+  /// The replica of the own bat; null before the first update.
   const EntityReplica* bat() const { return replicas_.find(bat_); }
   const ReplicaSet& replicas() const { return replicas_; }
-  /// All that it keeps: itself, tables and buffers [bytes].
+  /// Memory of the client: itself, tables and buffers [bytes].
   std::size_t memory_bytes() const {
     return sizeof *this + replicas_.memory_bytes() + ambassador_.memory_bytes() +
            encoded_.capacity();

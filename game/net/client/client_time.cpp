@@ -1,5 +1,4 @@
-// A client that takes turns, or keeps logical time with the server: what it asks for after each
-// tick.
+// A client that takes turns, or keeps logical time with the server: its requests after each tick.
 #include <cassert>
 
 #include "game/net/client/client.h"
@@ -52,7 +51,7 @@ void Client::time_bounds(double galt, double) {
   if (turns_.receive_bounds(galt) && !ambassador_.clock().is_advancing()) ask_for_tick();
 }
 
-/// Who came late and has not sat down yet keeps nobody waiting.
+/// A player that came late and is not seated yet keeps no other waiting.
 void Client::pass_if_absent() {
   if (turns_.has_turn() && turns_.is_late() && state() != State::playing) end_turn();
 }

@@ -1,4 +1,4 @@
-// The square around a bat that a client declares as its interest, and when it is to be declared
+// The square around a bat that a client declares as its interest, and when it must be declared
 // anew.
 #pragma once
 

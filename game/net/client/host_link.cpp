@@ -1,10 +1,10 @@
-// What a host says of its clock, and the ways in which it is lost.
+// Measures a host's clock, and notices its loss.
 #include "game/net/client/host_link.h"
 
 namespace rink::game {
 namespace {
 
-constexpr double match_patience_s = 3.0;  ///< for a match to be told of, once joined
+constexpr double match_patience_s = 3.0;  ///< for the state of a match, once joined
 
 }  // namespace
 

@@ -11,24 +11,24 @@
 namespace rink::game {
 
 /// Carries the client's bytes, measures the host's clock, and notices when the host refuses, is
-/// gone, or plays no match. From then on it says why, and nothing else. Reads no clock.
+/// gone, or plays no match. From then on it only reports the reason. Reads no clock.
 class HostLink {
  public:
   /// `connection` was opened by `transport`, which is polled here and has no other listener; it and
-  /// the client must outlive this. `is_player`: a host without a match is none for it.
+  /// the client must outlive this. `is_player`: a host without a match is refused.
   HostLink(Client& client, rti::Transport& transport, rti::ConnectionId connection, bool is_player);
   HostLink(const HostLink&) = delete;
   HostLink& operator=(const HostLink&) = delete;
 
-  /// Takes in what has come by the real time `now_s`.
+  /// Handles what has come by the real time `now_s`.
   void converse(double now_s);
   void flush(double now_s) { link_.flush(now_s); }
-  /// Takes leave of the host; nothing may follow.
+  /// Resigns; nothing may follow.
   void leave(double now_s);
   void lose(const std::string& why);
 
   bool is_lost() const { return !error_.empty(); }
-  /// Why it is lost; empty while it is not.
+  /// Why the host is lost; empty while it is not.
   const std::string& error() const { return error_; }
   bool has_joined() const { return joined_s_.has_value(); }
   const ServerClock& clock() const { return clock_; }

@@ -1,5 +1,5 @@
-// Checks the scene that a stranger hosts before reading it, and the states received of its bodies
-// before using them.
+// Checks a host's scene before reading it, and states of its bodies before using them, since the
+// host is not trusted.
 #include "game/net/client/hosted_scene.h"
 
 #include <algorithm>
@@ -12,8 +12,7 @@
 namespace rink::game {
 namespace {
 
-// What a match may say without being no match: beyond, an engine that takes its word would have no
-// end of impacts, or no next instant.
+// Limits of received states: beyond them an engine would have endless impacts, or no next instant.
 constexpr double fastest_received = 100.0;  ///< m/s
 constexpr double latest_received = 1e9;     ///< s, as in scenes
 
@@ -35,7 +34,7 @@ bool is_kind(const EntityReplica& entity, physics::BodyKind kind) {
 
 }  // namespace
 
-/// Checked before it is read: a population of a stranger's could be of any size.
+/// The text is checked before it is read, since a population could be of any size.
 std::optional<std::string> HostedScene::read(const std::string& text) {
   try {
     if (text.find("population") != std::string::npos)
@@ -63,7 +62,7 @@ std::optional<ReceivedRink> HostedScene::received(const ReplicaSet& replicas,
   return received;
 }
 
-/// How many there are.
+/// Returns how many there are.
 std::size_t HostedScene::add_bats(const ReplicaSet& replicas, ReceivedRink& received) const {
   std::size_t count = 0;
   for (const EntityReplica& entity : replicas.entities()) {
@@ -75,7 +74,7 @@ std::size_t HostedScene::add_bats(const ReplicaSet& replicas, ReceivedRink& rece
   return count;
 }
 
-/// How many there are. They have no numbers, but are registered in their order.
+/// Returns how many there are. They have no numbers, but are registered in their order.
 std::size_t HostedScene::add_pucks(const ReplicaSet& replicas, ReceivedRink& received) const {
   std::vector<const EntityReplica*> found;
   for (const EntityReplica& entity : replicas.entities())

@@ -12,18 +12,18 @@
 
 namespace rink::game {
 
-/// Reads what a stranger plays, and puts what a mirror holds of it in its order.
+/// Reads the scene of an untrusted host, and sorts replicas into the scene's order.
 class HostedScene {
  public:
-  /// Why `text`, which is a stranger's, can't be played; nothing if it can.
+  /// The reason why `text`, which is not trusted, cannot be played; nothing if it can.
   std::optional<std::string> read(const std::string& text);
 
-  /// Null before one was read that can be played.
+  /// Null before a playable scene was read.
   const Scene* scene() const { return scene_ ? &*scene_ : nullptr; }
-  /// All there is in it: bats, pucks, then posts.
+  /// All its things: bats, pucks, then posts.
   const std::vector<Thing>& things() const { return things_; }
-  /// All that is known as of the newest stamp; nothing while a body is still missing, or of an
-  /// instant that no match reaches. `own`: the own bat, if there is one. It must be read.
+  /// The state at the newest stamp; nothing while a body is still missing, or for an instant that
+  /// no match reaches. `own`: the own bat, if there is one. It must be read.
   std::optional<ReceivedRink> received(const ReplicaSet& replicas, const EntityReplica* own) const;
 
  private:

@@ -1,4 +1,4 @@
-// What the server's interest management decides of the thing that somebody who watches points at.
+// The server's decisions about the thing that a watcher points at.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace rink::game {
 
-/// Asks ten times a second while there is something to ask, and shows the answer for as long.
+/// Asks ten times a second while a thing is inspected, and shows the answer as long.
 class InspectedInterest {
  public:
   static constexpr double question_period = 0.1;  ///< s
 
-  /// Until the next show().
+  /// Inspects the thing until the next show().
   void inspect(std::uint32_t thing) { wanted_ = thing; }
-  /// Replaces `seen` by a newer answer, or by nothing where nothing is inspected; asks again if
-  /// that `may_be_asked` at real time `now_s`.
+  /// Replaces `seen` by a newer answer, or by nothing if nothing is inspected; asks again at real
+  /// time `now_s` if `may_be_asked`.
   void show(InterestQuestions& questions, bool may_be_asked, double now_s,
             std::optional<InterestSeen>& seen) {
     if (auto answer = questions.take(); answer && wanted_) seen = std::move(answer);

@@ -1,4 +1,4 @@
-// Only watchers publish questions: players are to see what their filter lets them.
+// Only watchers publish questions: players may see only what their filter lets through.
 #include "game/net/client/interest_questions.h"
 
 #include <vector>

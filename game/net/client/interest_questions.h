@@ -1,4 +1,4 @@
-// What who only watches asks of the server's interest management, and what it answers.
+// A watcher's questions to the server's interest management, and the answers.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ class InterestQuestions {
   /// Declares questions and answers. Both must outlive this.
   InterestQuestions(rti::Ambassador& ambassador, const ObjectModel& model);
 
-  /// Asks what the server's filter decides of `object`.
+  /// Asks for the server's decisions about `object`.
   void ask(rti::ObjectHandle object);
-  /// An answer as it came; what is none is not kept.
+  /// Receives an answer; a malformed one is dropped.
   void receive(rti::Bytes answer);
-  /// The newest answer; given once.
+  /// Returns the newest answer, once.
   std::optional<InterestSeen> take() { return std::exchange(answer_, std::nullopt); }
 
  private:

@@ -1,4 +1,4 @@
-// Opens the connection and takes leave at the end.
+// Opens the connection and resigns at the end.
 #include "game/net/client/joined_match.h"
 
 #include "game/net/address.h"

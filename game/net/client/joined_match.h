@@ -15,12 +15,12 @@ namespace rink::game {
 
 class JoinedMatch final : public MatchSource {
  public:
-  /// `place`: HOST:PORT. Throws std::invalid_argument or rti::TransportError with what is wrong
-  /// with it; that nobody listens there shows later, as a match that is lost. With a key file, both
-  /// ends prove that they have the same.
+  /// `place`: HOST:PORT. Throws std::invalid_argument or rti::TransportError that names its fault;
+  /// an unreachable server shows later, as a match that is lost. With a key file, both ends prove
+  /// that they have the same.
   JoinedMatch(const std::string& place, const NetworkMatchSettings& settings,
               const std::string& key_file = "");
-  /// Takes leave of the server.
+  /// Resigns from the server's federation.
   ~JoinedMatch() override;
 
   void advance(double now_s) override { match_.advance(now_s_ = now_s); }

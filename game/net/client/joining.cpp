@@ -1,4 +1,4 @@
-// Each call is one arrow between two states; one that does not fit says nothing.
+// The transitions between states of joining; a call that does not fit the state is ignored.
 #include "game/net/client/joining.h"
 
 #include <cassert>

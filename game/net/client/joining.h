@@ -1,4 +1,4 @@
-// How far a client has come on its way into the game: a seat, the start barrier, or why not.
+// A client's progress in joining a game: a seat, the start barrier, or the reason of a refusal.
 #pragma once
 
 #include <cstdint>
@@ -25,20 +25,19 @@ class Joining {
 
   void refuse(rti::Refusal refusal, std::string_view why);
   void lose(std::string_view why);
-  /// False if the server says that there is no seat; then it is refused. An offer that was not
-  /// waited for changes nothing.
+  /// Handles an offer; false if the server has no seat, then the client is refused. An unexpected
+  /// offer is ignored.
   bool offer(const SeatOffer& offer);
-  /// It has subscribed around its seat.
+  /// The client has subscribed around its seat.
   void sit_down();
-  /// It wants no bat, and watches from now on.
+  /// The client wants no bat, and watches from now on.
   void watch();
   /// The own bat is in sight.
   void see_bat();
-  /// It is called to the start barrier; take_call() is true once, when it can go there.
+  /// The client is called to the start barrier; take_call() is true once, when it is ready for it.
   void call() { is_called_ = true; }
   bool take_call() { return state_ == State::ready && std::exchange(is_called_, false); }
-  /// Nobody waits for it any more: all are at the barrier, or it came late. Without effect unless
-  /// it is ready.
+  /// The barrier is reached, or the client came late. Without effect unless it is ready.
   void play();
 
  private:

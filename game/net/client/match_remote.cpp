@@ -1,4 +1,4 @@
-// What a player may say of a match at any time; whether it counts the server decides.
+// Sends a player's requests about a match; the server decides whether they have effect.
 #include "game/net/client/match_remote.h"
 
 #include "game/replication/attributes.h"

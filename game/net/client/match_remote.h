@@ -1,4 +1,4 @@
-// A player's hand on a hosted match beside the keys: stops it, asks for another, asks for the time.
+// A player's requests to a hosted match beside the keys: pause, rematch, and the time.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,23 @@ namespace rink::game {
 
 class MatchRemote {
  public:
-  /// The server's answer to ping(): which, and when it arrived on the server's real clock [s].
+  /// The server's answer to ping(): its number, and when it arrived on the server's real clock [s].
   struct Pong {
     std::uint64_t number = 0;
     double server_s = 0.0;
   };
 
-  /// Declares what is sent and heard of a match. Both must outlive the remote.
+  /// Publishes and subscribes to the messages of a match. Both must outlive the remote.
   MatchRemote(rti::Ambassador& ambassador, const ObjectModel& model);
 
-  /// Stops the match or has it go on.
+  /// Pauses or resumes the match.
   void pause(bool is_wanted);
   void ask_rematch() { ambassador_.send_interaction(model_.rematch, {}, {}); }
   void ping(std::uint64_t number) {
     ambassador_.send_interaction(model_.ping, {}, {.time = 0.0, .tag = number});
   }
   void receive(const Pong& pong) { pong_ = pong; }
-  /// Given once.
+  /// Returns the newest answer, once.
   std::optional<Pong> take_pong() { return std::exchange(pong_, std::nullopt); }
 
  private:

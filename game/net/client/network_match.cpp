@@ -13,8 +13,8 @@ namespace {
 constexpr double predicted_longest_s =
     60.0;  ///< without news, which come every few seconds while anything moves
 constexpr std::uint32_t caught_up_most =
-    32;  ///< ticks heard of in one frame, each of which is worked out: half a second's; a host
-         ///< could send any number
+    32;  ///< ticks received in one frame, each of which is predicted: half a second's; a host could
+         ///< send any number
 
 }  // namespace
 
@@ -31,7 +31,7 @@ NetworkMatch::NetworkMatch(const rti::Fom& fom, const ObjectModel& model, rti::T
     : settings_(settings),
       client_(fom, model, client_settings(settings)),
       host_(client_, transport, connection, !settings.only_watches) {
-  client_.before_next_stamp = [this] {  // what came in between is a past that is still to be shown
+  client_.before_next_stamp = [this] {  // the state in between is a past that is still to be shown
     if (caught_up_++ < caught_up_most) receive(now_s_);
   };
 }
@@ -124,7 +124,7 @@ void NetworkMatch::press_keys(double instant) {
   pressed_.clear();
 }
 
-/// Where time stands everything is known, and the other need not be shown late.
+/// While time stands still everything is known, and the other bat needs no delay.
 void NetworkMatch::move_delay(double dt) {
   if (state_.phase != MatchPhase::playing) return delay_.move(0.0, dt);
   const double estimate = host_.clock().delay(client_.replicas().match_tick() + tick_grid);

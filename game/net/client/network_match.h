@@ -1,4 +1,4 @@
-// A match that is played on a server, seen and played from here.
+// A match on a server, shown and played in this process.
 #pragma once
 
 #include <memory>
@@ -21,12 +21,12 @@ namespace rink::game {
 
 struct NetworkMatchSettings {
   std::string federation = "rink", name = "player";
-  bool only_watches = false;  ///< takes no bat; any federation of Rink can be watched, one that
-                              ///< hosts no matches too
+  bool only_watches = false;  ///< takes no bat; any federation of Rink can be watched, also one
+                              ///< without matches
 };
 
 /// Owns the client federate and its link, and shows the match that they receive as PredictedRink
-/// predicts it (docs/play.md). Reads no clock. A server that is gone, refuses, or says what is no
+/// predicts it (docs/play.md). Reads no clock. A server that is gone, refuses, or sends an invalid
 /// match ends in the phase `lost`, with the reason as `notice`.
 class NetworkMatch final : public MatchSource {
  public:
@@ -38,13 +38,13 @@ class NetworkMatch final : public MatchSource {
   void advance(double now_s) override;
   const MatchSight& sight() const override { return sight_; }
   std::uint32_t hand_count() const override { return settings_.only_watches ? 0 : 1; }
-  /// Any hand moves the own bat.
+  /// Every hand moves the own bat.
   void press(std::uint32_t hand, Key key, bool is_down) override;
   void pause(bool is_wanted) override;
   void rematch() override;
-  /// A crowd only; the server is asked ten times a second.
+  /// In a crowd only; the server is asked ten times a second.
   void inspect(std::uint32_t thing) override { inspected_.inspect(thing); }
-  /// Takes leave of the server; nothing may follow.
+  /// Resigns; nothing may follow.
   void leave(double now_s);
 
   const Client& client() const { return client_; }
@@ -52,7 +52,7 @@ class NetworkMatch final : public MatchSource {
   const PredictedRink* prediction() const { return rink_ ? &*rink_ : nullptr; }
   /// The scene that is played; null before it is known.
   const Scene* scene() const { return scene_.scene(); }
-  /// The player whose bat this is, once it is known.
+  /// The own player's number, once it is known.
   std::optional<std::uint32_t> player() const {
     const std::optional<SeatOffer>& seat = client_.joining().seat();
     return seat && !settings_.only_watches ? std::optional(seat->bat) : std::nullopt;
@@ -83,7 +83,7 @@ class NetworkMatch final : public MatchSource {
   HostLink host_;
   HostedScene scene_;
   std::optional<PredictedRink> rink_;
-  MatchState state_;                ///< as last heard
+  MatchState state_;                ///< as last received
   std::uint32_t match_number_ = 0;  ///< that rink_ predicts
   std::uint64_t received_updates_ = 0;
   std::uint32_t caught_up_ = 0;  ///< stamps, in this frame

@@ -1,5 +1,4 @@
-// What a network match shows, made of what is predicted, of replicas, and of how the connection
-// does.
+// Makes the picture of a network match from predictions, replicas and figures of the connection.
 #include <algorithm>
 
 #include "game/net/client/network_match.h"
@@ -35,7 +34,7 @@ void NetworkMatch::show_bodies() {
   if (state_.phase != MatchPhase::over) std::erase_if(sight_.things, is_scored);
 }
 
-/// A game that is no match: everything on its path, as far as it was told.
+/// Shows a game that is no match: everything on its path by the updates.
 void NetworkMatch::show_replicas(double now_s) {
   const ReplicaSet& replicas = client_.replicas();
   if (!replicas.field()) return;
@@ -45,7 +44,7 @@ void NetworkMatch::show_replicas(double now_s) {
   sight_.things.clear();
   for (const EntityReplica& entity : replicas.entities()) {
     if (!entity.in_scope || !entity.is_placed)
-      continue;  // a budget may say later where it is, and what
+      continue;  // a budget may delay its position and kind
     sight_.things.push_back({.id = entity.object.value,
                              .kind = static_cast<physics::BodyKind>(entity.shape.kind),
                              .team = static_cast<Team>(entity.shape.team),
@@ -77,7 +76,7 @@ void NetworkMatch::show_state(double now_s) {
   sight_.other_wants_rematch = state_.wants_rematch[1 - *own];
 }
 
-/// What is shown was decided up to a tenth of a second and a round trip ago.
+/// The shown decisions are up to a tenth of a second and a round trip old.
 void NetworkMatch::show_interest(double now_s) {
   InterestQuestions* const questions = client_.questions();
   if (questions == nullptr) return;

@@ -1,4 +1,4 @@
-// What a watched client received of scope and state, for whoever measures it.
+// A log of the scope changes and updates that a watched client received, for measurements.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ class ReceiptLog {
     if (is_watched_) updates_.push_back({object, static_cast<std::uint32_t>(bytes)});
   }
 
-  /// Since it was last forgotten, in order of arrival.
+  /// Entries since the last `forget`, in order of arrival.
   const std::vector<Scope>& scopes() const { return scopes_; }
   const std::vector<Update>& updates() const { return updates_; }
   void forget() {

@@ -1,5 +1,5 @@
-// Who cannot ask for one tick after the other as fast as they come asks now and then how far the
-// server is, or would fall back for ever.
+// A client that cannot ask for ticks as fast as they come asks now and then how far the server is,
+// or it would fall behind for ever.
 #include "game/net/client/turn_taker.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace rink::game {
 namespace {
 
-/// So often a client on the server's timer asks how far the server is.
+/// A client on the server's timer asks how far the server is once in so many ticks.
 constexpr std::uint64_t ticks_per_question = 8;
 
 }  // namespace

@@ -1,4 +1,5 @@
-// When it is a client's turn, and which tick it asks the RTI for: the client's side of TickGrid.
+// Decides when it is a client's turn, and which tick it asks the RTI for: the client's side of
+// TickGrid.
 #pragma once
 
 #include <cstdint>
@@ -9,41 +10,42 @@
 
 namespace rink::game {
 
-/// A turn taker sends nothing itself. Until it has a pace, the server ticks by its own timer, and
-/// nobody waits for anybody.
+/// A turn taker sends nothing itself. Without a pace, the server ticks by its own timer, and none
+/// waits for another.
 class TurnTaker {
  public:
   bool is_synchronous() const { return pace_ && pace_->is_synchronous != 0; }
   bool is_time_managed() const { return pace_ && pace_->is_time_managed != 0; }
-  /// True while the server waits for this player's turn, as far as it has told; false of one that
-  /// ticks by its own timer.
+  /// True while the server waits for this player's turn, by its last message; false if it ticks by
+  /// its own timer.
   bool has_turn() const { return has_turn_; }
-  /// It came after the call to the start, so that it is in nobody's way before it has sat down.
+  /// True if it came after the call to the start, so that others do not wait for it before it is
+  /// seated.
   bool is_late() const { return pace_ && pace_->is_late != 0; }
-  /// Synchronous mode: the simulated instant [s] of the newest tick that was heard of.
+  /// Synchronous mode: the simulated instant [s] of the newest received tick.
   double turn_s() const { return turn_s_; }
   double lookahead() const { return grid().lookahead(); }
-  /// True unless it should keep logical time and can't yet.
+  /// True unless it should keep logical time and cannot yet.
   bool is_time_kept(bool is_constrained, bool is_regulating) const;
 
-  /// The server told its pace at `simulated_s` [s]; true the first time, which is what counts.
+  /// The server sent its pace at `simulated_s` [s]; true for the first one, the others are ignored.
   bool receive(const Pace& pace, double simulated_s);
-  /// Logical time is kept from now on. True if the next tick is to be asked for; else it is this
+  /// Logical time is kept from now on. True if the next tick must be requested; else it is this
   /// player's turn first.
   bool begin();
   void end_turn() { has_turn_ = false; }
 
   struct Request {
     double time = 0.0;         ///< the logical time to advance to
-    bool asks_bounds = false;  ///< how far the server is is to be asked before
+    bool asks_bounds = false;  ///< the server's progress must be queried before
   };
-  /// The next tick for who was granted `granted`. One who waits for turns is never ahead by more
-  /// than a tick; one who does not may be ahead by any number, which then come together.
+  /// The request for the next tick after the grant of `granted`. A server that waits for turns is
+  /// never ahead by more than a tick; another may be ahead by any number, which then come together.
   Request next(double granted);
-  /// The RTI has advanced it. True if the next tick is to be asked for at once.
+  /// The RTI has granted an advance. True if the next tick must be requested at once.
   bool grant(double granted);
-  /// The answer to `asks_bounds`, which comes after the grant if that could be given at once: when
-  /// there may be more to ask for. False if nothing was asked.
+  /// The answer to `asks_bounds`, which comes after an immediate grant, when there may be more to
+  /// request. False if nothing was asked.
   bool receive_bounds(double galt);
 
  private:

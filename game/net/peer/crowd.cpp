@@ -1,4 +1,4 @@
-// From observations to keys.
+// Turns observations into the bots' keys.
 #include "game/net/peer/crowd.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The bots that one peer plays: they see what the owners of their bats show them, and their keys go
-// back there.
+// The bots that one peer plays: they see the observations of their bats' owners, and send their
+// keys there.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace rink::game {
 
-/// What a live player did, as a number of peer::Key::input, and back; `time` and `player` are left
-/// out.
+/// An input of a live player as a number of peer::Key::input, and back; `time` and `player` are
+/// left out.
 std::uint8_t input_of(const InputEvent& event);
 InputEvent event_of(std::uint8_t input, double time, std::uint32_t player);
 
@@ -31,11 +31,11 @@ class Crowd {
   };
   Crowd(const Scene& scene, const Game& start, const Settings& settings);
 
-  /// How many pucks the one of these kinds wants to see who wants to see most.
+  /// The greatest number of pucks that one of these kinds of players looks at.
   static std::uint32_t pucks_wanted(const Scene& scene, const std::vector<std::string>& kinds);
 
-  /// After a commit of `session`'s peer: whoever is shown something decides, and the keys are on
-  /// their way.
+  /// Call it after a commit of `session`'s peer: bots with observations decide, and their keys are
+  /// sent.
   void act(peer::Session& session);
   std::uint64_t presses() const { return presses_; }
 
@@ -43,7 +43,7 @@ class Crowd {
   struct Bot {
     std::uint32_t bat;
     BatController controller;
-    std::unique_ptr<Player> player;  ///< nobody: random
+    std::unique_ptr<Player> player;  ///< null: random
     std::vector<InputEvent> plan;    ///< of a random player
     std::size_t next = 0;
     double decided = -1.0;  ///< the last instant [s]

@@ -1,5 +1,5 @@
-// Between the window in which a person plays and the peer that plays for it, which live in two
-// threads: keys one way, what there is to see the other. Nobody waits for the other.
+// A queue between the threads of a window and of its peer: keys one way, pictures the other.
+// Neither waits for the other.
 #pragma once
 
 #include <atomic>
@@ -14,15 +14,15 @@
 
 namespace rink::game {
 
-/// A key that the bat shall feel at `instant` [s, simulated], at which the window shows it already.
+/// A key that takes effect at `instant` [s, simulated], at which the window shows it already.
 struct KeyInput {
   Key key = Key::left;
   bool is_down = false;
   double instant = 0.0;
 };
 
-/// Question `number` was there when the keys were taken that are felt at `felt_at` [s, simulated]
-/// at the earliest.
+/// The answer to question `number`: keys taken with it take effect at `felt_at` [s, simulated] at
+/// the earliest.
 struct InputAnswer {
   std::uint64_t number = 0;
   double felt_at = 0.0;
@@ -40,14 +40,14 @@ class InputQueue {
   void press(const KeyInput& press) {
     locked([&] { presses_.push_back(press); });
   }
-  /// When would what is pressed now be felt?
+  /// Asks when a key that is pressed now takes effect.
   void ask(std::uint64_t number) {
     locked([&] { question_ = number; });
   }
   std::optional<InputAnswer> take_answer() {
     return locked([&] { return std::exchange(answer_, std::nullopt); });
   }
-  /// The newest, unless it was looked at before.
+  /// The newest picture, unless it was taken before.
   std::optional<PeerSight> look() {
     return locked([&] { return std::exchange(sight_, std::nullopt); });
   }
@@ -59,7 +59,7 @@ class InputQueue {
     return locked([&] { return std::exchange(words_, {}); });
   }
 
-  // The peer's.
+  // The peer's side.
   std::vector<KeyInput> take_presses(double felt_at) {
     return locked([&] {
       if (question_) answer_ = InputAnswer{*question_, felt_at};
@@ -79,7 +79,7 @@ class InputQueue {
   void notice(const std::string& what) {
     locked([&] { stage_.notice = what, ++stage_.notice_count; });
   }
-  /// For the standard output.
+  /// Adds text for the standard output.
   void print(const std::string& words) {
     locked([&] { words_ += words; });
   }

@@ -1,5 +1,5 @@
-// What a person presses goes to the owner of the bat with the next claims; what the bat has felt
-// follows from when that was.
+// Sends a person's keys to the owner of the bat with the next claims, and derives from their
+// windows which have taken effect.
 #include "game/net/peer/local_player.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void LocalPlayer::before_window(peer::Session& session) {
   if (session.window() == 0)
     observation_.owner = session.division().owner_of(observation_.position);
   if (observation_.time != session.peer().now())
-    return;  // its owner is lost, and the next one has not shown it yet
+    return;  // its owner is lost, and the next one has not sent an observation yet
   for (const KeyInput& press : std::exchange(waiting_, {})) {
     pressed_.press(press.key, press.is_down);
     const std::uint8_t input =
@@ -53,16 +53,16 @@ void LocalPlayer::after_window(const peer::Session& session) {
   since_ = session.peer().now();
 }
 
-/// What was undone with a window when somebody was lost went again with the claims of the one that
-/// was played just now.
+/// Keys that were undone with a window when a peer was lost were sent again with the claims of the
+/// window that was just played.
 void LocalPlayer::count_felt(const peer::Session& session) {
   const double now = session.peer().now();
   if (session.lost().size() != std::exchange(lost_, session.lost().size()))
     for (Sent& sent : sent_)
       if (sent.window >= session.window())
         sent.window = session.window(), sent.stamp = std::max(now, sent.wanted);
-  // What is stamped with the very end of the window with whose claims it went is felt in the next
-  // one.
+  // A key that is stamped with the end of the window with whose claims it was sent takes effect in
+  // the next one.
   const auto is_felt = [&](const Sent& sent) {
     return sent.stamp < now || (sent.stamp == now && sent.window < session.window());
   };
@@ -99,7 +99,8 @@ PeerSight LocalPlayer::sight_of(const peer::Session& session) const {
   return sight;
 }
 
-/// By their owners; of those that have come here meanwhile the picture keeps nothing for long.
+/// Adds replicas by their owners' updates; those of bodies that have come here meanwhile are
+/// dropped soon.
 void LocalPlayer::add_replicas(PeerSight& sight) const {
   std::vector<std::uint32_t> here;
   for (const KnownBody& body : sight.bodies) here.push_back(body.body);

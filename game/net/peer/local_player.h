@@ -1,4 +1,5 @@
-// A person's side in the peer's own thread: keys out before each window, what is known in after it.
+// A person's side in the peer's own thread: it takes keys before each window, and returns a picture
+// after it.
 #pragma once
 
 #include <cstdint>
@@ -15,19 +16,19 @@ namespace rink::game {
 
 class LocalPlayer final : public WindowParticipant {
  public:
-  /// Plays bat `player` of `game`. Both must outlive it, as `hand` must.
+  /// Plays bat `player` of `game`, which must outlive it, as `input` must.
   LocalPlayer(const SharedGame& game, std::uint32_t player, InputQueue& input);
 
   void before_window(peer::Session& session) override;
   void after_window(const peer::Session& session) override;
   std::uint64_t presses() const { return presses_; }
-  /// Who knows what is beyond the halo, or nobody.
+  /// The viewer that knows bodies beyond the halo, or null.
   const Viewer* viewer = nullptr;
-  /// By the peer, for the window's figures.
+  /// Bytes that the peer sent, for the window's figures.
   std::function<std::uint64_t()> bytes_sent = [] { return std::uint64_t{0}; };
 
  private:
-  /// A key on its way: it went with the claims of window `window`.
+  /// A key on its way: it was sent with the claims of window `window`.
   struct Sent {
     std::uint64_t window;
     double stamp, wanted;  ///< s
@@ -42,9 +43,9 @@ class LocalPlayer final : public WindowParticipant {
 
   const SharedGame& game_;
   InputQueue& input_;
-  BatController pressed_, felt_;   ///< all that was pressed, and what the bat has felt of it
+  BatController pressed_, felt_;   ///< all keys pressed, and those that have taken effect
   peer::Observation observation_;  ///< the newest
-  std::vector<KeyInput> waiting_;  ///< until somebody shows the bat
+  std::vector<KeyInput> waiting_;  ///< until an owner sends an observation of the bat
   std::deque<Sent> sent_;
   std::uint64_t presses_ = 0;
   std::size_t lost_ = 0;  ///< peers

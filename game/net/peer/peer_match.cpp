@@ -12,10 +12,11 @@ namespace rink::game {
 namespace {
 
 constexpr double predicted_longest_s =
-    0.5;  ///< without news, after which the picture stands and says so
+    0.5;  ///< without updates, after which the picture stands still with a notice
 constexpr double notice_s = 8.0;
-/// m from the own bat: beyond, nothing can come near it before there is news. More than
-/// PredictedRink::crowd_reach, so that a body is in the others' time before it is lost sight of.
+/// m from the own bat: beyond, nothing can come near it before the next update. More than
+/// PredictedRink::crowd_reach, so that a body is in the others' time before it leaves the
+/// prediction.
 constexpr double near_reach = 1.2;
 
 KeysHeld keys_of(const Vector2& thrust) {
@@ -27,7 +28,7 @@ KeysHeld keys_of(const Vector2& thrust) {
 
 }  // namespace
 
-/// Exact unless it had several events in one window, or is only told of.
+/// Exact unless it had several events in one window, or is a replica.
 Vector2 PeerMatch::Known::at(double instant) const {
   if (instant >= motion.time) return motion.at(instant).position;
   return before.time <= instant ? before.at(instant).position : motion.position;
@@ -171,8 +172,7 @@ void PeerMatch::show_things() {
   sight_.score = {news_->goals_left, news_->goals_right};
 }
 
-/// Whoever is near is predicted; all others are on their paths, in the others' time, as far as
-/// these are known.
+/// Bodies near the own bat are predicted; all others are on their known paths, in the others' time.
 void PeerMatch::show_thing(std::uint32_t body) {
   const Known& known = known_[body];
   const double others = rink_->now() - delay_.seconds();

@@ -1,4 +1,4 @@
-// A game that peers share, seen and played in a window of one of them.
+// A game that peers share, shown and played in a window of one of them.
 #pragma once
 
 #include <optional>
@@ -17,9 +17,9 @@
 
 namespace rink::game {
 
-/// Shows what the peer on the other side of `hand` has and is told, and the own bat at the instant
-/// at which a key that is pressed now is felt (docs/play.md, "Among peers"). Never waits for a
-/// window, and reads no clock.
+/// Shows the bodies and replicas of the peer on the other side of `input`, and the own bat at the
+/// instant at which a key that is pressed now takes effect (docs/play.md, "Among peers"). Never
+/// waits for a window, and reads no clock.
 class PeerMatch final : public MatchSource {
  public:
   /// Both must outlive it.
@@ -29,7 +29,7 @@ class PeerMatch final : public MatchSource {
   const MatchSight& sight() const override { return sight_; }
   std::uint32_t hand_count() const override { return 1; }
   void press(std::uint32_t hand, Key key, bool is_down) override;
-  /// Others play on.
+  /// Without effect, since others play on.
   void pause(bool) override {}
   void rematch() override {}
 
@@ -38,11 +38,11 @@ class PeerMatch final : public MatchSource {
 
  private:
   static constexpr std::uint32_t nobody = 0xffffffffu;
-  /// What a body of the scene is, and what was told of it last.
+  /// A body of the scene, and its newest state.
   struct Known {
     physics::BodyKind kind = physics::BodyKind::post;
     std::uint32_t number = 0;  ///< among its kind
-    std::uint64_t window = 0;  ///< of the news that told of it last; 0: none yet
+    std::uint64_t window = 0;  ///< of its newest state; 0: none yet
     bool is_in_play = true, is_near = false;
     double near_since = 0.0;         ///< s: since then it is predicted
     physics::Motion motion, before;  ///< the newest, and that of the window before

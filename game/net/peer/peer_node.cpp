@@ -1,4 +1,4 @@
-// Windows as their ends come, and around them what players see.
+// Plays windows as their ends come, and updates players' interest around them.
 #include "game/net/peer/peer_node.h"
 
 #include <utility>
@@ -50,7 +50,7 @@ void PeerNode::play_next() {
   interest_.look_around();
 }
 
-/// Everybody has accepted.
+/// All peers have accepted.
 void PeerNode::finish() {
   ++final_;
   interest_.finish(final_);

@@ -1,5 +1,5 @@
-// One peer with a player: its windows, what its player presses, where that looks and what it knows.
-// No clock, no socket; time and messages are handed in.
+// One peer with a player: its windows, its player's keys, view and replicas. No clock, no socket;
+// time and messages are arguments.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace rink::game {
 
-/// Keys are those of the shared game, which all know; what the player presses is sent for the
-/// record (SharedInterest).
+/// The keys are those of the shared game, which all know; the player's keys are sent for
+/// measurements (SharedInterest).
 class PeerNode {
  public:
   using Send = SharedInterest::Send;
@@ -24,14 +24,14 @@ class PeerNode {
   PeerNode(const PeerNode&) = delete;
   PeerNode& operator=(const PeerNode&) = delete;
 
-  /// The own bodies' states at the end of a window stand; and, when all has come that others tell
-  /// of it, the whole picture of it does.
+  /// The own bodies' states at the end of a window are final; and, when all updates of others about
+  /// it have come, the whole picture of it is.
   std::function<void()> on_final, on_commit;
 
   /// The instant of the next window's end has come: it is played now, or as soon as the one before
   /// it is done. Throws peer::ProtocolError, as `receive` does.
   void due();
-  /// False for what is no message of its kind.
+  /// False for a malformed message.
   bool receive(peer::PeerNumber from, Traffic about, std::vector<std::uint8_t> content);
   /// The own player pressed or released a key.
   void press() { interest_.press(); }
@@ -42,7 +42,7 @@ class PeerNode {
   const peer::Peer& peer() const { return *peer_; }
   SharedInterest& interest() { return interest_; }
   const SharedInterest& interest() const { return interest_; }
-  /// Contents sent, without frames, and messages, by what they are about.
+  /// Bytes sent, without frames, and messages, by purpose.
   const TrafficBytes& sent() const { return sent_; }
   const TrafficBytes& messages_sent() const { return messages_sent_; }
 
@@ -59,8 +59,8 @@ class PeerNode {
   peer::WindowPlay play_;
   SharedInterest interest_;
   std::uint32_t begun_ = 0, final_ = 0,
-                waiting_ =
-                    0;  ///< windows; the last: whose end has come, and that are not played yet
+                waiting_ = 0;  ///< windows; the last: windows whose end has come and that are not
+                               ///< played yet
   TrafficBytes sent_{}, messages_sent_{};
 };
 

@@ -1,4 +1,4 @@
-// A peer's evidence as lines: a header, its events, its decisions, and what its player saw.
+// Writes and reads a peer's trace: a header, its events, its decisions, and its player's replicas.
 #include "game/net/peer/peer_trace.h"
 
 #include <nlohmann/json.hpp>

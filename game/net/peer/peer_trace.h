@@ -1,5 +1,5 @@
-// What one peer says of its own run for others to judge: what it sent, when it knew what, and what
-// its player saw.
+// A peer's trace of its run, from which quality is computed: its traffic, the instants of its
+// knowledge, and its player's replicas.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace rink::game {
 
-/// Of all that a peer carried until some instant.
+/// A peer's traffic until some instant.
 struct PeerLoad {
   double instant_s = 0.0;            ///< simulated
-  TrafficBytes bytes{}, messages{};  ///< sent, by what they are about; frames included
+  TrafficBytes bytes{}, messages{};  ///< sent, by purpose; frames included
   std::uint64_t bytes_sent = 0, bytes_received = 0, writes = 0, segments = 0;  ///< by the transport
   std::uint64_t acknowledgements = 0,
                 kernel_segments = 0;  ///< sent, by the transport's model and by the kernel
   std::uint64_t events = 0;           ///< of physics, those of ghosts alone included
 };
 
-/// Plain facts; instants in simulated seconds, of which the start is that of the first peer.
+/// Facts without evaluation; instants are in simulated seconds from the first peer's start.
 struct PeerTrace {
   /// A key was due at `due_s` and sent at `instant_s`; or by that instant the own bat had felt so
   /// many keys, and all was known of the window that ended at `due_s` (`known`), or of the own
@@ -33,8 +33,7 @@ struct PeerTrace {
     double due_s = 0.0, instant_s = 0.0;
     std::uint32_t felt = 0;
   };
-  /// Which of the own bodies the player of `peer` was told of, or saw, by the decision in force
-  /// then.
+  /// The own bodies in the scope of the player of `peer` by the decision in force then.
   struct Decision {
     double instant_s = 0.0;
     std::uint32_t peer = 0;

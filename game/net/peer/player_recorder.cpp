@@ -1,4 +1,4 @@
-// A player's scope as changes, and its picture as samples.
+// Records a player's scope as changes, and its replicas as samples.
 #include "game/net/peer/player_recorder.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a player received and what its replicas show, as facts for others to judge.
+// Records what a player received and what its replicas show, for the evaluation of quality.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ struct PlayerTrace {
     std::uint32_t body = 0;
     bool is_in = false;
   };
-  /// Where a body was believed to be is meaningless if it was not in scope.
+  /// The believed position is meaningless if the body was not in scope.
   struct Replica {
     std::uint32_t body = 0;
-    std::uint32_t bytes = 0;  ///< of what was told of it within the window before the sample
+    std::uint32_t bytes = 0;  ///< of its updates within the window before the sample
     bool is_in_scope = false;
     physics::Vector2 matched{0.0, 0.0}, displayed{0.0, 0.0};  ///< m, at the sample's two instants
   };
@@ -44,7 +44,7 @@ class PlayerRecorder {
 
   /// At `instant_s` all is known of the window that ended at `matched_s`.
   void note_commit(double instant_s, double matched_s);
-  /// What the player believes at `instant_s`.
+  /// Samples the player's replicas at `instant_s`.
   void sample(double instant_s);
   const PlayerTrace& trace() const { return trace_; }
 

@@ -1,4 +1,4 @@
-// The part of a peer from its first word to its last, told to the window in stages.
+// Runs a peer from its first message to its last, and shows the window each stage.
 #include "game/net/peer/playing_peer.h"
 
 #include <chrono>
@@ -58,7 +58,7 @@ PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)())
   thread_ = std::thread([this] { run(); });
 }
 
-/// Among others anew: with another token.
+/// Connects again, with another token.
 void PlayingPeer::meet() {
   const PeerInfo self{
       .place = place_, .bat_count = 1, .hand_count = 1, .token = unguessable_number()};
@@ -96,11 +96,11 @@ void PlayingPeer::run() {
   }
 }
 
-/// False if it was sent away before it was in, and may try again.
+/// False if it was sent away before it was admitted, and may try again.
 bool PlayingPeer::share_or_come_again(int tries) {
   constexpr int tries_max = 10;
   constexpr auto pause =
-      std::chrono::milliseconds(200);  // in which those who play on may agree on who is there
+      std::chrono::milliseconds(200);  // in which the playing peers may agree on their members
   try {
     share();
     return true;

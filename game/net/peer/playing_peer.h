@@ -1,5 +1,5 @@
-// A whole peer with a person at it: connections, windows and record in a thread of its own, and
-// beside it what its window shows.
+// A whole peer with a person: connections, windows and record in a thread of its own, and the match
+// that its window shows.
 #pragma once
 
 #include <functional>
@@ -19,12 +19,12 @@ namespace rink::game {
 
 struct PlayingPeerSettings {
   std::string scene = "match";  ///< see load_scene; the same for all peers
-  std::uint32_t bats = 0;       ///< scaled to so many, if not 0
-  std::string join;          ///< HOST:PORT of any peer that is there; empty: become the first one
+  std::uint32_t bats = 0;       ///< number to scale to, if not 0
+  std::string join;             ///< HOST:PORT of any playing peer; empty: become the first one
   std::string listen;        ///< ADDRESS:PORT where others reach this one; may be empty if there is
                              ///< `join`, of peers on this machine
-  Terms terms;               ///< a first peer's to say
-  double patience_s = 10.0;  ///< with peers that say nothing
+  Terms terms;               ///< set by a first peer
+  double patience_s = 10.0;  ///< with silent peers
   double countdown_s = 3.0;
   double view_fraction = 1.0;  ///< of the field's area, about the own bat; from 1 on everything
   std::string record;          ///< everybody's keys go to this file in the end; empty: nowhere
@@ -32,10 +32,10 @@ struct PlayingPeerSettings {
 
 class PlayingPeer final : public MatchSource {
  public:
-  /// `now_s` is the clock by which windows are played. What goes wrong with others later shows as a
-  /// match that is lost. Throws std::exception with what is wrong with the settings.
+  /// `now_s` is the clock by which windows are played. A later failure of connections shows as a
+  /// match that is lost. Throws std::exception that names a fault of the settings.
   PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)());
-  /// Hands over what it owns, which takes two windows, or a few seconds if nobody answers.
+  /// Hands over its bodies, which takes two windows, or a few seconds if no peer answers.
   ~PlayingPeer() override;
 
   void advance(double now_s) override { match_.advance(now_s); }
@@ -47,7 +47,7 @@ class PlayingPeer final : public MatchSource {
   void pause(bool is_wanted) override { match_.pause(is_wanted); }
   void rematch() override { match_.rematch(); }
 
-  /// What is to be told on the standard output: where it listens, and how it ended.
+  /// Text for the standard output: where it listens, and how it ended.
   std::string take_words() { return input_.take_words(); }
 
  private:

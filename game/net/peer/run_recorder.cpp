@@ -1,4 +1,4 @@
-// Keys, samples and decisions at their instants, while the mail is waited for.
+// Presses keys and takes samples at their instants, while the peer waits for mail.
 #include "game/net/peer/run_recorder.h"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ void RunRecorder::begin(const peer::Session& session) {
 
 void RunRecorder::when_sending(peer::Subject about) { mail_.about = traffic_of(about); }
 
-/// Does what is due, and says when it wants to be called again.
+/// Does what is due, and returns when it must be called again.
 double RunRecorder::attend() {
   constexpr double never = std::numeric_limits<double>::infinity();
   const auto next = [](const std::vector<double>& instants, std::size_t k) {
@@ -84,7 +84,7 @@ double RunRecorder::attend() {
                               next(samples_, next_sample_), begins_s, ends_s});
 }
 
-/// Who is to be told of which own body, by the latest decision.
+/// Notes the own bodies in each player's scope, by the latest decision.
 void RunRecorder::note_decisions(double instant_s) {
   for (const peer::PeerNumber peer : watched_) {
     PeerTrace::Decision decision{instant_s, peer, {}};
@@ -139,7 +139,7 @@ double start_together(PeerNetwork& network, double (*now_s)()) {
     network.rest_until(now_s() + look_s);
   }
   network.receive_aside = {};
-  // Who heard it earlier may have begun.
+  // A peer that received it earlier may have begun.
   for (auto& [from, bytes] : others) network.defer(from, std::move(bytes));
   if (start_s) return *start_s;
   for (peer::PeerNumber to = 1; to < count; ++to) network.send_aside(to, {word});

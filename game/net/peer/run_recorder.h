@@ -1,5 +1,5 @@
-// A viewer that takes evidence: it presses its player's keys when they are due, and notes what the
-// peer sent, when it knew what, and what its player saw.
+// A viewer that records a trace: it presses its player's keys when they are due, and notes the
+// peer's traffic, the instants of its knowledge, and its player's replicas.
 #pragma once
 
 #include <array>
@@ -14,19 +14,19 @@
 
 namespace rink::game {
 
-/// Of a session whose peers are seated, in real time.
+/// For a session whose peers are seated, in real time.
 class RunRecorder final : public Viewer {
  public:
-  /// All must outlive it. `sampling` says who is watched when, the same at all peers.
+  /// All must outlive it. `sampling` decides which players are watched when, the same at all peers.
   RunRecorder(const SharedGame& game, const InterestSettings& settings, PeerNetwork& network,
               const SamplingSettings& sampling, double (*now_s)());
   ~RunRecorder() override;
 
-  /// To be used instead of the meeting's, so that what is sent is counted.
+  /// The mail to use instead of the network's, so that traffic is counted.
   peer::Mail& mail() { return mail_; }
   /// The game starts at `start_s` of the clock.
   void start_at(double start_s) { start_s_ = start_s; }
-  /// After the last window.
+  /// The trace; call it after the last window.
   const PeerTrace& trace() const { return trace_; }
 
   void begin(const peer::Session& session) override;
@@ -70,7 +70,7 @@ class RunRecorder final : public Viewer {
   std::uint32_t felt_ = 0;
 };
 
-/// All agree on when they begin, the first one saying it when all are ready: the instant [s of the
+/// Agrees on the start: the first peer sends it when all are ready. Returns the instant [s of the
 /// clock], one message late at the others. Throws SessionError.
 double start_together(PeerNetwork& network, double (*now_s)());
 

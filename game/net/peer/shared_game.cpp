@@ -1,4 +1,4 @@
-// From a scene to windows and back to one hash.
+// Divides a scene, plays its windows, and joins the parts to one hash.
 #include "game/net/peer/shared_game.h"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ void SharedGame::forget_start() {
   start_ = Game(scene_);
   scene_.bodies.pucks = std::move(pucks);
 #if defined(__GLIBC__)
-  malloc_trim(0);  // or else what is free stays with the process
+  malloc_trim(0);  // or else freed memory stays with the process
 #endif
 }
 
@@ -117,8 +117,8 @@ peer::Cuts SharedGame::cuts(peer::PeerNumber peer_count) const {
   return peer::Cuts::by_count(scene_.world.field, std::move(places), peer_count);
 }
 
-/// Two large bodies side by side, and what the fastest of them fly in a window; peers widen or
-/// narrow it as they go.
+/// The size of two large bodies side by side, and the flight of the fastest in a window; peers
+/// adapt it while they play.
 double SharedGame::first_halo(double window) const {
   return 4.0 * extent_max_ + 2.0 * speed_max_ * window + 1e-3;
 }
@@ -177,7 +177,7 @@ std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> 
   return hash.value();
 }
 
-/// Those who begin.
+/// The players of the first peers.
 std::vector<peer::Player> SharedGame::players(const Terms& terms,
                                               std::span<const PeerInfo> peer_infos) const {
   std::vector<peer::Player> players;
@@ -229,7 +229,7 @@ std::unique_ptr<peer::Peer> SharedGame::peer(const peer::Division& division,
   return peer;
 }
 
-/// Everybody's together.
+/// The keys of all peers together.
 std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Handover> logs) const {
   std::vector<InputEvent> keys;
   for (const peer::Handover& log : logs)
@@ -276,7 +276,7 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const PeerInfo> peer_i
   if (terms.is_seated && terms.peer_count > start_.player_count())
     throw peer::ProtocolError(
         "there are more peers than bats, and each is to have one in its zone");
-  // A copy: while a newcomer waits to be let in, others come, and the list grows.
+  // A copy: the list grows while a newcomer waits to be admitted.
   const PeerInfo self = peer_infos[number];  // NOLINT(performance-unnecessary-copy-initialization)
   if (part_options.members.empty()) settings.players = players(terms, peer_infos);
   std::optional<peer::Session> made;
@@ -313,7 +313,7 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const PeerInfo> peer_i
   if (part_options.observer != nullptr) part_options.observer->end();
   PlayedPart part;
   part.has_left = session.has_left();
-  // The members of the last window are without one who left in good order.
+  // A peer that left in good order is no member of the last window.
   part.was_last =
       part.has_left && session.members().size() == 1 && session.members().front() == number;
   if (!session.has_left()) end(session, part);
@@ -336,7 +336,7 @@ KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_te
   log.until = part.time;
   log.hash = part.hash;
   log.events = part.keys;
-  // Whoever has the scene has these.
+  // The scene has these keys.
   for (const InputEvent& scripted : scene_.keys)
     if (const auto found = std::find(log.events.begin(), log.events.end(), scripted);
         found != log.events.end())
@@ -344,7 +344,7 @@ KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_te
   return log;
 }
 
-/// Everybody has told everybody what it has, and what its players did.
+/// All peers have exchanged their parts and their players' keys.
 void SharedGame::end(peer::Session& session, PlayedPart& part) const {
   std::vector<peer::Handover> parts = session.end();
   if (session.has_left()) return;

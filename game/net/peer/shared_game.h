@@ -1,5 +1,5 @@
-// A scene and its keys as peers share them: the division, the windows, and the hash of the whole in
-// the end.
+// A scene and its keys as peers share them: the division, the windows, and the final hash of the
+// whole.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,15 @@
 
 namespace rink::game {
 
-/// What one peer had of it.
+/// The part that one peer played.
 struct PlayedPart {
   peer::SessionCounters counters;
   bool has_left = false;        ///< before the end, in good order: then there is no hash
-  bool was_last = false;        ///< and nobody else was left
-  bool may_have_split = false;  ///< another part of the session may have gone on without this one
+  bool was_last = false;        ///< and no other was left
+  bool may_have_split = false;  ///< another part of the session may have continued without this one
   std::uint64_t members = 0;    ///< how many played on in the end
-  std::vector<peer::PeerNumber> lost;   ///< who was
-  double time = 0.0;                    ///< how far it came [s]
+  std::vector<peer::PeerNumber> lost;   ///< the peers that were lost
+  double time = 0.0;                    ///< the time that it reached [s]
   std::uint64_t owned = 0, ghosts = 0;  ///< at the end
   double halo = 0.0;                    ///< at the end [m]
   std::uint64_t result_bytes = 0;       ///< sent, with the own bodies' last states
@@ -35,23 +35,22 @@ struct PlayedPart {
                                  ///< recorded ones; ordered by time, then player
 };
 
-/// Who looks on while a peer plays, and may press keys of its bats.
+/// An observer of a peer's windows that may press keys of its bats.
 class WindowParticipant {
  public:
   virtual ~WindowParticipant() = default;
-  /// The time has come to play the window that is prepared; what is pressed now goes with its
-  /// claims.
+  /// The prepared window is about to be played; keys pressed now are sent with its claims.
   virtual void before_window(peer::Session&) {}
   /// A window is final, and the next one prepared.
   virtual void after_window(const peer::Session&) {}
 };
 
-/// Told of the windows of a session while they are played.
+/// An observer of a session's windows while they are played.
 class WindowObserver {
  public:
   virtual ~WindowObserver() = default;
-  /// Before the first window. The session's peer and division stay where they are, though they may
-  /// be made anew there.
+  /// Called before the first window. The addresses of the session's peer and division stay valid,
+  /// though both may be made anew there.
   virtual void begin(const peer::Session& session) = 0;
   /// See peer::WindowHooks.
   virtual void when_played() {}
@@ -59,59 +58,59 @@ class WindowObserver {
   virtual void when_sending(peer::Subject) {}
   /// A window is committed; before it, peers may have been lost, and windows undone.
   virtual void when_stepped() = 0;
-  /// After the last one: the session is asked no more.
+  /// Called after the last window; the session may no longer be used.
   virtual void end() {}
 };
 
-/// How a peer plays: with which bots, and what it does before it plays a window from the simulated
-/// time that it is given, such as wait for the clock.
+/// Options of a peer: its bots, and callbacks, such as one that waits for the clock before a window
+/// from the given simulated time.
 struct PartOptions {
   std::vector<std::string> players{"chaser"};  ///< kinds, as rink simulate's
   std::function<void(double)> before_window;
   std::function<bool()> wants_to_leave;
   std::function<void(const std::string&)> notify;  ///< the user, of losses and newcomers
-  WindowParticipant* participant = nullptr;        ///< or nobody
-  std::vector<peer::PeerNumber>
-      members{};                       ///< of a newcomer while others play: whom it was told of
-  std::function<void()> when_taken{};  ///< where bodies are at the start is asked for no more:
-                                       ///< SharedGame::forget_start may be called
+  WindowParticipant* participant = nullptr;        ///< or null
+  std::vector<peer::PeerNumber> members{};  ///< of a newcomer while others play: the members at
+                                            ///< that time
+  std::function<void()> when_taken{};  ///< the start is no longer needed: SharedGame::forget_start
+                                       ///< may be called
   WindowObserver* observer = nullptr;
 };
 
-/// The same for all who are given the same scene and keys.
+/// Equal for all peers with the same scene and keys.
 class SharedGame {
  public:
-  /// `recorded` keys come beside the scene's own. Throws SceneError for what peers cannot share:
-  /// players who enter or leave, and pucks that would come back sooner than agreed upon.
+  /// `recorded` keys come beside the scene's own. Throws SceneError for scenes that peers cannot
+  /// share: players that enter or leave, and pucks that would come back sooner than agreed.
   SharedGame(Scene scene, const std::vector<InputEvent>& recorded);
 
   Fingerprint session_fingerprint() const;
   std::uint32_t bat_count() const { return start_.player_count(); }
-  /// Whether all keys are known before the start; then nobody can play live.
+  /// True if all keys are known before the start; then no player can be live.
   bool has_keys() const { return !keys_.empty(); }
   const Scene& scene() const { return scene_; }
-  /// That all know.
+  /// The keys that all know.
   const std::vector<InputEvent>& keys() const { return keys_; }
   peer::Cuts cuts(peer::PeerNumber peer_count) const;
-  /// Plays the part of peer `number` of `peer_infos` to the end of `terms`; of those who come later
-  /// `peer_infos` need not tell. Throws peer::ProtocolError, peer::Halt (of a newcomer that is not
-  /// in yet peer::SentAway: it may ask again), and what `mail` throws.
+  /// Plays the part of peer `number` of `peer_infos` to the end of `terms`; `peer_infos` need not
+  /// have later peers. Throws peer::ProtocolError, peer::Halt (peer::SentAway for a newcomer that
+  /// is not admitted yet and may try again), and what `mail` throws.
   PlayedPart play(const Terms& terms, std::span<const PeerInfo> peer_infos, peer::PeerNumber number,
                   peer::Mail& mail, const PartOptions& part_options) const;
 
   /// Throws SceneError if windows are too long [s] for pucks that come back after a goal.
   void require_window(double window) const { goal_rules(window); }
-  /// Everybody's keys as a log from which one engine plays the same game; `scene_text` is the
+  /// The keys of all peers as a log from which one engine plays the same game; `scene_text` is the
   /// scene's file.
   KeyLog record_of(const PlayedPart& part, const std::string& scene_text) const;
 
-  /// What playing it is made of, for those who do so step by step: the game at its start; a peer
-  /// that owns its part by `division` and knows all keys, whose first window ends with the first
+  /// The parts of `play`, for callers that play step by step: the game at its start; a peer that
+  /// owns its part by `division` and knows all keys, whose first window ends with the first
   /// `window` [s]; and Game::hash() of a world that has come to `until` [s] under the keys that all
   /// know.
   const Game& start() const { return start_; }
-  /// Gives up where bodies are at the start. Until the end of a play() that has called `when_taken`
-  /// that is all it takes; nothing else may be begun with this game.
+  /// Frees the bodies of the start. A play() that has called `when_taken` needs them no more; no
+  /// other play may begin afterwards.
   void forget_start();
   bool has_start() const { return forgotten_ == 0; }
   std::unique_ptr<peer::Peer> peer(const peer::Division& division, peer::PeerNumber number,
@@ -134,7 +133,7 @@ class SharedGame {
   Scene scene_;
   std::vector<InputEvent> keys_;  ///< in the order in which a Game applies them
   Game start_;                    ///< never advanced; without pucks once it is given up
-  std::uint32_t forgotten_ = 0;   ///< then: how many entities there were, numbered from 0
+  std::uint32_t forgotten_ = 0;   ///< after forget_start: the number of entities, numbered from 0
   double extent_max_ = 0.0, speed_max_ = 0.0;  ///< of all bodies then [m, m/s]
 };
 

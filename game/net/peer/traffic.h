@@ -1,4 +1,4 @@
-// What peers' messages are about, for whoever sends, reads or counts them.
+// The purposes of peers' messages.
 #pragma once
 
 #include <array>
@@ -8,10 +8,9 @@
 
 namespace rink::game {
 
-/// `halo`: states that are handed over at a window's end. `claims`, `agreement`: what proves a
-/// window, and the verdicts on it. `interest`: where players look. `updates`: what they are told of
-/// bodies beyond the halo. `keys`: key presses on their way to the bat's owner, and how many it has
-/// felt.
+/// `halo`: states that are handed over at a window's end. `claims`, `agreement`: the proof of a
+/// window, and the verdicts on it. `interest`: players' views. `updates`: states of bodies beyond
+/// the halo. `keys`: key presses on their way to the bat's owner, and how many have taken effect.
 enum class Traffic : std::uint8_t { halo, claims, agreement, interest, updates, keys };
 inline constexpr std::size_t traffic_count = 6;
 inline constexpr std::array<const char*, traffic_count> traffic_names{

@@ -1,4 +1,4 @@
-// How far the keys of the players in a shared game have come.
+// Counts the keys of the players in a shared game on their way.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 
 namespace rink::game {
 
-/// Counts each player's keys from where they are pressed to where they are felt, as one peer knows
-/// it: those that came here; and, for the bats that it owns, those that are felt in the window that
-/// is played, in final windows, and those of which their player was told.
+/// Counts each player's keys as one peer knows them: those that came here; and, for the bats that
+/// it owns, those in effect in the present window, in final windows, and those acknowledged to
+/// their player.
 class KeyCounts {
  public:
-  /// Players are never fewer than before; of new ones nothing has come.
+  /// Adds players; their number never falls.
   void set_player_count(std::size_t count) {
     assert(count >= received_.size());
     for (std::vector<std::uint32_t>* const counts : {&received_, &playing_, &felt_, &told_})
@@ -25,12 +25,12 @@ class KeyCounts {
   void begin_window() { playing_ = received_; }
   void finish_window() { felt_ = playing_; }
 
-  /// The own player's next key: how many it has pressed with it.
+  /// Counts the own player's next key and returns the new number.
   std::uint32_t press(std::uint32_t own) {
     assert(own < received_.size());
     return received_[own] = ++pressed_;
   }
-  /// `player` has pressed so many keys. False if that is no news.
+  /// `player` has pressed so many keys. False if that was known.
   bool receive(std::uint32_t player, std::uint32_t count) {
     assert(player < received_.size());
     if (count <= received_[player]) return false;
@@ -45,7 +45,7 @@ class KeyCounts {
     assert(player < felt_.size());
     return felt_[player];
   }
-  /// How many were felt, if that are more than `player` was told; given once.
+  /// The number of keys in effect if it is greater than the acknowledged one; returned once.
   std::optional<std::uint32_t> take_newly_felt(std::uint32_t player) {
     assert(player < felt_.size());
     if (felt_[player] <= told_[player]) return std::nullopt;

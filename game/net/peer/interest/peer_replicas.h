@@ -1,4 +1,4 @@
-// What one peer's player receives of bodies that the peer neither owns nor has as ghosts.
+// The replicas of one peer's player, of bodies that the peer neither owns nor has as ghosts.
 #pragma once
 
 #include <algorithm>
@@ -22,11 +22,11 @@ struct BodyUpdate {
   rti::Bytes motion;       ///< as the policy codes it
 };
 
-/// A body as its owner last told of it.
+/// A body by its owner's latest update.
 struct Replica {
   peer::PeerNumber source = 0;
   bool is_there = false;
-  physics::Motion motion;  ///< its law, or a place that it keeps until it is told of again
+  physics::Motion motion;  ///< its law, or a place that it keeps until the next update
   physics::Vector2 position_at(double instant) const {
     return motion.at(std::max(instant, motion.time)).position;
   }
@@ -41,24 +41,24 @@ class PeerReplicas {
   PeerReplicas(bool has_trajectories, const Drag& drag, std::vector<physics::BodyKind> kinds)
       : has_trajectories_(has_trajectories), drag_(drag), kinds_(std::move(kinds)) {}
 
-  /// False for what is no whole update message; what could be read of it is applied.
+  /// False for a malformed message, of which the readable beginning is applied.
   bool receive(peer::PeerNumber from, rti::Bytes message, double windows_per_s);
-  /// All that came from `source` is forgotten: it was told that we look elsewhere.
+  /// Forgets all that came from `source`, which knows that this player looks elsewhere.
   void forget(peer::PeerNumber source);
   void forget_body(std::uint32_t body);
-  /// Without having been told.
+  /// Sets a replica without an update.
   void assume(std::uint32_t body, const Replica& replica) { replicas_[body] = replica; }
-  /// What is forgotten can be asked for until then, by who looks between two windows.
+  /// Drops forgotten replicas, which can be read until then, between two windows.
   void drop_forgotten();
 
-  /// One that is not there, of bodies that nothing is known of.
+  /// The replica of a body; one that is not in scope if nothing is known of it.
   const Replica& replica(std::uint32_t body) const;
-  /// By number; few of a large world, of which nothing else is kept. Those that are forgotten, and
-  /// not dropped yet, are among them.
+  /// All replicas by number, with those that are forgotten and not dropped yet; few of a large
+  /// world.
   const std::map<std::uint32_t, Replica>& all() const { return replicas_; }
-  /// Of the player's own bat, as its owner last told.
+  /// The keys in effect on the player's own bat by its owner's latest update.
   std::uint32_t felt() const { return felt_; }
-  /// What came since they were last forgotten.
+  /// The updates received since forget_received().
   const std::vector<Received>& received() const { return received_; }
   void forget_received() { received_.clear(); }
 

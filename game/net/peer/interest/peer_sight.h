@@ -1,5 +1,4 @@
-// What a peer knows at the end of a window, as plain values for whoever draws it in a thread of its
-// own.
+// A peer's knowledge at the end of a window, as plain values for a drawing thread.
 #pragma once
 
 #include <cstdint>
@@ -30,21 +29,22 @@ struct PeerSight {
   std::vector<KnownBody> bodies;  ///< bats and pucks
   std::uint32_t own_bat = 0;      ///< a body, which may be far from here
   Vector2 own_position{0.0, 0.0}, own_velocity{0.0, 0.0};
-  KeysHeld own_held;           ///< by what the bat has felt
+  KeysHeld own_held;           ///< by the keys in effect
   std::uint32_t own_felt = 0;  ///< keys
   std::uint32_t goals_left = 0, goals_right = 0;
   ZonesSeen zones;
   std::uint64_t bytes_sent = 0;
 };
 
-/// How far a peer's part is.
+/// The stage of a peer's session.
 struct PeerStage {
   enum class Step : std::uint8_t { gathering, countdown, playing, over, lost };
   Step step = Step::gathering;
-  std::string words;         ///< for the player: what is waited for, why it is lost, how it ended
+  std::string words;         ///< for the player: what the peer waits for, why it is lost, how it
+                             ///< ended
   double begins_in_s = 0.0;  ///< of a countdown: real time, when it began
-  std::optional<std::uint32_t> player;  ///< whose bat it is, once that is known
-  std::string notice;                   ///< what happened to others, the last of it
+  std::optional<std::uint32_t> player;  ///< the number of its player, once that is known
+  std::string notice;                   ///< the latest notice about others
   std::uint32_t notice_count = 0;
 };
 

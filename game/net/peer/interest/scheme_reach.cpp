@@ -1,4 +1,4 @@
-// By trial: pairs of somebody who looks and a body that goes away from there.
+// Finds the reach by trial: pairs of a viewer and a body that moves away from it.
 #include "game/net/peer/interest/scheme_reach.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace rink::game {
 
 namespace {
 
-/// Each looks at a place of its own, so that cells and strips lie differently about each; every
-/// other body is tiny, for a scheme may go by sizes.
+/// Each viewer has a place of its own, so that cells and strips lie differently around each; every
+/// other body is tiny, since a scheme may depend on sizes.
 class Trial {
  public:
   Trial(const std::string& scheme, const im::FilterSettings& settings, double extent_max)
@@ -28,18 +28,18 @@ class Trial {
       filter_->set_subscription_region(k, views_.back());
     }
     put(0.0, 0.0);
-    // What goes by more than places is the same for all pairs.
+    // Roles and headings are the same for all pairs.
     for (std::uint32_t k = 0; k < pair_count; ++k)
       filter_->set_entity_role(k, role), filter_->set_subscriber_role(k, role);
   }
 
-  /// To the middles of the regions; anybody who may be let in is.
+  /// Moves the bodies to the middles of the regions, so that every possible pair is relevant.
   void come_back() {
     put(0.0, 0.0);
     match();
   }
-  /// Whether any pair still, or again, is one with the body so far beyond the region's edge in the
-  /// direction of (x, y) [m].
+  /// True if any pair is relevant with the body so far beyond the region's edge in the direction of
+  /// (x, y) [m].
   bool reaches(double x, double y) {
     put(x, y);
     match();
@@ -86,7 +86,7 @@ double reach_along(Trial& trial, double x, double y, double farthest) {
   constexpr double safety = 2.5;
   double reach = 0.0;
   for (const double sign : {-1.0, 1.0}) {
-    // Who stays in for a while wherever it goes does so when it goes at once.
+    // A scheme that keeps pairs for a while shows this when the body goes away at once.
     for (const double first : {farthest, std::ldexp(farthest, 1 - trials)}) {
       trial.come_back();
       for (double distance = first; distance <= farthest; distance *= 2.0)

@@ -7,8 +7,8 @@
 
 namespace rink::game {
 
-/// A body whose middle is farther than that from a region, along either axis [m], does not matter
-/// to who looks there. Infinite if the scheme knows no bounds within the world.
+/// A body whose middle is farther than that from a region, along either axis [m], is not relevant
+/// to it. Infinite if the scheme has no bounds within the world.
 struct SchemeReach {
   double x = 0.0, y = 0.0;
 };

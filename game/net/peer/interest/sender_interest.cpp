@@ -1,4 +1,4 @@
-// A filter over the bodies that are here, and update messages made of what it says.
+// Filters the bodies that are here, and makes update messages from the decisions.
 #include "game/net/peer/interest/sender_interest.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ bool exchange(Stream& stream, EncodedInterest& encoded) {
   encoded.form = static_cast<EncodedInterest::Form>(form);
   if (encoded.form == EncodedInterest::Form::away) return true;
   for (float* side : {&encoded.low_x, &encoded.low_y, &encoded.high_x, &encoded.high_y}) {
-    // Cells are few, so their numbers go in two bytes where they fit.
+    // Cells are few, so their numbers take two bytes where they fit.
     auto number = static_cast<std::int16_t>(*side);
     if (encoded.form == EncodedInterest::Form::region ? !stream.number(*side)
                                                       : !stream.number(number))
@@ -163,17 +163,16 @@ void SenderInterest::match(const peer::Peer& peer) {
   }
 }
 
-/// Once a window for each body of which anybody hears; as the policies of a server do, but for
-/// bodies of which nobody does.
+/// Decides once a window for each body in any player's scope, as a server's policy does, but
+/// without work for others.
 const SenderInterest::LastSent& SenderInterest::last_sent_of(const physics::World& world,
                                                              std::uint32_t body,
                                                              std::uint32_t window) {
   LastSent& last_sent = last_sent_[body];
   if (last_sent.window == window) return last_sent;
-  constexpr double worthwhile_s =
-      0.1;  // one that is to be replaced so soon may as well be replaced now
+  constexpr double worthwhile_s = 0.1;  // a state that must be replaced so soon is replaced now
   const bool is_new = last_sent.window == 0xffffffffu ||
-                      last_sent.window + 1 != window;  // others may have told of it meanwhile
+                      last_sent.window + 1 != window;  // others may have sent it meanwhile
   last_sent.window = window;
   if (sends_trajectories_) {
     if (!is_new) last_sent.until_s = holds_until(world, {body}, last_sent.trajectory);
@@ -226,10 +225,11 @@ std::vector<std::byte> SenderInterest::updates_for(
     motions_sent_ += is_due;
   }
   std::sort(now_sent.begin(), now_sent.end());
-  // What is the player's own or ghost it sees for itself; what is another's by now, and still seen,
-  // that one tells of. Where its new owner, who has not seen all that we have, may decide
-  // otherwise, it is told as left: if the new owner has told of it, that is not believed. That one
-  // first tells of it in this window, so we do in the next: nobody loses sight of it meanwhile.
+  // The player simulates its own bodies and ghosts itself; a body that has another owner by now,
+  // and is still in scope, is sent by that owner. A scheme that remembers may decide otherwise at
+  // the new owner, so the body is then sent as left, which is ignored if the new owner has sent it.
+  // The new owner sends it first in this window, so this peer does so in the next: no player loses
+  // it meanwhile.
   for (const std::uint32_t body : handed_over_[player])
     if (!contains(now_sent, body) && (remembers_ || !contains(scope, body)))
       put(body, Form::left, 0, {});

@@ -1,5 +1,5 @@
-// Interest at the sender: which peer's player sees which of our bodies, and what it is therefore
-// told.
+// Interest at the sender: which bodies are in the scope of which peer's player, and the updates
+// that follow.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@
 
 namespace rink::game {
 
-/// Where a player looks, as it is sent to those whose zones it meets: by cells if the scheme has
-/// some, for then the same cells are the same interest.
+/// A player's view as it is sent to the owners of the zones that it meets: by cells if the scheme
+/// has some, since equal cells are equal interest.
 struct EncodedInterest {
   enum class Form : std::uint8_t { away, region, cells };
   Form form = Form::away;
@@ -28,16 +28,15 @@ struct EncodedInterest {
   friend bool operator==(const EncodedInterest&, const EncodedInterest&) = default;
 };
 
-/// `region` in cells of side `cell_size` [m], or as it is if that is 0.
+/// `region` in cells of side `cell_size` [m], or unchanged if that is 0.
 EncodedInterest interest_at(const im::Region& region, double cell_size);
-/// The region that stands for it with whoever receives it: within each cell that it names.
+/// The region that a receiver uses for it: within each named cell.
 im::Region region_of(const EncodedInterest& encoded, double cell_size);
 std::vector<std::byte> bytes_of(const EncodedInterest& encoded);
-/// Nothing unless the bytes are one whole interest that a player could have.
+/// Nothing unless the bytes are one whole, possible interest.
 std::optional<EncodedInterest> interest_from(rti::Bytes bytes);
 
-/// Filters as a server does, for the bodies that are here. Bodies and peers are numbered as
-/// everywhere.
+/// Filters as a server does, for the bodies that are here.
 class SenderInterest {
  public:
   /// `scheme` and `policy` ("periodic" or "on-event") must be known (asserted).
@@ -46,35 +45,34 @@ class SenderInterest {
   SenderInterest(const std::string& scheme, const im::FilterSettings& settings,
                  const std::string& policy, std::vector<im::Role> roles, double extent_max);
 
-  /// Peer `player` has a player, who moves `bat`. With a scheme that is not selective he looks at
-  /// all from now on; with others when he says where.
+  /// Adds the player of peer `player`, which moves `bat`. With a scheme that is not selective its
+  /// scope is everything from now on; with others it follows its first view.
   void add_player(peer::PeerNumber player, std::uint32_t bat);
-  /// He is gone: nothing that he was told or looked at counts any more.
+  /// Forgets a player with its view and updates.
   void remove_player(peer::PeerNumber player);
 
-  /// Side of the cells by which alone the scheme looks at regions [m]; 0 if it looks at them
-  /// otherwise.
+  /// Side of the cells [m] if the scheme uses only cells of regions; 0 otherwise.
   double cell_size() const { return cell_size_; }
-  /// Whether it matters where players look.
+  /// True if decisions depend on players' views.
   bool is_selective() const { return is_selective_; }
-  /// So far from where a player looks its owner must know that he does.
+  /// The distance from a player's view within which owners must know it.
   const SchemeReach& reach() const { return reach_; }
   bool sends_trajectories() const { return sends_trajectories_; }
 
   void look(peer::PeerNumber player, const im::Region& region);
-  /// The player does not look here any more, and has been told to forget.
+  /// The player does not look here any more, and was told to forget.
   void look_away(peer::PeerNumber player);
 
-  /// The bodies that are here now, own ones and ghosts; decides who sees which.
+  /// Takes the bodies that are here, own ones and ghosts, and decides the scope of each player.
   void match(const peer::Peer& peer);
-  /// Of all that are here, ascending; `player` is that of any peer which was added, the own one
-  /// included.
+  /// The scope of a player among all bodies here, ascending; `player` is one that was added, the
+  /// own one included.
   const std::vector<std::uint32_t>& scope_of(peer::PeerNumber player) const {
     return scopes_[player];
   }
-  /// Between the handovers and the commit of window `window`: what `player` is to be told of our
-  /// bodies that it will not have itself. `felt`: of its own bat, if it has not been told. Empty if
-  /// there is nothing.
+  /// Between the handovers and the commit of window `window`: the updates of own bodies for
+  /// `player` that it does not simulate itself. `felt`: the keys in effect on its own bat, if not
+  /// acknowledged yet. Empty if there is nothing.
   std::vector<std::byte> updates_for(
       const peer::Peer& peer, peer::PeerNumber player, std::uint32_t window,
       const std::function<std::optional<std::uint32_t>(std::uint32_t body)>& felt);
@@ -101,8 +99,7 @@ class SenderInterest {
                                                         ///< earlier ones, so two owners may differ
   std::vector<im::Role> body_roles_, player_roles_;     ///< by body, by peer
   std::vector<std::vector<std::uint32_t>> scopes_,
-      sent_;  ///< by peer, ascending: who sees what; what each was told of last and not told to
-              ///< forget
+      sent_;  ///< by peer, ascending: its scope; and the bodies sent to it and not withdrawn
   std::vector<std::vector<std::uint32_t>>
       handed_over_;  ///< by peer, ascending: bodies that became another's since the last window
   std::vector<std::uint8_t> is_here_;  ///< by body: in the filter

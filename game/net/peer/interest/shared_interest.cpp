@@ -1,4 +1,4 @@
-// Around each window: where the player looks, what others are sent, and keys.
+// The steps around each window: the player's view, updates to others, and keys.
 #include "game/net/peer/interest/shared_interest.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::vector<physics::BodyKind> kinds_of(const Game& game) {
   return kinds;
 }
 
-/// As the server's.
+/// The filter settings of a server.
 im::FilterSettings filter_settings(const Game& start, double cell_size) {
   const physics::Field& field = start.world().spec().field;
   im::FilterSettings settings{.world = {0.0, 0.0, field.length, field.width},
@@ -53,8 +53,8 @@ double extent_max_of(const Game& start) {
   return extent_max;
 }
 
-/// What was told by `from`, who tells no more: it stays in the picture as the `own` peer's, in
-/// `kept`, until whoever tells of it from now on has done so.
+/// Keeps replicas from `from`, which sends no more: they count as the `own` peer's, in `kept`,
+/// until their new source has sent them.
 void keep_for_now(PeerReplicas& picture, peer::PeerNumber from, peer::PeerNumber own,
                   std::vector<std::uint32_t>& kept) {
   for (const auto& [body, replica] : picture.all()) {
@@ -154,11 +154,11 @@ void SharedInterest::look_around() {
   }
 }
 
-/// Where it is, or was when it was last seen; at first, where it starts. Its owner shows it to live
-/// players from time to time, whatever the filter says.
+/// The place of the own bat, or its last known one; at first, its start. Its owner sends it to live
+/// players from time to time, whatever the filter decides.
 std::optional<physics::Vector2> SharedInterest::bat_place() {
   const Replica& replica = replicas_.replica(bat());
-  // Where a window is cut it may have gone since places were noted.
+  // In a window that is cut short it may have left since places were noted.
   const bool is_here =
       peer_.owns(bat()) || std::binary_search(peer_.ghosts().begin(), peer_.ghosts().end(), bat());
   std::optional<physics::Vector2> place;
@@ -167,7 +167,7 @@ std::optional<physics::Vector2> SharedInterest::bat_place() {
   else
     for (const peer::Observation& observation : peer_.observations())
       if (observation.bat == bat()) place = observation.position;
-  // Nobody who tells us of places where no bat can be has us look there.
+  // A received place where no bat can be is ignored.
   const physics::Field& field = peer_.world().spec().field;
   if (place && place->allFinite())
     seen_bat_ = {std::clamp(place->x(), 0.0, field.length),
@@ -183,8 +183,8 @@ void SharedInterest::finish(std::uint32_t window) {
   keep_in_sight();
 }
 
-/// What the player sees of own bodies that are others' from now on: these tell of them with the
-/// next window. Ghosts are seen anyway.
+/// Keeps own bodies in sight that others own from now on, since these send them with the next
+/// window. Ghosts are seen anyway.
 void SharedInterest::keep_in_sight() {
   for (const std::uint32_t body : parted_)
     if (replicas_.replica(body).source == peer_.number()) replicas_.forget_body(body);
@@ -210,7 +210,7 @@ void SharedInterest::send_updates(std::uint32_t window) {
   }
 }
 
-/// To who owns a bat from now on, what came for it here.
+/// Sends keys that came here for a bat to its new owner.
 void SharedInterest::hand_keys_over() {
   for (const peer::PeerNumber player : members_) {
     const std::uint32_t bat = settings_.bats[player];
@@ -222,8 +222,8 @@ void SharedInterest::hand_keys_over() {
   }
 }
 
-/// Who is here is seen, not told; who has just come only from the next decision on, in which it
-/// takes part.
+/// A body here is simulated and needs no replica; one that has just come counts from the next
+/// decision on.
 void SharedInterest::note_places() {
   replicas_.drop_forgotten();
   const std::vector<std::uint32_t> before = std::move(here_);
@@ -236,8 +236,8 @@ void SharedInterest::note_places() {
   for (const std::uint32_t body : peer_.ghosts()) places_[body] = Place::ghost;
 }
 
-/// A word that was under way when windows were undone may be heard after this: so whoever looks
-/// elsewhere says that, too, to all.
+/// A message that was under way when windows were undone may come after this: so a player that
+/// looks elsewhere sends that, too, to all.
 void SharedInterest::begin_again(std::span<const peer::PeerNumber> members,
                                  std::vector<std::uint32_t> bats) {
   for (const peer::PeerNumber peer : members_)

@@ -1,5 +1,5 @@
-// Interest among peers, seen from one of them: where its player looks, what the others receive of
-// the bodies here, and what it receives of theirs. No clock, no socket.
+// Interest among peers, seen from one of them: its player's view, updates to the others about
+// bodies here, and their updates. No clock, no socket.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +20,10 @@
 
 namespace rink::game {
 
-/// In the place of the bat of a peer that nobody plays.
+/// The bat of a peer without a player.
 inline constexpr std::uint32_t no_bat = 0xffffffffu;
 
-/// The same for all peers, but for what only concerns the own player.
+/// Equal for all peers, but for values that concern the own player only.
 struct InterestSettings {
   std::string scheme = "region", policy = "on-event";  ///< see SenderInterest
   double cell_size = 0.0;                              ///< m; 0 lets the scheme choose
@@ -32,18 +32,18 @@ struct InterestSettings {
   RelevantKinds always_relevant;         ///< what the scheme `always` lets through
   double rate_hz = 20.0;  ///< windows per second of simulated time: the k-th ends at k / rate_hz
   std::vector<std::uint32_t>
-      bats;              ///< by peer, the body that its player moves; or no_bat. Of those who begin
+      bats;              ///< by peer, the body that its player moves, or no_bat; of the first peers
   bool is_late = false;  ///< others have played before: the bat is not where it started
 };
 
-/// Keys are counted by who owns the bat, as a server that replays does. Throws nothing.
+/// The owner of a bat counts its keys, as a server that replays does. Throws nothing.
 class SharedInterest {
  public:
   using Send =
       std::function<void(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content)>;
-  /// Of as many members as there are bats. `peer` and `division` must outlive it, and may be made
-  /// anew where they are (then `begin_again`). What is sent must come before what the protocol
-  /// sends to the same peer afterwards.
+  /// There are as many members as bats. `peer` and `division` must outlive it, and may be made anew
+  /// in place (then call `begin_again`). Messages sent must arrive before later ones of the
+  /// protocol to the same peer.
   SharedInterest(const Game& start, const InterestSettings& settings, const peer::Peer& peer,
                  const peer::Division& division, Send send);
   SharedInterest(const SharedInterest&) = delete;
@@ -51,35 +51,35 @@ class SharedInterest {
 
   /// The steps of a window. Before it is played:
   void begin_window() { keys_.begin_window(); }
-  /// After the run, before it is agreed upon: so that others know where the player looks when they
-  /// tell of this window. A view need not be exact.
+  /// After the run, before the agreement, so that others know the player's view when they send this
+  /// window. A view need not be exact.
   void look_around();
   /// All have accepted window `window`, and the others have been sent what they need for the next;
   /// it is not committed yet.
   void finish(std::uint32_t window);
-  /// It is; and once before the first.
+  /// After the commit, and once before the first window.
   void note_places();
 
-  /// From now on these are the members (sorted), and `bats` theirs, by number. Who was one goes on
-  /// with what was told and heard; with who comes all begins, with who is gone it ends. All call
-  /// this before they hear what a newcomer says.
+  /// Sets the members (sorted) and their `bats`, by number. Members that stay keep their state, new
+  /// ones begin, and those that are gone end. All call this before they handle a newcomer's
+  /// messages.
   void set_members(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats);
-  /// Sets the members after windows were undone: everybody forgets what was told and where others
-  /// look, and tells everybody anew. All who are left call this at the same window.
+  /// Sets the members after windows were undone: all forget updates and others' views, and send
+  /// everything anew. All that are left call this at the same window.
   void begin_again(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats);
 
-  /// From a member. False for what is no message of its kind.
+  /// Receives a member's message. False for a malformed one.
   bool receive(peer::PeerNumber from, Traffic about, rti::Bytes content);
   /// The own player pressed or released a key, which goes to the bat's owner.
   void press();
-  /// How many of the player's keys its bat has felt, by what is known here.
+  /// The number of the player's keys in effect, as known here.
   std::uint32_t felt() const;
 
-  /// What the player sees: bodies here within its view, and others of which it receives updates.
+  /// Lists the player's scope: bodies here within its view, and replicas.
   void list_scope(std::vector<std::uint32_t>& bodies) const;
-  /// Where the player believes a body to be that it sees [m], at `instant` [s].
+  /// The believed position of a body in scope [m], at `instant` [s].
   physics::Vector2 position_at(std::uint32_t body, double instant) const;
-  /// How the player believes it to move: a copy that may be evaluated at any later time.
+  /// The believed motion of a body: a copy that may be evaluated at any later time.
   physics::Motion motion_of(std::uint32_t body) const;
 
   std::uint32_t bat() const { return settings_.bats[peer_.number()]; }
@@ -119,11 +119,11 @@ class SharedInterest {
                  ///< were then in the picture
   EncodedInterest encoded_interest_;
   std::optional<physics::Vector2> seen_bat_;  ///< where the player's bat was last seen [m]
-  bool is_undone_ = false;                    ///< what was said before counts no more
+  bool is_undone_ = false;                    ///< earlier messages no longer count
   std::vector<bool> is_informed_;  ///< by peer: it knows the present interest, or an earlier one,
-                                   ///< and must be told of its end
+                                   ///< and must be notified of its end
   KeyCounts keys_;                 ///< by peer, of its player
-  std::vector<peer::PeerNumber> handed_to_;  ///< by peer: who got its bat from us
+  std::vector<peer::PeerNumber> handed_to_;  ///< by peer: the peer that got its bat from this one
 };
 
 }  // namespace rink::game

@@ -1,4 +1,4 @@
-// Asides in and out, at the steps of a session's windows.
+// Sends and receives side messages at the steps of a session's windows.
 #include "game/net/peer/interest/viewer.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace rink::game {
 
 namespace {
 
-/// The window that an update message is of.
+/// The window of an update message.
 std::uint32_t window_of(rti::Bytes updates) {
   rti::Reader reader(updates);
   std::uint32_t window = 0;
@@ -55,7 +55,7 @@ void Viewer::begin(const peer::Session& session) {
   };
 }
 
-/// By peer: the bats that all agree on.
+/// By peer, the bats that all agree on.
 std::vector<std::uint32_t> Viewer::bats() const {
   std::vector<std::uint32_t> bats = settings_.bats;
   bats.resize(session_->slots(), no_bat);
@@ -65,8 +65,8 @@ std::vector<std::uint32_t> Viewer::bats() const {
   return bats;
 }
 
-/// Who the members are follows from the step, and nobody receives a step from a peer that has it
-/// before all others have what leads to it; so all settle before they hear a newcomer's word.
+/// The members follow from the step, which no peer gets before all others have what leads to it; so
+/// all settle before they handle a newcomer's message.
 void Viewer::settle() {
   if (session_->members() == members_) return;
   members_ = session_->members();
@@ -80,7 +80,7 @@ bool Viewer::receive(peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
   return true;
 }
 
-/// What somebody said before he left counts no more.
+/// Messages that a peer sent before it left no longer count.
 bool Viewer::apply(peer::PeerNumber from, std::span<const std::uint8_t> bytes) {
   settle();
   if (!std::binary_search(members_.begin(), members_.end(), from)) return true;
@@ -109,7 +109,7 @@ void Viewer::when_stepped() {
   } else {
     members_ = session_->members();
     interest_->begin_again(members_, bats());
-    // Of windows up to this one their senders have forgotten what they told.
+    // Senders have forgotten their updates of windows up to this one.
     for (const auto& [from, bytes] : std::exchange(put_off_, {}))
       if (static_cast<Traffic>(bytes[0]) != Traffic::updates ||
           window_of(std::as_bytes(std::span(bytes).subspan(1))) > session_->window())
@@ -128,7 +128,7 @@ void Viewer::end() {
       }));
   side_channel_.receive_aside = [](peer::PeerNumber, const std::vector<std::uint8_t>&) {
     return true;
-  };  // others may still have something to say
+  };  // others may still send messages
   interest_.reset();
 }
 

@@ -1,5 +1,5 @@
-// Interest in a running session: what a peer's player sees beyond what the peer has, and what the
-// other players are told, window by window.
+// Interest in a running session: what a peer's player sees beyond the peer's own part, and updates
+// to the other players, window by window.
 #pragma once
 
 #include <functional>
@@ -14,18 +14,18 @@
 
 namespace rink::game {
 
-/// To be given to SharedGame::play as its listener. Of each aside the first byte says what it is
-/// about (Traffic). With who comes all begins, who leaves is forgotten; when somebody is lost, and
-/// windows are undone, all who are left tell each other anew.
+/// Pass it to SharedGame::play as its observer. The first byte of each side message is its purpose
+/// (Traffic). New members begin with nothing, and those that leave are forgotten; when one is lost,
+/// and windows are undone, all that are left send everything anew.
 class Viewer : public WindowObserver {
  public:
-  /// `game` and `side_channel` must outlive it. Throws peer::ProtocolError for a scheme or a policy
-  /// of the settings that is none.
+  /// `game` and `side_channel` must outlive it. Throws peer::ProtocolError for an unknown scheme or
+  /// policy of the settings.
   Viewer(const SharedGame& game, InterestSettings settings, SideChannel& side_channel);
   ~Viewer() override;
 
-  /// All have accepted a window; and all is known that others tell of it: the player's picture is
-  /// whole.
+  /// All have accepted a window; and all updates of others about it have come, so that the player's
+  /// picture is whole.
   std::function<void()> on_final, on_commit;
 
   void begin(const peer::Session& session) override;
@@ -39,10 +39,10 @@ class Viewer : public WindowObserver {
   const SharedInterest& interest() const { return *interest_; }
   /// How many windows are final.
   std::uint64_t windows() const { return session_->window(); }
-  /// At the end: bodies that the player saw, and those of them that it was told of.
+  /// At the end: bodies in the player's scope, and the replicas among them.
   std::size_t in_view() const { return in_view_; }
   std::size_t told_of() const { return told_of_; }
-  /// Contents sent aside, without frames, and messages, by what they are about.
+  /// Bytes of side messages, without frames, and messages, by purpose.
   const TrafficBytes& sent() const { return sent_; }
   const TrafficBytes& messages_sent() const { return messages_sent_; }
 
@@ -60,9 +60,9 @@ class Viewer : public WindowObserver {
   std::optional<SharedInterest> interest_;
   std::vector<peer::PeerNumber> members_;
   std::size_t lost_ = 0, in_view_ = 0,
-              told_of_ = 0;  ///< `lost_`: how many when all was last told anew
+              told_of_ = 0;  ///< `lost_`: number of lost peers when all was last sent anew
   std::vector<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>>
-      put_off_;  ///< that came while the session recovers
+      put_off_;  ///< received while the session recovers
   TrafficBytes sent_{}, messages_sent_{};
 };
 

@@ -1,4 +1,4 @@
-// What is asked for to settings.
+// Turns options into settings.
 #include "game/net/peer/interest/viewing_options.h"
 
 #include <nlohmann/json.hpp>

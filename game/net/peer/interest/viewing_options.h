@@ -1,4 +1,4 @@
-// What rink peer is asked for about what players see beyond what their peers have.
+// The options of rink peer for interest beyond the peers' own parts.
 #pragma once
 
 #include <cstdint>
@@ -22,23 +22,23 @@ struct ViewingOptions {
   std::vector<std::string> always;  ///< of a first peer: kinds of bodies; none: as the scene has it
 };
 
-/// What is wrong with a scheme that a flag names, or nothing.
+/// The fault of a scheme that a flag names, or nothing.
 std::string objection_to(const std::string& scheme);
-/// Throws std::invalid_argument for what the flags of a first peer cannot mean together.
+/// Throws std::invalid_argument for flags of a first peer that contradict each other.
 void require_viewing(const Terms& terms, const ViewingOptions& options, const SharedGame& game,
                      std::uint32_t bots);
 
-/// What the terms want of interest, for those who met, and evidence of it if the options do:
-/// neither if they want none. Throws std::invalid_argument if there can be no evidence.
+/// The viewer that the terms ask for, and a recorder if the options do; neither if they ask for
+/// none. Throws std::invalid_argument if nothing can be recorded.
 struct Viewing {
   std::unique_ptr<Viewer> viewer;
   RunRecorder* recorder = nullptr;  ///< the same, if it is one
 };
 Viewing make_viewing(const SharedGame& game, PeerNetwork& network, const ViewingOptions& options,
                      double (*now_s)());
-/// What was sent and received, for the report.
+/// Traffic by interest, for the report.
 nlohmann::ordered_json report_of(const Viewer& viewer);
-/// What the transport and the kernel counted of the peer's connections.
+/// The transport's and the kernel's counts of the peer's connections.
 nlohmann::ordered_json report_of(const rti::TransportCounters& counters);
 
 }  // namespace rink::game
