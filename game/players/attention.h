@@ -1,5 +1,5 @@
-// Which pucks a player has an eye on: the nearest few, looked for anew now and then only, since
-// looking at everything is what costs.
+// The pucks that a player watches: the nearest few, which are searched only now and then, since a
+// search of all is expensive.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 
 namespace rink::game {
 
-/// Looks about at every so many of its decisions and in between follows what it saw then: on a
-/// crowded rink this makes a decision three times cheaper, and nobody comes near enough within a
-/// quarter of a second to matter who was not among the nearest before.
+/// The number of decisions between two searches: on a crowded rink this makes a decision three
+/// times cheaper, and no puck that was not among the nearest comes near enough within a quarter of
+/// a second to matter.
 inline constexpr std::uint64_t look_about_interval = 5;
 
-/// The nearest `most` of what it is shown.
+/// The nearest `most` of the things shown to it.
 template <class Thing>
 class Nearest {
  public:

@@ -1,5 +1,5 @@
-// All geometry is that of one who attacks towards larger x; a player of the other team sees the
-// rink mirrored.
+// Chooses shots. All geometry is that of an attack towards larger x; a player of the other team
+// sees the rink mirrored.
 #include "game/players/chaser.h"
 
 #include <algorithm>
@@ -119,7 +119,7 @@ KeysHeld Chaser::keys_for(const PlayerView& view) {
     const Vector2 push = turned_velocity(best->push) / rules_.thrust;
     const KeysHeld held = hands_.last_wish();
     constexpr double start = 0.25,
-                     stop = 0.0;  // a higher start lets a bat that is nearly there wait for ever
+                     stop = 0.0;  // a higher start would let a bat near its target wait for ever
     return keys_towards(pushed_along(push_x(held), push.x(), start, stop),
                         pushed_along(push_y(held), push.y(), start, stop));
   }
@@ -143,15 +143,15 @@ std::optional<Chaser::Shot> Chaser::best_shot(const Sight& sight) const {
   for (const Span& span : spans_) {
     std::optional<Shot> shot = shot_at(sight, span);
     if (!shot) continue;
-    constexpr double haste = 1.0;  // what a second is worth
+    constexpr double haste = 1.0;  // the value of a second
     shot->value -= haste * span.ahead;
     if (!best || shot->value > best->value) best = shot;
   }
   return best;
 }
 
-/// The shot from a contact after `span`, if thrust can bring the bat's front there by then and the
-/// bat is the faster one.
+/// The shot from a contact after `span`, if the bat's front can be there by then and the bat is the
+/// faster one.
 std::optional<Chaser::Shot> Chaser::shot_at(const Sight& sight, const Span& span) const {
   const double low = sight.radius, high = rules_.field.width - sight.radius;
   const physics::WarpedTime flown = flight(sight.puck_velocity, span);
@@ -187,7 +187,7 @@ std::optional<Chaser::Shot> Chaser::shot_at(const Sight& sight, const Span& span
               push};
 }
 
-/// What it is worth that a puck leaves `place` at `velocity`: going in counts most, then speed.
+/// The value of a puck that leaves `place` at `velocity`: a goal counts most, then speed.
 double Chaser::value_of(const Vector2& place, const Vector2& velocity, double radius) const {
   constexpr double goal_value = 2.0, speed_value = 0.3, bounce_cost = 0.3, backwards_value = -1.0;
   if (velocity.x() <= 0.0) return backwards_value;
@@ -200,8 +200,8 @@ double Chaser::value_of(const Vector2& place, const Vector2& velocity, double ra
          (goes_in ? goal_value - bounce_cost * fold_count(straight, low, high) : 0.0);
 }
 
-/// Where to be so that the puck lies between the bat and the opponents' end; when the puck is
-/// further back than the bat, first past it on the side that has more room.
+/// The place from which the puck lies between the bat and the opponents' end; if the puck is
+/// further back than the bat, first past it on the side with more room.
 Vector2 Chaser::place_behind(const Sight& sight) const {
   const double clearance = 0.5 * sight.radius,
                side = seat_.half_extent.y() + sight.radius + clearance,
@@ -219,7 +219,7 @@ Vector2 Chaser::place_behind(const Sight& sight) const {
   return {std::max(sight.bat.x(), puck.x()), puck.y() + (goes_above ? 1.3 : -1.3) * side};
 }
 
-/// On the way from the puck to the own goal, near the latter.
+/// The place to guard: between the puck and the own goal, near the goal.
 Vector2 Chaser::place_to_guard(const Sight& sight) const {
   const double middle = 0.5 * rules_.field.width, x = reach_.low.x() + 0.2 * reach_.size().x();
   double y = middle + (sight.puck.y() - middle) * 0.4;

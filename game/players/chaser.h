@@ -1,5 +1,5 @@
-// The player who plays to win: meets a puck from behind, at the instant and speed that send it into
-// the opponents' goal.
+// The player that plays to win: it meets a puck from behind, at the instant and speed that send it
+// into the opponents' goal.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace rink::game {
 
 /// How good a chaser is.
 struct Skill {
-  std::uint32_t delay = 2;  ///< decisions from what is seen to the key, at most Hands::delay_max;
+  std::uint32_t delay = 2;  ///< decisions from an observation to the key, at most Hands::delay_max;
                             ///< each takes decision_period
   double aim_error = 0.02;  ///< radius of the disc in which a puck's place is misjudged [m]
   double effort = 1.0;  ///< the part of the decisions at which keys are held at all, above 0 to 1
@@ -23,9 +23,9 @@ inline constexpr Skill beginner_skill{5, 0.06, 0.7}, club_skill{2, 0.02, 1.0},
 
 /// Looks at the nearest pucks, extrapolates them and its bat by the closed forms of their motion
 /// (straight under drag, folded at the side walls), and picks the puck, the instant and the speed
-/// of the best shot that its thrust allows. When there is none it gets behind the nearest puck,
-/// round it if need be, so as not to push it to its own goal; when none can be reached it guards
-/// its goal.
+/// of the best shot that its acceleration allows. Without one it moves behind the nearest puck,
+/// around it if needed, so as not to push it to its own goal; if it can reach none it guards its
+/// goal.
 class Chaser : public Player {
  public:
   Chaser(const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t seed, const Skill& skill);
@@ -37,14 +37,14 @@ class Chaser : public Player {
   /// 20 after them.
   static constexpr std::size_t fine_count = 10, coarse_count = 10;
 
-  /// What happens within `ahead` [s]: to the bat from when keys take effect, to a puck from now.
+  /// Motion within `ahead` [s]: of the bat from when keys take effect, of a puck from now.
   struct Span {
     double ahead, puck_ahead;
     physics::WarpedTime bat, puck;
   };
-  /// Everything as seen by one who attacks towards larger x.
+  /// The view of a player that attacks towards larger x.
   struct Sight {
-    Vector2 bat, bat_velocity;  ///< when the keys that are now decided take effect
+    Vector2 bat, bat_velocity;  ///< when the keys of this decision take effect
     Vector2 puck, puck_velocity;
     double radius = 0.0;
   };

@@ -1,4 +1,4 @@
-// The centre walks, the members follow their places about it.
+// Moves the centre, and the members to their places about it.
 #include "game/players/gathering.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Players who move about in groups: reference-point group mobility (Hong, Gerla, Pei and Chiang
-// 1999).
+// Players that move in groups: reference-point group mobility (Hong, Gerla, Pei and Chiang 1999).
 #pragma once
 
 #include "game/players/steering.h"
@@ -7,12 +6,12 @@
 namespace rink::game {
 
 /// The path of a group's centre: a random waypoint walk at a constant speed, a function of seed,
-/// group and time alone, so that the members agree on it without a word.
+/// group and time alone, so that the members agree on it without messages.
 class GroupRoute {
  public:
-  /// At `speed` [m/s] within `reach`; where there is no speed, the centre stays where it is.
+  /// A route at `speed` [m/s] within `reach`; at speed 0 the centre stays.
   GroupRoute(const Reach& reach, double speed, std::uint64_t seed, std::uint32_t group);
-  /// Where the centre is at `instant` [s]; instants must not fall.
+  /// The place of the centre at `instant` [s]; instants must not fall.
   Vector2 at(double instant);
 
  private:
@@ -24,8 +23,8 @@ class GroupRoute {
   double begin_s_ = 0.0, end_s_ = 0.0;  ///< infinite if it is never reached
 };
 
-/// One of a group of up to eight, who are numbered in a row: keeps to its own reference point about
-/// the group's centre, drawn uniformly in a disc, and strays from it a little.
+/// A member of a group of up to eight with consecutive numbers: it stays near its own reference
+/// point about the group's centre, drawn uniformly in a disc.
 class Gathering : public Player {
  public:
   static constexpr std::uint32_t group_size = 8;

@@ -1,4 +1,4 @@
-// Draws hot places from the seed alone, so that all players agree on them without a word.
+// Draws hot places from the seed alone, so that all players agree on them without messages.
 #include "game/players/hotspot.h"
 
 #include <algorithm>

@@ -9,8 +9,8 @@
 
 namespace rink::game {
 
-/// The places that all players of one seed find hot: place k, counted from 1, is chosen with
-/// probability proportional to 1/k.
+/// The hot places of all players of one seed: place k, counted from 1, is chosen with probability
+/// proportional to 1/k.
 class HotPlaces {
  public:
   /// One place per `area_per_place` of the field, 3 to 1,000 of them; each a disc that is
@@ -51,7 +51,7 @@ class Hotspot : public Player {
   Vector2 next_target();
   RandomStream random_;
   HotPlaces places_;
-  std::optional<std::size_t> place_;  ///< where it is or goes, if that is hot
+  std::optional<std::size_t> place_;  ///< its place or target, if that is hot
   Traveller traveller_;
   Hands hands_;
 };

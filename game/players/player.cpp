@@ -1,4 +1,4 @@
-// What follows from a scene for whoever plays one of its bats.
+// Derives a player's rules from a scene.
 #include "game/players/player.h"
 
 #include <cassert>

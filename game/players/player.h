@@ -1,5 +1,4 @@
-// What a player is: an object that looks at what it knows of the game and says which keys it holds
-// down.
+// The interface of players: objects that decide by their view of the game which keys to hold.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +8,16 @@
 
 namespace rink::game {
 
-/// Players decide so often [s]: about as often as people can change their minds, and rarely enough
-/// for a thousand of them in one process.
+/// The period of decisions [s]: about that of people, and long enough for a thousand players in one
+/// process.
 inline constexpr double decision_period = 0.05;
 
-/// When within each period player `number` decides [s]: spread by the golden ratio, so that any
+/// The phase of player `number` within each period [s]: spread by the golden ratio, so that any
 /// number of players load a processor evenly, over 25 slots, so that a process that plays them all
-/// need not wake more than 500 times a second.
+/// wakes at most 500 times a second.
 double decision_phase(std::uint32_t number);
 
-/// What is true of a game before it starts and every player may know.
+/// Constants of a game that every player may know.
 struct PlayerRules {
   physics::Field field;
   double puck_drag = 0.0, bat_drag = 0.0;  ///< 1/s
@@ -28,18 +27,18 @@ struct PlayerRules {
   double puck_friction = 0.0;              ///< with the table [m/s^2]
 };
 
-/// The rules of `scene` for the one who plays bat `number`, which must be there unless the scene
-/// has no bats.
+/// The rules of `scene` for the player of bat `number`, which must exist unless the scene has no
+/// bats.
 PlayerRules rules_of(const Scene& scene, std::uint32_t number);
 
-/// Whom a player plays.
+/// The bat and team of a player.
 struct PlayerSeat {
   std::uint32_t number = 0;
   Team team = Team::none;
   Vector2 half_extent{0.05, 0.05};  ///< of the bat [m]
 };
 
-/// Where the centre of the bat in `seat` can be [m].
+/// The range of the centre of the bat in `seat` [m].
 struct Reach {
   Vector2 low, high;
   Vector2 clamped(const Vector2& place) const { return place.cwiseMax(low).cwiseMin(high); }
@@ -49,27 +48,27 @@ Reach reach_of(const PlayerRules& rules, const PlayerSeat& seat);
 
 /// An entity as a player knows it, right or stale.
 struct SeenEntity {
-  std::uint32_t id = 0;  ///< the same for the same entity from one decision to the next
+  std::uint32_t id = 0;  ///< stays the same for an entity from one decision to the next
   physics::BodyKind kind = physics::BodyKind::puck;
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
   Vector2 half_extent{0.0, 0.0};                   ///< m; both the radius for discs
 };
 
-/// All that a player has to go by when it decides.
+/// All that a player knows when it decides.
 struct PlayerView {
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< of the own bat [m, m/s]
   std::span<const SeenEntity> pucks;  ///< the nearest, as many as the player wants to see or fewer
 };
 
-/// Pure: knows no clock and no network, and the same seat, seed and views give the same keys. The
-/// same player plays on the true state when a log is recorded and on a client's replicas when it
-/// plays live.
+/// Pure: it knows no clock and no network, and the same seat, seed and views give the same keys.
+/// The same player plays on the true state when a log is recorded and on a client's replicas when
+/// it plays live.
 class Player {
  public:
   virtual ~Player() = default;
   /// The keys to hold from `instant` [s] on; called every `decision_period`, in order.
   virtual KeysHeld decide(const PlayerView& view, double instant) = 0;
-  /// How many of the nearest pucks it looks at.
+  /// The number of nearest pucks that it looks at.
   virtual std::uint32_t pucks_wanted() const { return 0; }
 };
 

@@ -11,8 +11,8 @@
 
 namespace rink::game {
 
-/// Every kind of player that decides: all that an experiment's or a command's `players` may name
-/// but "random", whose keys are drawn before the game (random_plan.h).
+/// Every kind of player that decides: an experiment's or a command's `players` may name these and
+/// "random", whose keys are drawn before the game (random_plan.h).
 const std::vector<std::string>& player_kinds();
 
 /// Whether `name` is one of these, or "random".

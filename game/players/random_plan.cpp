@@ -1,5 +1,5 @@
-// Seeded key plans from our own generator and distributions, since the standard library's
-// distributions differ between libraries.
+// Makes seeded key plans by own distributions, since those of the standard library differ between
+// libraries.
 #include "game/players/random_plan.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::int64_t wait_us(RandomStream& random, double mean_s, double shortest_s) {
                       1e6);
 }
 
-/// Of a player's two axes the one whose keys are planned.
+/// A player's axis whose keys are planned.
 struct PlayerAxis {
   std::uint32_t player;
   std::size_t axis;

@@ -1,4 +1,4 @@
-// Bang-bang control along each axis, which is all that four keys allow.
+// Bang-bang control along each axis, since keys are down or up.
 #include "game/players/steering.h"
 
 #include <algorithm>
@@ -44,13 +44,13 @@ KeysHeld keys_to_reach(const PlayerView& view, const Vector2& target, double cru
                        const PlayerRules& rules, KeysHeld held) {
   const Vector2 way = target - view.position;
   const double distance = std::sqrt(way.squaredNorm());
-  // Half the thrust for braking: a decision may come a whole period late for it.
+  // Half the acceleration for braking, since a decision may come a whole period late.
   const double speed = std::min(cruise_speed, speed_to_stop_within(distance, 0.5 * rules.thrust));
   const double there = 2.0 * rules.thrust * decision_period *
                        decision_period;  // nearer than this four keys cannot hold a bat
   const Vector2 wanted = distance > there ? Vector2(way * (speed / distance)) : Vector2(0.0, 0.0);
-  // What drag will take until the next decision has to be made good as well. In units of what the
-  // thrust of one decision changes:
+  // The loss by drag until the next decision must be compensated as well. In units of the change by
+  // one decision's acceleration:
   const Vector2 missing = (wanted - view.velocity * (1.0 - rules.bat_drag * decision_period)) /
                           (rules.thrust * decision_period);
   constexpr double start = 1.0, stop = 0.0;

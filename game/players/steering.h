@@ -1,4 +1,4 @@
-// From where a bat should go to the keys that take it there.
+// Chooses the keys that move a bat to a target.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace rink::game {
 
-/// The keys that push along the signs of `push`; 0 pushes nowhere.
+/// The keys that accelerate along the given signs; 0 presses none.
 KeysHeld keys_towards(int push_x, int push_y);
 
-/// How fast a bat may be that full thrust against it is to stop within `distance` [m]: from below,
-/// since drag helps [m/s].
+/// A lower bound of the speed from which full acceleration stops a bat within `distance` [m], since
+/// drag helps too [m/s].
 double speed_to_stop_within(double distance, double thrust);
 
-/// Which way to push along one axis when -1, 0 or 1 is `held`: a key goes down when `need`, of
+/// The direction to press along one axis when -1, 0 or 1 is `held`: a key goes down when `need`, of
 /// either sign, exceeds `start`, and up when it falls to `stop`. The band in between saves two keys
 /// of three.
 int pushed_along(int held, double need, double start, double stop);
@@ -33,32 +33,32 @@ int push_y(KeysHeld keys);
 KeysHeld keys_to_reach(const PlayerView& view, const Vector2& target, double cruise_speed,
                        const PlayerRules& rules, KeysHeld held);
 
-/// How far a puck of `velocity` flies `ahead` [s] and what is left of its speed, both as parts of
-/// the velocity (s and e): `free`, which is warp(ahead, drag), less what friction with the table
+/// The flight of a puck of `velocity` within `ahead` [s] and its remaining speed, both as factors
+/// of the velocity (s and e): `free`, which is warp(ahead, drag), less what friction with the table
 /// takes.
 physics::WarpedTime under_friction(const physics::WarpedTime& free, double ahead,
                                    const Vector2& velocity, const PlayerRules& rules);
 
-/// The speed at which drag holds a bat under full thrust along one axis [m/s]; without drag, what
-/// it gains in a second.
+/// The terminal speed of a bat under full acceleration along one axis [m/s]; without drag, its gain
+/// in a second.
 double top_speed(const PlayerRules& rules);
 
-/// A player's fingers: they are late by whole decisions, and they try something else when what they
-/// do leads nowhere.
+/// A player's reaction: keys are late by whole decisions, and a blocked bat is freed by random
+/// keys.
 class Hands {
  public:
   static constexpr std::uint32_t delay_max = 8;
 
-  /// `delay`: decisions from a wish to the key, at most delay_max.
+  /// `delay`: decisions until the key, at most delay_max.
   explicit Hands(std::uint32_t delay = 0) : delay_(delay) { assert(delay <= delay_max); }
 
-  /// What is pressed now that `wanted` is wished for. A bat that has stood still under pressed keys
-  /// for `stuck_decisions` is pushed at random for as long as `escape_decisions`.
+  /// The keys to press now, for the new decision `wanted`. A bat that has stood still under pressed
+  /// keys for `stuck_decisions` gets random keys for `escape_decisions`.
   KeysHeld hold(KeysHeld wanted, const Vector2& velocity, RandomStream& random);
 
   std::uint32_t delay() const { return delay_; }
   KeysHeld last_wish() const { return wished(1); }
-  /// What was wished `age` decisions ago, 1 to delay_max; what is older than delay() has been
+  /// The decision of `age` decisions ago, 1 to delay_max; those older than delay() have been
   /// pressed.
   KeysHeld wished(std::uint32_t age) const {
     assert(age >= 1 && age <= delay_max);

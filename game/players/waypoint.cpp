@@ -1,4 +1,4 @@
-// Trips, pauses, and giving up a trip that others block.
+// Trips, pauses, and the end of a blocked trip.
 #include "game/players/waypoint.h"
 
 #include <cassert>
@@ -23,7 +23,7 @@ bool Traveller::needs_target(const PlayerView& view, double instant, RandomStrea
 
 void Traveller::go_to(const Vector2& target, const PlayerView& view, double instant,
                       RandomStream& random) {
-  constexpr double patience = 3.0;  // times what the trip should take
+  constexpr double patience = 3.0;  // times the expected duration of the trip
   target_ = reach_.clamped(target);
   speed_ = top_speed(rules_) * random.uniform(slowest, 1.0);
   until_s_ = instant + 1.0 + patience * std::sqrt((target_ - view.position).squaredNorm()) / speed_;

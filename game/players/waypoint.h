@@ -6,9 +6,9 @@
 
 namespace rink::game {
 
-/// Goes from place to place and rests at each; where to is for the kinds of players to say. Speeds
-/// are uniform between a quarter of and the whole top speed: without a lower bound slow trips take
-/// ever more of the time and the mean speed decays for as long as a run lasts (Yoon, Liu and Noble
+/// Goes from place to place and rests at each; kinds of players choose the places. Speeds are
+/// uniform between a quarter of and the whole top speed: without a lower bound slow trips take ever
+/// more of the time and the mean speed decays for as long as a run lasts (Yoon, Liu and Noble
 /// 2003).
 class Traveller {
  public:
@@ -18,10 +18,10 @@ class Traveller {
   static constexpr double slowest = 0.25;     ///< of the top speed
   static constexpr double pause_max_s = 1.0;  ///< pauses are uniform from 0
 
-  /// True when it is time to be told a new target.
+  /// True when a new target is due.
   bool needs_target(const PlayerView& view, double instant, RandomStream& random);
   void go_to(const Vector2& target, const PlayerView& view, double instant, RandomStream& random);
-  /// The keys for now: none while it rests.
+  /// The present keys: none while it rests.
   KeysHeld travel(const PlayerView& view, KeysHeld held) const;
 
   const Vector2& target() const { return target_; }
@@ -35,8 +35,7 @@ class Traveller {
   Reach reach_;
   double tolerance_, speed_ = 0.0;
   Vector2 target_{0.0, 0.0};
-  double until_s_ =
-      0.0;  ///< the end of the rest, or when a trip is given up because others stand in the way
+  double until_s_ = 0.0;  ///< the end of the rest, or of a trip that others block
   State state_ = State::idle;
 };
 

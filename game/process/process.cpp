@@ -37,7 +37,7 @@ Pipe make_pipe() {
   return {ends[0], ends[1]};
 }
 
-/// What a child is to become.
+/// The program that a child executes.
 struct Program {
   const char* path;
   char* const* arguments;
@@ -45,7 +45,7 @@ struct Program {
   int signal_when_orphaned;
   pid_t parent;
   int output, errors;  ///< descriptors that it writes to
-  int failure;         ///< a descriptor that says why exec failed; closes by itself if it does not
+  int failure;         ///< a descriptor for the error of exec, which closes on success
 };
 
 /// The child's side of the fork.
@@ -114,7 +114,7 @@ Process::Process(const std::filesystem::path& executable, const std::vector<std:
   close(failure.write_end);
   int error = id_ < 0 ? fork_error : 0;
   if (id_ > 0) {
-    setpgid(id_, id_);  // both sides do it, so that neither can come too late
+    setpgid(id_, id_);  // both sides do it, so that it is done in time
     [[maybe_unused]] const ssize_t got = read(failure.read_end, &error, sizeof error);
   }
   close(failure.read_end);
@@ -142,7 +142,7 @@ void Process::attend(std::chrono::milliseconds limit) {
   read_into(output_, output_text_, output_kept_max);
   read_into(errors_, errors_text_, errors_kept_max);
   reap();
-  if (ending_) {  // what it wrote last
+  if (ending_) {  // its last output
     read_into(output_, output_text_, output_kept_max);
     read_into(errors_, errors_text_, errors_kept_max);
   }

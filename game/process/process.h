@@ -22,16 +22,16 @@ struct Ending {
   std::string text() const;
 };
 
-/// What a process has apart from its program.
+/// Settings of a process.
 struct ProcessSettings {
   std::vector<int> processors{};       ///< that it may run on; all that are allowed if empty
   int signal_when_orphaned = SIGKILL;  ///< from the kernel, when the thread that started it dies
-  bool joins_errors = false;           ///< its standard error goes where its standard output goes
+  bool joins_errors = false;           ///< its standard error joins its standard output
 };
 
 /// A running program in a process group of its own, so that a Ctrl-C at the terminal reaches only
-/// the parent, which then decides. It is killed when this object goes; and the kernel
-/// (PR_SET_PDEATHSIG) sends it a signal when the thread that started it dies, even by kill -9.
+/// the parent, which then decides. The destructor kills it; and the kernel (PR_SET_PDEATHSIG) sends
+/// it a signal when the thread that started it dies, even by kill -9.
 class Process {
  public:
   /// Throws std::system_error if `executable` cannot be started.
@@ -41,7 +41,7 @@ class Process {
   Process& operator=(const Process&) = delete;
   ~Process();
 
-  /// Reads what the process wrote and sees whether it ended, waiting up to `limit` for one of the
+  /// Reads the process's output and checks whether it ended, waiting up to `limit` for one of the
   /// two.
   void attend(std::chrono::milliseconds limit);
   pid_t id() const { return id_; }
@@ -50,8 +50,8 @@ class Process {
   /// The rest of the first line of its standard output that starts with `beginning`, once that line
   /// is complete.
   std::optional<std::string> line_after(const std::string& beginning) const;
-  /// What it has written to its standard output since the last time, of more than 128 kB the end;
-  /// `line_after` then knows of it no more.
+  /// Its standard output since the last call, of more than 128 kB the end; `line_after` no longer
+  /// finds these lines.
   std::string take_output();
   /// The last lines of its standard error, at most 2 kB, on one line: newlines become ` / `, other
   /// control characters `?`.

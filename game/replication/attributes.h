@@ -1,4 +1,4 @@
-// What the attributes and parameters of Rink's object model hold; one function writes and reads
+// The values of attributes and parameters of Rink's object model; one function writes and reads
 // each (docs/wire.md).
 #pragma once
 
@@ -20,27 +20,26 @@ struct Position {
   friend bool operator==(const Position&, const Position&) = default;
 };
 
-/// What a federate is sent of a centre at `position` [m].
+/// The sent form of a centre at `position` [m].
 inline Position rounded(const physics::Vector2& position) {
   return {static_cast<float>(position.x()), static_cast<float>(position.y())};
 }
 
-/// Where an entity's centre is [m] and how fast it moves [m/s]; the object model says how finely it
-/// travels.
+/// An entity's centre [m] and velocity [m/s]; the object model states the resolution on the wire.
 struct Snapshot {
   physics::Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};
   friend bool operator==(const Snapshot&, const Snapshot&) = default;
 };
 
-/// What an entity is. For discs both half extents are the radius [m].
+/// The shape of an entity. For discs both half extents are the radius [m].
 struct Shape {
   std::uint8_t kind = 0;  ///< a physics::BodyKind
   std::uint8_t team = 0;  ///< a Team
   float half_length = 0.0f, half_width = 0.0f;
 };
 
-/// How many of its player's key events a bat has felt, and the keys that are down (bit k for Key
-/// k).
+/// The number of its player's key events in effect on a bat, and the keys that are down (bit k for
+/// Key k).
 struct Input {
   std::uint32_t count = 0;
   std::uint8_t held = 0;
@@ -63,35 +62,35 @@ struct KeyCharacter {
   std::uint8_t character = 0;
 };
 
-/// Which bat a player was given (bat k is the object called "bat-k"; all bits set for none) and
-/// where it is: enough to declare a first interest.
+/// The bat given to a player (bat k is the object called "bat-k"; all bits set for none) and its
+/// place: enough to declare a first interest.
 struct SeatOffer {
   static constexpr std::uint32_t no_bat = 0xffffffffu;
   std::uint32_t bat = no_bat;
   Position position;
 };
 
-/// How a server ticks, for players who take turns or keep logical time with it (docs/rti.md, "The
-/// game under time management").
+/// The pace of a server, for players that take turns or keep logical time with it (docs/rti.md,
+/// "The game under time management").
 struct Pace {
   double ticks_per_second = 0.0;    ///< above 0
-  std::uint8_t is_synchronous = 0;  ///< the server steps when every player has said Update
+  std::uint8_t is_synchronous = 0;  ///< the server steps when every player has sent Update
   std::uint8_t is_time_managed = 0;
-  std::uint8_t is_late = 0;  ///< this player came after the call to the start
+  std::uint8_t is_late = 0;  ///< this player joined after the call to the start
 };
 
-/// Whether a player wants a match to stop or to go on.
+/// A player's request to pause or resume a match.
 struct PauseWish {
   std::uint8_t is_wanted = 0;
 };
 
-/// The text of a hosted match's scene; a view of bytes that somebody else keeps.
+/// The text of a hosted match's scene; a view of bytes that the caller keeps.
 struct SceneText {
   static constexpr std::size_t size_max = 32'000;  ///< bytes
   rti::Bytes text;
 };
 
-/// How often the host of a match ticks.
+/// The period of a host's ticks.
 struct TickPeriod {
   static constexpr double longest = 10.0;  ///< s
   double seconds = 0.0;
@@ -192,8 +191,8 @@ rti::Bytes encode(std::vector<std::byte>& buffer, Values... values) {
   return buffer;
 }
 
-/// Reads `value` from exactly all of `bytes`, which came from a stranger: false otherwise, and the
-/// value may be half read.
+/// Reads `value` from exactly all of `bytes`, which are not trusted: false otherwise, and the value
+/// may be half read.
 template <class Value>
 bool decode(rti::Bytes bytes, Value& value) {
   rti::Reader reader(bytes);

@@ -1,5 +1,4 @@
-// The form in which a bat's input travels: most have felt few keys, and nobody holds more than
-// four.
+// The encoding of a bat's input: most counts are small, and at most four keys are held.
 #pragma once
 
 #include <string>

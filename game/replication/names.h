@@ -1,4 +1,4 @@
-// What the server and its clients must call by the same name.
+// Names that the server and its clients share.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace rink::game {
 /// The synchronisation point that every federate reaches before the first tick.
 inline constexpr const char* start_barrier = "start";
 
-/// Federates of this type are given a bat; others only watch.
+/// Federates of this type get a bat; others only watch.
 inline constexpr const char* player_federate_type = "player";
 
 inline constexpr const char* watcher_federate_type = "watcher";

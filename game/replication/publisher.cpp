@@ -1,4 +1,4 @@
-// Registers what came, deletes what went, and sends what moved, in that order.
+// Registers new entities, deletes removed ones, and sends motions, in that order.
 #include "game/replication/publisher.h"
 
 #include <algorithm>
@@ -100,8 +100,8 @@ void Publisher::check() const {
   assert(std::ranges::adjacent_find(objects) == objects.end());
 }
 
-/// Whom this tick concerns: whose motion changed, who is to be looked at at each tick or by now,
-/// and whose keys were felt.
+/// Gathers the entities of this tick: those with a changed motion, those due at each tick or by
+/// now, and those with keys in effect.
 void Publisher::gather(const Game& game, std::span<const std::uint32_t> felt) {
   looked_.assign(active_.begin(), active_.end());
   looked_.insert(looked_.end(), movers_.changed().begin(), movers_.changed().end());
@@ -195,12 +195,12 @@ void Publisher::follow(const Game& game, const Entity& entity, Published& publis
   ++counters_.regions_moved;
 }
 
-/// True if the entity flies by the law of pucks; its flight then says where it is, and its region
-/// how large it is.
+/// True if the entity flies by the law of pucks; its flight then gives its place, and its region
+/// its size.
 bool Publisher::fly(const Game& game, const Entity& entity, Published& published) {
   const std::uint32_t version = game.world().motion_version(entity.id);
-  const bool is_in_play = game.world().is_in_play(
-      entity.id);  // a scored puck lies where it left play, whatever its motion was
+  const bool is_in_play =
+      game.world().is_in_play(entity.id);  // a scored puck stays where it left play
   if (is_in_play && published.registered_flight == version) return true;
   const physics::Motion motion = game.world().motion(entity.id);
   const double drag = game.world().spec().puck_drag;
@@ -221,7 +221,7 @@ bool Publisher::fly(const Game& game, const Entity& entity, Published& published
   return true;
 }
 
-/// Motion if the policy says so, input if it changed, in one update.
+/// Sends motion if the policy decides so, and input if it changed, in one update.
 bool Publisher::update(const Game& game, Published& published, const Input& input,
                        const rti::Stamp& stamp) {
   const Entity& entity = published.entity;
@@ -249,7 +249,7 @@ bool Publisher::update(const Game& game, Published& published, const Input& inpu
   return is_due || has_felt;
 }
 
-/// Until when [s] `follow` has nothing to do for one whose motion goes on as it does.
+/// The time [s] until which `follow` has nothing to do while the motion does not change.
 double Publisher::region_holds_until(const Game& game, const Published& published) const {
   const EntityId id = published.entity.id;
   if (sweep_.is_on()) return sweep_.holds_until(published.swept);
@@ -260,13 +260,14 @@ double Publisher::region_holds_until(const Game& game, const Published& publishe
   return stays ? never : game.now();
 }
 
-/// Sees to it that the entity is looked at when that may be needed.
+/// Schedules the next tick at which the entity must be checked.
 void Publisher::schedule(const Game& game, Published& published) {
   const double quiet_until_s =
       std::min(policy_.quiet_until(game, published.entity), region_holds_until(game, published));
   if (quiet_until_s <= game.now()) {
     active_.push_back(published.entity.id);
-  } else if (quiet_until_s < published.wake_s) {  // an earlier one looks in vain, and comes here
+  } else if (quiet_until_s < published.wake_s) {  // an earlier wake-up finds nothing to do, and
+                                                  // schedules again
     published.wake_s = quiet_until_s;
     wakes_.push_back({quiet_until_s, published.entity.id});
     std::push_heap(wakes_.begin(), wakes_.end());
@@ -281,8 +282,8 @@ void Publisher::retire_all() {
   wakes_.clear();
 }
 
-/// Deletes what was published once but is no longer in the game; where somebody came, before
-/// anything is registered: a bat that left and came back within one tick has the name that it had.
+/// Deletes entities that are no longer in the game before new ones are registered: a bat that left
+/// and came back within one tick has its old name.
 void Publisher::retire_gone(const Game& game) {
   for (const EntityId id : movers_.changed())
     if (published_[id.index].object && game.world().is_removed(id)) retire(published_[id.index]);

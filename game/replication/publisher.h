@@ -1,5 +1,5 @@
-// Turns what a game did since the last tick into RTI updates: the only way by which entities leave
-// the server.
+// Turns a game's changes since the last tick into RTI updates, the only path of entities out of the
+// server.
 #pragma once
 
 #include <cassert>
@@ -19,29 +19,29 @@
 
 namespace rink::game {
 
-/// What a publisher sent since it was made.
+/// Counts of a publisher since it was made.
 struct PublisherCounters {
   std::uint64_t motions_sent = 0, inputs_sent = 0, regions_moved = 0, entities_skipped = 0;
-  std::uint64_t entities_looked_at = 0;  ///< policy or region were asked about
+  std::uint64_t entities_looked_at = 0;  ///< checks of policy or region
 };
 
 /// Registers a game's entities as RTI objects, each with its bounding box as update region, and
-/// keeps both up to date. Motion goes out when and as the policy says, the rest when it changes. An
-/// entity costs nothing at a tick at which neither its motion nor its keys changed and of which the
-/// policy and the region's keeper have said that they need not look at it.
+/// keeps both up to date. The policy decides when and how motion is sent; other values are sent
+/// when they change. An entity costs nothing at a tick without a change of its motion or keys and
+/// without a check that policy or region have scheduled.
 class Publisher {
  public:
   /// `ambassador` must have joined. Publishes the classes and registers the field and the score.
   Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy,
             const Game& game, const RegionSweep& sweep = {});
 
-  /// Hands everything new to the ambassador: entities that came or went, moved regions, due
-  /// motions, felt keys, the score. `felt[k]` is the number of player k's key events that the game
-  /// has felt; players beyond its end felt none.
+  /// Passes all changes to the ambassador: new and removed entities, moved regions, due motions,
+  /// keys in effect, the score. `felt[k]` is the number of player k's key events in effect; it is 0
+  /// beyond the end.
   void publish(const Game& game, std::span<const std::uint32_t> felt, const rti::Stamp& stamp);
 
-  /// From now on what changes of entities and score is said in time-stamp order, wherever its stamp
-  /// lies ahead of the ambassador's logical time by its lookahead.
+  /// Sends changes of entities and score in time-stamp order from now on, if their stamp is ahead
+  /// of the ambassador's logical time by its lookahead.
   void keep_order();
 
   /// Deletes the objects of all entities: another game begins.
@@ -54,16 +54,16 @@ class Publisher {
   };
   std::span<const Registered> registered() const { return registered_; }
 
-  /// From now on the region of what flies freely is moved only when it takes another flight, and
-  /// `flights` lists these: for a filter that knows how things fly on. Bats under thrust, and pucks
-  /// that friction brings to rest, fly by another law, so their regions follow them as ever.
-  /// Changes nothing where regions are swept.
+  /// Moves regions of freely flying bodies only for new flights from now on, and lists these in
+  /// `flights`, for a filter that uses motions. Accelerated bats, and pucks that friction brings to
+  /// rest, follow another law, so their regions follow them as before. Without effect if regions
+  /// are swept.
   void hand_in_flights() { hands_in_flights_ = !sweep_.is_on(); }
   struct FlightRegistration {
     rti::ObjectHandle object;
     im::Flight flight;
   };
-  /// That the last `publish` found to be new.
+  /// The flights that the last `publish` found new.
   std::span<const FlightRegistration> flights() const { return flights_; }
 
   /// The RTI object of `entity`, which must be in the game.
@@ -77,8 +77,8 @@ class Publisher {
 
   const PublisherCounters& counters() const { return counters_; }
 
-  /// Asserts that whom the next tick looks at is in order, that whoever is to be woken will be, and
-  /// that no two entities have one object.
+  /// Asserts that the next tick's entities are in order, that all scheduled checks are queued, and
+  /// that no two entities share an object.
   void check() const;
 
  private:
@@ -87,15 +87,15 @@ class Publisher {
     rti::ObjectHandle object;
     rti::RegionHandle region;
     Entity entity;
-    Position position;  ///< that its region was last moved to
+    Position position;  ///< to which its region was last moved
     Input input;
-    double wake_s = never;  ///< the earliest of `wakes_` that is its own
+    double wake_s = never;  ///< the earliest of its entries in `wakes_`
     std::optional<std::uint32_t>
-        registered_flight;  ///< version of the motion whose flight was handed in
+        registered_flight;  ///< version of the motion whose flight was registered
     RegionSweep::Swept swept;
   };
 
-  /// An entity that is to be looked at at the first tick after `time_s`.
+  /// An entity that is checked at the first tick after `time_s`.
   struct Wake {
     double time_s;
     EntityId entity;

@@ -24,8 +24,8 @@ double turning_instant(const physics::Motion& motion, int axis) {
   return motion.time + (g == 0.0 ? s : -std::log1p(-g * s) / g);
 }
 
-/// The speed on the present path is at most that at its start, or what thrust can reach against
-/// drag.
+/// The speed on the present path is at most that at its start, or the terminal speed of its
+/// acceleration against drag.
 double speed_bound(const physics::Motion& motion, double ahead_s) {
   assert(ahead_s >= 0.0);
   physics::Vector2 reach;
@@ -83,10 +83,8 @@ im::Region RegionSweep::region(const physics::World& world, physics::BodyId body
     swept.until_s = std::numeric_limits<double>::infinity();
     return bounding_box(world.position(body), half_extent);
   }
-  swept.until_s =
-      now +
-      tick_s_ *
-          (ticks_ + 1e-6);  // a millionth of a tick, so that rounding does not cut the last one off
+  swept.until_s = now + tick_s_ * (ticks_ + 1e-6);  // plus a millionth of a tick, so that rounding
+                                                    // does not cut off the last one
   const im::Region path = path_box(world.motion(body), now, swept.until_s);
   const double own = body.index < speeds_.size() ? speeds_[body.index] : fastest_,
                growth = 2.0 * (own + fastest_) * tick_s_;

@@ -1,5 +1,5 @@
-// Update regions that reach ahead: where an entity is and will be over the next ticks, so that a
-// filter's decision still holds when it has aged.
+// Update regions that reach ahead over an entity's places in the next ticks, so that a filter's
+// decision still holds when it has aged.
 #pragma once
 
 #include <cassert>
@@ -24,14 +24,14 @@ inline im::Region bounding_box(const physics::Vector2& centre,
 /// neither before motion.time.
 im::Region path_box(const physics::Motion& motion, double from, double until);
 
-/// Decides how far update regions reach. A region is the box of the entity's own path over the next
+/// Decides the reach of update regions. A region is the box of the entity's own path over the next
 /// `ticks`, grown by what an impact within one tick can add: 2 (|v| + s) tick with v its own and s
 /// the greatest speed on the rink, for a body of speed s, however heavy, gives another at most 2 s
 /// and the grown region is replaced at the next tick (docs/im.md). Regions that still hold are not
-/// handed in again, so a filter has less to do.
+/// set again, so a filter has less to do.
 class RegionSweep {
  public:
-  /// What a region that was handed in was made from.
+  /// The origin of a region that was set.
   struct Swept {
     std::uint32_t version = 0;  ///< of the motion
     double until_s = -1.0;      ///< the region holds for decisions made up to here
@@ -43,8 +43,8 @@ class RegionSweep {
   }
 
   bool is_on() const { return ticks_ > 0; }
-  /// To be called once a tick before all others: learns how fast the fastest body may be from those
-  /// who move, who must have been looked at in this tick.
+  /// Call it first once a tick: finds a bound of the fastest body's speed from `movers`, which must
+  /// be up to date for this tick.
   void look_at(const physics::World& world, const physics::Movers& movers);
   /// True if the region made for `body` covers the coming tick.
   bool still_holds(const physics::World& world, physics::BodyId body, const Swept& swept) const;

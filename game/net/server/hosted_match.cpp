@@ -1,4 +1,5 @@
-// Simulated time stops on a coarse grid while a match is played, so that its stamps are short.
+// Hosts matches. Simulated time stops on a coarse grid during a match, so that its stamps are
+// short.
 #include "game/net/server/hosted_match.h"
 
 #include <algorithm>

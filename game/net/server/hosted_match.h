@@ -1,5 +1,5 @@
-// One match of a scene after the other for whoever takes the two seats: their rules on the clock,
-// and their records.
+// Hosts one match of a scene after the other for the two seats: the flow on the clock, and the
+// records.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace rink::game {
 
-/// What a server needs to host matches: one game of the scene after the other, for whoever takes
-/// the two seats (docs/play.md, "The match over the network").
+/// Settings of hosted matches: one game of the scene after the other, for the two seats
+/// (docs/play.md, "The match over the network").
 struct Hosting {
   FlowTimes times;
-  std::string scene_text;  ///< the scene's file: players work out from it what to show, records
-                           ///< need no other; at most SceneText::size_max bytes
+  std::string scene_text;  ///< the scene's file, which players predict from and records include; at
+                           ///< most SceneText::size_max bytes
 };
 
-/// Reads no clock: `now_s` is real time [s], which never falls. Its owner has the game, for it is
+/// Reads no clock: `now_s` is real time [s], which never falls. Its owner has the game, which is
 /// played and published like any other.
 class HostedMatch {
  public:
@@ -33,34 +33,33 @@ class HostedMatch {
   void pause(bool is_wanted, double now_s) { flow_.pause(is_wanted, now_s); }
   void ask_rematch(std::uint32_t player, double now_s) { flow_.ask_rematch(player, now_s); }
 
-  /// Lets time pass. True if it is time for the next match: its owner is to begin() it.
+  /// Lets time pass. True if the next match is due: its owner then calls begin().
   bool advance(double now_s);
   /// The game of the next match; `last` is that of the one before.
   Game begin(const Game& last);
-  /// How far the game, now at `played` [s], is to be simulated.
+  /// The time to which the game, now at `played` [s], must be simulated.
   double goal(double now_s, double played) const;
   /// Ends the match if its game was won.
   void judge(const Game& game);
 
-  /// Simulated time as players count on it [s]; a countdown's end is foreseen, so that keys that
-  /// are stamped for the first instants of play are not late.
+  /// Simulated time as players use it [s]; a countdown's end is predicted, so that keys that are
+  /// stamped for the first instants of play are not late.
   double simulated(double now_s) const { return simulated_at(flow_.state(), now_s); }
   bool are_keys_felt() const;
   bool is_over() const { return flow_.state().phase == MatchPhase::over; }
-  /// As players are to be told.
+  /// The state to publish to players.
   MatchState state() const;
   /// Simulated time of the matches before this one [s].
   double earlier_s() const { return earlier_s_; }
   const std::string& scene_text() const { return hosting_.scene_text; }
 
-  /// Whether there is anything to record of the present match that was not yet.
+  /// True if the present match has something that is not recorded yet.
   bool is_unfinished(const Game& game) const { return !is_recorded_ && game.now() > 0.0; }
   /// Makes the record of the present match, once.
   void finish(const Game& game, std::vector<InputEvent> events);
-  /// Records of the matches that came to their end, or were given up, since they were last taken;
-  /// the first players' is first.
+  /// Records of the matches that ended or were abandoned since the last call, in order.
   std::vector<KeyLog> take_finished() { return std::exchange(finished_, {}); }
-  /// Whether the last record could not be written: players are notified.
+  /// Notes whether the last record could not be written, which players see.
   void set_unrecorded(bool is_unrecorded) { is_unrecorded_ = is_unrecorded; }
 
  private:
@@ -71,7 +70,7 @@ class HostedMatch {
   double earlier_s_ = 0.0;
   std::vector<KeyLog> finished_;
   bool is_recorded_ = false;    ///< the present match
-  bool is_unrecorded_ = false;  ///< what was played last could not be written
+  bool is_unrecorded_ = false;  ///< the last match could not be recorded
 };
 
 }  // namespace rink::game

@@ -1,4 +1,4 @@
-// Reads the decisions off the RTI; nothing here decides anything again.
+// Reads the decisions from the RTI without deciding again.
 #include "game/net/server/interest_report.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace rink::game {
 namespace {
 
-/// So many that the answer stays within its bytes.
+/// Cuts the lists so that the answer fits its limit.
 void cut(InterestSeen& seen) {
   if (seen.views.size() > interest_views_max) seen.views.resize(interest_views_max);
   rti::Measurer measurer;
@@ -37,7 +37,7 @@ InterestSeen interest_report(const Server& server, const rti::FederationExecutio
                     .heard = {}};
   for (const auto& [federate, bounds] : regions) {
     const rti::ObjectHandle bat = server.bat_of(federate);
-    if (!bat) continue;  // who only watches is no part of the experiment
+    if (!bat) continue;  // a watcher is no part of the experiment
     seen.views.push_back({.bat = bat.value,
                           .hears = execution.is_in_scope(federate, asked),
                           .low_x = static_cast<float>(bounds.low_x),

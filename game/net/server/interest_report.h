@@ -1,4 +1,4 @@
-// What a server reports of its filter's decisions to a watcher.
+// Makes the report of a server's filter decisions for a watcher.
 #pragma once
 
 #include "game/match/interest_seen.h"
@@ -7,8 +7,8 @@
 
 namespace rink::game {
 
-/// As of the last match of `execution`, which `server` is part of. Things are called by their
-/// objects' handles. Takes a pass over federates and one over the scope of the one that plays
+/// The decisions of the last match of `execution`, to which `server` belongs. Things are named by
+/// their objects' handles. Takes a pass over federates and one over the scope of the one that plays
 /// `asked`.
 InterestSeen interest_report(const Server& server, const rti::FederationExecution& execution,
                              rti::ObjectHandle asked);

@@ -1,4 +1,4 @@
-// Speaks of what changed alone.
+// Publishes the state of a match when it changes.
 #include "game/net/server/match_board.h"
 
 #include <span>

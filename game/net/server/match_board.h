@@ -1,5 +1,5 @@
-// The RTI object by which players hear how their hosted match stands, and the answers to who asks
-// for the server's time.
+// The RTI object with the state of a hosted match, and the answers to requests for the server's
+// time.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace rink::game {
 
-/// Of a server that has joined.
+/// The server must have joined.
 class MatchBoard {
  public:
-  /// Registers the object. `scene_text` and `tick_s` are told once, to whoever comes. All that is
-  /// handed in by reference must outlive the board.
+  /// Registers the object. `scene_text` and `tick_s` are sent once to each player. Arguments by
+  /// reference must outlive the board.
   MatchBoard(rti::Ambassador& ambassador, const ObjectModel& model, const std::string& scene_text,
              double tick_s);
 
-  /// Says so if the state is another than before.
+  /// Publishes the state if it differs from the last one.
   void show(const MatchState& state, const rti::Stamp& stamp);
-  /// Tells `federate` when its question came, `now_s` on the server's clock.
+  /// Answers `federate` with the time at which its question came, `now_s` on the server's clock.
   void answer(rti::FederateHandle federate, std::uint64_t number, double now_s);
-  /// True once after something was said that should not wait for the next tick.
+  /// True once after a message that should not wait for the next tick.
   bool take_urgent() { return std::exchange(is_urgent_, false); }
 
  private:

@@ -1,5 +1,5 @@
-// Teams are the sides of the table, owners the players by number; who holds keys looks where they
-// push him.
+// Teams are the sides of the table, owners the players by number; a player with held keys looks in
+// their direction.
 #include "game/net/server/push_filter_hints.h"
 
 namespace rink::game {
@@ -29,7 +29,7 @@ void push_filter_hints(const Server& server, rti::FederationExecution& federatio
       federation.set_federate_heading(federate, {to.x(), to.y()});
     });
   if (!traits.uses_flights) return;
-  // One clock for all matches, which filters may not see go back.
+  // One clock for all matches, since a filter's time must not go back.
   const double earlier_s = server.hosted() ? server.hosted()->earlier_s() : 0.0;
   federation.set_time(earlier_s + server.game().now());
   for (auto [object, flight] : server.publisher().flights()) {

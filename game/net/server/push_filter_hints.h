@@ -1,4 +1,4 @@
-// What the game hands the RTI's filter beside regions.
+// Passes facts beside regions from the game to the RTI's filter.
 #pragma once
 
 #include "game/net/server/server.h"
@@ -6,11 +6,10 @@
 
 namespace rink::game {
 
-/// To be called between the last `publish`, once the RTI has heard it, and the next match: says of
-/// the objects and players which that made known of what team they are, whose they are, and what is
-/// always relevant (docs/im.md, "Roles"); to filters that ask, where players look and how things
-/// fly on. What was said before stays, so a tick in which nobody comes costs a filter of regions
-/// nothing. For flights the server must `hand_in_flights`.
+/// Call it after the last `publish` has reached the RTI and before the next match: sets teams,
+/// owners and what is always relevant for new objects and players (docs/im.md, "Roles"); for
+/// filters that use them, also headings and motions. Earlier facts stay, so a tick without
+/// newcomers costs a filter of regions nothing. For flights the server must `hand_in_flights`.
 void push_filter_hints(const Server& server, rti::FederationExecution& federation);
 
 }  // namespace rink::game

@@ -1,4 +1,4 @@
-// Reads what the flags name, each checked against the scene.
+// Reads the files that the flags name, and checks each against the scene.
 #include "game/net/server/serve_game.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// What rink serve plays: the scene, the keys and the state to begin from, as its flags say.
+// The game of rink serve by its flags: the scene, the keys and the state to begin from.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ struct ServedGame {
       replay;  ///< that moves the bats instead of the players' keys
   std::vector<std::uint8_t>
       state;  ///< the saved game to begin from, as read; empty: the scene's beginning
-  std::optional<Game> begun;  ///< the same as a game
+  std::optional<Game> begun;  ///< the state as a game
 };
 
 /// Throws SceneError naming the file that cannot be read or does not fit the scene.
 ServedGame served_game(const ServeOptions& options);
 
-/// All that it takes to play the game again up to now and to compare the hash.
+/// The record of the game up to now, for a replay with a comparison of the hash.
 KeyLog record_of(const ServedGame& played, const Server& server);
 
 }  // namespace rink::game

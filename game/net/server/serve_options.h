@@ -1,4 +1,4 @@
-// What rink serve is asked for, as its flags say it.
+// The options of rink serve.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@ ServingCounts counts_of(const Serving& serving, const rti::TransportCounters& cl
 Json counted_report(const Serving& serving, const ServingCounts& first, const ServingCounts& last) {
   const rti::FederationCounters &begin = first.federation, &end = last.federation;
   const rti::FederationCounters now =
-      serving.execution().counters();  // who is dropped after the span is dropped, too
+      serving.execution().counters();  // connections dropped after the span count, too
   const Server& server = serving.server();
   Json report{
       {"schema", report_schema},
@@ -37,13 +37,12 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
       {report::state_bytes_sent, end.update_bytes_sent - begin.update_bytes_sent +
                                      end.entry_bytes_sent - begin.entry_bytes_sent},
       {"entry_bytes_sent",
-       end.entry_bytes_sent -
-           begin.entry_bytes_sent},  // of these, the states of what came into scope
+       end.entry_bytes_sent - begin.entry_bytes_sent},  // of these, the states on entry
       {"updates_put_off", end.updates_put_off - begin.updates_put_off},
       {"updates_caught_up", end.updates_caught_up - begin.updates_caught_up},
       {report::key_bytes_received,
        end.interaction_bytes_sent -
-           begin.interaction_bytes_sent},  // the RTI hands them on to the server
+           begin.interaction_bytes_sent},  // the RTI passes them to the server
       {report::messages_sent,
        end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
       {"scope_entries", end.scope_entries - begin.scope_entries},
@@ -65,9 +64,8 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
     return counters.kernel_segments_sent.value_or(counters.segments_sent);
   };
   report[report::kernel_segments_sent.key] =
-      segments(last.transport) -
-      segments(first.transport);  // without a kernel as many as by our own count
-  // Stages are in the order in which they stand; of two of a kind each has its own entry.
+      segments(last.transport) - segments(first.transport);  // without a kernel the own count
+  // Stages are in the order of the expression; two of a kind have an entry each.
   for (std::size_t i = 0; i < last.stages.size(); ++i) {
     const im::StageCount& stage = last.stages[i];
     report["filter_stages"].push_back(

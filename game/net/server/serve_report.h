@@ -1,4 +1,4 @@
-// What a server counted between two instants, as its report says it.
+// Makes a server's report of its counts between two instants.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,19 +13,19 @@ struct ServingCounts {
   rti::FederationCounters federation;  ///< of the RTI, the server's own federate included
   rti::TransportCounters transport;    ///< of the clients' connections
   im::FilterCounters filter;
-  std::vector<im::StageCount> stages;  ///< what the filter's stages did
+  std::vector<im::StageCount> stages;  ///< the figures of the filter's stages
   physics::Counters physics;
 };
 
 ServingCounts counts_of(const Serving& serving, const rti::TransportCounters& clients);
 
-/// The part of a server's report that no clock has a say in: what the game has come to, and what
-/// was counted from `begin` to `end`.
+/// The part of a server's report that is independent of clocks: the state of the game, and counts
+/// from `begin` to `end`.
 nlohmann::ordered_json counted_report(const Serving& serving, const ServingCounts& begin,
                                       const ServingCounts& end);
 
-/// Adds what the connections carried from first to last, as counted here and by the kernel; null
-/// where no kernel had a part in it.
+/// Adds the traffic of connections from first to last, by own and kernel counts; null without a
+/// kernel.
 void add_totals(nlohmann::ordered_json& report, const rti::TransportCounters& total);
 
 }  // namespace rink::game

@@ -1,4 +1,4 @@
-// Complaints name the flag, and what is allowed.
+// Checks flags; errors name the flag and what is allowed.
 #include "game/net/server/serve_requirements.h"
 
 #include <stdexcept>
@@ -18,7 +18,7 @@ namespace {
 /// A federate registers at most `object_block` objects; the rest is for bats that come back.
 constexpr std::size_t body_max = rti::object_block / 2;
 
-/// Throws if no matches of `scene` can be hosted as the options say.
+/// Throws if the options cannot host matches of `scene`.
 void require_match(const ServeOptions& options, const Scene& scene) {
   if (const auto objection = match_objection(scene))
     throw std::runtime_error("scene '" + options.scene + "' cannot be hosted: " + *objection);
@@ -31,8 +31,7 @@ void require_match(const ServeOptions& options, const Scene& scene) {
         "--time-management cannot be given");
 }
 
-/// Throws if a scheme is given a size of cells that it does not take: a sweep of it would compare
-/// equal runs.
+/// Throws if a scheme ignores the given cell size, since a sweep of it would compare equal runs.
 void require_cells(const ServeOptions& options) {
   if (options.cell_size == 0.0 || im::takes_cell_size(options.scheme)) return;
   std::string having;
@@ -43,8 +42,8 @@ void require_cells(const ServeOptions& options) {
                            having);
 }
 
-/// Throws if something is said to be always relevant to a scheme that does not ask: a comparison of
-/// it would compare equal runs.
+/// Throws if a scheme ignores the kinds given as always relevant, since comparing them would
+/// compare equal runs.
 void require_always(const ServeOptions& options) {
   if (!options.always.empty() && !im::names_scheme(options.scheme, "always"))
     throw std::runtime_error("--always: the scheme " + options.scheme +
@@ -52,7 +51,7 @@ void require_always(const ServeOptions& options) {
                              " or always");
 }
 
-/// Throws if what else is asked for begins at the scene's beginning.
+/// Throws if other options need a game from the scene's beginning.
 void require_beginning(const ServeOptions& options) {
   if (options.from_state.empty()) return;
   if (!options.hosted.empty() || options.pace != "realtime" || options.is_time_managed ||
@@ -86,7 +85,9 @@ rti::FederationSettings federation_of(const ServeOptions& options, const Scene& 
   settings.match_worker = worker;
   settings.federation = federation;
   settings.members = options.members;
-  if (!settings.members.empty()) settings.members.emplace_back("server");  // our own federate
+  if (!settings.members.empty())
+    settings.members.emplace_back("server");  // the server's own
+                                              // federate
   return settings;
 }
 

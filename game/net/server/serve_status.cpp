@@ -1,4 +1,4 @@
-// rink serve --status.
+// Implements rink serve --status.
 #include "game/net/server/serve_status.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-/// Names come from strangers, so nothing that a terminal would obey or could not show.
+/// Names are not trusted, so bytes that control a terminal or cannot be shown are replaced.
 std::string shown(const std::string& name) {
   std::string text = name;
   const bool is_text = is_utf8(name);
@@ -58,7 +58,7 @@ std::string shown(const std::string& name) {
   return text;
 }
 
-/// Regulating, constrained, both, or neither; with the logical time where it has one.
+/// Regulating, constrained, both, or neither; with the logical time if it has one.
 std::string time_of(const rti::FederateCounts& counts) {
   if (counts.is_time_regulating == 0 && counts.is_time_constrained == 0) return "-";
   const std::string now = line("%s%s %.6g s", counts.is_time_regulating != 0 ? "R" : "",

@@ -1,4 +1,4 @@
-// What a running server says of its federations: the question, and the table that a user reads.
+// Queries a running server's federations, and prints them as a table.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@ namespace rink::game {
 
 struct StatusAnswer {
   std::optional<std::vector<rti::FederationReport>> reports;
-  std::string error;  ///< why there are none
+  std::string error;  ///< why there are no reports
 };
 
-/// How to reach a server: as its own flags say.
+/// The address and key of a server, as in its own flags.
 struct StatusQuestion {
   std::string address;
   std::uint16_t port = 0;

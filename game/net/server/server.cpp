@@ -49,8 +49,8 @@ void Server::joined(rti::FederateHandle) {
     board_->show(hosted_->state(), {});
   }
   if (!turns_.is_time_managed()) return;
-  ambassador_.enable_asynchronous_delivery();  // keys in real time, and players who come and go,
-                                               // are not to wait for a tick
+  ambassador_.enable_asynchronous_delivery();  // keys in real time, and players that join or leave,
+                                               // do not wait for a tick
   ambassador_.enable_time_regulation(turns_.lookahead());
   ambassador_.enable_time_constrained();
 }
@@ -58,7 +58,7 @@ void Server::joined(rti::FederateHandle) {
 void Server::join_refused(rti::Refusal, std::string_view why) { error_ = why; }
 void Server::connection_lost(std::string_view why) { error_ = why; }
 
-/// Those with a seat and the server: who only watches, or comes later, keeps nobody waiting.
+/// The members are those with a seat and the server: watchers and latecomers keep no other waiting.
 void Server::call_to_start() {
   std::vector<rti::FederateHandle> members{ambassador_.federate()};
   seats_.for_each(
@@ -96,7 +96,7 @@ void Server::federate_joined(rti::FederateHandle federate, std::string_view name
   keys_.enter(*player, now);
 }
 
-/// The bat of a hosted match stays where its player has left, but nobody pushes it.
+/// In a hosted match a bat stays when its player leaves, without pressed keys.
 void Server::federate_resigned(rti::FederateHandle federate, std::string_view, std::string_view,
                                rti::ResignReason reason) {
   if (reason != rti::ResignReason::resigned) ++counters_.federates_lost;
@@ -167,7 +167,7 @@ void Server::publish(const rti::Stamp& stamp) {
   });
 }
 
-/// A player is told of its seat once the bat is there; one that comes back to a running game may
+/// A player is sent its seat once the bat is in play; one that comes back to a running game may
 /// have to wait for a free place.
 bool Server::offer_bat(rti::FederateHandle federate, std::uint32_t player) {
   const std::optional<EntityId> bat = game_.bat(player);

@@ -1,5 +1,4 @@
-// The server federate: owns the game, stamps and applies its players' keys, and publishes what
-// happened.
+// The server federate: owns the game, stamps and applies its players' keys, and publishes changes.
 #pragma once
 
 #include <cstdint>
@@ -34,24 +33,25 @@ struct ServerSettings {
   double threshold =
       threshold_default;          ///< of policies that take one [m], see UpdatePolicySettings
   std::uint32_t sweep_ticks = 0;  ///< see RegionSweep
-  double tick_s = 1.0 / 30.0;     ///< time between two ticks [s], which the sweep needs to know and
-                                  ///< the players of hosted matches are told
-  bool is_synchronous = false;    ///< players are told that they take turns
+  double tick_s = 1.0 / 30.0;     ///< time between two ticks [s], for sweeps and for the players of
+                                  ///< hosted matches
+  bool is_synchronous = false;    ///< players take turns
   bool is_time_managed = false;   ///< states and turns go in time-stamp order (docs/rti.md, "The
                                   ///< game under time management"); not with `hosting` (asserted)
   /// A recorded key log that moves the bats instead of the players' own keys, so that compared runs
-  /// play the very same game. Live keys are then received, counted and acknowledged as ever, but
-  /// not applied; nor are players' comings and goings.
+  /// play the very same game. Live keys are then received, counted and acknowledged, but not
+  /// applied; nor do players' joins and leaves change the game.
   std::optional<std::vector<InputEvent>> replay;
   /// Absent: one game that never stops. There must be no match_objection() to the scene, and no
   /// replay (both asserted).
   std::optional<Hosting> hosting{};
-  /// Key changes that a player may send per second, a second's worth of them at once; 0: any. What
-  /// is more is counted and acknowledged, so that its player does not wait for it, but not felt.
+  /// Key changes that a player may send per second, a second's worth of them at once; 0: any. Keys
+  /// beyond that are counted and acknowledged, so that the player does not wait for them, but not
+  /// applied.
   double key_limit_per_s = key_limit_default;
   std::optional<RelevantKinds> always_relevant{};  ///< absent: relevant_kinds_of(scene)
-  /// A game of the scene that the server's goes on from instead of beginning (a copy of it, made at
-  /// once); of `replay` the keys after its now(). Not with `hosting` (asserted).
+  /// A game of the scene from which the server's continues instead of beginning (a copy, made at
+  /// once), with the keys of `replay` after its now(). Not with `hosting` (asserted).
   const Game* begun = nullptr;
 };
 
@@ -59,11 +59,11 @@ struct ServerCounters {
   std::uint64_t federates_lost = 0, inspections_answered = 0;
 };
 
-/// The federate that simulates. It reads no clock: `now` tells the simulated instant when a key
-/// arrives, `simulate` how far to go.
+/// The federate that simulates. It reads no clock: `now` returns the simulated instant at which a
+/// key arrives, `simulate` takes the instant to reach.
 class Server : public rti::FederateAmbassador {
  public:
-  /// `now` [s] is asked when a player comes, goes or presses a key; it never decreases. It is
+  /// `now` [s] is called when a player joins, leaves or presses a key; it never decreases. It is
   /// simulated time, or real time from any origin if the server hosts matches.
   Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& settings,
          std::function<double()> now);
@@ -71,20 +71,20 @@ class Server : public rti::FederateAmbassador {
   rti::Ambassador& ambassador() { return ambassador_; }
   const Game& game() const { return game_; }
 
-  /// True from when the RTI has let the server in.
+  /// True once the RTI has accepted the server's join.
   bool is_joined() const { return publisher_ != nullptr; }
   /// Registers the start barrier over all federates joined by now.
   void call_to_start();
   /// True once every federate has reached the barrier.
   bool is_started() const { return turns_.is_started(); }
   /// Synchronous mode: true if the next tick may be played; under time management that is when the
-  /// RTI says that nothing can come any more that belongs before it.
+  /// RTI has granted a time before which nothing can come any more.
   bool may_step() const;
 
-  /// Hosting only: lets real time pass to `real_s` [s], begins the next match if it is time, and
-  /// tells how far to simulate.
+  /// Hosting only: lets real time pass to `real_s` [s], begins the next match if it is due, and
+  /// returns the instant to simulate to.
   double follow_match(double real_s);
-  /// The present match counts as given up, so that there is a record of it.
+  /// Ends the present match as abandoned, so that it is recorded.
   void finish_record();
   /// Null unless the server hosts matches.
   HostedMatch* hosted() { return hosted_ ? &*hosted_ : nullptr; }
@@ -94,30 +94,31 @@ class Server : public rti::FederateAmbassador {
 
   /// Advances the game to `until` [s], applying every key at exactly its stamped time.
   void simulate(double until);
-  /// Hands all that changed to the ambassador, stamped.
+  /// Publishes all changes with the stamp.
   void publish(const rti::Stamp& stamp);
-  /// From now on flights are handed in, and regions are moved for them alone; to be called before
-  /// the server has joined.
+  /// Publishes flights from now on, and moves regions only for new ones; call it before the server
+  /// has joined.
   void hand_in_flights() { hands_in_flights_ = true; }
 
-  /// Who plays; the bat of one who was told of his seat is there.
+  /// The seats; the bat of a player that was sent its seat is in play.
   const Seats& seats() const { return seats_; }
   /// Every input applied so far, as stamped: a log that replays to the same state hash.
   const KeyIntake& keys() const { return keys_; }
-  /// What was said of entities, and by which objects; it must have joined.
+  /// The publisher of entities; the server must have joined.
   const Publisher& publisher() const { return *publisher_; }
-  /// Whether what is of `kind` is relevant to everybody, for the scheme `always`.
+  /// True if bodies of `kind` are relevant to all, for the scheme `always`.
   bool is_always_relevant(physics::BodyKind kind) const { return always_relevant_.has(kind); }
-  /// The bat that `federate` plays; no handle if it plays none, or its bat is not there yet.
+  /// The bat that `federate` plays; an empty handle if it plays none, or its bat is not in play
+  /// yet.
   rti::ObjectHandle bat_of(rti::FederateHandle federate) const;
 
-  /// Who asked what interest management decided (interest_report.h). Players are not answered: they
-  /// are to see what their filter lets them.
+  /// Watchers' questions about interest management (interest_report.h). Players get no answers:
+  /// they may see only what their filter lets through.
   Inspections& inspections() { return inspections_; }
   void send_interest(rti::FederateHandle federate, InterestSeen seen);
 
   const ServerCounters& counters() const { return counters_; }
-  /// Why the RTI refused or left us; empty while all is well.
+  /// The reason why the RTI refused or dropped the server; empty if it did not.
   const std::string& error() const { return error_; }
 
  private:

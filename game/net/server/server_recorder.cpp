@@ -1,4 +1,4 @@
-// Samples decisions at seeded instants, of as many players at a time as the bound of memory allows.
+// Samples decisions at seeded instants, of as many players as the limit of memory allows.
 #include "game/net/server/server_recorder.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ void ServerRecorder::look(const Server& server, const rti::FederationExecution& 
       note_decisions(server, execution, instants_[next_instant_]);
 }
 
-/// All that is there at first, then who came; a bat that comes back is another body and another
+/// Names all entities at first, then new ones; a bat that comes back is another body and another
 /// object.
 void ServerRecorder::name_objects(const Server& server) {
   const auto name = [&](const Entity& entity) {

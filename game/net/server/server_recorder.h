@@ -1,5 +1,4 @@
-// Watches a server while it runs: keeps what evidence needs in memory and leaves the writing for
-// afterwards.
+// Records a running server's trace in memory; it is written afterwards.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +16,11 @@ class ServerRecorder {
  public:
   ServerRecorder(const SamplingSettings& settings, double rate_hz);
 
-  /// To be called after every tick, the filter's decision made.
+  /// Call it after every tick, when the filter has decided.
   void look(const Server& server, const rti::FederationExecution& execution,
             const ServerTrace::Tick& tick);
-  /// Everything so far, with the keys and the hash of the game as it is now. Who ran the server
-  /// adds choice, scheme and policy.
+  /// The trace so far, with the keys and the present hash of the game. The caller adds choice,
+  /// scheme and policy.
   ServerTrace trace(const Server& server) const;
   std::size_t memory_bytes() const;
 

@@ -1,4 +1,4 @@
-// The server's part in logical time and in matches: when the game goes on, and when it begins anew.
+// The server's logical time and matches: when the game advances, and when it begins anew.
 #include <algorithm>
 #include <cassert>
 
@@ -7,11 +7,11 @@
 
 namespace rink::game {
 
-/// In real time nobody regulates but the server itself, so it is granted at once whatever it asks
-/// for, and its own timer goes on to say when it ticks.
+/// In real time only the server regulates, so every request is granted at once, and its own timer
+/// decides when it ticks.
 void Server::time_regulation_enabled(rti::LogicalTime) { publisher_->keep_order(); }
 
-/// Once per tick, when its states have been said.
+/// Called once per tick, after its states were published.
 void Server::ask_for_turns() {
   const rti::FederateClock& clock = ambassador_.clock();
   if (!clock.is_regulating() || !clock.is_constrained() || clock.is_advancing()) return;

@@ -41,7 +41,7 @@ Serving::Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& 
       host_(execution_),
       server_(fom, scene, server, std::move(clocks.simulated_now)),
       link_(server_.ambassador(), endpoint_, (hub_.listen("rti"), endpoint_.connect("rti"))) {
-  execution_.advance_clock(now_s_());  // before anybody connects: silence counts from then on
+  execution_.advance_clock(now_s_());  // before any connection: silence counts from then on
   links_.add(link_);
   host_.add(hub_);
   if (execution_.filter().traits().uses_flights) server_.hand_in_flights();
@@ -81,7 +81,7 @@ void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
   Stopwatch watch(now_s_);
   const bool is_hosting =
       server_.hosted() !=
-      nullptr;  // players of matches ask for the time instead, and are spared the bytes of the tag
+      nullptr;  // players of matches ask for the time instead, which saves the bytes of the tag
   server_.publish({.time = simulated_s,
                    .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
   link_.flush(now_s_());

@@ -1,5 +1,5 @@
-// The server's side of a federation without its process: game, RTI and the link between them;
-// whoever owns a clock drives it.
+// The server's side of a federation without its process: game, RTI and the link between them; the
+// owner of a clock drives it.
 #pragma once
 
 #include <functional>
@@ -14,19 +14,19 @@
 
 namespace rink::game {
 
-/// What one tick took on the owner's clock [s]; all 0 under a clock that stands still.
+/// The costs of one tick on the owner's clock [s]; all 0 under a clock that stands still.
 struct TickCosts {
   double physics_s = 0.0, filter_s = 0.0, send_s = 0.0;
 };
 
-/// Owns the federation execution and the server federate beside it. Reads no clock: `now_s` [s] is
-/// handed in, the wall's or a virtual one; the clients come by whatever transports `host` is given.
+/// Owns the federation execution and the server federate beside it. Reads no clock itself: `now_s`
+/// [s] is real or virtual time; clients connect by the transports added to `host`.
 class Serving {
  public:
   using Clock = std::function<double()>;
 
-  /// `now_s` measures costs and silence; `simulated_now` tells the simulated instant at which a key
-  /// arrives.
+  /// `now_s` measures costs and silence; `simulated_now` returns the simulated instant at which a
+  /// key arrives.
   struct Clocks {
     Clock now_s, simulated_now;
   };
@@ -41,8 +41,8 @@ class Serving {
   Server& server() { return server_; }
   const Server& server() const { return server_; }
 
-  /// Takes in and hands on what came, for at most `longest_wait_s`. Interactions go on at once, not
-  /// with the tick, so that keys are stamped when they arrive.
+  /// Receives and forwards messages, for at most `longest_wait_s`. Interactions are forwarded at
+  /// once, not with the tick, so that keys are stamped when they arrive.
   void exchange(double longest_wait_s);
 
   /// One tick: plays up to `simulated_s` [s], publishes, matches and flushes. `due_s` [s] is the
@@ -54,12 +54,11 @@ class Serving {
   void collect_trace(const SamplingSettings& settings, double rate_hz) {
     recorder_.emplace(settings, rate_hz);
   }
-  /// What was seen, if evidence was asked for; scene, scheme and policy are its owner's to add.
+  /// The trace, if it was collected; the caller adds scene, scheme and policy.
   std::optional<ServerTrace> trace() const;
   std::size_t evidence_bytes() const { return recorder_ ? recorder_->memory_bytes() : 0; }
 
-  /// Publishes, matches and flushes what is there, without playing: what leaves the server in one
-  /// tick, one write per destination.
+  /// Publishes, matches and flushes without playing: one write per destination.
   void send(double simulated_s, double due_s, TickCosts& costs);
 
  private:
@@ -75,7 +74,7 @@ class Serving {
 };
 
 /// A federation under the filter `scheme` over the scene's field and among its posts; `cell_size`
-/// [m] is for schemes that have cells, 0 leaves it to them.
+/// [m] is for schemes with cells, 0 leaves it to them.
 rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme,
                                             double cell_size);
 

@@ -1,4 +1,4 @@
-// The words for each difference.
+// Describes each difference.
 #include "game/net/peer/network/difference.h"
 
 #include "im/basics/hexadecimal.h"

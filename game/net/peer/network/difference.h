@@ -1,4 +1,4 @@
-// Why peers cannot play together, in words for their users.
+// Reasons why peers cannot play together, as texts for users.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace rink::game {
 
-/// What is different about a newcomer, with both sides; nothing if nothing is.
+/// A newcomer's difference, with both sides; nothing if there is none.
 std::optional<std::string> difference(const Fingerprint& theirs, const Fingerprint& ours);
-/// Of another version of the protocol than ours.
+/// The text for another version of the protocol.
 std::string other_version(std::uint32_t theirs);
 
 }  // namespace rink::game

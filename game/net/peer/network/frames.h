@@ -16,7 +16,7 @@ namespace rink::game {
 
 inline constexpr std::size_t frame_head = 5;
 inline constexpr std::uint32_t stranger_frame_max =
-    32 * 1024;  ///< of those who have not been let in [bytes]
+    32 * 1024;  ///< of connections that are not admitted [bytes]
 inline constexpr std::uint32_t peer_frame_max =
     1u << 30;  ///< the states of four million bodies [bytes]
 
@@ -45,7 +45,7 @@ class FrameReader {
     bytes_.resize(before + bytes.size());
     std::memcpy(bytes_.data() + before, bytes.data(), bytes.size());
   }
-  /// The next whole frame; nothing if there is none yet, or never will be because `is_broken`.
+  /// The next whole frame; nothing if there is none yet, or none ever because of `is_broken`.
   std::optional<Frame> next(std::uint32_t length_max) {
     const std::span<const std::uint8_t> rest = std::span(bytes_).subspan(begin_);
     if (is_broken_ || rest.size() < frame_head) return std::nullopt;

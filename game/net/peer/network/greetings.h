@@ -1,4 +1,4 @@
-// What peers tell each other before and after they play (docs/peer-to-peer.md, "Joining"), as plain
+// The messages between peers before and after they play (docs/peer-to-peer.md, "Joining"), as plain
 // values with one function each that writes and reads.
 #pragma once
 
@@ -42,24 +42,24 @@ struct Place {
   }
 };
 
-/// One of the peers, and which bats it plays: `bat_count` from `first_bat` on, each of which looks
-/// at `puck_count` pucks. The first `hand_count` of them are played by persons, who look at every
-/// window's end. `token` is a number that it chose, and nobody else has.
+/// One of the peers and its bats: `bat_count` from `first_bat` on, each of which looks at
+/// `puck_count` pucks. Persons play the first `hand_count` of them, and look at every window's end.
+/// `token` is a number of its own choice, unique to it.
 struct PeerInfo {
   Place place;
   std::uint32_t first_bat = 0, bat_count = 0, puck_count = 0, hand_count = 0;
   std::uint64_t token = 0;
 };
 
-/// What every peer brings along, and must be equal at all.
+/// Data that must be equal at all peers.
 struct Fingerprint {
   std::uint64_t self_test = 0;  ///< peer::self_test_hash()
   std::uint64_t scene = 0;      ///< game::fingerprint
   std::uint64_t keys = 0;       ///< of all keys, scripted and recorded
 };
 
-/// How all decide what players are told that look beyond what their peers have (SharedInterest);
-/// with no scheme nobody is told anything.
+/// The terms of interest beyond the peers' own parts (SharedInterest); without a scheme there are
+/// no updates.
 struct InterestTerms {
   std::string scheme, policy = "on-event";
   double cell_size = 0.0;  ///< m; 0 lets the scheme choose
@@ -71,16 +71,16 @@ struct InterestTerms {
   }
 };
 
-/// What the first peer decides for all.
+/// The terms that the first peer sets for all.
 struct Terms {
   std::uint32_t peer_count = 2;
-  double until = 0.0, window = 0.0;  ///< s
-  std::uint32_t balance_windows =
-      0;                      ///< after so many windows zones shift toward equal load; 0: they stay
+  double until = 0.0, window = 0.0;   ///< s
+  std::uint32_t balance_windows = 0;  ///< period [windows] in which zones shift toward equal load;
+                                      ///< 0: they stay
   bool is_replicated = true;  ///< whether each peer's part is kept by another, too
   bool is_seated = false;  ///< each peer has the player in its zone, whose keys all know, and zones
-                           ///< are cut around these (seated_division)
-  bool starts_together = false;  ///< at an instant that the first peer says (start_together)
+                           ///< are cut around players (seated_division)
+  bool starts_together = false;  ///< at an instant that the first peer sends (start_together)
   InterestTerms interest{};
   bool fit() const {
     return peer_count >= 1 && peer_count <= peers_max && until > 0.0 && until <= 1e9 &&
@@ -88,12 +88,12 @@ struct Terms {
   }
 };
 
-/// A newcomer's first words, to any peer. What follows `version` is of that version.
+/// A newcomer's first message, to any peer. What follows `version` is of that version.
 struct Hello {
   std::array<std::uint8_t, 8> magic{'R', 'i', 'n', 'k', 'P', 'e', 'e', 'r'};
   std::uint32_t version = peer_protocol_version;
   Fingerprint session_fingerprint;
-  PeerInfo info;  ///< which bats, the first peer says
+  PeerInfo info;  ///< the first peer assigns its bats
   bool is_of_this_version() const { return version == peer_protocol_version; }
 };
 
@@ -104,8 +104,8 @@ struct Introduced {
   PeerInfo info;
 };
 
-/// The answer of `sponsor`, before they play the first peer, then whoever was asked: the newcomer
-/// is `number`, and plays bats from `first_bat` on.
+/// The answer of `sponsor`, which is the first peer before the game and any peer during it: the
+/// newcomer is `number`, and plays bats from `first_bat` on.
 struct Welcome {
   std::uint64_t session = 0;
   Terms terms;
@@ -114,7 +114,7 @@ struct Welcome {
   std::vector<Introduced> others;
 };
 
-/// The answer of any other peer before they play: ask the first one, which is there.
+/// The answer of any other peer before the game: the place of the first peer, to ask.
 struct Elsewhere {
   Place first;
 };
@@ -126,7 +126,7 @@ struct Refused {
   std::string reason;
 };
 
-/// A newcomer to each of those who were there before it, but the first.
+/// A newcomer's message to each earlier peer but the first.
 struct Greeting {
   std::uint64_t session = 0;
   std::uint32_t number = 0;
@@ -135,7 +135,7 @@ struct Greeting {
 
 enum class FarewellKind : std::uint8_t { done, interrupted, trouble };
 
-/// A peer's last words.
+/// A peer's last message.
 struct Farewell {
   FarewellKind kind = FarewellKind::done;
   std::string reason;
@@ -230,7 +230,8 @@ std::vector<std::uint8_t> bytes_of(Message message) {
   return writer.finish();
 }
 
-/// Nothing unless the bytes are one whole message. Of a Hello of another version only that is read.
+/// Nothing unless the bytes are one whole message. Of a Hello of another version only the version
+/// is read.
 template <class Message>
 std::optional<Message> message_from(std::span<const std::uint8_t> bytes) {
   physics::SnapshotReader reader(bytes);

@@ -1,4 +1,4 @@
-// Where a peer listens, by its command line.
+// The place where a peer listens, by its command line.
 #pragma once
 
 #include <stdexcept>
@@ -9,13 +9,13 @@
 
 namespace rink::game {
 
-/// The flags by which a command takes them.
+/// The names of a command's flags for places.
 struct PlaceFlags {
   std::string listen = "--listen", join = "--join";
 };
 
-/// Others are told the address, so it must be one that they can use. `has_addresses`: it is a
-/// machine's, not a name within this one. Throws std::invalid_argument.
+/// Others are sent the address, so it must be one that they can use. `has_addresses`: it is an
+/// address of a machine, not a name within this one. Throws std::invalid_argument.
 inline Place listening_place(const std::string& listen, const std::string& join, bool has_addresses,
                              const PlaceFlags& flags = {}) {
   const auto is_here = [](const std::string& address) {

@@ -9,18 +9,19 @@ namespace rink::game {
 namespace {
 
 constexpr std::size_t strangers_max = 64;
-/// That wait until somebody listens.
+/// Limits of side messages that wait for a listener, and of the wait for a connection's first
+/// message.
 constexpr std::size_t deferred_max = 4096;
 constexpr double stranger_patience_s = 5.0;
-/// Transports close a connection whose queue gets longer than a megabyte; what is beyond half of
-/// that waits in our own.
+/// Transports close a connection whose queue gets longer than a megabyte; bytes beyond half of that
+/// wait in an outbox here.
 constexpr std::size_t queued_max = 512 * 1024, slice_max = 128 * 1024;
 constexpr double wait_s_max = 0.05;
-/// Who is interrupted has so long to hand over what it owns, and three windows.
+/// An interrupted peer has so long, and three windows, to hand over its bodies.
 constexpr double leaving_s_max = 3.0, leaving_windows_max = 3.0;
-/// And waits so long for the others' goodbyes.
+/// The time to wait for the others' farewells.
 constexpr double goodbye_s_max = 5.0;
-/// Who waits says that it is there, so often in the time that others have patience.
+/// A waiting peer sends this many signs of life in each timeout.
 constexpr double signs_per_patience = 4.0;
 
 }  // namespace
@@ -33,7 +34,7 @@ void PeerNetwork::note(ExitStatus status, const std::string& what) {
   if (!error_) error_.emplace(status, what);
 }
 
-/// The play goes on without it, if it can.
+/// The game continues without the peer, if it can.
 void PeerNetwork::lose(Link& link, ExitStatus status, const std::string& what) {
   if (!may_lose_) return note(status, what);
   if (link.loss.empty()) link.loss = what;
@@ -221,7 +222,7 @@ void PeerNetwork::on_close(rti::ConnectionId connection, rti::CloseReason reason
          name_of(link) + (link.is_open ? " is gone: " : " cannot be reached: ") + why);
   if (link.role == Role::asked)
     unanswered_ = "no peer answers at " + link.info.place.text() + ": " + why;
-  // Of whom a greeting is kept, that it is gone is news when it is expected.
+  // The loss of a connection with an early greeting is reported when its peer is expected.
   if (link.role != Role::peer && !link.early) links_.erase(entry);
 }
 
@@ -236,8 +237,8 @@ bool PeerNetwork::handle_peer_frame(rti::ConnectionId connection, Link& link, co
     return !link.is_done;
   }
   if (frame.kind == FrameKind::aside) {
-    // Where players do not look beyond what their peers have nobody says anything aside; where they
-    // do, nobody is further ahead of those who listen than a window.
+    // Without interest beyond the peers' parts there are no side messages; with it no sender is
+    // further ahead of its receivers than a window.
     if (!terms_.interest.is_wanted() || deferred_.size() >= deferred_max) return false;
     deferred_.emplace_back(link.number, frame.content);
     return !link.is_done;
@@ -247,7 +248,7 @@ bool PeerNetwork::handle_peer_frame(rti::ConnectionId connection, Link& link, co
       frame.kind == FrameKind::farewell ? message_from<Farewell>(frame.content) : std::nullopt;
   if (!farewell) return false;
   link.is_done = true;
-  // Who leaves with our consent waits for this word.
+  // A peer that leaves with consent waits for this message.
   if (link.is_parted && !link.is_closed)
     send_frame(connection, FrameKind::farewell, bytes_of(Farewell{}));
   if (farewell->kind == FarewellKind::interrupted)
@@ -258,7 +259,7 @@ bool PeerNetwork::handle_peer_frame(rti::ConnectionId connection, Link& link, co
   return true;
 }
 
-/// Who is expected and has not connected yet gets it then.
+/// A peer that is expected and has not connected yet gets it then.
 void PeerNetwork::send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) {
   if (to < peers_.size() && peers_[to]) return send_frame(*peers_[to], FrameKind::mail, bytes);
   if (expected_.contains(to)) waiting_mail_[to].push_back(std::move(bytes));
@@ -271,8 +272,8 @@ void PeerNetwork::send_aside(peer::PeerNumber to, std::vector<std::uint8_t> byte
 std::vector<std::uint8_t> PeerNetwork::receive(peer::PeerNumber from) {
   double begin_s = now_s_(), looked_s = begin_s;
   for (;;) {
-    // Who was stopped itself may not call that the others' silence: what they said meanwhile has
-    // not been read yet.
+    // A peer that was itself stopped must not take that for the others' silence: it has not read
+    // their messages yet.
     const double now = now_s_();
     if (now - looked_s > std::max(0.5 * settings_.patience_s, 2.0 * wait_s_max)) begin_s = now;
     looked_s = now;
@@ -333,7 +334,7 @@ void PeerNetwork::leave(const Farewell& farewell) {
   for (auto& [connection, link] : links_)
     if (link.role == Role::peer && !link.is_closed)
       send_frame(connection, FrameKind::farewell, bytes_of(farewell));
-  // Whoever closes a connection before it has read all may take its last words back with it.
+  // Closing a connection before all is read may discard the last bytes sent.
   const double give_up_s =
       now_s_() +
       (farewell.kind == FarewellKind::done ? std::min(settings_.patience_s, goodbye_s_max) : 0.5);

@@ -1,5 +1,5 @@
-// How peers find each other through any that is there already, and the mail between them: one
-// connection from each to each.
+// Connects peers through any that plays already, and carries their mail: one connection between any
+// two.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@
 
 namespace rink::game {
 
-/// Why a peer's part is over before its time.
+/// The reason why a peer's session ends early.
 class SessionError : public std::runtime_error {
  public:
   SessionError(ExitStatus status, const std::string& what)
@@ -34,51 +34,51 @@ class SessionError : public std::runtime_error {
 };
 
 struct PeerNetworkSettings {
-  PeerInfo self;  ///< where others reach this peer, which listens there already; and how many bats
-                  ///< it plays, of so many:
+  PeerInfo self;  ///< where others reach this peer, which listens there already; and the number of
+                  ///< its bats, among so many:
   std::uint32_t bats = 0;
   Fingerprint session_fingerprint;
-  std::uint64_t session = 0;  ///< of a first peer: a number that nobody guesses
-  double patience_s = 30.0;   ///< with one whose answer is due
+  std::uint64_t session = 0;  ///< of a first peer: a number that cannot be guessed
+  double patience_s = 30.0;   ///< timeout of a peer whose answer is due
   std::function<bool()> must_end = [] {
     return is_interrupted != 0;
   };  ///< the user wants this peer's part to be over
 };
 
-/// Calls that wait throw Parting: when another peer is gone, interrupted or silent, when we are
-/// refused, or when a user interrupts us. From `begin` on, where parts are mirrored, it is
-/// peer::PeerGone instead of the first three (peer::SentAway of a newcomer who may ask again), and
-/// of a user's interrupt only what takes too long. A stranger who says what a peer would not loses
-/// the connection, and nothing else happens.
+/// Calls that wait throw SessionError when another peer is gone, interrupted or silent, when this
+/// one is refused, or when a user interrupts it. From `begin` on, where parts are replicated, they
+/// throw peer::PeerGone instead in the first three cases (peer::SentAway for a newcomer that may
+/// try again), and for a user's interrupt only if leaving takes too long. A connection that sends
+/// what no peer would is closed without further effect.
 class PeerNetwork final : public peer::Mail, public SideChannel, private rti::TransportListener {
  public:
   PeerNetwork(rti::SocketTransport& sockets, const PeerNetworkSettings& settings,
               double (*now_s)());
 
-  /// Become the first peer, number 0; or ask the peer at `any`, again and again for some seconds if
-  /// nobody answers there, and hear who is there.
+  /// Become the first peer, number 0; or ask the peer at `any`, repeatedly for some seconds if none
+  /// answers, and learn the members.
   void found(const Terms& terms);
   void join(const Place& any);
-  /// Of a newcomer while others play: whom it was told of; otherwise nobody.
+  /// The members at the time of a newcomer's joining a running game; otherwise empty.
   const std::vector<peer::PeerNumber>& members() const { return members_; }
-  /// Until all are connected who begin.
+  /// Waits until all first peers are connected.
   void gather();
-  /// The play begins: from here on peers may be lost, and others come.
+  /// The game begins: from here on peers may be lost, and others join.
   void begin();
-  /// Before each window: so it is known how long one takes, and how long it takes to leave.
+  /// Call it before each window, to measure its length and the time that leaving takes.
   void note_window();
-  /// Closes all connections without a word.
+  /// Closes all connections without a message.
   void abandon();
-  /// Does nothing but listen until `time_s` of the clock, or a user's interrupt.
+  /// Only receives until `time_s` of the clock, or a user's interrupt.
   void rest_until(double time_s);
-  /// Says goodbye to all, and sees that all that was sent is on its way.
+  /// Sends a farewell to all, and waits until all bytes are sent.
   void leave(const Farewell& farewell);
 
   const Terms& terms() const { return terms_; }
   peer::PeerNumber number() const { return number_; }
-  /// All of them, by number, once they are gathered.
+  /// All peers, by number, once they are gathered.
   const std::vector<PeerInfo>& peer_infos() const { return peer_infos_; }
-  /// Strangers who were sent away, and the bytes of all frames to peers.
+  /// The number of refused connections, and the bytes of all frames to peers.
   std::uint64_t dismissed() const { return dismissed_; }
   std::uint64_t bytes_sent() const { return bytes_sent_; }
   rti::TransportCounters transported() const { return sockets_.totals(); }
@@ -96,23 +96,23 @@ class PeerNetwork final : public peer::Mail, public SideChannel, private rti::Tr
   void admit(peer::PeerNumber candidate, bool is_in) override;
   void send_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
 
-  /// An aside that was heard too early.
+  /// Keeps a side message that came too early.
   void defer(peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
     deferred_.emplace_back(from, std::move(bytes));
   }
 
-  /// If not empty, called before each wait, also for mail: does what is due, and says when it wants
-  /// to be called again [s of the clock].
+  /// If not empty, called before each wait, also for mail: does what is due, and returns when it
+  /// must be called again [s of the clock].
   std::function<double()> before_wait;
 
  private:
-  /// A caller has asked to be let in while we play. Who is dismissed is heard no more, and closes
-  /// the connection itself or has it closed.
+  /// A caller has asked to join during the game. A dismissed connection is read no more; either end
+  /// closes it.
   enum class Role : std::uint8_t { stranger, asked, caller, peer, dismissed };
   struct Link {
     Role role = Role::stranger;
     bool is_open = false, is_closed = false, is_done = false;
-    bool is_counted = true;     ///< of a peer: its loss matters, as that of a candidate does not
+    bool is_counted = true;     ///< of a peer: its loss matters; that of a candidate does not
     bool is_announced = false;  ///< of a caller: by `callers`
     peer::PeerNumber number = 0;
     PeerInfo info;
@@ -120,11 +120,11 @@ class PeerNetwork final : public peer::Mail, public SideChannel, private rti::Tr
     std::string loss;  ///< why it is gone, if it is
     double since_s = 0.0, received_s = 0.0, sent_s = 0.0;
     FrameReader reader;
-    std::optional<Greeting> early;  ///< came before we knew our own number
-    std::optional<Hello> asking;    ///< came before we knew our own number, too
+    std::optional<Greeting> early;  ///< came before the own number was known
+    std::optional<Hello> asking;    ///< came before the own number was known, too
     std::deque<std::vector<std::uint8_t>> inbox;
     std::deque<std::vector<std::uint8_t>> outbox;
-    std::size_t out_begin = 0;  ///< of the first in the outbox, so much is sent
+    std::size_t out_begin = 0;  ///< bytes sent of the first message in the outbox
   };
 
   void on_open(rti::ConnectionId connection) override;
@@ -171,19 +171,19 @@ class PeerNetwork final : public peer::Mail, public SideChannel, private rti::Tr
   double longest_window_s_ = 0.0;
   std::vector<peer::PeerNumber> members_;
   std::string unanswered_,
-      sent_away_;  ///< why we are to ask again; why we, newcomers, are not in after all
+      sent_away_;  ///< why this peer must try again; why this newcomer was not admitted
   std::map<peer::PeerNumber, PeerInfo>
-      expected_;  ///< candidates and newcomers, who will connect to us
+      expected_;  ///< candidates and newcomers, which will connect to this peer
   std::map<peer::PeerNumber, std::vector<std::vector<std::uint8_t>>> waiting_mail_;  ///< for such
   int redirections_ = 0;
   bool may_ask_again_ = false;
   std::map<rti::ConnectionId, Link> links_;
   std::vector<std::optional<rti::ConnectionId>> peers_;  ///< by number
-  std::vector<PeerInfo>
-      peer_infos_;  ///< by number: peers that the first peer admitted, or that said so themselves
+  std::vector<PeerInfo> peer_infos_;  ///< by number: peers that the first peer admitted, or that
+                                      ///< introduced themselves
   std::uint32_t peer_info_count_ = 1, bats_taken_ = 0;  ///< of a first peer
   std::deque<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>>
-      deferred_;  ///< that were not heard yet
+      deferred_;  ///< side messages that were not handled yet
   std::optional<SessionError> error_;
   std::uint64_t dismissed_ = 0, bytes_sent_ = 0;
 };

@@ -1,4 +1,4 @@
-// Who is let in, as which number, and what each is sent.
+// Admits peers, assigns numbers, and sends each what it needs.
 #include <algorithm>
 #include <utility>
 
@@ -10,7 +10,7 @@ namespace rink::game {
 namespace {
 
 constexpr std::size_t address_max = 253;  // characters, of a host's name
-/// Who comes before anybody listens tries for so long, this often.
+/// A peer that starts before the first one listens tries for so long, this often.
 constexpr double redial_s_max = 5.0, redial_s = 0.2;
 
 bool is_reachable(const Place& place) {
@@ -56,7 +56,7 @@ bool PeerNetwork::are_all_here() const {
   return true;
 }
 
-/// Who has come and falls silent before all are there would keep the others waiting for ever: it
+/// A peer that falls silent before all are connected would keep the others waiting for ever: it
 /// neither plays nor closes its connection.
 void PeerNetwork::gather() {
   double begin_s = now_s_(), looked_s = begin_s;
@@ -64,7 +64,7 @@ void PeerNetwork::gather() {
     attend(0.05);
     show_signs();
     const double now = now_s_();
-    // Who was stopped itself has not read yet what others said meanwhile.
+    // A peer that was itself stopped has not read the others' messages yet.
     if (now - looked_s > 0.5 * settings_.patience_s) begin_s = now;
     looked_s = now;
     for (const auto& [connection, link] : links_)
@@ -89,7 +89,7 @@ void PeerNetwork::become_peer(rti::ConnectionId connection, peer::PeerNumber num
       send_frame(connection, FrameKind::mail, bytes);
 }
 
-/// False for what no peer would say.
+/// False for a frame that no peer would send.
 bool PeerNetwork::handle_stranger(rti::ConnectionId connection, const Frame& frame) {
   if (frame.kind == FrameKind::hello) {
     const auto hello = message_from<Hello>(frame.content);
@@ -102,8 +102,8 @@ bool PeerNetwork::handle_stranger(rti::ConnectionId connection, const Frame& fra
   return greeting.has_value();
 }
 
-/// The first peer gives the numbers, so that those who come at the same time through different
-/// peers get different ones.
+/// The first peer assigns the numbers, so that newcomers through different peers get different
+/// ones.
 void PeerNetwork::answer(rti::ConnectionId connection, const Hello& hello) {
   if (!hello.is_of_this_version())
     return refuse(connection, RefusalKind::wrong_version, other_version(hello.version));
@@ -121,7 +121,7 @@ void PeerNetwork::answer(rti::ConnectionId connection, const Hello& hello) {
   PeerInfo info = hello.info;
   if (!is_reachable(info.place))
     return refuse(connection, RefusalKind::other, "it does not say where others reach it");
-  // A newcomer, who was not waited for, can be let in once they play.
+  // A newcomer that was not expected can be admitted during the game.
   if (peer_info_count_ == terms_.peer_count)
     return refuse(connection, terms_.is_replicated ? RefusalKind::again : RefusalKind::other,
                   "all " + std::to_string(terms_.peer_count) +
@@ -153,7 +153,7 @@ void PeerNetwork::admit(rti::ConnectionId connection, const Greeting& greeting) 
       expected != expected_.end() && expected->second.token == greeting.info.token;
   const bool is_early = !is_in_ || (is_of_us && (is_playing_ || !members_.empty()) &&
                                     !is_expected && greeting.number < peer::numbers_max);
-  // Before we know our own number, or have heard of it.
+  // The greeting came before the own number was known, or before the peer was announced.
   if (is_early) {
     links_.at(connection).early = greeting;
     return;

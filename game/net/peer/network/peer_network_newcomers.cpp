@@ -1,4 +1,4 @@
-// Newcomers while we play: who asks, who connects, and who is sent away again.
+// Newcomers during the game: requests, connections and refusals.
 #include <algorithm>
 #include <utility>
 
@@ -23,7 +23,7 @@ PeerNetwork::Link* PeerNetwork::link_at(peer::PeerNumber number) {
   return entry == links_.end() ? nullptr : &entry->second;
 }
 
-/// What is different is known already; whether there is room all decide together.
+/// Differences are checked here; whether there is room all decide together.
 void PeerNetwork::answer_in_play(rti::ConnectionId connection, const Hello& hello) {
   if (!terms_.is_replicated)
     return refuse(connection, RefusalKind::other,
@@ -116,7 +116,7 @@ void PeerNetwork::admit(peer::PeerNumber candidate, bool is_in) {
   expected_.erase(candidate);
   waiting_mail_.erase(candidate);
   if (!link) return;
-  // It closes the connection itself: what we closed now could take the word back.
+  // The newcomer closes the connection itself: closing it here could discard the message.
   if (!link->is_closed)
     send_frame(*peers_[candidate], FrameKind::refusal,
                bytes_of(Refused{RefusalKind::again, "others were lost or left before it was in"}));

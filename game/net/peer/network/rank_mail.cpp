@@ -1,4 +1,4 @@
-// Words of ranks compared, and waiting with patience.
+// Compares the data of ranks, and waits with a timeout.
 #include "game/net/peer/network/rank_mail.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace rink::game {
 
 namespace {
 
-/// What all ranks say at once has places of equal size.
+/// A collective has places of equal size.
 constexpr std::size_t place_size = 1 + peer::Mail::shared_max;
 static_assert(place_size == rank_words);
 
@@ -49,8 +49,7 @@ std::optional<RefusedRank> refused(const std::optional<RankWords>& theirs, const
 
 std::vector<std::uint8_t> spoken(const RankWords& words) { return in_its_place(bytes_of(words)); }
 
-/// A first rank that cannot be understood is measured by this one's version alone: whoever differs
-/// from it is named.
+/// If the first rank's data are malformed, ranks that differ from this version are named.
 std::vector<RefusedRank> refused_ranks(std::span<const std::uint8_t> all) {
   std::vector<std::optional<RankWords>> words;
   for (; all.size() >= rank_words; all = all.subspan(rank_words)) {
@@ -120,8 +119,8 @@ std::vector<std::uint8_t> RankMail::receive(peer::PeerNumber from) {
   return std::move(*bytes);
 }
 
-/// In places of equal size, each with its length first. Counted as what it says to all others,
-/// however the collective carries it.
+/// Places have equal size, each with its length first. Bytes count as sent to each other rank,
+/// however the collective carries them.
 std::vector<std::vector<std::uint8_t>> RankMail::share(peer::PeerNumber,
                                                        peer::PeerNumber peer_count,
                                                        std::vector<std::uint8_t> bytes) {

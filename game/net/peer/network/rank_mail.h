@@ -1,5 +1,5 @@
-// The mail between peers that are ranks of MPI, and how they find out at the start whether they can
-// play together.
+// The mail between peers that are ranks of MPI, and the check at the start that they can play
+// together.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace rink::game {
 
-/// What a rank tells all others first. What follows `version` is of that version; all versions say
-/// it in `rank_words` bytes.
+/// A rank's first data to all others. What follows `version` is of that version; all versions use
+/// `rank_words` bytes.
 struct RankWords {
   std::array<std::uint8_t, 8> magic{'R', 'i', 'n', 'k', 'R', 'a', 'n', 'k'};
   std::uint32_t version = peer_protocol_version;
@@ -23,7 +23,7 @@ struct RankWords {
   double until = 0.0, window = 0.0;  ///< s
   bool is_of_this_version() const { return version == peer_protocol_version; }
 };
-inline constexpr std::size_t rank_words = 128;  ///< bytes: the length (1), the words, zeros
+inline constexpr std::size_t rank_words = 128;  ///< bytes: the length (1), the data, zeros
 
 template <class Stream>
 bool exchange(Stream& stream, RankWords& words) {
@@ -36,7 +36,7 @@ bool exchange(Stream& stream, RankWords& words) {
                         session_fingerprint.keys, words.until, words.window);
 }
 
-/// A rank that is refused, and why.
+/// A refused rank, and the reason.
 struct RefusedRank {
   std::uint32_t number = 0;
   RefusalKind kind = RefusalKind::other;
@@ -44,31 +44,32 @@ struct RefusedRank {
 };
 
 std::vector<std::uint8_t> spoken(const RankWords& words);
-/// Which ranks cannot play with the first one, by what all have `spoken`, one after the other.
+/// The ranks that cannot play with the first one, by the data of all, one after the other.
 std::vector<RefusedRank> refused_ranks(std::span<const std::uint8_t> all);
 
-/// Calls that wait throw Parting: when a rank is silent for too long, or a user interrupts us.
+/// Calls that wait throw SessionError when a rank is silent for too long, or a user interrupts this
+/// one.
 class RankMail final : public peer::Mail {
  public:
-  /// `wait` is called between two looks, with how many there have been in a row that found nothing.
+  /// `wait` is called between two looks, with the number of consecutive looks that found nothing.
   RankMail(rti::Ranks& ranks, double patience_s, double (*now_s)(),
            void (*wait)(std::uint32_t looks));
 
-  /// Whether all ranks can play `terms` together with the same fingerprint. Throws SessionError for
-  /// all if not; the first one names those who cannot.
+  /// Checks that all ranks can play `terms` together with the same fingerprint. Throws SessionError
+  /// at all if not; the first one names the others' ranks.
   void agree(const Fingerprint& session_fingerprint, const Terms& terms);
 
   peer::PeerNumber number() const { return ranks_.number(); }
   const Terms& terms() const { return terms_; }
   std::uint64_t bytes_sent() const { return bytes_sent_; }
-  std::uint64_t dismissed() const { return 0; }  ///< there are no strangers
+  std::uint64_t dismissed() const { return 0; }  ///< there are no other connections
   std::uint64_t collectives() const { return collectives_; }
 
   void send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
   std::vector<std::uint8_t> receive(peer::PeerNumber from) override;
   std::vector<std::vector<std::uint8_t>> share(peer::PeerNumber own, peer::PeerNumber peer_count,
                                                std::vector<std::uint8_t> bytes) override;
-  /// Until all that was sent is on its way.
+  /// Waits until all bytes are sent.
   void flush();
 
  private:

@@ -1,4 +1,4 @@
-// Players by zones, or by who came first.
+// Assigns players to peers, by zones or by order of joining.
 #include "game/net/peer/network/seating.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ SeatedDivision seated_division(const Game& start, peer::PeerNumber peer_count) {
     if (is_taken[owner]) others.push_back(bat);
     else is_taken[owner] = true, seated.bats[owner] = bat;
   }
-  // Bats in one line cannot always be cut apart.
+  // Bats in one line cannot always be separated by cuts.
   for (peer::PeerNumber peer = 0; peer < peer_count; ++peer)
     if (!is_taken[peer]) seated.bats[peer] = others.back(), others.pop_back();
   return seated;

@@ -1,4 +1,4 @@
-// Which peer has which player.
+// The player of each peer.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,21 @@
 
 namespace rink::game {
 
-/// A division with one of these bats in each zone, and who of them is which peer's: the body by
-/// peer.
+/// A division with one of the bats in each zone, and by peer the body of its bat.
 struct SeatedDivision {
   peer::Cuts cuts;
   peer::Division division;
   std::vector<std::uint32_t> bats;
 };
-/// Of the first `peer_count` players (at most as many as there are: asserted).
+/// The division for the first `peer_count` players (at most as many as there are: asserted).
 SeatedDivision seated_division(const Game& start, peer::PeerNumber peer_count);
 
 /// By peer, the body that its player moves, or no_bat: the one in its zone if the terms seat them,
-/// else the first of the bats that it plays. Throws peer::ProtocolError if there is none such.
+/// else the first of the bats that it plays. Throws peer::ProtocolError if there is no such bat.
 std::vector<std::uint32_t> bats_of_peers(const Game& start, const Terms& terms,
                                          std::span<const PeerInfo> peer_infos);
 
-/// For one whose view is `half_side` and `margin` [m] wide.
+/// The settings for a view of `half_side` and `margin` [m].
 InterestSettings interest_settings(const Game& start, const Terms& terms,
                                    std::span<const PeerInfo> peer_infos, double half_side,
                                    double margin);

@@ -1,4 +1,4 @@
-// Words between peers beside the protocol's mail, which nobody waits for.
+// A channel for messages between peers beside the protocol's mail, for which no peer waits.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace rink::game {
 
-/// They go whole and in order, with the mail: what was said aside before a message was sent is
-/// heard before that message is.
+/// Messages arrive whole and in order with the mail: a side message sent before a mail arrives
+/// before it.
 class SideChannel {
  public:
   virtual ~SideChannel() = default;
-  /// To one who is gone: does nothing.
+  /// Without effect if the receiver is gone.
   virtual void send_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) = 0;
-  /// Called while the mail is waited for; what comes as long as it is empty waits. False for what
-  /// no peer says: its sender is given up.
+  /// Called while the peer waits for mail; messages wait while it is empty. False for a message
+  /// that no peer sends: its sender is dropped.
   std::function<bool(peer::PeerNumber from, std::vector<std::uint8_t> bytes)> receive_aside;
 };
 

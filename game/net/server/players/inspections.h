@@ -1,4 +1,4 @@
-// Who asked what interest management decided of which object and has not been answered yet.
+// Watchers' questions about objects that are not answered yet.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace rink::game {
 
-/// At most one question of each federate, its newest: who asks at any rate makes no more work.
+/// At most one question of each federate, its newest, so that frequent questions cost no more.
 class Inspections {
  public:
   struct Question {
@@ -22,7 +22,7 @@ class Inspections {
     if (earlier != questions_.end()) earlier->object = object;
     else questions_.push_back({federate, object});
   }
-  /// All, in the order in which their federates first asked.
+  /// Takes all questions, in the order in which their federates first asked.
   std::vector<Question> take() { return std::exchange(questions_, {}); }
 
  private:

@@ -1,5 +1,5 @@
-// A key that is over its player's limit is acknowledged like any other, so that he does not wait
-// for it.
+// Takes keys from the wire; one over its player's limit is acknowledged like any other, so that the
+// player does not wait for it.
 #include "game/net/server/players/key_intake.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace rink::game {
 namespace {
 
-/// How far ahead a player may stamp its keys [s]: what it needs against jitter is far less, and who
-/// stamps them later only hurts itself.
+/// How far ahead a player may stamp its keys [s], far more than jitter needs; a player that stamps
+/// them later only delays itself.
 constexpr double key_lead_max = 0.25;
 
 }  // namespace

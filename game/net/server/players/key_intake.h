@@ -1,5 +1,5 @@
-// Key changes on their way from the wire into the game: stamped, limited, acknowledged once they
-// are felt, and recorded.
+// Takes key changes from the wire into the game: they are stamped, limited, acknowledged once in
+// effect, and recorded.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ namespace rink::game {
 
 struct KeyCounters {
   std::uint64_t received = 0, applied = 0, refused = 0, over_limit = 0;
-  std::uint32_t player_over_limit = 0;  ///< who sent the last of them
+  std::uint32_t player_over_limit = 0;  ///< the sender of the last of them
   std::uint64_t late = 0;               ///< of hosted matches: arrived after the instant for which
                                         ///< they were stamped, by more than 0.1 ms
 };
 
-/// When a key change came, and what is done with it.
+/// The arrival of a key change, and whether it is applied.
 struct KeyArrival {
   double now_s = 0.0;                ///< on the server's clock, for the limit; never decreases
   double simulated_s = 0.0;          ///< the earliest instant at which it can be felt
@@ -29,29 +29,29 @@ struct KeyArrival {
   bool is_felt = true;               ///< else it is counted and acknowledged, no more
 };
 
-/// Of all players, who are numbered as the scene's bats. Knows no game: what it hands out as events
-/// its owner submits, and hands in again as they were queued.
+/// For all players, numbered as the scene's bats. Knows no game: its owner submits the returned
+/// events, and records them as they were queued.
 class KeyIntake {
  public:
   /// `limit_per_s`: see ServerSettings::key_limit_per_s.
   KeyIntake(std::uint32_t player_count, double limit_per_s);
 
-  /// Somebody sits down as `player` at `now_s` of the server's clock: nothing is held or felt.
+  /// `player` takes the seat at `now_s` of the server's clock, without held or counted keys.
   void enter(std::uint32_t player, double now_s);
-  /// He has left: what is on its way will not be acknowledged.
+  /// `player` has left: keys on their way are not acknowledged.
   void leave(std::uint32_t player);
-  /// A message of `player` that a key goes down or up, as it came from the wire. The event to be
-  /// submitted; nothing if the message is none, is over the limit, or is not to be felt.
+  /// Handles `player`'s message of a key change from the wire. Returns the event to submit; nothing
+  /// if the message is malformed, over the limit, or not to be applied.
   std::optional<InputEvent> accept(std::uint32_t player, bool is_down, rti::Bytes message,
                                    const KeyArrival& arrival);
-  /// Lets go of all that `player` holds, at the simulated instant [s] or after his last key.
+  /// Releases all keys of `player`, at the simulated instant [s] or after its last key.
   std::vector<InputEvent> release(std::uint32_t player, double simulated_s);
   /// The game was played up to `until` [s].
   void feel_until(double until);
-  /// The next game begins at 0: all that is on its way counts as felt, nothing is held or recorded.
+  /// The next game begins at 0: all keys on their way count as in effect, none is held or recorded.
   void begin();
 
-  /// Key changes felt, by player.
+  /// Key changes in effect, by player.
   std::span<const std::uint32_t> felt() const { return felt_; }
   void record(const InputEvent& queued) { record_.push_back(queued); }
   /// All events as they were queued.

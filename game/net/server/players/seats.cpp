@@ -1,4 +1,4 @@
-// Looks for free seats by name first, so that a player who comes back finds his own bat.
+// Finds free seats by name first, so that a player that comes back gets its own bat.
 #include "game/net/server/players/seats.h"
 
 #include <algorithm>

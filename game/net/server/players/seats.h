@@ -1,4 +1,4 @@
-// Who plays which bat: seats by federate and by player, and whose turn is done.
+// The seats of players: by federate and by player, and the turns that are done.
 #pragma once
 
 #include <cassert>
@@ -17,7 +17,7 @@ class Seats {
  public:
   struct Seat {
     std::uint32_t player = 0;
-    bool is_offered = false;  ///< the player has been told
+    bool is_offered = false;  ///< the player was notified
     bool is_turn_done = false;
   };
   struct Seated {
@@ -31,10 +31,10 @@ class Seats {
   std::optional<std::uint32_t> free(std::string_view federate_name) const;
   /// The seat must be free (asserted).
   void enter(rti::FederateHandle federate, std::uint32_t player);
-  /// Who sits there leaves. `takes_bat`: the bat is to go at an instant that need not have been
-  /// played yet.
+  /// The federate leaves its seat. `takes_bat`: the bat leaves too, at an instant that may be in
+  /// the future.
   void leave(rti::FederateHandle federate, bool takes_bat);
-  /// Whether the bat went, or is to go, with who played it last.
+  /// True if the bat has left, or will leave, with its last player.
   bool is_leaving(std::uint32_t player) const {
     assert(player < is_leaving_.size());
     return is_leaving_[player];
@@ -52,8 +52,8 @@ class Seats {
       if (seats_[federate]) visit(rti::FederateHandle{federate}, *seats_[federate]);
   }
 
-  /// Calls `offer(federate, player)` for each who has not been told of its seat; true if it now
-  /// has.
+  /// Calls `offer(federate, player)`, which returns success, for each player that was not notified
+  /// of its seat.
   template <class Offer>
   void offer(Offer offer) {
     offered_.clear();
@@ -65,14 +65,14 @@ class Seats {
       offered_.push_back({rti::FederateHandle{federate}, seat->player});
     }
   }
-  /// Those notified by the last `offer`.
+  /// The players notified by the last `offer`.
   std::span<const Seated> offered() const { return offered_; }
 
-  /// Who sits there has taken its turn.
+  /// The federate has taken its turn.
   void end_turn(rti::FederateHandle federate);
   /// True if every player has taken its turn, and there is one.
   bool are_all_turns_done() const { return player_count_ > 0 && turns_done_ == player_count_; }
-  /// All are to take their turns again.
+  /// Begins new turns for all.
   void begin_turns();
 
  private:

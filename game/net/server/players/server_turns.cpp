@@ -1,4 +1,4 @@
-// Where the next tick lies in logical time TickGrid says.
+// Decides when a server may tick; TickGrid places ticks in logical time.
 #include "game/net/server/players/server_turns.h"
 
 namespace rink::game {

@@ -1,5 +1,4 @@
-// How a server ticks, as its players are told, and when it may: by its own timer, by turns, or in
-// logical time.
+// The pace of a server, and when it may tick: by its own timer, by turns, or in logical time.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +24,7 @@ class ServerTurns {
   bool is_time_managed() const { return settings_.is_time_managed; }
   double tick_s() const { return settings_.tick_s; }
   double lookahead() const { return grid().lookahead(); }
-  /// Whether who sits down has to know the pace.
+  /// True if players must know the pace.
   bool concerns_players() const { return settings_.is_synchronous || settings_.is_time_managed; }
   Pace pace() const;
 
@@ -35,14 +34,14 @@ class ServerTurns {
   bool is_started() const { return is_started_; }
 
   void stepped() { has_stepped_ = true; }
-  /// True once after a step of which only the server can tell players.
+  /// True once after a step that only a message of the server shows to players.
   bool take_step() {
     return std::exchange(has_stepped_, false) && settings_.is_synchronous &&
            !settings_.is_time_managed;
   }
-  /// The logical time to ask for, if the RTI is to be asked now that all up to `played` was said.
+  /// The logical time to request, if any, now that all up to `played` was published.
   std::optional<double> wanted(double played, double granted) const;
-  /// Whether the tick after `played` may come: nothing can be said any more that belongs before it.
+  /// True if the tick after `played` may come: no earlier message can arrive any more.
   bool may_step(bool are_all_turns_done, double played, double granted) const;
 
  private:
@@ -50,7 +49,7 @@ class ServerTurns {
 
   TurnSettings settings_;
   bool is_called_ = false, is_started_ = false;
-  bool has_stepped_ = false;  ///< since players were last told so
+  bool has_stepped_ = false;  ///< since players were last notified
 };
 
 }  // namespace rink::game
