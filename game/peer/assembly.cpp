@@ -1,4 +1,4 @@
-// The protocol of peer.h, everybody after everybody.
+// Runs the protocol of peer.h, peer after peer.
 #include "game/peer/assembly.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ void Assembly::press(const Key& key) {
   for (Peer& peer : peers_) peer.press_first(key);
 }
 
-/// What `make(from, to)` makes, from everybody to everybody else, as bytes.
+/// Sends what `make(from, to)` makes, from each peer to each other, as bytes.
 template <class Make>
 void Assembly::exchange_all(Make&& make) {
   for (Peer& from : peers_)

@@ -1,5 +1,5 @@
-// All peers of a simulation in one process, in lockstep: for tests, and to see what a division
-// costs before there is a network.
+// All peers of a simulation in one process, in lockstep: for tests, and to measure the cost of a
+// division without a network.
 #pragma once
 
 #include <cassert>
@@ -11,16 +11,17 @@
 
 namespace rink::peer {
 
-/// Messages go as the bytes that a network would carry.
+/// Messages pass as the bytes that a network would carry.
 class Assembly {
  public:
-  /// Divides `whole`, which is at its start (time 0, nothing has happened); `window` [s] is the
-  /// length of every window.
+  /// Divides `whole`, which is at its start (time 0, before any event); `window` [s] is the length
+  /// of every window.
   Assembly(const physics::World& whole, const Division& division, double halo, double window);
 
   /// Before the first window: when keys change.
   void press(const Key& key);
-  /// From the end of the next window on, zones are these; for as many peers as there are.
+  /// Changes the zones from the end of the next window on; `division` is for the same number of
+  /// peers.
   void divide(const Division& division) {
     assert(division.peer_count() == peers_.size());
     next_division_ = division;
@@ -30,12 +31,12 @@ class Assembly {
 
   double now() const { return window_ * static_cast<double>(count_); }
   std::deque<Peer>& peers() { return peers_; }
-  /// Of the body, by its owner. Looks for it among all peers' own.
+  /// The state of the body at its owner, which is searched.
   BodyState state(std::uint32_t body) const {
     assert(body < owners_.size() && owners_[body] < peers_.size());
     return peers_[owners_[body]].state(body);
   }
-  /// How many bodies have not exactly one owner.
+  /// The number of bodies without exactly one owner.
   std::uint32_t misowned() const { return misowned_; }
   /// The first accusation of any peer; empty if there is none.
   std::string accusation() const;

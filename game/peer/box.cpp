@@ -8,8 +8,8 @@ namespace rink::peer {
 
 namespace {
 
-/// When v0 e + a s, the velocity along an axis, is 0 [s after the motion's own time]; not a number
-/// or beyond all time if it never is.
+/// The time at which v0 e + a s, the velocity along an axis, is 0 [s after the motion's own time];
+/// NaN or infinite if it never is.
 double turning_time(double velocity, double acceleration, double drag) {
   return drag == 0.0 ? -velocity / acceleration
                      : -std::log(acceleration / (acceleration - velocity * drag)) / drag;

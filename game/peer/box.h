@@ -38,8 +38,8 @@ struct Box {
   }
 };
 
-/// What a body of `extent` sweeps from `begin` to `end` [s], neither before the motion's own time;
-/// a little more where its path bends.
+/// The box that a body of `extent` sweeps from `begin` to `end` [s], neither before the motion's
+/// own time; a little larger where its path bends.
 Box swept(const physics::Motion& motion, double begin, double end, const Vector2& extent);
 
 }  // namespace rink::peer

@@ -1,4 +1,4 @@
-// Trees of cuts.
+// Builds, changes and balances trees of cuts.
 #include "game/peer/cuts.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ void Cuts::check() const {
   assert(std::ranges::adjacent_find(all, std::greater_equal<>()) == all.end());
 }
 
-/// How many nodes there are in that part, each of which is looked at.
+/// The number of nodes in that part, each of which is checked.
 std::size_t Cuts::checked_count(std::size_t node, const Box& box) const {
   const Node& here = nodes_[node];
   if (is_leaf(node)) return 1;
@@ -47,7 +47,7 @@ std::size_t Cuts::checked_count(std::size_t node, const Box& box) const {
   return 1 + checked_count(here.low, below) + checked_count(here.high, above);
 }
 
-/// A part of the field for `peer_count` peers from `first` on, and what is in it.
+/// Cuts a part of the field, with the places in it, for `peer_count` peers from `first` on.
 std::size_t Cuts::cut(const Box& box, std::span<Vector2> places, PeerNumber first,
                       PeerNumber peer_count) {
   assert(peer_count > 0);
@@ -65,7 +65,7 @@ std::size_t Cuts::cut(const Box& box, std::span<Vector2> places, PeerNumber firs
   const PeerNumber lower = peer_count / 2;
   const std::size_t count = places.size() * lower / peer_count;
   double side = count == 0 ? low : 0.5 * (along(places[count - 1]) + along(places[count]));
-  // All in one place, or too few: by area.
+  // Places that coincide, or are too few, are divided by area.
   if (!(side > low && side < high)) side = low + (high - low) * lower / peer_count;
   assert(side > low && side < high);
   const auto second = static_cast<std::size_t>(
@@ -114,7 +114,7 @@ bool Cuts::has(PeerNumber peer) const {
   return std::find(all.begin(), all.end(), peer) != all.end();
 }
 
-/// The leaf of `peer`, and where it is.
+/// The leaf of `peer`, and its box.
 const Cuts::Node* Cuts::find(std::size_t node, const Box& box, PeerNumber peer, Box& found) const {
   const Node& here = nodes_[node];
   if (is_leaf(node)) return found = box, here.peer == peer ? &here : nullptr;
@@ -130,7 +130,7 @@ double Cuts::area_of(PeerNumber peer) const {
              : 0.0;
 }
 
-/// A part at the end of `nodes`, without a leaf that is left out.
+/// Copies a part to the end of `nodes`, without the leaf of `left_out`.
 std::size_t Cuts::copied(std::size_t node, PeerNumber left_out, std::vector<Node>& nodes) const {
   const auto is_out = [&](std::size_t part) {
     return is_leaf(part) && nodes_[part].peer == left_out;
@@ -184,8 +184,8 @@ std::optional<Cuts> Cuts::balanced(std::span<const double> loads, double toleran
                                                            : std::nullopt;
 }
 
-/// Of a part that was `from` and becomes `to`, in which cuts stay where they were in proportion.
-/// Whether any part was out of balance.
+/// Shifts the cuts of a part that was `from` and becomes `to`, in proportion unless the loads are
+/// uneven. Returns whether any part was out of balance.
 bool Cuts::shift(std::size_t node, const Box& from, const Box& to, std::span<const double> loads,
                  double tolerance) {
   if (is_leaf(node)) return false;
@@ -213,7 +213,7 @@ bool Cuts::shift(std::size_t node, const Box& from, const Box& to, std::span<con
             (surplus > 0.0 ? -surplus / low_load * part : -surplus / high_load * (1.0 - part));
     part = std::clamp(part, least * share, 1.0 - least * (1.0 - share));
   }
-  // Where nothing moves, no digit does.
+  // If nothing moves, no bit changes.
   const bool is_moved = is_uneven || low_of(from) != low_of(to) || high_of(from) != high_of(to);
   if (is_moved) here.side = low + part * extent;
   const auto [below_to, above_to] = parts_of(to, here.is_along_x, here.side);

@@ -1,5 +1,5 @@
-// A field cut in two, and its parts again, down to one zone for each peer: a division that can
-// change by little.
+// A field cut in two, and its parts again, down to one zone for each peer, so that small changes of
+// the division are possible.
 #pragma once
 
 #include <optional>
@@ -11,40 +11,40 @@
 
 namespace rink::peer {
 
-/// A tree. A peer that goes leaves its zone to those on the other side of its innermost cut.
+/// A tree. The zone of a peer that leaves goes to those on the other side of its innermost cut.
 class Cuts {
  public:
-  /// Across the longer side, again and again, each time so that the peers of both parts get equally
-  /// many of `places`: the same for all who know these.
+  /// Cuts across the longer side recursively, so that the peers of both parts get equally many of
+  /// `places`; equal places give equal cuts.
   static Cuts by_count(const physics::Field& field, std::vector<Vector2> places,
                        PeerNumber peer_count);
 
   /// A field that is all of peer 0.
   static Cuts whole(const physics::Field& field) { return by_count(field, {}, 1); }
 
-  /// For so many peers, some of which may have no zone.
+  /// The division for so many peers, some of which may have no zone.
   Division division(PeerNumber peer_count) const;
   bool has(PeerNumber peer) const;
   /// `peer` must have a zone, and not be the only one (both asserted).
   Cuts without(PeerNumber peer) const;
   /// The zone of `of` (which must have one, asserted) cut in two across its longer side, the upper
-  /// part for `newcomer`, who must have none.
+  /// part for `newcomer`, which must have none.
   Cuts with(PeerNumber newcomer, PeerNumber of) const;
-  /// All who have zones, sorted, and how large these are [m^2].
+  /// The peers with zones, sorted, and the areas of these [m^2].
   std::vector<PeerNumber> peers() const;
   double area_of(PeerNumber peer) const;
   /// Each cut moved half of the way to where its parts' loads per peer would be equal if each were
   /// spread evenly, provided that one of them is above `tolerance` times the mean; a part keeps a
-  /// tenth of its fair share of the room. `loads`: of each peer, by number. The same for all who
-  /// know these; nothing if no cut moves.
+  /// tenth of its fair share of the room. `loads`: of each peer, by number. Equal loads give equal
+  /// cuts; nothing if no cut moves.
   std::optional<Cuts> balanced(std::span<const double> loads, double tolerance) const;
 
   /// Asserts that these are one tree: each part below one cut, which lies within what it cuts, and
   /// each peer with one zone.
   void check() const;
 
-  /// To a message and back, into cuts of the same field; false for what are no cuts of it, as one
-  /// of zones so thin that they are none.
+  /// Writes to a message and reads back, into cuts of the same field; false for invalid cuts, such
+  /// as zones of no width.
   template <class Stream>
   bool exchange(Stream& stream) {
     std::vector<Node> nodes;
@@ -66,8 +66,8 @@ class Cuts {
   bool is_leaf(std::size_t node) const { return nodes_[node].low == node; }
   std::size_t copied(std::size_t node, PeerNumber left_out, std::vector<Node>& nodes) const;
   const Node* find(std::size_t node, const Box& box, PeerNumber peer, Box& found) const;
-  /// A cut before its parts. What is read has no more cuts one in another than `depth_max`, nor
-  /// more of both than `nodes_max`.
+  /// A cut precedes its parts. Cuts that are read nest at most `depth_max` deep and have at most
+  /// `nodes_max` nodes.
   static constexpr int depth_max = 128;
   static constexpr std::size_t nodes_max = 1024;
   template <class Stream>

@@ -1,4 +1,4 @@
-// Which peer owns which part of the field.
+// The division of the field into the zones of peers.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace rink::peer {
 
 using PeerNumber = std::uint32_t;
 
-/// A rectangle of the field that `peer` owns, its low sides included, its high sides not. Where it
-/// ends at the rim of the field it goes on without end, as pucks in a goal do.
+/// A rectangle of the field that `peer` owns, its low sides included, its high sides not. At the
+/// rim of the field it extends without end, since pucks in a goal lie outside.
 struct Zone {
   Box box{};
   PeerNumber peer = 0;
@@ -24,8 +24,8 @@ struct Zone {
 /// Zones that cover the field, each place once.
 class Division {
  public:
-  /// Why these are no division of the field among `peer_count` peers, naming the place; nothing if
-  /// they are one.
+  /// The reason, with a place, why the zones are no division of the field among `peer_count` peers;
+  /// nothing if they are one.
   static std::optional<std::string> objection(const physics::Field& field,
                                               std::span<const Zone> zones, PeerNumber peer_count);
   /// There must be no objection (asserted).
@@ -35,14 +35,14 @@ class Division {
 
   PeerNumber peer_count() const { return peer_count_; }
   PeerNumber owner_of(const Vector2& place) const;
-  /// With their rims open. Those of one peer stand side by side.
+  /// The zones of a peer, with open rims. Those of one peer are adjacent in the list.
   std::span<const Box> zones_of(PeerNumber peer) const;
   /// Whether `box` meets what lies within `halo` of the zones of `peer` along both axes; and
   /// whether it lies within it as a whole, by one of its zones.
   bool is_near(PeerNumber peer, const Box& box, double halo) const;
   bool is_within(PeerNumber peer, const Box& box, double halo) const;
 
-  /// Asserts that each peer's zones are where its beginning says, with room in them.
+  /// Asserts that each peer's zones are at its place in the list, and not empty.
   void check() const;
 
  private:

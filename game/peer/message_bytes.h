@@ -1,5 +1,5 @@
-// Any message as bytes and back, through the stream that snapshots of worlds go through: by the one
-// function `exchange` of its kind, with a checksum at the end.
+// Writes any message as bytes and reads it, by the stream of world snapshots and the message's one
+// function `exchange`, with a checksum at the end.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Messages to bytes and back, and how long they would be.
+// Writes, reads and measures messages.
 #include "game/peer/messages.h"
 
 #include <array>
@@ -11,8 +11,8 @@ namespace rink::peer {
 
 namespace {
 
-/// Of what is said in every window: nearly all of these messages are shorter than a longer checksum
-/// would be.
+/// The checksum of messages of every window, most of which are shorter than a longer checksum would
+/// be.
 constexpr int short_checksum = 4;
 
 /// Counts bytes.
@@ -28,7 +28,7 @@ class Measure : public physics::SnapshotStream<Measure> {
   std::size_t byte_count_ = 0;
 };
 
-/// Puts words into room that is there.
+/// Writes words into memory that is large enough.
 class Scribe : public physics::SnapshotStream<Scribe> {
  public:
   explicit Scribe(std::uint8_t* to) : begin_(to), to_(to) {}

@@ -1,4 +1,4 @@
-// What peers tell each other, as plain values; each has one function that writes, reads and
+// The messages between peers, as plain values; each has one function that writes, reads and
 // measures it.
 #pragma once
 
@@ -20,25 +20,25 @@ namespace rink::peer {
 using physics::BodyState;
 using physics::RestContact;
 
-/// From `time` [s] on, `bat` is driven by `thrust` [m/s^2].
+/// From `time` [s] on, `bat` has the acceleration `thrust` [m/s^2].
 struct Key {
   double time = 0.0;
   std::uint32_t bat = 0;
   Vector2 thrust{0.0, 0.0};
-  std::uint8_t input = 0;  ///< of a live player: what it did, for logs alone; 0 for keys that
-                           ///< everybody knows from the start
+  std::uint8_t input = 0;  ///< of a live player: its input, for logs alone; 0 for keys that all
+                           ///< know from the start
 };
 
-/// What a live player does with a key of its bat, on its way to the bat's owner, who stamps it.
+/// A live player's key change, on its way to the bat's owner, which stamps it.
 struct Press {
   std::uint32_t bat = 0;
   Vector2 thrust{0.0, 0.0};  ///< from the stamp on [m/s^2]
   std::uint8_t input = 1;    ///< as Key's, not 0
-  double time = 0.0;  ///< not before this instant [s], for players whose hands have seen the bat
-                      ///< move at it already
+  double time = 0.0;  ///< not before this instant [s], for players that have seen the bat move at
+                      ///< it already
 };
 
-/// What the owner of a bat shows, at a window's end, to the peer that plays it.
+/// The view of a bat's player, which the bat's owner sends to its peer at a window's end.
 struct Observation {
   struct Puck {
     std::uint32_t number = 0;
@@ -46,15 +46,14 @@ struct Observation {
     double radius = 0.0;
   };
   std::uint32_t bat = 0;
-  std::uint32_t owner = 0;  ///< in the next window: keys go there
+  std::uint32_t owner = 0;  ///< in the next window: it receives keys
   double time = 0.0;        ///< s
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};
-  std::vector<Puck>
-      pucks;  ///< the nearest of those that the owner has, its ghosts among them, nearest first
+  std::vector<Puck> pucks;  ///< the nearest of the owner's pucks, ghosts included, nearest first
 };
 
-/// What is new of a body to which nothing but free impacts happened: all else of its state is as it
-/// was when the window began.
+/// The changed state of a body that had only free impacts: the rest of its state is as at the
+/// window's start.
 struct FreeFlightState {
   std::uint32_t number = 0;
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
@@ -71,9 +70,9 @@ struct FreeFlightState {
   }
 };
 
-/// At a window's start: bodies of the sender that the receiver does not know in this state and
-/// shall simulate or own, all rest contacts of those of the sender's bodies that the receiver now
-/// has, and the keys that fall into the window. And what the players of the receiver may see.
+/// Sent at a window's start: bodies of the sender whose state the receiver lacks and must simulate
+/// or own, all rest contacts of the sender's bodies that the receiver now has, the keys of the
+/// window, and the observations for the receiver's players.
 struct Handover {
   struct Body {
     std::uint32_t number = 0;
@@ -90,18 +89,17 @@ struct Handover {
 /// A stretch of a body's path that ends at the next one, or with the window.
 struct ClaimedFlight {
   double begin = 0.0;       ///< s
-  std::uint64_t state = 0;  ///< a digest of the state that it begins with, and of all who took part
-                            ///< in the event that brought it about
+  std::uint64_t state = 0;  ///< a digest of the state at its beginning, and of all participants of
+                            ///< the event that caused it
   float low_x = 0.0f, low_y = 0.0f, high_x = 0.0f,
-        high_y = 0.0f;  ///< what the body sweeps [m], rounded outwards
+        high_y = 0.0f;  ///< the box that the body sweeps [m], rounded outwards
   Box box() const { return {low_x, low_y, high_x, high_y}; }
 };
 
-/// After a window has been played: what happened, in the sender's run, to those of its bodies that
-/// the receiver has as ghosts, one flight for each event; and the whole paths, from the window's
-/// start, of others that come into the receiver's halo. Nothing is said about ghosts to which
-/// nothing happened. With the first claims of a window go the keys that the sender's players press
-/// of the receiver's bats.
+/// Sent after a window was played: the events, in the sender's run, of its bodies that the receiver
+/// has as ghosts, one flight for each event; and the whole paths, from the window's start, of
+/// others that come into the receiver's halo. Ghosts without events are left out. The first claims
+/// of a window carry the keys that the sender's players press on the receiver's bats.
 struct Claims {
   struct Body {
     std::uint32_t number = 0;
@@ -123,27 +121,26 @@ struct Goal {
   bool is_left = false;
 };
 
-/// Who asks to be let in while others play.
+/// A peer that asks to join while others play.
 struct Newcomer {
   static constexpr std::size_t place_max = 320;
-  std::uint64_t token = 0;  ///< that it chose, and nobody else has
+  std::uint64_t token = 0;  ///< its own choice, unique to it
   std::uint32_t bat_count = 0, puck_count = 0,
-                hand_count = 0;  ///< it wishes to play so many bats, each looking at so many pucks,
-                                 ///< so many of them by hand
-  std::vector<std::uint8_t>
-      place{};  ///< where others reach it, in the words of those who carry the mail
+                hand_count = 0;       ///< the number of bats that it wants to play, pucks that each
+                                      ///< looks at, and bats played by persons
+  std::vector<std::uint8_t> place{};  ///< where others reach it, in the mail's own form
 };
 
-/// What a peer says of newcomers with a verdict.
+/// A peer's data about newcomers in a verdict.
 struct Admission {
   static constexpr std::size_t asking_max = 8;
   std::vector<Newcomer> asking{};          ///< at the sender, that all shall know of
   std::vector<std::uint32_t> reached{};    ///< candidates to which the sender is connected
-  std::vector<std::uint32_t> withdrawn{};  ///< its own that are gone again
+  std::vector<std::uint32_t> withdrawn{};  ///< its own candidates that are gone again
   bool is_empty() const { return asking.empty() && reached.empty() && withdrawn.empty(); }
 };
 
-/// Whether the sender's run of the window can stand, by all claims that it has heard.
+/// Whether the sender's run of the window is consistent with all claims that it has received.
 struct Verdict {
   std::uint32_t window = 0;
   bool accepts = false;
@@ -152,11 +149,10 @@ struct Verdict {
   std::uint64_t at_once_max = 0;   ///< the most events at one instant
   bool had_solver_failed = false;  ///< simultaneous impacts that have no solution
   std::uint64_t events = 0;        ///< with a body of the sender's own, in this run
-  bool leaves =
-      false;  ///< the sender wishes to hand over all that it owns when the window is final
-  /// Of each event of its run, in which of 256 equal parts of the window it came, so that events of
-  /// many peers are not taken for simultaneous; none if they are more than `listed_max`, or if
-  /// there are so few peers that it does not matter.
+  bool leaves = false;  ///< the sender wants to hand over all its bodies when the window is final
+  /// For each event of its run, the one of 256 equal parts of the window in which it came, so that
+  /// events of many peers are not taken for simultaneous; empty if there are more than
+  /// `listed_max`, or so few peers that it does not matter.
   static constexpr std::size_t listed_max = 64;
   std::vector<std::uint8_t> listed{};
   std::vector<Goal> goals{};  ///< in this run
@@ -164,7 +160,7 @@ struct Verdict {
 };
 
 /// A whole number of up to 64 bits, seven to a byte, lowest first, in as few bytes as it needs; the
-/// highest bit says that more follow.
+/// highest bit means that more follow.
 template <class Stream, class Number>
 bool exchange_short(Stream& stream, Number& number) {
   std::uint64_t rest = number, received = 0;
@@ -180,7 +176,7 @@ bool exchange_short(Stream& stream, Number& number) {
   return false;
 }
 
-/// The first byte of what peers say in every window: which of the parts that are mostly absent
+/// The first byte of the messages of every window: it marks which of the mostly absent parts
 /// follow. Its highest bit is always set, as in no other message that may come instead (Loss,
 /// Entry).
 class Head {
@@ -282,7 +278,7 @@ bool exchange_list(Stream& stream, std::vector<Item>& list) {
   return true;
 }
 
-/// A list that is said to be there, which then is not empty.
+/// A list that is marked as present, which then is not empty.
 template <class Stream, class Item>
 bool exchange_part(Stream& stream, bool is_there, std::vector<Item>& list) {
   std::uint64_t count = list.size();
@@ -392,7 +388,7 @@ bool read(std::span<const std::uint8_t> bytes, Verdict& message);
 std::size_t measured(Handover& message);
 std::size_t measured(Claims& message);
 std::size_t measured(Verdict& message);
-/// The state as the bytes by which states are compared.
+/// The bytes of a state, by which states are compared.
 std::vector<std::uint8_t> bytes_of(BodyState state);
 bool are_same(BodyState a, BodyState b);
 

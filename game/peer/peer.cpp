@@ -1,4 +1,4 @@
-// Window by window: what is heard, played and concluded, and who owns what from then on.
+// Plays windows: receives, plays, concludes, and decides the owners from then on.
 #include "game/peer/peer.h"
 
 #include <algorithm>
@@ -141,15 +141,14 @@ Box Peer::reach_of(std::uint32_t body) const {
 }
 
 void Peer::play() {
-  // Those of whom something was entered in the window before have a room again, if they have not
-  // been watched since.
+  // Bodies with entries in the last window get a room again, if they have not been watched since.
   for (const std::uint32_t body : subdomain_.take_entered())
     if (roles_[body] == own && is_watched_[body] == 0) subdomain_.set_room(body, homes_[body]);
   play_keys(end_);
   survey();
 }
 
-/// The same run: who is no longer at home may have had impacts that were not entered.
+/// Repeats the run, since a body that is no longer at home may have had impacts without entries.
 void Peer::play_anew() {
   subdomain_.undo();
   play();
@@ -164,7 +163,7 @@ void Peer::play_keys(double until) {
   subdomain_.advance(until);
 }
 
-/// The same decision everywhere, for all have heard the same.
+/// All peers decide equally, since all have received the same.
 Outcome Peer::conclude() {
   bool solver_failed = false, is_final = true, are_whole = true;
   assert(verdicts_.size() == division_.peer_count() && is_present_[number_]);
@@ -174,10 +173,10 @@ Outcome Peer::conclude() {
     const Verdict& verdict = verdicts_[peer];
     solver_failed = solver_failed || verdict.had_solver_failed,
     is_final = is_final && verdict.accepts;
-    // Of those who are not there no two need think the same.
+    // Peers may differ about absent ones, which do not count.
     are_whole = are_whole && (halos_[peer] == infinity || !is_present_[peer]);
   }
-  // The engine's last resorts against endless series at one instant count what happens in the whole
+  // The engine's last resorts against endless series at one instant count events in the whole
   // field.
   const bool needs_whole =
       (at_once_bound() >= physics::events_at_once_local || solver_failed) && !are_whole;
@@ -196,7 +195,7 @@ Outcome Peer::conclude() {
   return Outcome::repeat;
 }
 
-/// Each once, and only between bodies that are there.
+/// Sets each contact once, and only between present bodies.
 void Peer::set_rest_contacts(std::vector<RestContact> rest_contacts) {
   const auto is_there = [&](physics::Partner p) {
     return p >= physics::partner::field_parts || subdomain_.is_there(p);
@@ -239,8 +238,8 @@ void Peer::replay() {
   play();
 }
 
-/// Ghosts that went astray: to which nothing happened, they are what they were; all others come
-/// anew, or are gone.
+/// Corrects doubtful ghosts: one without events has its old state; all others are sent anew, or are
+/// gone.
 void Peer::correct_doubtful() {
   assert(doubts_.size() == ghosts_.size() && is_unmoved_.size() == ghosts_.size());
   for (std::size_t k = 0; k < ghosts_.size(); ++k) {
@@ -311,8 +310,8 @@ void Peer::disown(std::uint32_t body) {
   owned_.pop_back();
 }
 
-/// Who owns whom from now on, whom we have as ghosts, and who has ours. Own bodies that are no
-/// candidates are at home.
+/// Decides the owners from now on, the ghosts here, and the peers with ghosts of own bodies. Own
+/// bodies that are no candidates are at home.
 void Peer::settle(std::vector<std::uint32_t> candidates) {
   std::erase_if(candidates, [&](std::uint32_t body) { return !subdomain_.is_there(body); });
   std::sort(candidates.begin(), candidates.end());
@@ -367,7 +366,7 @@ void Peer::end_at(double until) {
   share_keys(until);
 }
 
-/// The keys of the window that ends at `until`, and those that stay with us till later.
+/// Sends the keys of the window that ends at `until`, and keeps later ones.
 void Peer::share_keys(double until) {
   end_ = until;
   due_.clear();

@@ -17,14 +17,14 @@
 
 namespace rink::peer {
 
-/// What a peer had, did and said since it was made.
+/// Counts of a peer since it was made.
 struct PeerCounters {
-  std::uint64_t windows = 0, repeats = 0;  ///< final ones; and how often one was played again
-  std::uint64_t own_events = 0, ghost_events = 0;  ///< in final windows: with a body of its own
-                                                   ///< among those concerned, and without
+  std::uint64_t windows = 0, repeats = 0;          ///< final windows, and repetitions
+  std::uint64_t own_events = 0, ghost_events = 0;  ///< in final windows: events with own bodies,
+                                                   ///< and without
   std::uint64_t hand_overs = 0;                    ///< bodies that left for another owner
-  std::uint64_t held_max = 0;  ///< the most bodies that it had at a window's start, its own and
-                               ///< ghosts; of peers taken together, the busiest one's
+  std::uint64_t held_max = 0;  ///< the most bodies at a window's start, own ones and ghosts; of
+                               ///< several peers, the busiest one's
   std::uint64_t ghost_windows = 0;   ///< ghosts held, summed over the windows
   std::uint64_t border_windows = 0;  ///< own bodies that another peer has as ghosts, summed over
                                      ///< the windows, each counted once per such peer
@@ -33,41 +33,42 @@ struct PeerCounters {
   PeerCounters& operator+=(const PeerCounters& other);
 };
 
-/// A bat that a live player of `peer` plays, who looks about at `phase`, `phase` + `period`, ...
-/// [s], or at every window's end if `period` is 0, at the `puck_count` nearest pucks.
+/// A bat of a live player of `peer`, which observes the `puck_count` nearest pucks at `phase`,
+/// `phase` + `period`, ... [s], or at every window's end if `period` is 0.
 struct Seat {
   std::uint32_t bat = 0;
   PeerNumber peer = 0;
   double period = 0.05, phase = 0.0;
   std::uint32_t puck_count = 0;
-  /// Whether that is in the window from `begin` [s], not included, to `end`.
+  /// True if an observation is due in the window from `begin` [s], not included, to `end`.
   bool is_due(double begin, double end) const;
 };
 
 enum class Outcome : std::uint8_t { final, repeat };
 
-/// The protocol, in the order in which it goes (docs/peer-to-peer.md). Everybody calls `play`; then
-/// each makes claims for each other and hears those of all others, judges, and hears all verdicts;
-/// `conclude` then says the same to all. `final`: each makes a handover for each other, hears
-/// theirs, and commits. `repeat`: each makes a handover for those who repeat, these hear them and
-/// call `replay`, and all go on with claims. Knows no network and no clock.
+/// The protocol in its order (docs/peer-to-peer.md). All call `play`; then each makes claims for
+/// each other, receives those of all others, judges, and receives all verdicts; `conclude` then
+/// returns the same to all. `final`: each makes a handover for each other, receives theirs, and
+/// commits. `repeat`: each makes a handover for those that repeat, these receive them and call
+/// `replay`, and all continue with claims. Knows no network and no clock.
 class Peer {
  public:
-  /// `halo` [m] is where it begins.
+  /// `halo` [m] is the first width of the halo.
   Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber number,
        std::uint32_t body_count, double halo);
 
-  /// At the start, before the first window, for every body of the whole: takes what is its own and
-  /// what is in its halo.
+  /// Call it at the start, before the first window, for every body of the whole: takes own bodies
+  /// and those in the halo.
   void consider(std::uint32_t body, const BodyState& state);
-  /// Instead of that, to begin at a later window's start: its number and when it starts [s], then
-  /// parts of the whole, among them all that is its own, in its halo, or in rest contact.
+  /// These replace `consider` to begin at a later window: its number and start [s], then parts of
+  /// the whole, with all own bodies, those in the halo, and those in rest contact with them.
   void enter(std::uint32_t window, double start);
   void take(const Handover& part);
-  /// After that; the first window will end at `until` [s].
+  /// Call it next; the first window ends at `until` [s].
   void begin(double until);
 
-  /// Between windows: who plays on. Nothing is expected of the others, who have no zones.
+  /// Between windows: sets which peers play on. The others have no zones, and nothing is expected
+  /// of them.
   void set_present(PeerNumber peer, bool is_present) {
     assert(peer < is_present_.size() && (is_present || peer != number_));
     is_present_[peer] = is_present;
@@ -76,54 +77,55 @@ class Peer {
     assert(peer < is_present_.size());
     return is_present_[peer];
   }
-  /// With the next verdicts, until told otherwise.
+  /// Set for the next verdicts until changed.
   void wish_to_leave(bool wishes) { wishes_to_leave_ = wishes; }
   void announce(Admission admission) { admission_ = std::move(admission); }
-  /// After `conclude` said final, before the handovers: from the window's end on, zones are these,
-  /// perhaps for more peers, who are not present yet. The same at all peers.
+  /// After `conclude` returned final, before the handovers: changes the zones from the window's end
+  /// on, perhaps for more peers, which are not present yet. Equal at all peers.
   void divide(const Division& division);
-  /// From now on `change` lists what each commit changed; a first one, after `begin`, lists all.
+  /// Makes `change` list the changes of each commit; the first one, after `begin`, lists all.
   void keep_changes() { keeps_changes_ = true; }
-  /// Of the own part, since the window before, or `is_whole`; its step is left out.
+  /// The change of the own part since the last window, or all of it if `is_whole`; its step is left
+  /// out.
   PartChange change(bool is_whole) const;
-  /// After a commit: a puck that went into a goal, as its owner has it, is back in play at `place`,
-  /// which is free for everybody.
+  /// After a commit: puts a scored puck, with its owner's state, back in play at `place`, which is
+  /// free at all peers.
   void put_back(const Handover::Body& scored, const Vector2& place);
   bool owns(std::uint32_t body) const {
     assert(body < roles_.size());
     return roles_[body] == own;
   }
 
-  /// Of a bat that it owns, before the first window.
+  /// Adds a key of an own bat before the first window.
   void press_first(const Key& key) { keys_.push_back(key); }
 
-  /// Between windows, the same at all peers: who plays the bat. One player for each.
+  /// Between windows, equal at all peers: sets the player of the bat. One player for each.
   void seat(const Seat& seat) {
     assert(seat.bat < roles_.size() && seat.period >= 0.0);
     seats_.push_back(seat);
   }
-  /// What the own players may see now, since the last commit.
+  /// The observations for own players, since the last commit.
   const std::vector<Observation>& observations() const { return observations_; }
-  /// Of all own bats that `player` plays, whether it is due or not.
+  /// The observations of all own bats that `player` plays, due or not.
   std::vector<Observation> observations_of_all(PeerNumber player) const;
-  /// After a commit and before the claims of the next window: an own player's key, which goes to
-  /// `owner`, the one that the newest observation of the bat names. It is stamped there with the
-  /// end of that window or, if that is later, with the instant that it names, though not more than
-  /// `ahead_max` later; a player's keys must name instants that do not fall.
+  /// After a commit and before the claims of the next window: sends an own player's key to `owner`,
+  /// which the newest observation of the bat names. The owner stamps it with the end of that window
+  /// or, if later, with its own instant, at most `ahead_max` later; the instants of a player's keys
+  /// must not fall.
   void press(PeerNumber owner, const Press& press) {
     assert(owner < presses_.size() && press.input != 0);
     presses_[owner].push_back(press);
   }
   static constexpr double ahead_max = 1.0;  ///< s
-  /// Of the window that comes next [s].
+  /// The end of the next window [s].
   double end() const { return end_; }
   /// Keys of live players that took effect on own bats in the last window, in order.
   const std::vector<Key>& log() const { return log_; }
 
   void play();
   Claims claims_for(PeerNumber peer);
-  /// Whatever is heard must keep to the scene from now on, as `validator` knows it. What does not
-  /// is not taken, and whoever sent it is accused.
+  /// Checks all messages by `validator` from now on. An invalid one is dropped, and its sender is
+  /// reported.
   void validate_by(Validator validator) { validator_ = std::move(validator); }
   void receive(PeerNumber from, Claims claims);
   const Verdict& judge();
@@ -138,8 +140,8 @@ class Peer {
     assert(peer < is_repeating_.size());
     return is_repeating_[peer];
   }
-  /// Between the handovers for `peer` and the commit: whether it will have the own body in the next
-  /// window, as its own or as a ghost.
+  /// Between the handovers for `peer` and the commit: true if `peer` will have the own body in the
+  /// next window, as its own or as a ghost.
   bool will_have(PeerNumber peer, std::uint32_t body) const;
 
   Handover handover_for_repeat(PeerNumber peer);
@@ -148,7 +150,7 @@ class Peer {
   void receive(PeerNumber from, Handover handover);
   void replay();
   void commit(double until);
-  /// After it, and before anything is played: the window that is prepared ends so soon instead [s].
+  /// After a commit, and before anything is played: shortens the prepared window to this end [s].
   void end_at(double until);
 
   PeerNumber number() const { return number_; }
@@ -156,30 +158,29 @@ class Peer {
   const std::vector<std::uint32_t>& owned() const { return owned_; }
   const std::vector<std::uint32_t>& ghosts() const { return ghosts_; }
   BodyState state(std::uint32_t body) const { return subdomain_.state(body); }
-  /// Where it certainly was: at the end of the window that was judged, or at its start if it is a
-  /// ghost whose owner tells another story of that window. Once committed, now.
+  /// A place where the body certainly was: at the end of the judged window, or at its start if it
+  /// is a ghost whose owner claims another path. After a commit, its present place.
   Vector2 known_place(std::uint32_t body) const;
-  /// All in rest contact or in one jam with it, directly or through others, itself first.
+  /// All bodies in its contact group, directly or through others, itself first.
   std::vector<std::uint32_t> group_of(std::uint32_t body) const {
     return subdomain_.group_of(body);
   }
   const physics::World& world() const { return subdomain_.world(); }
   double halo() const { return halos_[number_]; }
   const PeerCounters& counters() const { return counters_; }
-  /// Why another peer's message cannot be true, naming it; empty if all could.
+  /// The reason why another peer's message cannot be true, naming the peer; empty if all could be.
   const std::string& accusation() const { return accusation_; }
   PeerNumber reported() const { return reported_; }
 
   /// At a window's start: asserts that every body has one role, that lists of own bodies and ghosts
-  /// hold those of that role, each once, and that what others have of ours is ours.
+  /// have those of that role, each once, and that others' ghosts of own bodies are own bodies.
   void check() const;
 
  private:
   enum Role : std::uint8_t { away, ghost, own };
-  /// `late`: since something happened to it in this window; what had happened before that it did in
-  /// its home.
+  /// `late`: since an event in this window; earlier ones were at home.
   enum Watch : std::uint8_t { not_watched, watched, late };
-  /// What a body went through in the `change`th change of the journal; `state` as in ClaimedFlight.
+  /// A body's event in the `change`th change of the journal; `state` as in ClaimedFlight.
   struct Step {
     std::uint32_t body, change;
     std::uint64_t state;
@@ -189,8 +190,8 @@ class Peer {
     std::uint64_t state;
     Box box;
   };
-  /// The path of a body: the flights from `begin` to `end`, the first one that with which the
-  /// window began.
+  /// The path of a body: the flights from `begin` to `end`, the first being that at the window's
+  /// start.
   struct Path {
     std::uint32_t body;
     std::size_t begin, end;

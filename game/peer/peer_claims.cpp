@@ -1,4 +1,4 @@
-// What happened in a window, and what is claimed of it: docs/peer-to-peer.md, "The rule".
+// Collects the events of a window, and makes claims of them: docs/peer-to-peer.md, "The rule".
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -30,7 +30,7 @@ ClaimedFlight claimed(double begin, std::uint64_t state, const Box& box) {
 
 }  // namespace
 
-/// All that the rule needs to know of the run.
+/// Collects all that the rule needs of the run.
 void Peer::survey() {
   find_edge();
   trace();
@@ -105,8 +105,8 @@ void Peer::lay_out_paths() {
     const auto time_of = [&](std::size_t k) {
       return k < steps.size() ? changes[steps[k].change].time : end_;
     };
-    // Who was not watched when the window began may have had impacts that were not entered, all of
-    // them at home.
+    // A body that was not watched at the window's start may have had impacts without entries, all
+    // of them at home.
     const bool is_late = is_watched_[body] == late;
     flights_.push_back({start_, time_of(0), 0,
                         is_late

@@ -1,4 +1,4 @@
-// What goes from hand to hand between two windows, and who has whose bodies then.
+// Handovers of bodies between two windows, and the peers that have them afterwards.
 #include <algorithm>
 #include <cassert>
 #include <string>
@@ -80,8 +80,8 @@ Handover Peer::handover_for(PeerNumber peer, double until) {
   return message;
 }
 
-/// Most ghosts are already what their owners say; the others follow from what they were when the
-/// window began.
+/// Most ghosts already have their owners' states; the others follow from their states at the
+/// window's start.
 void Peer::complete_free_flights(Handover& handover, PeerNumber from) {
   for (const FreeFlightState& free_flights : handover.free_flights) {
     const std::uint32_t body = free_flights.number;

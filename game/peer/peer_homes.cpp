@@ -1,5 +1,5 @@
-// Which own bodies are deep in their zones, where no other peer's halo reaches: nothing is said of
-// them, and hardly any is looked at.
+// Finds own bodies deep in their zones, where no other peer's halo reaches: they are not claimed,
+// and hardly any is checked.
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -10,10 +10,10 @@ namespace rink::peer {
 
 namespace {
 
-/// A margin is that much wider than it need be, lest it be chosen anew with every halo.
+/// A margin is wider than needed by this factor, so that not every halo changes it.
 constexpr double margin_room = 1.25;
-/// Who is not watched stays at home for that many windows if nothing happens to it; then all are
-/// looked at once. More windows make more bodies to be watched.
+/// A body that is not watched stays at home for this many windows without events; then all are
+/// checked once. More windows mean more watched bodies.
 constexpr double windows_watched = 24.0;
 
 }  // namespace
@@ -39,8 +39,8 @@ bool Peer::is_margin_fit() const {
   return margin_ >= needed && (margin_ <= margin_room * margin_room * needed || margin_ == needed);
 }
 
-/// And who was at home when the window began. Until the next one all are watched, and a run that
-/// has been played must be played anew.
+/// Chooses the margin, and so the bodies at home. Until the next window all are watched, and a run
+/// that was played must be repeated.
 void Peer::choose_margin() {
   margin_ = margin_room * least_margin();
   assert(is_margin_fit());
@@ -73,8 +73,8 @@ bool Peer::stays(std::uint8_t home, const Vector2& place, const Vector2& velocit
          interior.rest_contacts(Box::around(farthest, {0.0, 0.0}));
 }
 
-/// At a window's start: all that might leave their homes before `watched_until_` though nothing
-/// happens to them.
+/// At a window's start: watches all that might leave their homes before `watched_until_` without
+/// events.
 void Peer::choose_watched() {
   watched_until_ = start_ + windows_watched * (end_ - start_);
   watched_.clear();
@@ -91,8 +91,8 @@ void Peer::choose_watched() {
   subdomain_.set_rooms(std::move(rooms), watched_until_);
 }
 
-/// Which of the own bodies were not at home from the window's start to its end; and which are not
-/// at its end.
+/// Finds own bodies that were not at home from the window's start to its end, and those that are
+/// not at its end.
 void Peer::find_edge() {
   for (const std::uint32_t body : edge_) is_edge_[body] = 0;
   edge_.clear(), outskirts_.clear();
@@ -100,7 +100,7 @@ void Peer::find_edge() {
   for (const physics::Change& change : subdomain_.journal().changes) {
     const std::uint32_t body = change.body;
     if (roles_[body] != own || is_edge_[body] != 0) continue;
-    // Between two places in a convex interior a straight flight stays there; one that bends need
+    // A straight flight between two places in a convex interior stays inside; one that bends may
     // not.
     const bool is_straight = change.motion == physics::Change::straight;
     if (is_watched_[body] == not_watched &&
@@ -115,7 +115,7 @@ void Peer::find_edge() {
   assert(std::ranges::adjacent_find(edge_) == edge_.end() && outskirts_.size() <= owned_.size());
 }
 
-/// Without its infinite sides, from which nothing has a distance.
+/// The interior without its infinite sides, which have no distance.
 Box Peer::room_at_home(std::uint32_t body) const {
   assert(homes_[body] > 0 && homes_[body] <= interiors_.size());
   const physics::Field& field = subdomain_.world().spec().field;

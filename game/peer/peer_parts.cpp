@@ -1,4 +1,4 @@
-// A peer's own part as a whole: taken over from others, told to whom mirrors it, and given other
+// A peer's own part as a whole: taken over from others, copied to its replica, and given other
 // borders.
 #include <algorithm>
 #include <cassert>
@@ -15,7 +15,7 @@ void Peer::enter(std::uint32_t window, double start) {
   subdomain_.advance(start);
 }
 
-/// `begin` sorts out whose is whose.
+/// `begin` decides the owners.
 void Peer::take(const Handover& part) {
   for (const auto& [body, state] : part.bodies) {
     if (body >= subdomain_.body_count() || subdomain_.is_there(body)) continue;
@@ -27,7 +27,7 @@ void Peer::take(const Handover& part) {
   keys_.insert(keys_.end(), part.keys.begin(), part.keys.end());
 }
 
-/// Who comes has no halo of its own until its first verdict, nor a zone.
+/// A new peer has no halo until its first verdict, and no zone.
 void Peer::make_room(PeerNumber peer_count) {
   assert(peer_count > halos_.size());
   halos_.resize(peer_count, usual_halo_);
@@ -36,7 +36,7 @@ void Peer::make_room(PeerNumber peer_count) {
   claims_.resize(peer_count), verdicts_.resize(peer_count), handovers_.resize(peer_count);
 }
 
-/// All own bodies are looked at anew.
+/// Checks all own bodies anew.
 void Peer::divide(const Division& division) {
   assert(division.peer_count() >= division_.peer_count());
   if (division.peer_count() > division_.peer_count()) make_room(division.peer_count());
@@ -46,7 +46,7 @@ void Peer::divide(const Division& division) {
   for (const std::uint32_t body : owned_) outskirts_.push_back({body, reach_of(body)});
 }
 
-/// Before the journal is forgotten.
+/// Call it before the journal is cleared.
 void Peer::note_changed() {
   changed_.clear(), free_flights_.clear(), left_.clear();
   for (const auto& kept : subdomain_.before().flights())
@@ -86,8 +86,8 @@ PartChange Peer::change(bool is_whole) const {
   return change;
 }
 
-/// Nobody is in contact with it, and whoever has it from now on makes the same of what its owner
-/// had.
+/// Nothing is in contact with the puck, and every peer that has it derives the same state from its
+/// owner's.
 void Peer::put_back(const Handover::Body& scored, const Vector2& place) {
   const std::uint32_t body = scored.number;
   assert(body < roles_.size() && place.allFinite());

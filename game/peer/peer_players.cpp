@@ -1,4 +1,4 @@
-// Live players: what they see of the bats that others own, and how their keys get there.
+// Live players: observations of bats that others own, and keys on their way to the owners.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -41,7 +41,7 @@ Observation Peer::observation_of(const Seat& seat) const {
   return observation;
 }
 
-/// Of own bats whose players are due, at a window's end.
+/// The observations of own bats whose players are due, at a window's end.
 std::vector<Observation> Peer::observations_for(PeerNumber peer) const {
   std::vector<Observation> observations;
   for (const Seat& seat : seats_)
@@ -69,8 +69,8 @@ void Peer::handle_observations(PeerNumber from) {
   }
 }
 
-/// All peers stamp alike: with the first instant that those who have the bat as a ghost can still
-/// be told of, or the one that the player wants.
+/// All peers stamp alike: with the first instant that can still reach the peers that have the bat
+/// as a ghost, or the player's own.
 void Peer::handle_presses() {
   claims_[number_].presses = std::exchange(presses_[number_], {});
   for (PeerNumber from = 0; from < claims_.size(); ++from) {

@@ -1,5 +1,5 @@
-// Whether the run of a window can stand beside what the others claim: docs/peer-to-peer.md, "The
-// rule".
+// Judges whether the run of a window is consistent with the others' claims: docs/peer-to-peer.md,
+// "The rule".
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -13,22 +13,21 @@ namespace rink::peer {
 
 namespace {
 
-/// Bodies further apart than this do nothing to each other at an instant [m]: twice the widest gap
+/// Bodies further apart than this do not affect each other at an instant [m]: twice the widest gap
 /// in the engine's clusters, and all roundings.
 constexpr double touch_margin = 4e-5;
-/// What comes within this time of each other is taken as simultaneous [s]: twice the engine's
-/// instant.
+/// Events within this time of each other count as simultaneous [s]: twice the engine's instant.
 constexpr double time_margin = 2e-9;
-/// Of halos that turn out too narrow, and of all others, bit by bit.
+/// The factors by which halos that are too narrow grow, and all others shrink slowly.
 constexpr double widening = 1.25, narrowing = 1.0 - 2e-4;
 constexpr std::uint32_t attempts_max = 40;
-/// By then everybody's halo holds the whole field if need be, and honest runs of the same states
-/// agree. Whoever still doubts a ghost blames its owner; whoever trusts all of them waits a little
-/// longer, then blames who does not accept.
+/// By then every halo covers the whole field if needed, and honest runs of the same states agree. A
+/// peer that still doubts a ghost blames its owner; one that trusts all of them waits a little
+/// longer, then blames those that do not accept.
 constexpr std::uint32_t attempts_before_blame = attempts_max + 64,
                         attempts_before_blaming_doubt = attempts_before_blame + 8;
-/// So many need 8 events at one instant each before they would be taken for endless together;
-/// telling when they came would cost more.
+/// So few peers need 8 events at one instant each before these count as endless together; listing
+/// their times would cost more.
 constexpr PeerNumber few_peers = 8;
 
 }  // namespace
@@ -39,7 +38,7 @@ bool Peer::report(PeerNumber peer, const std::string& of) {
   return false;
 }
 
-/// Or else a lie that could be true, and was believed, would have the window repeated for ever.
+/// Without blame, a false claim that is possible and was accepted would repeat the window for ever.
 void Peer::blame(bool doubts_ghosts) {
   const auto doubted =
       std::find_if(doubts_.begin(), doubts_.end(), [](double doubt) { return doubt < infinity; });
@@ -54,7 +53,7 @@ void Peer::blame(bool doubts_ghosts) {
       report(peer, "accepts no run of window " + std::to_string(window_));
 }
 
-/// Whether claims speak of the bodies that they should.
+/// True if claims name the expected bodies.
 bool Peer::validate_claims() {
   std::vector<std::uint32_t> counts(claims_.size(), 0);
   for (const std::uint32_t body : ghosts_) ++counts[owners_[body]];
@@ -120,7 +119,7 @@ const Verdict& Peer::judge() {
   return verdict;
 }
 
-/// In the run of this window.
+/// The goals in the run of this window.
 std::vector<Goal> Peer::goals() const {
   const physics::World& world = subdomain_.world();
   std::vector<Goal> goals;
@@ -152,8 +151,8 @@ std::vector<std::uint8_t> Peer::parts_of_events() const {
   return parts;
 }
 
-/// At least as many as came at any one instant in the whole. An instant, which is a few roundings
-/// long, may lie on both sides of where two parts of the window meet.
+/// An upper bound of the events at any one instant in the whole. An instant, which is a few
+/// roundings long, may span two neighbouring parts of the window.
 std::uint64_t Peer::at_once_bound() const {
   assert(verdicts_.size() == halos_.size());
   std::uint64_t sum = 0, unlisted = 0;
@@ -171,8 +170,7 @@ std::uint64_t Peer::at_once_bound() const {
   return unlisted + *std::max_element(listed.begin(), listed.end());
 }
 
-/// The halo that holds all own paths, so that nobody who is not known, and stays out of the halo,
-/// can touch them.
+/// The halo that contains all own paths, so that no unknown body outside the halo can touch them.
 double Peer::needed_halo() const {
   double most = 0.0;
   for (const PathFlight& flight : flights_) {
@@ -186,8 +184,8 @@ double Peer::needed_halo() const {
   return most;
 }
 
-/// When the ghost's own story here departs from what its owner claims; never, as a rule. And its
-/// claimed path from then on.
+/// The time at which the ghost's run here first differs from its owner's claim, usually never; and
+/// its claimed path from then on.
 double Peer::first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> flights,
                               std::vector<PathFlight>& beyond) const {
   const std::vector<physics::Change>& changes = subdomain_.journal().changes;
@@ -217,7 +215,7 @@ bool Peer::may_touch_own(const PathFlight& foreign) const {
   if (std::any_of(interiors_.begin(), interiors_.end(),
                   [&](const Box& interior) { return interior.meets(centres); }))
     return true;
-  // Most ghosts go astray at the rim of the halo, where no own body comes.
+  // Most doubtful ghosts are at the rim of the halo, where no own body comes.
   return hull_.meets(box) &&
          std::any_of(flights_.begin(), flights_.end(), [&](const PathFlight& flight) {
            return flight.begin - time_margin <= foreign.end &&
@@ -225,7 +223,7 @@ bool Peer::may_touch_own(const PathFlight& foreign) const {
          });
 }
 
-/// Parts (a) and (b) of the rule.
+/// Checks parts (a) and (b) of the rule.
 bool Peer::validate_ghosts() {
   doubts_.assign(ghosts_.size(), infinity);
   is_unmoved_.assign(ghosts_.size(), true);

@@ -1,4 +1,4 @@
-// The steps of peer.h in their order, message by message.
+// Runs the steps of peer.h in their order, message by message.
 #include "game/peer/protocol.h"
 
 #include <cassert>
@@ -17,7 +17,7 @@ void receive(Peer& peer, PeerNumber from, std::span<const std::uint8_t> bytes) {
   peer.receive(from, std::move(message));
 }
 
-/// What `make(to)` makes goes to everybody else, and what they made is heard.
+/// Sends what `make(to)` makes to each other peer, and receives theirs.
 template <class Make>
 void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& make,
                        const std::function<void()>& meanwhile) {
@@ -31,7 +31,7 @@ void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& mak
   if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
 }
 
-/// As the engine sees it, whose hash says no more of such a body than its flight.
+/// True for a body of which the engine's hash has no more than its flight.
 bool flies_straight(const BodyState& state, const physics::WorldSpec& spec) {
   return state.kind != physics::BodyKind::bat && state.acceleration == Vector2(0.0, 0.0) &&
          state.drag == Vector2::Constant(spec.puck_drag);
@@ -81,7 +81,7 @@ Handover own_bodies(const Peer& peer) {
 
 std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::uint32_t body_count,
                                            std::span<const Handover> parts) {
-  /// Where a body is told of, in one of the parts.
+  /// The place of a body in one of the parts.
   struct Place {
     const BodyState* state = nullptr;
     const FreeFlightState* free_flights = nullptr;

@@ -15,43 +15,43 @@ namespace rink::peer {
 struct Candidate;
 struct State;
 
-/// What one peer has to each of the others: bytes go whole and in order.
+/// A peer's mail to each of the others: messages arrive whole and in order.
 class Mail {
  public:
   static constexpr std::size_t shared_max = 127;
   virtual ~Mail() = default;
-  /// To one who is gone: does nothing.
+  /// Without effect if the receiver is gone.
   virtual void send(PeerNumber to, std::vector<std::uint8_t> bytes) = 0;
-  /// The next message of `from`; waits for it. Throws what its maker chooses if there will be none;
-  /// PeerGone, of anybody who is gone and has not been parted with, where peers can do without each
-  /// other.
+  /// Waits for the next message of `from`. Throws an exception of the implementation's choice if
+  /// there will be none; PeerGone for any peer that is gone without `part`, if peers can continue
+  /// without each other.
   virtual std::vector<std::uint8_t> receive(PeerNumber from) = 0;
-  /// What each of `peer_count` says to all, by number, when all call it at the same point of the
-  /// protocol with at most `shared_max` bytes: by send and receive, unless whoever carries the mail
-  /// has a shorter way.
+  /// The bytes of each of `peer_count` peers, by number, when all call it at the same point of the
+  /// protocol with at most `shared_max` bytes: by send and receive, unless the implementation has a
+  /// faster way.
   virtual std::vector<std::vector<std::uint8_t>> share(PeerNumber own, PeerNumber peer_count,
                                                        std::vector<std::uint8_t> bytes);
-  /// Nothing more will be said to `peer`, nor heard of it. `is_lost`: and it shall notice, if it is
-  /// still there; otherwise it leaves by itself.
+  /// No more messages go to `peer` or come from it. `is_lost`: it is notified if it still exists;
+  /// otherwise it leaves itself.
   virtual void part(PeerNumber /*peer*/, bool /*is_lost*/) {}
-  /// Who was to leave by itself is needed again, if it is still there.
+  /// A peer that was about to leave is needed again, if it still exists.
   virtual void rejoin(PeerNumber /*peer*/) {}
 
-  /// Who has asked here to be let in, at most Admission::asking_max of them, each once; what was
-  /// decided is told by `refuse` or `expect`.
+  /// The peers that have asked here to join, at most Admission::asking_max of them, each once;
+  /// `refuse` or `expect` tells the decision.
   virtual std::vector<Newcomer> callers() { return {}; }
-  /// The newcomer of this token, who asked here, is not let in, or may ask again.
+  /// Refuses the newcomer of this token, which asked here; it may perhaps ask again.
   virtual void refuse(std::uint64_t /*token*/, const std::string& /*reason*/,
                       bool /*may_ask_again*/) {}
-  /// A candidate will connect to all. If it asked here it is told now, with the members of `state`
-  /// and the candidates before it, all of whom it must reach.
+  /// A candidate will connect to all. If it asked here it is notified now, with the members of
+  /// `state` and the earlier candidates, all of which it must reach.
   virtual void expect(const Candidate& /*candidate*/, bool /*has_asked_here*/,
                       const State& /*state*/) {}
   virtual bool reaches(PeerNumber /*candidate*/) { return false; }
-  /// Whether a candidate who asked here is gone, or has taken too long.
+  /// True if a candidate that asked here is gone, or has taken too long.
   virtual bool has_given_up(PeerNumber /*candidate*/) { return false; }
-  /// It is no candidate any more, but one of those whose loss matters; or, if `is_in` is false,
-  /// nobody. Then it may ask again.
+  /// The candidate becomes a member, whose loss matters; or, if `is_in` is false, it is dropped and
+  /// may ask again.
   virtual void admit(PeerNumber /*candidate*/, bool /*is_in*/) {}
 };
 
@@ -61,7 +61,7 @@ class PeerGone : public std::runtime_error {
   PeerGone(PeerNumber peer, bool has_finished, const std::string& what)
       : std::runtime_error(what), peer_(peer), has_finished_(has_finished) {}
   PeerNumber peer() const { return peer_; }
-  /// It has said that it had no more to say.
+  /// True if it sent a farewell.
   bool has_finished() const { return has_finished_; }
 
  private:
@@ -69,35 +69,35 @@ class PeerGone : public std::runtime_error {
   bool has_finished_;
 };
 
-/// Those who are left must not go on: others may, or nobody can.
+/// The session must stop here: others may continue, or none can.
 class Halt : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Of a newcomer that was not in for long: others may go on, and it may ask again.
+/// A newcomer's session ends before it took part: others may continue, and it may ask again.
 class SentAway : public Halt {
   using Halt::Halt;
 };
 
-/// Another peer said what cannot be.
+/// Another peer sent an impossible message.
 class ProtocolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a message of the protocol is about, for who counts them.
+/// The purpose of a message of the protocol, for counts.
 enum class Subject : std::uint8_t { claims, verdict, handover };
 
-/// Called in a window, where they are not empty: after its first run, which may yet be repeated or
-/// undone; when all have accepted; and when the others have been sent what they need for the next
-/// window, before it is committed. `when_sending`: what is sent from now on is about that.
+/// Called in a window if not empty: after its first run, which may still be repeated or undone;
+/// when all have accepted; and when the others have been sent what they need for the next window,
+/// before the commit. `when_sending` announces the purpose of the following messages.
 struct WindowHooks {
   std::function<void()> when_played{}, when_final{}, when_told{};
   std::function<void(Subject)> when_sending{};
 };
 
-/// The steps of a window: `exchange(make, meanwhile)` lets everybody hear what everybody makes for
-/// each other, and calls `meanwhile`, if it is not empty, when all is sent; `agree` everybody's
-/// verdict. `hooks.when_final` may say where the `next` window ends.
+/// The steps of a window: `exchange(make, meanwhile)` exchanges what all peers make for each other,
+/// and calls `meanwhile`, if it is not empty, when all is sent; `agree` exchanges verdicts.
+/// `hooks.when_final` may set where the `next` window ends.
 template <class Exchange, class Agree>
 void play_steps(Peer& peer, const double& next, Exchange&& exchange, Agree&& agree,
                 const WindowHooks& hooks) {
@@ -124,24 +124,24 @@ void play_steps(Peer& peer, const double& next, Exchange&& exchange, Agree&& agr
   peer.commit(next);
 }
 
-/// Everybody's verdict to everybody, who all are there: nobody goes on before all have spoken, so a
-/// collective can carry it (Mail::share).
+/// Exchanges the verdicts of all peers, which must all be present: none continues before all have
+/// sent theirs, so a collective can carry them (Mail::share).
 void agree(Peer& peer, PeerNumber peer_count, Mail& mail);
 
 /// Plays the window that `begin` or the last call has prepared, and prepares the next, which ends
 /// at `next` [s]. All peers must do the same. Throws ProtocolError.
 void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next);
 
-/// At the end of everybody's last window: the states of the peer's own bodies.
+/// At the end of the last window: the states of the peer's own bodies.
 Handover own_bodies(const Peer& peer);
 
 /// The hash (World::hash) of the whole of `body_count` bodies, of which each of `parts` has some;
-/// nothing unless each body is in one of them.
+/// nothing unless each body is in one part.
 std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::uint32_t body_count,
                                            std::span<const Handover> parts);
 
-/// The hash of a little world that has a bit of everything: builds that differ in it would part in
-/// a simulation.
+/// The hash of a small world with all kinds of events: builds that differ in it would diverge in a
+/// simulation.
 std::uint64_t self_test_hash();
 
 }  // namespace rink::peer

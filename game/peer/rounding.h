@@ -1,4 +1,5 @@
-// Doubles as floats that are certainly no greater, or no less: what is claimed holds what is meant.
+// Rounds doubles to floats that are certainly no greater, or no less, so that claims contain the
+// exact values.
 #pragma once
 
 #include <cassert>

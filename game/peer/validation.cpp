@@ -1,4 +1,4 @@
-// Bounds that every honest message keeps, each with words for whoever did not keep it.
+// Checks the bounds that every honest message keeps, each with a text for an accusation.
 #include "game/peer/validation.h"
 
 #include <algorithm>
@@ -13,13 +13,12 @@ namespace rink::peer {
 namespace {
 
 constexpr double speed_max = 299'792'458.0;  ///< m/s: nothing in a rink outruns light
-/// Far above what a scene file may ask for (1e4 m/s^2, 1e4 1/s, 1e9 rad/s), and so low that no
-/// window makes more of it than a double holds.
+/// Far above the limits of scene files (1e4 m/s^2, 1e4 1/s, 1e9 rad/s), and so low that no window
+/// overflows a double.
 constexpr double acceleration_max = 1e6, drag_max = 1e6, spin_max = 1e12, force_max = 1e18;
 
-/// s: so much later than its window an event may come by rounding; far more than it ever does. A
-/// contact that should have ended earlier ends when it is looked at, so there is no such bound
-/// below.
+/// s: an event may be so much later than its window by rounding, far more than it ever is. A
+/// contact that should have ended earlier ends when it is checked, so there is no lower bound.
 constexpr double rounding_margin = 1e-6;
 
 bool is_within(double value, double most) { return std::abs(value) <= most; }  // no number is not
@@ -36,7 +35,7 @@ bool names(const RestContact& rest, std::uint32_t body, int axis) {
   return rest.axis == axis && (rest.low == body || rest.high == body);
 }
 
-/// Of a body that is said to be in rest contact, whether the message has the contact.
+/// True if the message has the contacts of a body that is marked as in rest contact.
 bool has_its_holds(const Handover::Body& body, const std::vector<RestContact>& rest_contacts) {
   for (const int axis : {0, 1})
     if (physics::Subdomain::is_held_along(body.state, axis) &&
@@ -70,7 +69,7 @@ bool Validator::is_place(const Vector2& place) const {
   return is_number(place) && place.cwiseAbs().maxCoeff() <= reach_;
 }
 
-/// Whether the last event is not yet to come, and the flight since then has stayed in reach.
+/// True if the last event is not in the future, and the flight since then has stayed in reach.
 bool Validator::is_on_its_way(const physics::Motion& motion, double now) const {
   if (!is_place(motion.position) || !(motion.velocity.norm() <= speed_max) ||
       !(motion.time >= 0.0 && motion.time <= now))
@@ -100,7 +99,7 @@ std::string Validator::fault_of(const Handover::Body& body, double now) const {
   if (!physics::Subdomain::is_possible(s, static_cast<std::uint32_t>(constants_of_.size())))
     return named("hands over body", body.number, "in a state that does not exist");
   physics::Motion motion = s.motion();
-  // Who is out of play stays where it is.
+  // A body out of play does not move.
   if (physics::Subdomain::is_out_of_play(s)) motion.velocity = motion.acceleration = {0.0, 0.0};
   return is_on_its_way(motion, now) && s.motion().velocity.norm() <= speed_max
              ? std::string()

@@ -1,4 +1,4 @@
-// What a message of another peer must keep to, whoever sent it: checked once, where it is received.
+// Checks the messages of other peers once, on receipt.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace rink::peer {
 
-/// What nothing that happens in a game changes of a body.
+/// The constant properties of a body.
 struct BodyConstants {
   double radius = 0.0, mass = 1.0, inverse_mass = 1.0;  ///< m, kg, 1/kg
   Vector2 half_extent{0.0, 0.0};                        ///< m
@@ -24,16 +24,15 @@ struct BodyConstants {
   friend bool operator==(const BodyConstants&, const BodyConstants&) = default;
 };
 
-/// Knows the scene, so that it can tell what no honest peer says: numbers of bodies that do not
-/// exist, numbers that are none, bodies with another radius, mass, material or kind than the scene
-/// gives them. What could be true, and is not, is not seen here: claims and digests tell of that
-/// (docs/peer-to-peer.md).
+/// Knows the scene, so that it detects what no honest peer sends: unknown bodies, NaN, bodies with
+/// another radius, mass, material or kind than in the scene. Claims and digests detect messages
+/// that are possible but false (docs/peer-to-peer.md).
 class Validator {
  public:
   explicit Validator(const physics::World& world);
 
-  /// What is wrong with the message, as in "hands over body 7 at no place"; empty if nothing is.
-  /// `now` [s] is the instant of the states in it, `end` [s] that of the window of which it tells.
+  /// The fault of a message, as in "hands over body 7 at no place"; empty if there is none. `now`
+  /// [s] is the instant of its states, `end` [s] the end of its window.
   std::string fault_of(const Handover& message, double now) const;
   std::string fault_of(const Claims& message, double end) const;
   std::string fault_of(const Verdict& message) const;

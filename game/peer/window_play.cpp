@@ -1,4 +1,4 @@
-// The steps of play_window, each begun when something from everybody is there.
+// Runs the steps of play_window, each when the messages of all peers are there.
 #include "game/peer/window_play.h"
 
 #include <algorithm>

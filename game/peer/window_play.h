@@ -1,5 +1,4 @@
-// One peer's side of a window for who must not wait: told what came, it goes on as far as that
-// reaches.
+// One peer's side of a window without waiting: it continues as far as the received messages allow.
 #pragma once
 
 #include <cassert>
@@ -17,14 +16,13 @@ namespace rink::peer {
 class WindowPlay {
  public:
   using Send = std::function<void(PeerNumber to, Subject about, std::vector<std::uint8_t> bytes)>;
-  /// `peer` and what `say` needs must outlive it.
+  /// `peer` and the data of `say` must outlive it.
   WindowPlay(Peer& peer, PeerNumber peer_count, Send say)
       : peer_(peer), peer_count_(peer_count), send_(std::move(say)), inboxes_(peer_count) {
     assert(peer.number() < peer_count && send_);
   }
 
-  /// Called when all have accepted, before anything is handed over: what the peer's own bodies are
-  /// now is final.
+  /// Called when all have accepted, before the handovers: the states of own bodies are final.
   std::function<void()> on_final;
   /// Called when the next window is prepared.
   std::function<void()> on_commit;
@@ -36,7 +34,7 @@ class WindowPlay {
   /// `from` is another peer.
   void receive(PeerNumber from, std::vector<std::uint8_t> bytes);
 
-  /// Asserts that those who were heard are counted, and that nothing is heard of the own peer.
+  /// Asserts that received messages are counted, and that none is from the own peer.
   void check() const;
 
  private:

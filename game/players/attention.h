@@ -24,7 +24,8 @@ class Nearest {
     found_.clear();
     most_ = most;
   }
-  /// `square` is that of the distance [m^2]. What is as near as another and comes later is further.
+  /// `square` is that of the distance [m^2]. Of two at equal distance the later one counts as
+  /// further.
   void show(const Thing& thing, double square) {
     if (found_.size() == most_ && (most_ == 0 || square >= found_.back().square)) return;
     if (found_.size() == most_) found_.pop_back();

@@ -50,7 +50,7 @@ class RegionSweep {
   bool still_holds(const physics::World& world, physics::BodyId body, const Swept& swept) const;
   /// A new region for `body` from world.now() on, noted in `swept`.
   im::Region region(const physics::World& world, physics::BodyId body, Swept& swept) const;
-  /// The instant from which on `swept` may hold no more though the body moves on as it did [s].
+  /// The instant [s] until which `swept` holds while the motion does not change.
   double holds_until(const Swept& swept) const { return swept.until_s - tick_s_ * (1.0 + 1e-6); }
 
  private:

@@ -16,7 +16,7 @@ void ReplicaSet::discover(rti::ObjectHandle object, rti::ObjectClassHandle objec
     known_[object] = {Kind::entity, static_cast<std::uint32_t>(entities_.size())};
     EntityReplica& entity = entities_.emplace_back();
     entity.object = object;
-    // All of them at every discovery would take time in proportion to their square.
+    // Checking all at every discovery would take quadratic time.
     if constexpr (checks_whole_structures)
       if (std::has_single_bit(entities_.size())) check();
   } else if (object_class == model_.score) {
@@ -100,7 +100,7 @@ bool ReplicaSet::reflect_entity(EntityReplica& entity, rti::AttributeSet attribu
   return true;
 }
 
-/// With linear drag g the way of a time t is v (e^(gt) - 1)/g, v being the velocity at its end.
+/// With linear drag g the way in a time t is v (e^(gt) - 1)/g, v being the velocity at its end.
 void ReplicaSet::place(EntityReplica& entity, const Position& position) const {
   const physics::Vector2 from(static_cast<double>(entity.position.x),
                               static_cast<double>(entity.position.y));
@@ -123,7 +123,7 @@ void ReplicaSet::place(EntityReplica& entity, const Position& position) const {
   entity.is_predicted = true;
 }
 
-/// Until the next one the entity goes on as one of its kind does on its own.
+/// Until the next snapshot the entity moves by its kind's own law.
 bool ReplicaSet::reflect_snapshot(rti::Reader& reader, EntityReplica& entity) const {
   Snapshot replica;
   if (!exchange(reader, replica)) return false;

@@ -1,5 +1,4 @@
-// What one federate knows of the rink: the entities in its interest as it was last told, and
-// nothing else.
+// One federate's replicas: the entities in its interest by their latest updates.
 #pragma once
 
 #include <algorithm>
@@ -18,25 +17,24 @@
 
 namespace rink::game {
 
-/// An entity as the last update that its federate received has it.
+/// An entity by the last update that its federate received.
 struct EntityReplica {
   rti::ObjectHandle object;
   Shape shape;
   Input input;
-  Position position;  ///< as last told; of those that are told trajectories, where it began
-  std::optional<Trajectory> trajectory;  ///< as last told, or begun by the last snapshot; of
-                                         ///< entities that are told either
-  physics::Motion motion;                ///< the law it stands for
+  Position position;  ///< by the last update; with trajectories, where the last one began
+  std::optional<Trajectory> trajectory;  ///< by the last update, or begun by the last snapshot; for
+                                         ///< entities updated by either
+  physics::Motion motion;                ///< the law of the trajectory
   rti::Stamp stamp;                      ///< of the newest update
-  double placed_s = 0.0;                 ///< of what is told positions: the instant of the last
-  bool is_predicted = false;  ///< of what is told positions: `motion` leads on from the last
-  bool is_placed = false;  ///< it was told where it is since it last left: who discovers an entity,
-                           ///< or has it again, may hear that later
-  bool in_scope =
-      false;  ///< false: it left the federate's interest, the rest is what was true then
+  double placed_s = 0.0;                 ///< with positions: the instant of the last one
+  bool is_predicted = false;  ///< with positions: `motion` extrapolates from the last one
+  bool is_placed = false;  ///< its position came since it last left; on entry the position may come
+                           ///< later
+  bool in_scope = false;   ///< false: it left the federate's interest, and the rest is outdated
 
-  /// Where the federate believes its centre to be at simulated `instant` [s]: on its trajectory if
-  /// it was told one, else ahead of where it was last told, or there.
+  /// The believed place of its centre at simulated `instant` [s]: on its trajectory if it has one,
+  /// else extrapolated from the last position, or there.
   physics::Vector2 position_at(double instant) const {
     if (is_predicted) return motion.at(std::max(instant, motion.time)).position;
     if (!trajectory) return {static_cast<double>(position.x), static_cast<double>(position.y)};
@@ -60,9 +58,9 @@ class ReplicaSet {
         trajectory_{model.trajectory},
         snapshot_{model.snapshot} {}
 
-  /// From now on entities that are told positions are predicted by the velocity between the last
-  /// two. One that went faster than `predicted_speed_max` was put elsewhere, and of two that lie
-  /// further apart than `predicted_gap_max` the older says nothing of how it moves.
+  /// Predicts entities that are updated by positions by the velocity between the last two from now
+  /// on. One faster than `predicted_speed_max` was moved by the rules, and two positions further
+  /// apart than `predicted_gap_max` give no velocity.
   void extrapolate() { extrapolates_ = true; }
   static constexpr double predicted_speed_max = 50.0;  ///< m/s
   static constexpr double predicted_gap_max = 1.0;     ///< s
@@ -73,30 +71,30 @@ class ReplicaSet {
   void set_scope(rti::ObjectHandle object, bool in_scope);
   void remove(rti::ObjectHandle object);
 
-  /// The entity called `object`, or null if the federate never heard of it or it was removed. Valid
+  /// The entity of `object`, or null if the federate never discovered it or it was removed. Valid
   /// until the next discovery or removal.
   const EntityReplica* find(rti::ObjectHandle object) const;
-  /// All that were heard of and not removed, in scope or not, in no particular order.
+  /// All discovered entities that were not removed, in scope or not, in no particular order.
   std::span<const EntityReplica> entities() const { return entities_; }
 
   const Goals& goals() const { return goals_; }
   const std::optional<Extent>& field() const { return field_; }
   const Drag& drag() const { return drag_; }
-  /// Of a hosted match; number 0 before it was heard of.
+  /// The state of a hosted match; number 0 before the first update.
   const MatchState& match() const { return match_; }
   const std::string& match_scene() const { return match_scene_; }
-  double match_tick() const { return match_tick_; }  ///< s; 0 before it was heard of
+  double match_tick() const { return match_tick_; }  ///< s; 0 before the first update
   bool has_match() const { return has_match_; }
   const rti::Stamp& newest() const {
     return newest_;
   }  ///< the stamp of the newest update of any object
   const ReplicaCounters& counters() const { return counters_; }
-  /// Of tables, the set itself not counted.
+  /// Memory of tables, without the set itself [bytes].
   std::size_t memory_bytes() const {
     return known_.memory_bytes() + entities_.capacity() * sizeof(EntityReplica);
   }
 
-  /// Asserts that each entity is found where it is kept, and nothing else is taken for one.
+  /// Asserts that each entity is found at its place, and nothing else.
   void check() const;
 
  private:

@@ -1,4 +1,4 @@
-// Rounding of trajectories, and how long a rounded one stays near the body that it stands for.
+// Rounds trajectories, and finds how long a rounded one stays near its body.
 #include "game/replication/trajectory.h"
 
 #include <algorithm>
@@ -42,9 +42,9 @@ Resistance own_resistance(const physics::World& world, physics::BodyId body) {
       .of(world.kind(body));
 }
 
-/// What drives the body besides friction, which every receiver works out from its velocity: nothing
-/// else drives a puck that slides on its own (and will thus have come to rest at a known time). One
-/// that a bat pushes has a law of its own.
+/// The acceleration of the body besides friction, which receivers derive from its velocity: 0 for a
+/// puck that slides freely (and thus comes to rest at a known time). One that a bat pushes has its
+/// own law.
 Vector2 thrust_of(const Motion& motion, const Resistance& own) {
   return own.friction > 0.0 && std::isfinite(motion.rest_time) ? Vector2(0.0, 0.0)
                                                                : motion.acceleration;
@@ -123,8 +123,8 @@ double holds_until(const physics::World& world, physics::BodyId body, const Traj
                : never;
   const Motion motion = world.motion(body), law = motion_of(sent, own);
   const Vector2 thrust = thrust_of(motion, own);
-  // One that was told to rest has no law yet: a body that creeps on without thrust is compared with
-  // its own.
+  // A trajectory at rest has no law: a body that creeps on without acceleration is compared by its
+  // own law.
   const bool is_sent_to_rest = sent.is_resting();
   if (is_sent_to_rest ? !thrust.isZero(0.0)
                       : sent.acceleration != single_precision(thrust) ||

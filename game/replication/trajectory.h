@@ -1,5 +1,5 @@
-// The law by which an entity moves until it is told otherwise: what goes out instead of positions
-// under "on-event" and the dead-reckoning policies.
+// The law by which an entity moves until the next update, which the policy "on-event" and the
+// dead-reckoning policies send instead of positions.
 #pragma once
 
 #include <bit>
@@ -10,9 +10,9 @@
 
 namespace rink::game {
 
-/// A physics::Motion as receivers get it; its acceleration is that of thrust alone, for friction
-/// follows from the velocity. Its time is a multiple of `trajectory_time_step`, so it may start a
-/// little before the event that it follows.
+/// A physics::Motion as receivers get it; its acceleration excludes friction, which follows from
+/// the velocity. Its time is a multiple of `trajectory_time_step`, so it may start a little before
+/// the event that it follows.
 struct Trajectory {
   static constexpr double of_its_kind =
       -1.0;           ///< a drag that the receiver knows: that of all pucks, or of all bats
@@ -23,13 +23,13 @@ struct Trajectory {
   bool is_resting() const { return velocity.isZero(0.0) && acceleration.isZero(0.0); }
 };
 
-/// What slows all entities of a kind down.
+/// The resistance of all entities of a kind.
 struct Resistance {
   double drag = 0.0;      ///< linear [1/s]
   double friction = 0.0;  ///< Coulomb's, with the table [m/s^2]
 };
 
-/// The resistance of pucks and of bats, as the field tells it.
+/// The drag of pucks and of bats, as the field's object has it.
 struct Drag {
   double pucks = 0.0, bats = 0.0;  ///< 1/s
   double puck_friction = 0.0;      ///< m/s^2
@@ -57,16 +57,16 @@ bool exchange(Stream& stream, Trajectory& t) {
   return is_drag(t.drag.x()) && is_drag(t.drag.y());
 }
 
-/// What is rounded, and how finely. All are powers of two, so that rounded values are exact in
-/// every form in which they are kept.
+/// The steps of rounding. All are powers of two, so that rounded values are exact in every
+/// encoding.
 inline constexpr double trajectory_time_step = 0x1p-4;       ///< s
 inline constexpr double trajectory_position_step = 0x1p-11;  ///< m; rounds by at most 0.244 mm
 inline constexpr double trajectory_velocity_step = 0x1p-11;  ///< m/s; rounds by at most 0.244 mm/s
 /// No receiver's trajectory is further than this from the body at any tick [m]: one that rounding
-/// leads astray is sent again before.
+/// leads away is sent again before.
 inline constexpr double trajectory_error_max = 1e-3;
-/// Nor is any older than this [s], so that a receiver who hears of it late can tell which one of
-/// the times it may mean (docs/replication.md).
+/// No trajectory is older than this [s], so that a receiver can resolve its abbreviated time
+/// (docs/replication.md).
 inline constexpr double trajectory_age_max = 12.0;
 
 /// The double that is no finer than single precision nearest to `value`, of ordinary size. By its
@@ -82,18 +82,18 @@ inline physics::Vector2 single_precision(const physics::Vector2& value) {
 /// The trajectory of `body` at world.now(), rounded. It rests if the body is out of play.
 Trajectory trajectory_of(const physics::World& world, physics::BodyId body);
 
-/// What a receiver is told of a body at `position` [m] with `velocity` [m/s] at `now` [s] who is to
-/// let it go on with `own` resistance and no thrust; rounded.
+/// The rounded trajectory for a receiver that extrapolates a body at `position` [m] with `velocity`
+/// [m/s] at `now` [s] with `own` resistance and no acceleration.
 Trajectory extrapolation_of(const physics::Vector2& position, const physics::Vector2& velocity,
                             double now, const Resistance& own);
 
-/// The law that a receiver who knows the `own` resistance of the entity's kind follows; it must not
-/// be asked for instants before its time.
+/// The law that a receiver follows by the `own` resistance of the entity's kind; it is not valid
+/// before its time.
 physics::Motion motion_of(const Trajectory& trajectory, const Resistance& own);
 
-/// The last instant up to which `sent` is within `trajectory_error_max` of `body` if nothing
-/// happens to it, and no older than `trajectory_age_max`; before world.now() if `sent` has the
-/// wrong law or is too far off already.
+/// The last instant up to which `sent` is within `trajectory_error_max` of `body` without events,
+/// and no older than `trajectory_age_max`; before world.now() if `sent` has the wrong law or is too
+/// far off already.
 double holds_until(const physics::World& world, physics::BodyId body, const Trajectory& sent);
 
 }  // namespace rink::game

@@ -22,7 +22,7 @@ enum Form : std::uint8_t { resting, near, wide, full, driven = 7 };
 constexpr unsigned form_bits = 2, time_bits = 8, near_position_bits = 17, near_velocity_bits = 14,
                    wide_position_bits = 24, wide_velocity_bits = 20;
 constexpr double near_origin =
-    1.0;  // m: what leaves play is up to so far outside the field, on the low side
+    1.0;  // m: bodies out of play are up to so far outside the field, on the low side
 constexpr double time_window = (1u << time_bits) * trajectory_time_step;  // s: 16
 constexpr double time_ahead =
     0.5;  // s: a trajectory may start so far after the time by which it is read
@@ -36,7 +36,7 @@ void put(BitWriter& bits, std::uint64_t value, unsigned count) {
   assert(count > 0 && count < 64);
   bits.bits(value & ((std::uint64_t{1} << count) - 1), count);
 }
-/// Must not be asked for more than is there.
+/// `count` bits must be left.
 std::uint64_t get(BitReader& bits, unsigned count) {
   std::uint64_t value = 0;
   [[maybe_unused]] const bool is_there = bits.bits(value, count);
@@ -88,7 +88,7 @@ bool is_single(double value) {
 }
 bool is_single(const Vector2& value) { return is_single(value.x()) && is_single(value.y()); }
 
-/// As one or two held keys push: equally hard along both axes, or along one only.
+/// True for the acceleration of one or two held keys: equal along both axes, or along one only.
 bool is_push(const Vector2& acceleration) {
   const Vector2 size = acceleration.cwiseAbs();
   return !acceleration.isZero(0.0) && (size.x() == size.y() || size.x() == 0.0 || size.y() == 0.0);
@@ -118,7 +118,7 @@ void append(std::vector<std::byte>& bytes, Trajectory t) {
   assert(is_sound);
 }
 
-/// What is not rounded may be anything when it comes from a stranger.
+/// Unrounded values are not trusted.
 bool has_sound_law(const Trajectory& t) {
   const auto is_drag = [](double drag) {
     return (std::isfinite(drag) && drag >= 0.0) || drag == Trajectory::of_its_kind;
@@ -148,7 +148,7 @@ constexpr unsigned push_bits = 2, push_short_at = 3 + time_bits + 2 * near_posit
 constexpr std::size_t driven_size = 10;  // and two or four bytes of acceleration
 static_assert(push_short_at < 8 * driven_size);
 
-/// Along each axis 0, 1 forwards or 2 backwards; then how hard: the upper half of a float if the
+/// Along each axis 0, 1 forwards or 2 backwards; then the size: the upper half of a float if the
 /// lower one is 0.
 void encode_push(const Vector2& acceleration, BitWriter& bits, std::vector<std::byte>& coded) {
   assert(is_push(acceleration));
@@ -201,7 +201,7 @@ bool decode_law(rti::Bytes coded, bool has_acceleration, const bool (&is_own)[2]
   return reader.is_at_end();
 }
 
-/// As its first bytes tell, whether or not the rest is there.
+/// The size by the first bytes, whether or not the rest is there.
 std::optional<std::size_t> sent_size(rti::Bytes coded) {
   if (coded.empty()) return std::nullopt;
   const unsigned first = static_cast<unsigned>(coded[0]),

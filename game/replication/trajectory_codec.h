@@ -1,4 +1,4 @@
-// The form in which trajectories travel: bits instead of nine doubles, and not a bit of difference.
+// The lossless encoding of trajectories on the wire, as bits instead of nine doubles.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ class TrajectoryCodec : public rti::AttributeCodec {
 
 /// The object model at `path` with Rink's codecs. Throws rti::FileError.
 rti::Fom load_rink_fom(const std::string& path);
-/// The same from several modules, which merge.
+/// Loads several modules, which merge.
 rti::Fom load_rink_fom(std::span<const std::string> paths);
 
 }  // namespace rink::game

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
-/// Neither in motion nor under thrust; a scored puck lies where it left play.
+/// True of a body that neither moves nor is accelerated; a scored puck stays where it left play.
 bool stays(const Game& game, const Entity& entity) {
   return !game.world().is_in_play(entity.id) || game.world().is_resting(entity.id);
 }
@@ -46,8 +46,8 @@ Snapshot snapshot_of(const physics::World& world, physics::BodyId body) {
   return snapshot;
 }
 
-/// Sends where every moving body is and how fast, every tick: delta snapshots, for the RTI tells
-/// each receiver the difference to what the velocity predicted from a state that it acknowledged.
+/// Sends place and velocity of every moving body, every tick: delta snapshots, since the RTI sends
+/// each receiver the difference to the prediction from an acknowledged state.
 class Snapshots : public UpdatePolicy {
  public:
   rti::AttributeHandle motion_attribute(const ObjectModel& model) const override {
@@ -72,8 +72,8 @@ class Snapshots : public UpdatePolicy {
   std::vector<Snapshot> last_sent_;  ///< by entity
 };
 
-/// Sends where a body is, how fast and by which law when the one told last no longer predicts it;
-/// between, receivers evaluate the engine's own closed form.
+/// Sends a body's place, velocity and law when the last one no longer predicts it; in between,
+/// receivers evaluate the engine's own closed form.
 class OnEvent : public UpdatePolicy {
  public:
   rti::AttributeHandle motion_attribute(const ObjectModel& model) const override {
@@ -86,8 +86,7 @@ class OnEvent : public UpdatePolicy {
     LastSent& last_sent = last_sent_[entity.id.index];
     const std::uint32_t version = game.world().motion_version(entity.id);
     if (version == last_sent.version && game.now() <= last_sent.until_s) return false;
-    // An event that changes next to nothing, as those of bodies pressed to each other, need not be
-    // told.
+    // An event that changes almost nothing, as those of bodies pressed to each other, is not sent.
     last_sent.version = version;
     last_sent.until_s = holds_until(game.world(), entity.id, last_sent.trajectory);
     return last_sent.until_s < game.now() + worthwhile_s;
@@ -107,7 +106,7 @@ class OnEvent : public UpdatePolicy {
 
  private:
   static constexpr double worthwhile_s =
-      0.1;  ///< one that is to be replaced so soon may as well be replaced now
+      0.1;  ///< a trajectory that must be replaced so soon is replaced now
   struct LastSent {
     std::uint32_t version = 0;
     double until_s = 0.0;
@@ -116,9 +115,9 @@ class OnEvent : public UpdatePolicy {
   std::vector<LastSent> last_sent_;  ///< by entity
 };
 
-/// Sends where a body is and how fast when receivers, who let it go on from what they were told
-/// last, are off by more than a threshold (IEEE 1278.1-2012, 4.2.2 and annex E). They know of no
-/// thrust; of drag only if the field tells them.
+/// Sends a body's place and velocity when the extrapolation of receivers from the last update is
+/// off by more than a threshold (IEEE 1278.1-2012, 4.2.2 and annex E). They know no acceleration,
+/// and drag only from the field's object.
 class DeadReckoning : public UpdatePolicy {
  public:
   DeadReckoning(double threshold, bool knows_drag)

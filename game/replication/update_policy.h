@@ -1,5 +1,5 @@
-// When an entity's motion is sent, and as what. Each policy is one class; the publisher asks it
-// at each tick about whom the answer may have changed.
+// Decides when and in which form an entity's motion is sent. Each policy is one class; the
+// publisher asks it at each tick about entities whose answer may have changed.
 #pragma once
 
 #include <memory>
@@ -13,22 +13,22 @@
 
 namespace rink::game {
 
-/// Decides, for every entity and tick, whether its motion goes out.
+/// Decides, for every entity and tick, whether its motion is sent.
 class UpdatePolicy {
  public:
   virtual ~UpdatePolicy() = default;
   /// The attribute of Entity that holds the motion.
   virtual rti::AttributeHandle motion_attribute(const ObjectModel& model) const = 0;
-  /// Asked of entities that were written before.
+  /// Called for entities that were written before.
   virtual bool is_due(const Game& game, const Entity& entity) = 0;
-  /// Until when [s] the entity is not due, if its motion goes on as it does: infinity if that is
-  /// all that can change it, game.now() or less if it is to be asked about at the next tick. Asked
+  /// The time [s] until which the entity is not due while its motion does not change: infinite if
+  /// only that can make it due, game.now() or less if it must be checked at the next tick. Called
   /// after `is_due` was false, and after `write`.
   virtual double quiet_until(const Game& game, const Entity& entity) const = 0;
-  /// Appends that attribute's value as of game.now(), which is sent: the first time for an entity
-  /// that is new, later when it is due.
+  /// Appends that attribute's value as of game.now(), which is sent: first for a new entity, later
+  /// when it is due.
   virtual void write(const Game& game, const Entity& entity, rti::Writer& value) = 0;
-  /// What slows bodies down, as receivers are told it to work out where they are between updates.
+  /// The drag that receivers are sent for their extrapolation.
   virtual Drag sent_drag(const physics::WorldSpec& spec) const {
     return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction};
   }
@@ -38,8 +38,8 @@ class UpdatePolicy {
 inline constexpr double threshold_default = 0.005;
 
 struct UpdatePolicySettings {
-  double threshold = threshold_default;  ///< of the dead-reckoning policies: how far receivers may
-                                         ///< be off before they are told anew [m], above 0
+  double threshold = threshold_default;  ///< of the dead-reckoning policies: the error of receivers
+                                         ///< at which an update is sent [m], above 0
 };
 
 /// The policy called `name`, or nothing if there is none. Names: see `update_policy_names`.

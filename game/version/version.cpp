@@ -1,4 +1,4 @@
-// Alone with the header that changes at each commit, so that only this is compiled again.
+// The only source that includes the header of the commit, so that a commit recompiles this alone.
 #include "game/version/version.h"
 
 #include <build_facts.h>

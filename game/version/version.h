@@ -1,4 +1,4 @@
-// Which program this is: version, commit and compiler flags, the same for every command.
+// The version, commit and compiler flags of the program, for every command.
 #pragma once
 
 #include <string>

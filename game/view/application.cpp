@@ -1,4 +1,4 @@
-// Matches from start to end, wishes to whoever can fulfil them, and a picture of it all.
+// Starts and ends matches, carries out menu choices, and draws the window.
 #include "game/view/application.h"
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 namespace rink::view {
 namespace {
 
-/// The own bat, what is asked of in a crowd, or else the puck.
+/// The thing that the camera follows: the own bat, the inspected thing in a crowd, or else the
+/// puck.
 const Thing* followed_by(const MatchSight& sight, const InterestChoice& interest) {
   if (!sight.own_team && sight.interest) return asked_thing(sight, interest);
   if (sight.own_thing) {
@@ -26,7 +27,7 @@ const Thing* followed_by(const MatchSight& sight, const InterestChoice& interest
   return found != sight.things.end() ? &*found : nullptr;
 }
 
-/// Where a replay is, how fast, and what its keys do.
+/// A line with a replay's time, speed and keys.
 Text replay_line(const game::ReplayMatch& replay) {
   char words[160];
   std::snprintf(
@@ -52,7 +53,7 @@ void Application::start(const MatchWish& wish) {
   view_ = {};
   phase_.reset();
   follows_ = is_told_ = false;
-  interest_.is_shown = wish.kind != MatchWish::Kind::peer;  // who plays wants to see the game
+  interest_.is_shown = wish.kind != MatchWish::Kind::peer;  // a player wants to see the game
 }
 
 void Application::play(const MatchWish& wish) {
@@ -86,14 +87,14 @@ void Application::do_wish(const MenuWish& wish) {
     surroundings_.save_settings(settings_);
 }
 
-/// Two who share the keyboard see the table each from the own end, unless they chose a camera for
-/// both.
+/// Two players at one keyboard see the table each from their own end, unless they chose a camera
+/// for both.
 bool Application::is_split() const {
   return settings_.is_split && !chosen_viewpoint_ && match_->hand_count() == 2 &&
          wish_.kind != MatchWish::Kind::bots;
 }
 
-/// Where the player `hand` of this keyboard sees the table from.
+/// The viewpoint of the player `hand` of this keyboard.
 Viewpoint Application::viewpoint_of(std::uint32_t hand) const {
   assert(hand < 2);
   if (!is_split()) return view_.viewpoint;
@@ -128,7 +129,7 @@ void Application::follow_phase() {
     menu_.open(Menu::Screen::paused);
   else if (phase_ == Phase::paused && sight.phase != Phase::paused &&
            menu_.screen() == Menu::Screen::paused)
-    menu_.open(Menu::Screen::none);  // somebody went on
+    menu_.open(Menu::Screen::none);  // a player resumed the match
   phase_ = sight.phase;
 }
 
@@ -154,7 +155,7 @@ ViewChoice Application::view(const MatchSight& sight, double now_s) {
   return choice;
 }
 
-/// The whole window, or beside each other what each of two players sees.
+/// Draws the whole window, or the views of two players beside each other.
 void Application::draw_views(Interface& interface, Renderer* renderer, const Canvas& canvas,
                              double now_s) {
   const MatchSight& sight = match_->sight();

@@ -1,5 +1,5 @@
-// What a window shows and does from start to end: menus, matches, keys. Knows no window, no clock
-// and no OpenGL context of its own.
+// The application in a window: menus, matches, keys. Knows no window, no clock and no OpenGL
+// context of its own.
 #pragma once
 
 #include <functional>
@@ -18,10 +18,11 @@
 
 namespace rink::view {
 
-/// What the application cannot do itself. Every function may be empty but `make_match`.
+/// Services that the application needs from its process. Every function may be empty but
+/// `make_match`.
 struct Surroundings {
   std::function<std::unique_ptr<MatchSource>(const MatchWish&)>
-      make_match{};  ///< throws std::exception with what is to be told
+      make_match{};  ///< throws std::exception with a text for the player
   std::function<void(bool)> set_full_screen{};
   std::function<void(const Settings&)> save_settings{};
   std::function<void(const std::vector<Noise>&, const Settings&)> sound{};
@@ -32,25 +33,25 @@ class Application {
  public:
   Application(Surroundings surroundings, const Settings& settings);
 
-  /// Starts a match instead of showing the menu; once it ends the menu is shown. What goes wrong is
-  /// explained there.
+  /// Starts a match instead of showing the menu; once it ends the menu is shown, with an error if
+  /// there was one.
   void play(const MatchWish& wish);
-  /// Explained in the menu and told.
+  /// Shows an error in the menu and reports it.
   void explain(const std::string& error);
   void set_viewpoint(Viewpoint viewpoint) { chosen_viewpoint_ = viewpoint; }
 
   void show_figures() { shows_figures_ = true; }
 
-  /// Takes effect when the next instant is drawn, or one after it: each press is seen by one
-  /// drawing at least (event_queue.h).
+  /// Takes effect at the next drawing or a later one, so that each press is visible in one drawing
+  /// at least (event_queue.h).
   void receive(const WindowEvent& event) { events_.push(event); }
   /// Draws the instant `now_s` [s], which never falls; an Interface, and so a context of OpenGL,
-  /// must exist. Without a renderer the instant passes unseen: nothing is drawn.
+  /// must exist. Without a renderer nothing is drawn.
   void draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas,
             double now_s);
 
   bool wants_to_quit() const { return wants_to_quit_; }
-  /// Of a match that was started by play(): true once it is over or gone.
+  /// True once a match that was started by play() is over or gone.
   bool is_in_menu() const { return wish_.kind == MatchWish::Kind::bots; }
   const MatchSight& sight() const { return match_->sight(); }
 
@@ -103,7 +104,7 @@ class Application {
   InterestChoice interest_;
   std::optional<Phase> phase_;  ///< of the last frame
   bool shows_figures_ = false, follows_ = false;
-  bool is_told_ = false;  ///< what a replay has to say of itself
+  bool is_told_ = false;  ///< whether a replay's result was reported
   Mouse mouse_;
   WindowSize size_;
   double last_s_ = -1.0, frame_s_ = 1.0 / 60.0;

@@ -1,4 +1,4 @@
-// Keys to the match, to the menu or to the camera, and what the mouse does to the view.
+// Routes keys to the match, the menu or the camera, and handles the mouse.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace rink::view {
 namespace {
 
-constexpr double click_reach = 8.0;  ///< pixels: so far the mouse may move in a click, and may miss
+constexpr double click_reach = 8.0;  ///< pixels: tolerance of a click's motion and target
 
 }  // namespace
 
@@ -20,7 +20,7 @@ EventQueue::Pace Application::pace() const {
   return menu_.is_ready() ? EventQueue::Pace::menu : EventQueue::Pace::opening;
 }
 
-/// What this drawing is to see of what was done.
+/// Handles the events of this drawing.
 void Application::hear_events(Interface& interface) {
   using Kind = WindowEvent::Kind;
   events_.begin_frame();
@@ -55,7 +55,7 @@ void Application::set_split(bool is_wanted) {
   do_wish({MenuWish::Kind::settings_changed, {}});
 }
 
-/// Keys that steer the window; those of the bats come first.
+/// Handles keys of the window; those of the bats come first.
 bool Application::hear_command(KeyCode code) {
   if (hear_replay(code)) return true;
   switch (code) {
@@ -102,8 +102,8 @@ bool Application::hear_command(KeyCode code) {
   }
 }
 
-/// A recorded match: space stops it, left and right seek, up and down change its speed, home is its
-/// start.
+/// Handles keys of a recorded match: space pauses, left and right seek, up and down change its
+/// speed, home is its start.
 bool Application::hear_replay(KeyCode code) {
   auto* replay = dynamic_cast<game::ReplayMatch*>(match_.get());
   if (replay == nullptr) return false;
@@ -132,7 +132,8 @@ bool Application::hear_replay(KeyCode code) {
   }
 }
 
-/// Seen from above: the wheel zooms, dragging moves what is seen, a click asks of what is there.
+/// Handles the mouse in the view from above: the wheel zooms, dragging moves the view, a click
+/// inspects a thing.
 void Application::hear_mouse(const WindowEvent& event) {
   using Kind = WindowEvent::Kind;
   if (event.kind == Kind::scroll)
@@ -179,8 +180,7 @@ void Application::click() {
     interest_.picked = thing;
 }
 
-/// One who plays alone may use either set of keys; each key means what it looks like from where the
-/// player sees the table.
+/// A single player may use either set of keys; directions are those of the player's view.
 void Application::press(KeyCode code, const Bound& meaning) {
   const std::uint32_t hand = match_->hand_count() == 1 ? 0 : meaning.hand;
   assert(hand < match_->hand_count());

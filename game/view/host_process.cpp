@@ -1,4 +1,4 @@
-// The server's first line says whether it listens.
+// Starts the server; its first line shows whether it listens.
 #include "game/view/host_process.h"
 
 #include <algorithm>
@@ -12,13 +12,14 @@
 namespace rink::view {
 namespace {
 
-constexpr std::chrono::seconds farewell{10};  // far more than it takes to write a match's record
+constexpr std::chrono::seconds farewell{10};  // far more than writing a match's record takes
 
 std::string server_path() {
   return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rink-serve").string();
 }
 
-/// Asked to end, not killed, when its owner is gone: its records are to be whole.
+/// The server is asked to end, not killed, when its owner is gone, so that its records are
+/// complete.
 game::Process started(const std::vector<std::string>& arguments) try {
   return game::Process(server_path(), arguments,
                        {.signal_when_orphaned = SIGTERM, .joins_errors = true});

@@ -15,7 +15,7 @@
 namespace rink::view {
 namespace {
 
-/// Where distributions put DejaVu; without it Dear ImGui's own small font is enlarged.
+/// The places of DejaVu in distributions; without it Dear ImGui's own small font is enlarged.
 constexpr std::array font_files{"/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
                                 "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans-Bold.ttf",
                                 "/usr/share/fonts/TTF/DejaVuSans-Bold.ttf"};

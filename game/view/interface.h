@@ -13,7 +13,7 @@ struct ImGuiContext;
 
 namespace rink::view {
 
-/// At most one at a time, and only while a context of OpenGL is current.
+/// At most one exists at a time, and only while a context of OpenGL is current.
 class Interface {
  public:
   Interface();
@@ -25,9 +25,9 @@ class Interface {
   /// Between begin and finish the widgets of Dear ImGui may be called. `elapsed_s` since the last
   /// begin.
   void begin(const WindowSize& size, double elapsed_s);
-  /// Texts and darkness of `picture`, under all widgets.
+  /// Draws texts and dimming of `picture`, under all widgets.
   void draw(const Picture& picture);
-  /// Draws widgets and texts over what the canvas shows, if it is seen.
+  /// Draws widgets and texts over the canvas, if it is visible.
   void finish(const Canvas& canvas, bool is_seen);
 
   /// True while widgets take the keyboard for a text.
@@ -36,14 +36,14 @@ class Interface {
   ImFont* small_font() const { return fonts_[0]; }
   ImFont* menu_font() const { return fonts_[1]; }
   ImFont* title_font() const { return fonts_[2]; }
-  /// Pixels per 720th of the window's height: what menus measure in.
+  /// Pixels per 720th of the window's height, the unit of menus.
   float unit() const { return unit_; }
 
  private:
   void make_fonts(float step);
   ImGuiContext* context_;
   ImFont* fonts_[3] = {};
-  float font_step_ = 0.0f;  ///< what the fonts were made for
+  float font_step_ = 0.0f;  ///< the unit that the fonts were made for
   float unit_ = 1.0f;
 };
 

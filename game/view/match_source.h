@@ -1,4 +1,4 @@
-// The view's names for what it shows.
+// The view's names of the types that it shows.
 #pragma once
 
 #include "game/match/match_source.h"

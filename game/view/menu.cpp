@@ -47,7 +47,7 @@ bool Menu::take_key(KeyCode code, Settings& settings, MenuWish& wish) {
     KeyCode& place = settings.keys[binding.hand][binding.key];
     if (const auto other = bound(settings, code))
       settings.keys[other->hand][static_cast<std::size_t>(other->key)] =
-          place;  // keys change places, so that none has two meanings
+          place;  // keys are swapped, so that none has two meanings
     place = code;
     wish.kind = MenuWish::Kind::settings_changed;
     return true;

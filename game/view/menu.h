@@ -1,5 +1,5 @@
-// The screens between matches: what to play, settings, pause, the end of a match. They say what the
-// player wishes; somebody else does it.
+// The screens between matches: what to play, settings, pause, the end of a match. They report the
+// player's choice; the application carries it out.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 
 namespace rink::view {
 
-/// What to play.
+/// The match to play.
 struct MatchWish {
   enum class Kind : std::uint8_t { two, bot, host, join, watch, replay, peer, bots };
   Kind kind = Kind::two;
   std::string strength = "club";  ///< of a bot: one of bot_strengths
   std::string address{};  ///< HOST:PORT of join and watch, PORT of host, the file of a replay,
-                          ///< HOST:PORT of a peer that is there or nothing
+                          ///< HOST:PORT of a running peer or empty
 };
 
 inline constexpr std::array<const char*, 3> bot_strengths{"beginner", "club", "expert"};
 
-/// What was chosen in a frame.
+/// The choice in a frame.
 struct MenuWish {
   enum class Kind : std::uint8_t {
     nothing,
@@ -45,16 +45,16 @@ class Menu {
   enum class Screen : std::uint8_t { none, main, bot, host, join, watch, settings, paused, over };
 
   Screen screen() const { return screen_; }
-  /// Whether the screen has been drawn so often that its first button has the focus: a key before
-  /// that would go nowhere.
+  /// True if the screen has been drawn often enough for its first button to have the focus: earlier
+  /// keys would be lost.
   bool is_ready() const { return drawn_ >= 2; }
   void open(Screen screen);
-  /// Back to the main menu with what went wrong.
+  /// Returns to the main menu with an error.
   void explain(const std::string& error);
-  /// Also shown there, until something is chosen.
+  /// The error there, shown until something is chosen.
   const std::string& error() const { return error_; }
 
-  /// True if the key was taken: to be bound, or to go back. Down only.
+  /// True if the key was used: for a binding, or to go back. Only for keys that go down.
   bool take_key(KeyCode code, Settings& settings, MenuWish& wish);
 
   /// Between Interface::begin and finish. Changes `settings` as the player wants.

@@ -1,4 +1,4 @@
-// Cameras, colours and heights of the match, and the words over it.
+// Cameras, colours and heights of the match, and the texts over it.
 #include "game/view/picture_of.h"
 
 #include <algorithm>
@@ -189,7 +189,7 @@ Camera camera_of(const physics::Field& field, const ViewChoice& choice, double a
     camera.centre_y = static_cast<float>(choice.centre.y() * field.width);
     return camera;
   }
-  // Narrow windows see the table from further away; from an end it takes less of their width.
+  // Narrow windows show the table from further away; from an end it takes less of their width.
   const float away = std::max(
       1.0f, static_cast<float>((choice.viewpoint == Viewpoint::side ? 1.6 : 1.12) / aspect));
   if (choice.viewpoint == Viewpoint::side) {

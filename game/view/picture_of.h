@@ -1,4 +1,4 @@
-// From what there is to what is to be drawn: a pure function.
+// Turns a match's sight into a picture: a pure function.
 #pragma once
 
 #include "game/view/match_source.h"
@@ -6,10 +6,10 @@
 
 namespace rink::view {
 
-/// From where a match is seen.
+/// The place from which a match is seen.
 enum class Viewpoint : std::uint8_t { left_end, right_end, side, above };
 
-/// What the player chose to see.
+/// The player's choice of the view.
 struct ViewChoice {
   Viewpoint viewpoint = Viewpoint::side;
   double zoom = 1.0;          ///< from above: 1 shows the whole field, more shows less of it
@@ -27,12 +27,11 @@ Colour colour_of(game::Team team);
 /// `aspect` is width by height of the window.
 Camera camera_of(const physics::Field& field, const ViewChoice& choice, double aspect);
 
-/// `overlay` lies over the table as it is.
+/// `overlay` is drawn over the table unchanged.
 Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewChoice& choice,
                    double aspect);
 
-/// The key of the field that the player's key means who sees the field from `viewpoint`: forward is
-/// away from the player.
+/// The field's key for a player's key seen from `viewpoint`: forward is away from the player.
 game::Key seen_from(Viewpoint viewpoint, game::Key key);
 
 }  // namespace rink::view

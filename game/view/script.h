@@ -18,7 +18,7 @@ class ScriptError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What is to happen `time` seconds after the first frame.
+/// An action `time` seconds after the first frame.
 struct ScriptStep {
   double time = 0.0;
   std::vector<WindowEvent> events;
@@ -32,7 +32,7 @@ struct ScriptStep {
 std::vector<ScriptStep> parse_script(std::string_view text, const std::string& file);
 std::vector<ScriptStep> read_script(const std::string& file);
 
-/// The steps from `next` on that are due at `now` [s]; moves `next` behind them.
+/// The steps from `next` on that are due at `now` [s]; moves `next` past them.
 std::span<const ScriptStep> due_steps(const std::vector<ScriptStep>& steps, std::size_t& next,
                                       double now);
 

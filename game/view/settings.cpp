@@ -1,4 +1,4 @@
-// Reads what it can of the settings' file and says what it cannot.
+// Reads the settings' file as far as possible, and reports the faults.
 #include "game/view/settings.h"
 
 #include <toml++/toml.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr const char* how_called =
     "' (keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...)";
 constexpr std::array<const char*, 2> player_tables{"left", "right"};
-constexpr std::size_t errors_max = 4;  ///< said at once; they are to fit on a small screen
+constexpr std::size_t errors_max = 4;  ///< shown at once; they must fit on a small screen
 constexpr std::uintmax_t file_largest = 1u << 20;  ///< bytes
 
 class Reader {
@@ -185,7 +185,8 @@ std::optional<std::string> set_settings_aside(const std::string& file) {
                  : std::optional("what stood in '" + file + "' is kept as '" + file + ".old'");
 }
 
-/// By way of a second file: one who is interrupted here has the old settings or the new ones.
+/// Writes to a second file and renames it, so that an interruption leaves the old settings or the
+/// new ones.
 std::optional<std::string> write_settings(const Settings& settings, const std::string& file) {
   if (file.empty()) return "the settings cannot be kept: neither XDG_CONFIG_HOME nor HOME is set";
   std::error_code problem;

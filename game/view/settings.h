@@ -1,5 +1,5 @@
-// What a player wants every time: keys, sound, size of the window. A small TOML file that people
-// may edit.
+// The player's settings: keys, sound, size of the window, in a small TOML file that people may
+// edit.
 #pragma once
 
 #include <array>
@@ -36,31 +36,31 @@ struct Settings {
 /// The default keys: WASD for the left player, the arrows for the right.
 std::array<KeySet, 2> default_keys();
 
-/// Whose key `code` is: the player and what it means.
+/// The player and the meaning of a key.
 struct Bound {
   std::uint32_t hand;
   game::Key key;
 };
 std::optional<Bound> bound(const Settings& settings, KeyCode code);
 
-/// Settings and what was wrong with the file, in the order of its lines, no more than fits on a
-/// screen: what could not be read is as by default.
+/// Settings and the faults of the file, in the order of its lines, at most as many as fit on a
+/// screen: unreadable values have their defaults.
 struct ReadSettings {
   Settings settings;
   std::vector<std::string> errors;
 };
 
-/// `text` is the file's content, `file` its name in messages, which say line, key, value and what
+/// `text` is the file's content, `file` its name in messages, which name line, key, value and what
 /// was expected.
 ReadSettings parse_settings(std::string_view text, const std::string& file);
 std::string settings_text(const Settings& settings);
 
 /// No file is no trouble.
 ReadSettings read_settings(const std::string& file);
-/// A file with troubles is not lost by what is written later: it is given another name. Which, or
-/// nothing if it could not be done.
+/// Renames a file with faults, so that later writing does not overwrite it. Returns the new name,
+/// or nothing if that failed.
 std::optional<std::string> set_settings_aside(const std::string& file);
-/// Makes the folder if need be. The trouble, or nothing.
+/// Writes the settings, and makes the folder if needed. Returns the error, or nothing.
 std::optional<std::string> write_settings(const Settings& settings, const std::string& file);
 
 /// $XDG_CONFIG_HOME/rink/play.toml, or below ~/.config; empty if there is neither.

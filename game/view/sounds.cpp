@@ -114,8 +114,8 @@ std::vector<std::int16_t> sound_of(Noise::Kind kind) {
 
 namespace {
 
-/// Nothing that is written to standard error while it lives is seen: each of OpenAL's drivers
-/// complains in its own way, and no device is no trouble.
+/// Hides standard error while it lives, since OpenAL's drivers print errors, and a missing device
+/// is none.
 class Silence {
  public:
   Silence() : kept_(dup(STDERR_FILENO)) {

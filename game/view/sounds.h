@@ -11,7 +11,7 @@ namespace rink::view {
 
 inline constexpr int sound_rate = 44'100;  ///< samples per second
 
-/// How `kind` sounds: mono, starts and ends in silence.
+/// The samples of `kind`: mono, starting and ending in silence.
 std::vector<std::int16_t> sound_of(Noise::Kind kind);
 
 /// Silent if there is no device; nothing here fails.

@@ -1,4 +1,4 @@
-// A loss as bytes.
+// Writes and reads a loss.
 #include "game/peer/session/loss.h"
 
 #include "game/peer/message_bytes.h"

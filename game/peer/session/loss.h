@@ -1,4 +1,4 @@
-// What peers tell each other when one of them is gone.
+// The message between peers when one of them is gone.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,12 @@
 
 namespace rink::peer {
 
-/// What a peer says when somebody is gone: the last step that it has, and all who are gone as far
-/// as it knows.
+/// A peer's message after a loss: its last step, and all lost peers that it knows of.
 struct Loss {
-  std::uint64_t word = 0x73736f4c6b6e6952ULL;  ///< tells it from all other messages: "RinkLoss"
+  std::uint64_t word = 0x73736f4c6b6e6952ULL;  ///< marks the message: "RinkLoss"
   std::uint64_t step = 0;
   std::vector<PeerNumber> gone{};
-  std::vector<PeerNumber> finished{};  ///< of these, who left in good order
+  std::vector<PeerNumber> finished{};  ///< of these, those that left in good order
 };
 
 template <class Stream>

@@ -1,4 +1,4 @@
-// Parts kept up to date, one step behind.
+// Keeps parts up to date, with the step before.
 #include "game/peer/session/part_replica.h"
 
 #include <cassert>

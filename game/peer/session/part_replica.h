@@ -1,4 +1,4 @@
-// What a peer has of its own, kept so that another can go on in its place.
+// A copy of a peer's own part, so that another can continue in its place.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,17 @@
 
 namespace rink::peer {
 
-/// How a peer's own part differs from what it was a step before.
+/// The change of a peer's own part since the step before.
 struct PartChange {
-  std::uint64_t step = 0;  ///< that it leads to
+  std::uint64_t step = 0;  ///< the step that it leads to
   double time = 0.0;       ///< then [s]
   bool is_whole = false;   ///< `bodies` and `log` are all, nothing is kept
   std::vector<Handover::Body> bodies;
   std::vector<FreeFlightState> free_flights{};  ///< of those that are kept
   std::vector<std::uint32_t> gone;              ///< to other owners
   std::vector<RestContact> rest_contacts;       ///< all of them
-  std::vector<Key> keys;                        ///< of live players, still to take effect: all
+  std::vector<Key> keys;                        ///< all keys of live players that are still to take
+                                                ///< effect
   std::vector<Key> log;                         ///< of live players, that took effect
 };
 
@@ -46,19 +47,19 @@ struct Part {
   std::vector<Key> keys, log;  ///< as PartChange's, but `log` since the start
 };
 
-/// The part at the last two steps, for peers that play in step are never further apart.
+/// The part at the last two steps, since peers are never further apart.
 class PartReplica {
  public:
-  /// The next step's, or a whole one. False, with nothing changed, if it is neither.
+  /// Adds the next step's change, or a whole part. False, with nothing changed, if it is neither.
   bool add(PartChange change);
-  /// Back to one of the last two steps (false if it is neither): from here on that is the last.
+  /// Returns to one of the last two steps (false if it is neither), which is then the last.
   bool rewind(std::uint64_t step);
-  /// At the last step; there is no way back to the one before then.
+  /// The part at the last step; the step before is dropped.
   const Part& part();
-  /// The log at the last step; the way back to the step before stays.
+  /// The log at the last step; the step before is kept.
   std::vector<Key> log() const;
 
-  /// Asserts that the last change, unless it is whole, leads on from what was there before.
+  /// Asserts that the last change, unless it is whole, follows the step before.
   void check() const;
 
  private:

@@ -1,4 +1,4 @@
-// Windows in steps, and the parts of others kept meanwhile.
+// Plays windows in steps, and keeps replicas of others' parts.
 #include "game/peer/session/session.h"
 
 #include <cassert>
@@ -71,7 +71,7 @@ void Session::halt(const std::string& what) const {
   throw Halt(what);
 }
 
-/// Everybody knows how it begins.
+/// All peers know the start.
 void Session::keep_first_parts(const physics::World& whole) {
   for (const PeerNumber peer : now_.members) {
     if (peer != settings_.number && replica_of(peer, now_) != settings_.number) continue;
@@ -90,7 +90,7 @@ void Session::keep_first_parts(const physics::World& whole) {
   }
 }
 
-/// The next one in the ring of those who have zones.
+/// The next peer in the ring of those with zones.
 std::optional<PeerNumber> Session::replica_of(PeerNumber peer, const State& state) const {
   std::optional<PeerNumber> first;
   for (const PeerNumber other : state.cuts.peers()) {
@@ -107,13 +107,13 @@ Message Session::received(PeerNumber from) {
     const std::vector<std::uint8_t> bytes = mail_.receive(from);
     Message message;
     if (read(bytes, message)) return message;
-    // Losses from which we have recovered already are no news.
+    // Losses from which this peer has recovered already are ignored.
     if (learns_of_loss(from, bytes)) throw PeerGone(losses_[from]->gone.front(), false, last_loss_);
   }
 }
 
-/// Receives a message and holds it against the scene: the states in it are those of that instant
-/// [s]. What goes to the own peer, it looks at itself.
+/// Receives a message and validates it: its states are those of the instant `now` [s]. The own peer
+/// checks messages for it itself.
 template <class Message>
 Message Session::checked(PeerNumber from, double now) {
   Message message = received<Message>(from);
@@ -122,7 +122,7 @@ Message Session::checked(PeerNumber from, double now) {
   return message;
 }
 
-/// Nothing is played any more from the bodies in them, so their contacts are left out.
+/// The bodies are not played any more, so their contacts are left out.
 Handover Session::final_handover(PeerNumber from) {
   Handover part = received<Handover>(from);
   if (const std::string fault = validator_.fault_of(part.keys); !fault.empty())
@@ -133,7 +133,7 @@ Handover Session::final_handover(PeerNumber from) {
 template FaceOffWord Session::checked<FaceOffWord>(PeerNumber from, double now);
 template Handover Session::checked<Handover>(PeerNumber from, double now);
 
-/// What `make(to)` makes goes to all members, and what they made is heard.
+/// Sends what `make(to)` makes to all members, and receives theirs.
 template <class Make>
 void Session::exchange(Make&& make, const std::function<void()>& meanwhile) {
   for (const PeerNumber to : now_.members)
@@ -144,7 +144,7 @@ void Session::exchange(Make&& make, const std::function<void()>& meanwhile) {
   if (!peer_->accusation().empty()) give_up(peer_->reported(), peer_->accusation());
 }
 
-/// Whoever says what cannot be is lost to us.
+/// A peer that sends an impossible message counts as lost.
 void Session::give_up(PeerNumber peer, const std::string& what) const {
   if (!settings_.is_replicated) throw ProtocolError(what);
   throw PeerGone(peer, false, what);
@@ -179,8 +179,8 @@ void Session::play_stretch() {
     peer_->divide(division_);
     counters_.shifts += next.slots == now_.slots && next.cuts.peers() == now_.cuts.peers();
   };
-  // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way,
-  // unless there are goals to tell of.
+  // Without replicas all peers stay, so the mail's collective can be used, unless goals must be
+  // sent.
   const auto agree_all = [&] {
     settings_.is_replicated || settings_.goals
         ? exchange([&](PeerNumber) { return peer_->verdict(); })
@@ -190,13 +190,13 @@ void Session::play_stretch() {
     exchange(make, meanwhile);
   };
   const bool is_cut =
-      peer_->end() < settings_.end_of(now_.window + 1);  // then the window goes on after it
+      peer_->end() < settings_.end_of(now_.window + 1);  // then the window continues after it
   WindowHooks hooks = is_cut ? WindowHooks{} : settings_.hooks;
   hooks.when_final = enter_next;
   play_steps(*peer_, next_end, exchange_all, agree_all, hooks);
   if (settings_.goals) face_off(next);
-  // A puck that found no place is due again, where rounding can put that a little before the end of
-  // the window.
+  // A puck that found no place is due again, which rounding can put a little before the end of the
+  // window.
   if (const double end = stretch_end(next); end != next_end) peer_->end_at(end);
   if (settings_.is_replicated) {
     PartChange change = peer_->change(false);
@@ -215,8 +215,8 @@ void Session::play_stretch() {
   is_newcomer_ = false;
 }
 
-/// Who was let in gets a zone, who wished to leave hands its own over, and who had none in this
-/// stretch is not waited for any more.
+/// New members get a zone, those that want to leave hand theirs over, and those without a zone in
+/// this stretch are dropped.
 State Session::after_stretch() const {
   State next = now_;
   ++next.step;
@@ -236,8 +236,8 @@ State Session::after_stretch() const {
   return next;
 }
 
-/// By what all have told all since zones changed last. What differs by chance alone, three standard
-/// deviations of a Poisson number, moves nothing.
+/// Balances by the loads that all have sent since zones changed last. Differences within three
+/// standard deviations of a Poisson number move nothing.
 void Session::balance(State& next) const {
   constexpr double tolerance = 1.1, deviations = 3.0;
   assert(next.events.size() <= now_.slots && next.members.size() > 0);
@@ -255,8 +255,8 @@ void Session::balance(State& next) const {
   next.events.clear();
 }
 
-/// The own part is kept here and by another, and those of others here, as they are with the step
-/// that leads to `next`.
+/// Updates the replicas of the own part, here and at another peer, and those of others here, to the
+/// step that leads to `next`.
 void Session::replica(const State& next, PartChange change) {
   change.step = next.step;
   [[maybe_unused]] const bool is_next = replicas_[settings_.number].add(change);
@@ -323,7 +323,7 @@ std::vector<Handover> Session::end() {
         if (from != settings_.number) parts[from] = final_handover(from);
       parts[settings_.number] = std::move(own);
       parts_ = std::move(parts);
-      // Nobody goes before all have all.
+      // No peer leaves before all have received all.
       for (const PeerNumber to : now_.members)
         if (to != settings_.number) mail_.send(to, written(Handover{}));
       for (const PeerNumber from : now_.members)

@@ -1,5 +1,4 @@
-// One peer's part from its first window to the last, though others are lost, leave or join on the
-// way.
+// One peer's session from its first window to the last, while others may be lost, leave or join.
 #pragma once
 
 #include <algorithm>
@@ -17,34 +16,32 @@
 
 namespace rink::peer {
 
-/// The same for all peers but for `number`; of newcomers, `peer_count`, `players` and `halo` say
-/// nothing.
+/// Equal for all peers but for `number`; newcomers ignore `peer_count`, `players` and `halo`.
 struct SessionSettings {
-  PeerNumber number = 0, peer_count = 1;  ///< so many begin
+  PeerNumber number = 0, peer_count = 1;  ///< the number of first peers
   double halo = 1.0;                      ///< where it begins [m]
   bool is_replicated =
       true;  ///< whether each part is kept by another peer, too; otherwise a loss ends all
   std::uint64_t window_count = 1;
   std::function<double(std::uint64_t)> end_of;  ///< window 1, 2, ..., `window_count` + 1 [s]
   std::uint32_t balance_windows =
-      0;  ///< after so many windows zones shift toward equal events per peer; 0: they stay
+      0;  ///< period [windows] in which zones shift toward equal events per peer; 0: they stay
   std::vector<Key> keys{};  ///< that all know from the start, of all bats
   std::optional<GoalRules>
       goals{};  ///< of a field that has some; windows must be shorter than the delay and the retry.
                 ///< The session is over with the window in which a side wins.
-  std::vector<Player> players{};  ///< of those who begin
+  std::vector<Player> players{};  ///< of the first peers
   std::uint32_t bat_count = 0;    ///< that can be played
   std::function<std::vector<Seat>(const Player&)> seats_of{};
-  WindowHooks
-      hooks{};  ///< for what goes on beside the windows; its `when_final` is the session's own
+  WindowHooks hooks{};  ///< for callers; `when_final` is the session's own
 };
 
-/// What a session has to know of all bodies, wherever they are.
+/// Data about all bodies that a session needs.
 struct Whole {
   physics::WorldSpec spec;
   std::uint32_t body_count = 0;
-  std::vector<double> puck_radii{};  ///< m, by body, 0 of all that are no pucks; empty where there
-                                     ///< are no goals, for nobody else's pucks matter then
+  std::vector<double> puck_radii{};  ///< m, by body, 0 for others than pucks; empty without goals,
+                                     ///< when others' pucks do not matter
   static Whole of(const physics::World& world);
   bool has_puck(std::uint32_t body) const {
     return body < puck_radii.size() && puck_radii[body] > 0.0;
@@ -54,63 +51,63 @@ struct Whole {
 struct SessionCounters {
   PeerCounters peer;
   std::uint64_t replica_bytes = 0, recovery_bytes = 0;  ///< sent
-  std::uint64_t recoveries = 0;                         ///< that came to an end
+  std::uint64_t recoveries = 0;                         ///< completed recoveries
   std::uint64_t shifts = 0;                             ///< of zones, toward balance
   std::uint64_t entry_bytes = 0;                        ///< sent to newcomers
 };
 
-/// Plays in steps: a step ends a window, or a recovery. Nobody is more than one step ahead of
-/// anybody else, since each step needs a message from everyone, so all can go back to the last step
-/// that all have. docs/peer-to-peer.md, "Loss of a peer" and "Joining while others play".
+/// Plays in steps: a step ends a window, or a recovery. No peer is more than one step ahead of
+/// another, since each step needs a message from every peer, so all can go back to the last common
+/// step. docs/peer-to-peer.md, "Loss of a peer" and "Joining while others play".
 class Session {
  public:
-  /// `whole` is at its start. It is asked for no more once `when_taken` is called, if that is not
-  /// empty, before there is room for the own part: whoever needs memory may give it up there.
+  /// `whole` is at its start. `when_taken`, if not empty, is called when `whole` is no longer
+  /// needed and before the own part is allocated, so that its memory can be freed.
   Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail,
           const std::function<void()>& when_taken = {});
-  /// Of a newcomer, who is a candidate and has been told of these members: waits until it is one of
-  /// them. Throws SentAway if it does not get that far, until its first window is over.
+  /// For a newcomer that is a candidate beside these members: waits until it is one of them. Throws
+  /// SentAway if it is not admitted, until its first window is over.
   Session(const physics::World& whole, SessionSettings settings, Mail& mail,
           std::vector<PeerNumber> members);
 
-  /// Plays a window, or recovers and plays one that was undone: then `window` may be what it was,
-  /// or less. Throws Halt, ProtocolError, and what the mail throws.
+  /// Plays a window, or recovers and plays one that was undone: then `window` may be unchanged, or
+  /// less. Throws Halt, ProtocolError, and the mail's exceptions.
   void advance();
   /// How many windows are final.
   std::uint64_t window() const { return now_.window; }
   std::uint64_t step() const { return now_.step; }
   bool is_over() const { return has_left_ || is_complete(); }
-  /// After it: goals, and pucks that were still to come back.
+  /// The goals, and the pucks to put back, after the last window.
   const Scoring& scoring() const { return now_.scoring; }
 
-  /// The own bodies go to others with the next window, and with the one after that this peer is no
-  /// longer needed. It must be replicated.
+  /// Leaves: own bodies go to others with the next window, and after the one after that this peer
+  /// is not needed. The session must be replicated.
   void leave() { wishes_to_leave_ = true; }
   bool has_left() const { return has_left_; }
-  /// It went on after a loss after which others may have gone on too, on their own: what it has in
-  /// the end is the state of one part.
+  /// True if it continued after a loss after which others may have continued separately: its result
+  /// is the state of one part.
   bool may_have_split() const { return may_have_split_; }
 
-  /// An own player's key, as Peer::press.
+  /// Presses an own player's key, as Peer::press.
   void press(const Observation& seen, const Press& press);
   Peer& peer() { return *peer_; }
   const Peer& peer() const { return *peer_; }
-  /// When all is over: everybody's bodies and, as keys, everybody's log, by peer. It is too late to
-  /// leave then; but who had handed over its zone already may still do so on the way (then:
-  /// nothing).
+  /// Call it after the last window: returns the bodies and, as keys, the logs of all peers, by
+  /// peer. It is too late to leave then; but a peer that had handed over its zone may still leave
+  /// on the way (then the list is empty).
   std::vector<Handover> end();
 
   SessionCounters counters() const;
   /// Who plays on.
   const std::vector<PeerNumber>& members() const { return now_.members; }
   const Division& division() const { return division_; }
-  /// Who plays which bats, those who are gone among them; and above all numbers of members.
+  /// The players and their bats, lost ones included; and a bound above all numbers of members.
   const std::vector<Player>& players() const { return now_.players; }
   PeerNumber slots() const { return now_.slots; }
-  /// Everybody who was lost, and what was said of the last.
+  /// All lost peers, and the reason of the last loss.
   const std::vector<PeerNumber>& lost() const { return gone_; }
   const std::string& last_loss() const { return last_loss_; }
-  /// Somebody is lost, and with the next call of `advance` windows may be undone.
+  /// True if a peer is lost, so that the next call of `advance` may undo windows.
   bool is_recovering() const { return must_recover_; }
 
  private:

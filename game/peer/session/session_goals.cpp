@@ -1,5 +1,4 @@
-// Between stretches of a window: who has scored, and where the pucks come back.
-// docs/peer-to-peer.md, "Goals".
+// Between stretches of a window: counts goals, and puts pucks back. docs/peer-to-peer.md, "Goals".
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -8,13 +7,13 @@
 
 namespace rink::peer {
 
-/// A window ends where it is to, but is cut where a puck comes back. `state` is where the next
-/// stretch begins, with which what is due there comes back.
+/// The end of the next stretch: a window is cut where a puck comes back. `state` is that at the
+/// start of the stretch, where due pucks come back.
 double Session::stretch_end(const State& state) const {
   return std::min(settings_.end_of(state.window + 1), state.scoring.next_after(state.time));
 }
 
-/// By what all have said with their verdicts, when these are final.
+/// Counts the goals in the final verdicts of all.
 void Session::count_goals(State& next) const {
   if (!settings_.goals) return;
   std::vector<Goal> goals;
@@ -33,7 +32,7 @@ void Session::count_goals(State& next) const {
   next.scoring.count(std::move(goals), *settings_.goals);
 }
 
-/// All that are due at the end of the stretch, which is committed.
+/// Puts back all pucks that are due at the end of the committed stretch.
 void Session::face_off(State& next) {
   while (next.scoring.next() <= next.time) {
     const FaceOff due = next.scoring.face_offs.front();
@@ -43,8 +42,7 @@ void Session::face_off(State& next) {
   }
 }
 
-/// Each knows whom it has, and together they know all: a place is free if it is for everybody.
-/// False if none is.
+/// Each peer knows its own bodies, so a place is free if it is free at all peers. False if none is.
 bool Session::put_back(const FaceOff& due) {
   constexpr std::size_t asked = 64;
   assert(whole_.has_puck(due.puck) && settings_.goals);
@@ -68,8 +66,8 @@ bool Session::put_back(const FaceOff& due) {
   }
 }
 
-/// What everybody has said: which places are taken for anybody. `word` has the puck afterwards,
-/// whoever owns it.
+/// Exchanges the peers' messages, and returns the places that are taken at any peer. `word` has the
+/// puck afterwards.
 std::uint64_t Session::agree_on(FaceOffWord& word) {
   for (const PeerNumber to : now_.members)
     if (to != settings_.number) mail_.send(to, written(word));

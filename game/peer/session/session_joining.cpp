@@ -1,4 +1,4 @@
-// Who is let in while others play: decided by the verdicts of a final window, the same everywhere.
+// Admits newcomers during the game by the verdicts of a final window, equally at all peers.
 // docs/peer-to-peer.md, "Joining while others play".
 #include <algorithm>
 #include <cassert>
@@ -23,7 +23,7 @@ const Candidate* find(const std::vector<Candidate>& candidates, std::uint64_t to
 
 }  // namespace
 
-/// What is said of newcomers with this window's verdict.
+/// Puts newcomers into this window's verdict.
 void Session::announce() {
   for (Newcomer& newcomer : mail_.callers()) asking_.push_back(std::move(newcomer));
   Admission own_word;
@@ -38,7 +38,7 @@ void Session::announce() {
   peer_->announce(std::move(own_word));
 }
 
-/// To those who were let in: half of the zone of whoever had most to do since zones changed last.
+/// Gives new members half of the zone of the busiest peer since zones changed last.
 void Session::give_zones(State& next) const {
   next.fresh.clear();
   for (const PeerNumber newcomer : now_.fresh) {
@@ -56,7 +56,7 @@ void Session::give_zones(State& next) const {
   }
 }
 
-/// Why a newcomer cannot be a candidate at the step that leads to `next`.
+/// The reason why a newcomer cannot be a candidate at the step that leads to `next`.
 std::optional<std::string> Session::objection(const State& next, const Newcomer& newcomer) const {
   if (next.window + 3 > settings_.window_count || next.scoring.is_over)
     return "the game is about to end";
@@ -72,7 +72,7 @@ std::optional<std::string> Session::objection(const State& next, const Newcomer&
   return std::nullopt;
 }
 
-/// New candidates, those who are candidates no more, and one of them who becomes a member.
+/// Adds and drops candidates, and makes one of them a member.
 void Session::admit(State& next) const {
   const std::vector<PeerNumber> zoned = next.cuts.peers();
   const auto stays = [&](PeerNumber sponsor) {
@@ -97,7 +97,7 @@ void Session::admit(State& next) const {
     next.fresh = {first->number};
     next.players.push_back({first->number, first->first_bat, first->newcomer.bat_count,
                             first->newcomer.puck_count, first->newcomer.hand_count});
-    next.zones += first->number >= next.slots;  // so that all make room for it
+    next.zones += first->number >= next.slots;  // so that all have a slot for it
     next.slots = std::max(next.slots, first->number + 1);
     next.admitted.push_back(std::move(*first));
     next.candidates.erase(first);
@@ -113,7 +113,7 @@ void Session::admit(State& next) const {
   }
 }
 
-/// What was decided goes out.
+/// Sends the decisions.
 void Session::greet(const State& next) {
   for (const PeerNumber peer : next.fresh) {
     std::vector<std::uint8_t> bytes = written(Entry{.state = next});
@@ -152,8 +152,8 @@ Session::Session(const physics::World& whole, SessionSettings settings, Mail& ma
   enter_late(std::move(members));
 }
 
-/// At the end of a window, or within the next one where that is cut, and two windows before all is
-/// over.
+/// True at the end of a window, or within the next one if that is cut, and at least two windows
+/// before the end.
 bool Session::is_in_time(const State& state) const {
   if (settings_.window_count < 2 || state.window > settings_.window_count - 2) return false;
   const double begin = state.window == 0 ? 0.0 : settings_.end_of(state.window);
@@ -161,7 +161,7 @@ bool Session::is_in_time(const State& state) const {
          (settings_.goals && state.time > begin && state.time < settings_.end_of(state.window + 1));
 }
 
-/// From whoever of these tells it first. Who is gone before is gone.
+/// The first entry from any of these peers; lost ones are skipped.
 std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
   while (!from.empty()) try {
       const std::vector<std::uint8_t> bytes = mail_.receive(from.front());
@@ -176,7 +176,7 @@ std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
             !is_in_time(state))
           throw ProtocolError("peer " + std::to_string(from.front()) +
                               " tells of a beginning that cannot be");
-        // Of those who are gone, too: it says what is wrong with bats that are not there.
+        // Lost players are checked too: `seats_of` throws for bats that do not exist.
         for (const Player& player : state.players) settings_.seats_of(player);
         teller_ = from.front();
         return entry;
@@ -192,8 +192,8 @@ std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
   return std::nullopt;
 }
 
-/// All others tell the same, or have lost somebody; then there is a recovery, in which entries are
-/// of before.
+/// All others send the same entry, or have lost a peer; then a recovery follows, in which entries
+/// are outdated.
 void Session::receive_same(const Entry& entry) try {
   const std::vector<std::uint8_t> expected = written(entry);
   for (const PeerNumber from : now_.members) {

@@ -1,4 +1,5 @@
-// When a peer is gone: who is left agrees on the last step that all have, and goes on from there.
+// Recovers from the loss of a peer: the others agree on the last common step, and continue from
+// there.
 #include <algorithm>
 #include <cassert>
 #include <functional>
@@ -33,7 +34,7 @@ void Session::note_gone(PeerNumber peer, const std::string& what, bool has_finis
   mail_.part(peer, true);
 }
 
-/// Whether the message was one of loss, and told of somebody new.
+/// True if the message is a loss that names a new lost peer.
 bool Session::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> bytes) {
   Loss loss;
   if (!settings_.is_replicated || !read(bytes, loss))
@@ -68,7 +69,7 @@ void Session::recover() {
   ++counters_.recoveries;
 }
 
-/// All who are left miss the same ones, and are back at the last step that all of them have.
+/// Agrees with all others on the lost peers and on the last common step.
 void Session::agree() {
   for (bool is_agreed = false; !is_agreed;) {
     is_agreed = true;
@@ -89,7 +90,7 @@ void Session::agree() {
   }
 }
 
-/// Who becomes a member with the step that is undone cannot be one, and who left with it still is.
+/// A peer that joined with the undone step is no member, and one that left with it still is.
 void Session::go_back(PeerNumber as) {
   if (is_newcomer_)
     throw SentAway("peer " + std::to_string(as) +
@@ -106,13 +107,13 @@ void Session::go_back(PeerNumber as) {
   assert(now_.has(settings_.number));
 }
 
-/// All candidates: what they were to be let in with may be undone elsewhere.
+/// Sends all candidates away, since their admission may be undone elsewhere.
 void Session::send_away(const State& state) {
   for (const Candidate& candidate : state.candidates) mail_.admit(candidate.number, false);
 }
 
-/// More than half of them are left; or half, with the first of them. Of two, either goes on, but
-/// the second one cannot know whether the first does too.
+/// A majority is more than half; or half, with the first of them. Of two peers either continues,
+/// but the second one cannot know whether the first does too.
 Session::Majority Session::majority_of(std::vector<PeerNumber> voters) const {
   std::erase_if(voters, [&](PeerNumber peer) { return State::is_in(finished_, peer); });
   const std::size_t count = voters.size();
@@ -124,7 +125,7 @@ Session::Majority Session::majority_of(std::vector<PeerNumber> voters) const {
   return left > 0 && count == 2 ? Majority::doubtful : Majority::none;
 }
 
-/// Sides that are a step apart must have somebody in common, too.
+/// Majorities of neighbouring steps must have a common peer, too.
 void Session::require_majority() {
   const Majority majority = std::min(majority_of(now_.voters()), majority_of(now_.next_voters()));
   may_have_split_ = may_have_split_ || majority == Majority::doubtful;
@@ -135,7 +136,7 @@ void Session::require_majority() {
        std::to_string(now_.members.size()) + " peers are left: it halts, for the others may go on");
 }
 
-/// This one, and those of the lost of which it keeps a replica.
+/// This peer, and the lost ones of which it has a replica.
 std::vector<PeerNumber> Session::stood_for() const {
   std::vector<PeerNumber> parts{settings_.number};
   for (const PeerNumber peer : now_.members) {
@@ -149,8 +150,8 @@ std::vector<PeerNumber> Session::stood_for() const {
   return parts;
 }
 
-/// All that `to` may need of these parts: what is in its zones or the halo, and whatever may act at
-/// a distance.
+/// All that `to` may need of these parts: bodies in its zones or the halo, and those that may act
+/// at a distance.
 Handover Session::share(std::span<const PeerNumber> parts, const Division& division,
                         PeerNumber to) {
   Handover message;
@@ -229,7 +230,7 @@ void Session::enter(const State& next, std::span<const Handover> shares) {
   peer_->begin(stretch_end(next));
 }
 
-/// Keys whose window was undone. Bats have other owners now, who tell.
+/// Presses keys of undone windows again. Bats have other owners now, by their observations.
 void Session::press_again() {
   std::vector<Observation> seen = peer_->observations_of_all(settings_.number);
   for (const PeerNumber to : now_.members) {

@@ -1,4 +1,4 @@
-// Who may go on, and what a newcomer is sent.
+// The peers that may continue, and a newcomer's entry.
 #include "game/peer/session/session_state.h"
 
 #include <cassert>
@@ -39,7 +39,7 @@ std::vector<PeerNumber> State::voters() const {
   return all;
 }
 
-/// Who has no zone any more leaves with the next step; who is fresh gets one then.
+/// A peer without a zone leaves with the next step; a fresh one gets a zone then.
 std::vector<PeerNumber> State::next_voters() const {
   std::vector<PeerNumber> all = members;
   const std::vector<PeerNumber> zoned = cuts.peers();

@@ -1,5 +1,4 @@
-// What all peers of a session agree on at a step: who plays, where zones are, and who is about to
-// come.
+// The state that all peers of a session share at a step: members, zones, and candidates.
 #pragma once
 
 #include <algorithm>
@@ -13,18 +12,18 @@
 
 namespace rink::peer {
 
-/// No session ever gives more numbers, and none has more peers at a time.
+/// A session assigns at most `numbers_max` numbers, and has at most `members_max` peers at a time.
 inline constexpr PeerNumber numbers_max = 4096, members_max = 64;
 
-/// Somebody who has a number, and is no member until all are connected to it.
+/// A peer with a number that is no member until all are connected to it.
 struct Candidate {
   PeerNumber number = 0, sponsor = 0;
   std::uint32_t first_bat = 0;
   Newcomer newcomer;
 };
 
-/// Who plays which of the scene's bats: `bat_count` from `first_bat` on, each of which looks at
-/// `puck_count` pucks, and the first `hand_count` by hand.
+/// A player's bats: `bat_count` from `first_bat` on, each of which looks at `puck_count` pucks;
+/// persons play the first `hand_count`.
 struct Player {
   PeerNumber peer = 0;
   std::uint32_t first_bat = 0, bat_count = 0, puck_count = 0, hand_count = 0;
@@ -36,14 +35,14 @@ struct State {
   double time =
       0.0;  ///< where it ends [s], which is within the next window while a puck comes back
   Scoring scoring{};
-  std::vector<PeerNumber> members{};  ///< those who leave among them
+  std::vector<PeerNumber> members{};  ///< with those that leave
   Cuts cuts;
   std::uint64_t zones = 0;            ///< how often they changed
   std::uint32_t counted_windows = 0;  ///< in which the events are counted, by peer
   std::vector<double> events{};
-  std::vector<PeerNumber> fresh{};                  ///< members who have had no zone yet
-  std::vector<PeerNumber> gone{};                   ///< who was lost
-  std::vector<Candidate> candidates{}, admitted{};  ///< by number; and those who became members
+  std::vector<PeerNumber> fresh{};                  ///< members without a zone so far
+  std::vector<PeerNumber> gone{};                   ///< lost peers
+  std::vector<Candidate> candidates{}, admitted{};  ///< by number; and those that became members
   std::vector<Player> players{};
   PeerNumber slots = 1, next_number = 1;  ///< above all numbers of members; the next newcomer's
   std::uint32_t bats_taken = 0;
@@ -53,21 +52,21 @@ struct State {
   }
   bool has(PeerNumber peer) const { return is_in(members, peer); }
   bool is_fresh(PeerNumber peer) const { return is_in(fresh, peer); }
-  /// Those whose majority may go on from here, and from the next step.
+  /// The peers whose majority may continue from here, and from the next step.
   std::vector<PeerNumber> voters() const;
   std::vector<PeerNumber> next_voters() const;
   Division division() const { return cuts.division(slots); }
-  /// Whether a stranger's state can be one, with `newcomer` as a member of it.
+  /// True if a received state is possible, with `newcomer` as a member.
   bool is_sound_for(PeerNumber newcomer) const;
-  /// Asserts that lists of numbers are sorted, and each number one that was given, that zones and
-  /// what is new belong to members, and that what is due is still to come.
+  /// Asserts that lists of numbers are sorted and assigned, that zones and fresh entries belong to
+  /// members, and that due pucks are in the future.
   void check() const;
 };
 
-/// Tells an Entry from all other messages: "RnkEntry".
+/// Marks an Entry: "RnkEntry".
 inline constexpr std::uint64_t entry_word = 0x7972746e456b6e52ULL;
 
-/// To a newcomer, of each member: how things are at the step with which it becomes one.
+/// The state that each member sends to a newcomer, at the step with which it becomes a member.
 struct Entry {
   std::uint64_t word = entry_word;
   State state;

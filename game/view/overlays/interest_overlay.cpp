@@ -1,5 +1,4 @@
-// Regions as frames, things as rings, both in the colour of what they have to do with the thing
-// that is asked of.
+// Draws regions as frames and things as rings, coloured by their relation to the inspected thing.
 #include "game/view/overlays/interest_overlay.h"
 
 #include <algorithm>
@@ -40,7 +39,8 @@ std::vector<const Thing*> bats_of(const MatchSight& sight) {
   return bats;
 }
 
-/// Every region; those of who hears of the thing, and that of its own player, above the others.
+/// Adds every region; those of players that receive the thing, and that of its own player, above
+/// the others.
 void add_views(const InterestSeen& seen, Overlay& overlay) {
   const auto add = [&](const auto& is_wanted, const Colour& fill, const Colour& outline) {
     for (const InterestSeen::View& view : seen.views)
@@ -69,8 +69,8 @@ void add_rings(const MatchSight& sight, const InterestSeen& seen, Overlay& overl
   }
 }
 
-/// What is shown may be less than what there is: a message has its bounds. Players are counted by
-/// their regions, for bats that nobody plays are there as well.
+/// Counts are complete, while the lists may be cut to a message's size. Players are counted by
+/// their regions, since some bats have none.
 void add_lines(const MatchSight& sight, const InterestSeen& seen, const Thing& asked,
                Overlay& overlay) {
   char words[160];

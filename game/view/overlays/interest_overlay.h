@@ -1,5 +1,5 @@
-// Interest management made visible: cells, every federate's subscription region, and in colour who
-// hears of what.
+// Shows interest management: cells, every federate's subscription region, and in colour which
+// player receives what.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace rink::view {
 
-/// What of it is to be seen.
+/// The choice of what to show.
 struct InterestChoice {
   bool is_shown = true;
-  std::uint32_t chosen = 0;  ///< the bat that is asked of, counted modulo the bats that are there
+  std::uint32_t chosen = 0;  ///< the inspected bat, counted modulo the number of bats
   std::optional<std::uint32_t>
-      picked{};  ///< the thing that is asked of instead, by its id, as long as it is there
+      picked{};  ///< the inspected thing instead, by its id, while it exists
 };
 
 /// The thing whose interest is coloured; null if there is none.
@@ -24,9 +24,8 @@ const Thing* asked_thing(const MatchSight& sight, const InterestChoice& choice);
 /// The nearest thing within `reach` [m] of `place`; nothing if there is none.
 std::optional<std::uint32_t> thing_at(const MatchSight& sight, const Vector2& place, double reach);
 
-/// Shows what `sight.interest` says was decided, and works nothing out again; empty without it.
-/// Green: what the federate that plays the asked bat hears of. Orange: who hears of what is asked
-/// of.
+/// Shows the decisions in `sight.interest` without deciding again; empty without it. Green: things
+/// that the inspected bat's player receives. Orange: players that receive the inspected thing.
 Overlay interest_overlay(const MatchSight& sight, const InterestChoice& choice);
 
 }  // namespace rink::view

@@ -20,7 +20,7 @@ constexpr std::array<Colour, 6> colours{{{0.80f, 0.30f, 0.20f},
 constexpr Colour ghost{0.95f, 0.50f, 0.02f, 1.0f}, told{0.05f, 0.62f, 0.20f, 1.0f},
     own{0.80f, 0.05f, 0.75f, 1.0f};
 
-/// What of the field lies in the halo of a zone.
+/// The part of the field in the halo of a zone.
 OverlayRectangle halo_of(const ZonesSeen::Zone& zone, double halo, const physics::Field& field) {
   return {std::max(0.0, zone.low_x - halo),
           std::max(0.0, zone.low_y - halo),

@@ -1,5 +1,4 @@
-// A game that peers share, made visible: whose zone is where, how far the own halo reaches, and
-// which bodies are another's.
+// Shows a game that peers share: the zones, the own halo, and bodies of others.
 #pragma once
 
 #include "game/view/match_source.h"
@@ -7,8 +6,8 @@
 
 namespace rink::view {
 
-/// Shows what `sight.zones` says; empty without it. The own bat is marked in any case if it is one
-/// of a crowd, all else if `is_shown`. Orange: ghosts; green: what is beyond the halo, and told.
+/// Shows `sight.zones`; empty without it. The own bat is always marked in a crowd, all else only if
+/// `is_shown`. Orange: ghosts; green: replicas beyond the halo.
 Overlay zones_overlay(const MatchSight& sight, bool is_shown);
 
 }  // namespace rink::view

@@ -1,4 +1,4 @@
-// Where the table is seen from: in perspective from the players' places, or from straight above.
+// The camera on the table: in perspective from the players' places, or from straight above.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,11 +13,11 @@ struct Camera {
   Vector3 eye{0.0f, 0.0f, 1.0f}, target{1.0f, 0.0f, 0.0f};
   float opening = 0.6f;                    ///< angle of view from bottom to top [rad]
   float centre_x = 0.0f, centre_y = 0.0f;  ///< of a plan
-  float half_height = 1.0f;                ///< of a plan: what is seen above the centre [m]
+  float half_height = 1.0f;                ///< of a plan: half the visible height [m]
   friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-/// A camera in a window of some shape: pixels and places translated into each other.
+/// A camera in a window of some shape: converts between pixels and places.
 class Sight {
  public:
   /// `aspect` is width by height of the window.
@@ -31,7 +31,7 @@ class Sight {
   }                                          ///< scaled by half the window's width at distance 1
   const Vector3& up() const { return up_; }  ///< scaled by half the window's height at distance 1
   const Vector3& forward() const { return forward_; }
-  /// Where in the window `place` is, from -1 to 1 each way, y up.
+  /// The place of `place` in the window, from -1 to 1 each way, y up.
   Eigen::Vector2f project(const Vector3& place) const;
   /// The place on the table that is seen at `window`.
   Eigen::Vector2f on_table(const Eigen::Vector2f& window) const;

@@ -1,4 +1,4 @@
-// Where a picture is drawn to.
+// The target of a drawing.
 #pragma once
 
 #include "game/view/render/gl_objects.h"

@@ -1,4 +1,4 @@
-// Makes OpenGL's objects and says why when the driver does not.
+// Makes OpenGL's objects, and throws the driver's error if it cannot.
 #include "game/view/render/gl_objects.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ GLuint generated(void (*generate)(GLsizei, GLuint*)) {
   return name;
 }
 
-/// The shader's name, or an error in the compiler's words.
+/// The shader's name, or an error with the compiler's text.
 GLuint compiled(const char* what, GLenum kind, const char* shared, const char* source) {
   const std::array<const char*, 3> parts{"#version 330 core\n", shared, source};
   const GLuint shader = glCreateShader(kind);
@@ -70,7 +70,7 @@ void FloatStream::fill(std::span<const float> rows) {
   capacity_ = std::max(capacity_, rows.size());
   glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_ * sizeof(float)), nullptr,
-               GL_STREAM_DRAW);  // a new store, so that nobody waits for the last frame
+               GL_STREAM_DRAW);  // a new store, so that this does not wait for the last frame
   glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(rows.size_bytes()), rows.data());
 }
 

@@ -15,7 +15,7 @@
 
 namespace rink::view {
 
-/// What the graphics driver refused, in its own words.
+/// An error of the graphics driver, with its text.
 class GraphicsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -53,7 +53,7 @@ class Program {
  public:
   Program() = default;
   /// `shared` is put before both sources, after the version. Throws GraphicsError with the
-  /// compiler's words.
+  /// compiler's text.
   Program(const char* what, const char* shared, const char* vertex, const char* fragment);
   void use() const { glUseProgram(program_.name()); }
   void set(const char* uniform, float value) const { glUniform1f(at(uniform), value); }

@@ -1,4 +1,4 @@
-// How a stage is drawn: at once in few pixels, then smoothly band by band.
+// Draws a stage at once in few pixels, then smoothly band by band.
 #include "game/view/render/kept_stages.h"
 
 #include <algorithm>
@@ -13,8 +13,7 @@ namespace rink::view {
 namespace {
 
 constexpr int sample_count = 4;
-/// Rows that are smoothed in one frame: with all else it stays below a sixtieth of a second in
-/// software.
+/// Rows that are smoothed in one frame, which in software stays below a sixtieth of a second.
 constexpr int band_rows = 24;
 /// At first a stage is drawn in so many times fewer pixels each way.
 constexpr int rough_pixels = 2;
@@ -23,7 +22,7 @@ GlName<destroy_texture> textured(const Image& image, bool repeats) {
   return make_texture(image.width, image.height, image.channels, image.pixels, repeats);
 }
 
-/// The pixels about what is seen of a box, within the window.
+/// The pixels around the visible part of a box, within the window.
 Eigen::AlignedBox2i seen_pixels(const Eigen::AlignedBox3f& box, const Sight& sight, int width,
                                 int height) {
   Eigen::AlignedBox2f window;
@@ -37,7 +36,7 @@ Eigen::AlignedBox2i seen_pixels(const Eigen::AlignedBox3f& box, const Sight& sig
   return {low.max(0).min(most).matrix(), high.max(0).min(most).matrix()};
 }
 
-/// A board that comes or goes is more than its face, and so no other score.
+/// A board that appears or vanishes is more than a change of score.
 bool differs_in_score_alone(const Stage& was, Stage is) {
   is.board.first = was.board.first, is.board.second = was.board.second;
   return was == is;

@@ -1,4 +1,4 @@
-// What stands still in a picture, drawn once and kept.
+// The standing part of a picture, drawn once and kept.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace rink::view {
 
-/// All that the picture of what stands still depends on.
+/// All that the picture of the standing part depends on.
 struct Stage {
   Table table;
   Scoreboard board;
@@ -30,8 +30,8 @@ class KeptStages {
 
   void begin_frame() { ++frame_; }
   bool holds(const Stage& wanted) const;
-  /// The stage as it is wanted, one band of rows smoother than before. One that shows another score
-  /// is changed; else the one that was not used for longest makes room. Valid until the next call.
+  /// The wanted stage, one band of rows smoother than before. One that differs in the score is
+  /// changed; else the least recently used one is replaced. Valid until the next call.
   const Target& show(const Stage& wanted, const Sight& sight);
   /// False while the next frames still smooth what the last ones showed.
   bool are_settled() const;

@@ -1,4 +1,4 @@
-// Each mark says how far it may reach, so that the shader runs on few pixels.
+// Makes marks; each has its reach, so that the shader runs on few pixels.
 #include "game/view/render/marks.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace rink::view {
 namespace {
 
-/// As the shader counts them.
+/// Numbered as in the shader.
 enum class Kind : int { disc_shadow, box_shadow, streak, glow };
 
 constexpr float shadow_reach = 0.09f;  // m; where the contact shadow has faded
@@ -20,7 +20,7 @@ struct Mark {
   } reach;
   struct {
     float x, y, half_x, half_y;
-  } of;  ///< what it belongs to
+  } of;  ///< the thing that it belongs to
   Kind kind;
   float a = 0.0f, b = 0.0f;  ///< what the shader makes of them depends on the kind
   Colour colour;
@@ -61,7 +61,7 @@ void add_streak(const Piece& piece, std::vector<float>& rows) {
 void add_glow(const Table& table, bool is_left, float part, std::vector<float>& rows) {
   assert(part <= 1.0f);
   if (part <= 0.0f) return;
-  Colour colour = is_left ? table.right : table.left;  // of who scored
+  Colour colour = is_left ? table.right : table.left;  // of the scorer
   colour.alpha = 0.85f * part;
   const float reach = 0.45f * table.length, side = 0.62f * table.width,
               x = is_left ? 0.0f : table.length, y = 0.5f * table.width;

@@ -1,4 +1,4 @@
-// What lies on the table, as rows for the shaders: shadows, streaks, the glow of a goal.
+// Marks on the table, as rows for the shaders: shadows, streaks, the glow of a goal.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace rink::view {
 /// Floats of a mark: the box that it may cover, its form, its manner, its colour.
 inline constexpr int mark_row[] = {4, 4, 4, 4};
 
-/// `has_shadows` is false where so many pieces are seen that each is a few pixels.
+/// `has_shadows` is false if so many pieces are visible that each is a few pixels.
 void add_marks(const Picture& picture, bool has_shadows, std::vector<float>& rows);
 
 }  // namespace rink::view

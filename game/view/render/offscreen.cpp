@@ -1,4 +1,4 @@
-// EGL's few calls to get there.
+// Makes a context by EGL.
 #include "game/view/render/offscreen.h"
 
 #include <epoxy/egl.h>
@@ -8,8 +8,7 @@
 #if defined(__SANITIZE_ADDRESS__)
 #include <dlfcn.h>
 
-/// Leaks are looked for when the drivers would be unloaded and without a name to suppress: they
-/// stay, so that what they lose is told from what we lose.
+/// Drivers stay loaded, so that the leak checker can name and suppress their leaks.
 extern "C" int dlclose(void*) noexcept { return 0; }
 
 extern "C" const char* __lsan_default_suppressions();

@@ -10,7 +10,7 @@ namespace rink::view {
 /// Mesa's surfaceless platform through EGL; current on this thread until it is destroyed.
 class OffscreenContext {
  public:
-  /// Throws GraphicsError with what is missing.
+  /// Throws GraphicsError that names what is missing.
   OffscreenContext();
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;
@@ -21,7 +21,7 @@ class OffscreenContext {
   void* context_ = nullptr;
 };
 
-/// What draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
+/// The name of the renderer: "llvmpipe (LLVM 15.0.6, 256 bits)".
 std::string graphics_name();
 
 }  // namespace rink::view

@@ -1,5 +1,5 @@
-// What an experiment draws over the field, as plain data: grid cells, subscription regions, and who
-// receives what in colour.
+// The overlay of an experiment over the field, as plain data: grid cells, subscription regions, and
+// in colour which player receives what.
 #pragma once
 
 #include <cstdint>

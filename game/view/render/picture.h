@@ -1,4 +1,4 @@
-// What is to be drawn, as plain data: no game, no window, no OpenGL.
+// A picture to draw, as plain data: no game, no window, no OpenGL.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 
 namespace rink::view {
 
-/// Something that stands on the table.
+/// A piece on the table.
 struct Piece {
   enum class Shape : std::uint8_t { puck, bat, post };
   Shape shape = Shape::puck;
   float x = 0.0f, y = 0.0f;                    ///< of its centre [m]
   float half_x = 0.04f, half_y = 0.04f;        ///< both the radius for discs [m]
   float height = 0.02f;                        ///< m
-  float velocity_x = 0.0f, velocity_y = 0.0f;  ///< m/s; what is fast draws a streak
+  float velocity_x = 0.0f, velocity_y = 0.0f;  ///< m/s; a fast piece has a streak
   Colour colour{}, accent{};                   ///< the body, and its ring or inlay
 };
 
-/// The table as it stands there.
+/// The table's sizes and colours.
 struct Table {
   float length = 2.4f, width = 1.2f, goal_width = 0.4f;  ///< m
   Colour left{}, right{};                                ///< of the two teams
@@ -30,26 +30,26 @@ struct Table {
   }
 };
 
-/// The board with the score. It stands upright with its middle over (x, y), and whoever looks along
-/// (`ahead_x`, `ahead_y`) reads it.
+/// The board with the score. It stands upright with its middle over (x, y), facing a viewer that
+/// looks along (`ahead_x`, `ahead_y`).
 struct Scoreboard {
   bool is_there = true;
   float x = 0.0f, y = 0.0f, ahead_x = 0.0f, ahead_y = 1.0f;
   std::uint32_t first = 0, second = 0;  ///< as read from left to right, each at most 99
-  bool is_left_first = true;            ///< whose colour the first has
+  bool is_left_first = true;            ///< the first number has the left team's colour
   friend bool operator==(const Scoreboard&, const Scoreboard&) = default;
 };
 
 /// Text in the window's plane.
 struct Text {
   std::string words;
-  float x = 0.5f, y = 0.5f;  ///< of the window, from the upper left; where the text's own middle,
-                             ///< or its left or right end, is
+  float x = 0.5f, y = 0.5f;  ///< of the window, from the upper left; the place of the text's
+                             ///< middle, or its left or right end
   float size = 0.05f;        ///< height of its letters' line, as a part of the window's height
   enum class Align : std::uint8_t { left, middle, right };
   Align align = Align::middle;
   Colour colour{1.0f, 1.0f, 1.0f, 1.0f};
-  bool has_plate = false;  ///< something dark behind it, where the picture is bright
+  bool has_plate = false;  ///< a dark plate behind it, where the picture is bright
 };
 
 struct Picture {
@@ -60,7 +60,7 @@ struct Picture {
   float left_glow = 0.0f,
         right_glow = 0.0f;  ///< 0 to 1: the light that a goal throws on that end of the table
   float dimming = 0.0f;     ///< 0 to 1: how far everything but the texts is darkened
-  bool is_split = false;    ///< another picture stands beside it, in the same window
+  bool is_split = false;    ///< another picture is beside it, in the same window
   Overlay overlay;
   std::vector<Text> texts;
 };

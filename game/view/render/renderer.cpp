@@ -15,7 +15,7 @@ namespace rink::view {
 namespace {
 
 constexpr int piece_row[] = {4, 4, 4, 3, 3}, plan_row[] = {4, 4, 4}, point_row[] = {3, 3, 3};
-/// From here on pieces throw no shadow: in a crowd each is a few pixels.
+/// With more pieces none has a shadow: in a crowd each is a few pixels.
 constexpr std::size_t shadowed_max = 400;
 /// Discs up to this radius [pixels] are drawn as points from above, in a third of the time of
 /// instanced quads; OpenGL drops a point whole when its centre leaves the window.
@@ -62,7 +62,7 @@ void add_piece(const Piece& piece, const Sight& sight, bool is_image, const Canv
                piece.accent.red, piece.accent.green, piece.accent.blue});
 }
 
-/// Is any of it seen?
+/// True if any of the piece is visible.
 bool is_within(const Piece& piece, const Sight& sight) {
   return std::abs(piece.x - sight.eye().x()) <= sight.right().x() + piece.half_x &&
          std::abs(piece.y - sight.eye().y()) <= sight.up().y() + piece.half_y;

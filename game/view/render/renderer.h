@@ -11,8 +11,8 @@
 
 namespace rink::view {
 
-/// What stands still is kept while the camera, the score and the canvas stay as they are; a frame
-/// then copies it and draws what moves. In software that is the difference between 15 and 200
+/// The standing part is kept while the camera, the score and the canvas do not change; a frame then
+/// copies it and draws the moving part. In software that is the difference between 15 and 200
 /// frames per second (docs/play.md). The context that was current when it was made must be current
 /// always.
 class Renderer {
@@ -20,7 +20,7 @@ class Renderer {
   /// Throws GraphicsError.
   Renderer();
 
-  /// All but the dimming and the texts.
+  /// Draws all but the dimming and the texts.
   void draw(const Picture& picture, const Canvas& canvas);
   /// False while the next frames still smooth what the last ones showed.
   bool is_settled() const;

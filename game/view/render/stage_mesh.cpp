@@ -163,7 +163,7 @@ void add_legs(Mesh& mesh, const Sizes& s, float ground) {
            Material::painted, dark);
 }
 
-/// Two numbers of one or two digits each on a dark panel that faces who looks along `ahead`.
+/// Two numbers of one or two digits each on a dark panel that faces a viewer looking along `ahead`.
 void add_board(Mesh& mesh, const Sizes& s, const Table& table, const Scoreboard& board,
                float ground) {
   const Vector3 ahead(board.ahead_x, board.ahead_y, 0.0f),

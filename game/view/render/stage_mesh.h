@@ -8,7 +8,7 @@
 
 namespace rink::view {
 
-/// What the stage's fragment shader does with a surface.
+/// The material of a surface in the stage's fragment shader.
 enum class Material : int { floor, table, wood, painted, glowing, metal, digit };
 
 /// Per vertex: place, normal, texture coordinates, colour, material.
@@ -17,10 +17,10 @@ inline constexpr int stage_row[] = {3, 3, 2, 3, 1};
 /// Rows of triangles. Sizes other than the field's follow its width.
 std::vector<float> stage_mesh(const Table& table, const Scoreboard& board);
 
-/// What the scoreboard's face fills.
+/// The box of the scoreboard's face.
 Eigen::AlignedBox3f board_box(const Table& table, const Scoreboard& board);
 
-/// The same from straight above, where walls and table are all there is to see.
+/// The mesh for the view from straight above, which shows only walls and table.
 std::vector<float> plan_mesh(const Table& table);
 
 /// Rows of triangles in plain colours, from above: place, colour.

@@ -1,4 +1,4 @@
-// The rule by which events wait for a later frame.
+// Decides which events wait for a later frame.
 #include "game/view/window/event_queue.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What a person did to the window, held back as long as a frame needs to see it: menus look at keys
-// once a frame, so a tap that begins and ends between two frames would never have been.
+// Events of a window, held back until a frame can see them: menus look at keys once a frame, so a
+// tap that begins and ends between two frames would be lost.
 #pragma once
 
 #include <deque>
@@ -10,20 +10,21 @@
 
 namespace rink::view {
 
-/// In order of arrival, and nothing is lost: what has no place in this frame comes in a later one.
+/// Events keep their order and none is lost: one without a place in this frame comes in a later
+/// one.
 class EventQueue {
  public:
   void push(const WindowEvent& event) { waiting_.push_back(event); }
   void begin_frame();
 
-  /// How much of what was done a frame may see at once.
+  /// How many events a frame may see.
   enum class Pace : unsigned char {
-    play,    ///< anything, but of each key and of the mouse's button one change
-    menu,    ///< also only one press, for each acts on what those before it have chosen, and no
+    play,    ///< all events, but only one change of each key and of the mouse's button
+    menu,    ///< also only one press, since each acts on the choices of earlier ones, and no
              ///< movement after a click
     opening  ///< no press: the screen is not ready
   };
-  /// The next event of this frame, if `pace` lets one in.
+  /// The next event of this frame, if `pace` allows one.
   std::optional<WindowEvent> take(Pace pace);
 
  private:

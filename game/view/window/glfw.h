@@ -1,4 +1,4 @@
-// GLFW without the OpenGL header that it would bring along, which does not go with epoxy's.
+// Includes GLFW without its OpenGL header, which conflicts with epoxy's.
 #pragma once
 
 #define GLFW_INCLUDE_NONE

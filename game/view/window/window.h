@@ -12,14 +12,14 @@ struct GLFWwindow;
 
 namespace rink::view {
 
-/// There is no display to open a window on, or no OpenGL 3.3 there; what() says what is missing and
-/// how to get it.
+/// There is no display for a window, or no OpenGL 3.3; what() names what is missing and how to get
+/// it.
 class NoDisplay : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// At most one at a time. Its OpenGL context is current as long as it exists.
+/// At most one exists at a time. Its OpenGL context is current as long as it exists.
 class Window {
  public:
   /// Throws NoDisplay. `width` and `height` in points of the desktop.
@@ -28,13 +28,13 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// What has happened since the last call.
+  /// The events since the last call.
   std::vector<WindowEvent> events();
   WindowSize size() const;
   bool is_full_screen() const;
-  /// On the monitor that shows most of it; back to where it was.
+  /// Switches to full screen on the monitor that shows most of it, or back to its place.
   void set_full_screen(bool is_wanted);
-  /// Shows what was drawn; waits for the screen if that is possible.
+  /// Shows the drawing; waits for the screen if that is possible.
   void show();
 
  private:

@@ -1,4 +1,4 @@
-// What a person does to a window, as plain data: the same from a real window and from a script.
+// Events of a window as plain data, from a real window or from a script.
 #pragma once
 
 #include "game/view/settings.h"
@@ -22,7 +22,7 @@ struct WindowEvent {
   double x = 0.0, y = 0.0;  ///< of mouse_move: pixels from the upper left; of scroll: y
 };
 
-/// How large a window is: pixels, and pixels per point of the desktop's scale.
+/// The size of a window: pixels, and pixels per point of the desktop's scale.
 struct WindowSize {
   int width = 1280, height = 720;
   double scale = 1.0;

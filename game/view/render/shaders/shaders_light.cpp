@@ -1,5 +1,5 @@
-// What every shader knows: the lamp over the table, the hall that glossy things mirror, the print
-// on the table.
+// The common part of all shaders: the lamp over the table, the hall that glossy things reflect, the
+// print on the table.
 #include "game/view/render/shaders/shaders.h"
 
 namespace rink::view {

@@ -1,5 +1,5 @@
-// What moves: marks on the table (soft shadows, streaks, the glow of a goal), and pieces traced as
-// rounded solids in perspective.
+// The moving part: marks on the table (soft shadows, streaks, the glow of a goal), and pieces
+// traced as rounded solids in perspective.
 #include "game/view/render/shaders/shaders.h"
 
 namespace rink::view {

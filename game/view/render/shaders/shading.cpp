@@ -1,4 +1,4 @@
-// The values that all these shaders ask for.
+// Sets the uniforms that these shaders share.
 #include "game/view/render/shaders/shading.h"
 
 namespace rink::view {

@@ -1,4 +1,4 @@
-// What shaders of everything on the table share.
+// The uniforms that shaders of everything on the table share.
 #pragma once
 
 #include "game/view/render/camera.h"
@@ -7,7 +7,7 @@
 
 namespace rink::view {
 
-/// `program` in use, with the table, the eye, and the stage's `depth`, by which what is drawn is
+/// Uses `program` with the table, the eye, and the stage's `depth`, behind which drawings are
 /// hidden.
 void shade(const Program& program, const Table& table, const Sight& sight, const Canvas& canvas,
            GLuint depth);
