@@ -10,7 +10,10 @@
 namespace rink::physics::inline RINK_PRECISION {
 
 bool is_free(const Present& present, const RealVector& centre, const RoundedBox& shape) {
-  const auto& [field, bodies, places, now] = present;
+  const Bodies& bodies = present.bodies;
+  const Field& field = present.field;
+  const Places& places = present.places;
+  const Real now = present.now;
   const RealVector extent = shape.half_extent + RealVector::Constant(shape.radius);
   if ((centre - extent).minCoeff() < 0.0 || centre.x() + extent.x() > field.length ||
       centre.y() + extent.y() > field.width)
@@ -67,8 +70,10 @@ Real dissipated(const EnergyLedger& ledger, const Bodies& bodies, Real now) {
 }
 
 Real max_overlap(const Present& present) {
-  const auto& [field, bodies, places, now] = present;
-  const CellGrid& grid = places.grid();
+  const Bodies& bodies = present.bodies;
+  const Field& field = present.field;
+  const Real now = present.now;
+  const CellGrid& grid = present.places.grid();
   Real deepest = 0.0;
   for (std::uint32_t body = 0; body < bodies.count(); ++body) {
     if (bodies[body].is(Body::gone) || bodies[body].kind == BodyKind::post) continue;
