@@ -153,17 +153,19 @@ function(rink_suites name)
       set(label threaded)
     endif()
     add_test(NAME ${name}/${suite} COMMAND test-${name} "--gtest_filter=${tests}")
-    set_tests_properties(${name}/${suite} PROPERTIES LABELS ${label} TIMEOUT 1800)
+    set_tests_properties(${name}/${suite} PROPERTIES LABELS ${label} TIMEOUT 1800 PROCESSORS 2)
   endforeach()
   list(JOIN named ":" named)
   add_test(NAME ${name}/all-other-suites COMMAND test-${name} "--gtest_filter=-${named}")
-  set_tests_properties(${name}/all-other-suites PROPERTIES LABELS quick TIMEOUT 1800)
+  set_tests_properties(${name}/all-other-suites PROPERTIES LABELS quick TIMEOUT 1800 PROCESSORS 2)
 endfunction()
 
-# rink_tests(NAME [OPTIMISED] DEPENDS targets...): one GoogleTest executable from the calling folder and below it. Suites whose name holds Long are labelled long,
-# those whose name holds Threaded threaded (the thread sanitizer runs these, all in tests/threaded), the rest quick: quick enough for every run.
+# rink_tests(NAME [OPTIMISED] [WAITING suites...] DEPENDS targets...): one GoogleTest executable from the calling folder and below it. Suites whose name holds Long
+# are labelled long, those whose name holds Threaded threaded (the thread sanitizer runs these, all in tests/threaded), the rest quick: quick enough for every run.
+# A test takes two of ctest's places, of which there are two for each processor. One of a suite that is WAITING, for real time to pass or for other processes, takes one;
+# under a sanitizer it computes too.
 function(rink_tests name)
-  cmake_parse_arguments(tests "OPTIMISED" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(tests "OPTIMISED" "" "WAITING;DEPENDS" ${ARGN})
   rink_sources(sources *.cpp)
   if(NOT sources)
     return()
@@ -190,7 +192,12 @@ function(rink_tests name)
   set(patience 120)
   # Parameters print as bytes and addresses: a test is called by the name that its suite gives it, the same in every run.
   set(common DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES TEST_PREFIX ${name}/)
-  gtest_discover_tests(test-${name} ${common} TEST_FILTER "-*Long*.*:*Threaded*.*" PROPERTIES LABELS quick TIMEOUT ${patience})
-  gtest_discover_tests(test-${name} ${common} TEST_FILTER "*Threaded*.*:-*Long*.*" PROPERTIES LABELS threaded TIMEOUT ${patience})
-  gtest_discover_tests(test-${name} ${common} TEST_FILTER "*Long*.*" PROPERTIES LABELS long TIMEOUT 1800)
+  list(TRANSFORM tests_WAITING APPEND ".*")
+  list(JOIN tests_WAITING ":" waiting)
+  gtest_discover_tests(test-${name} ${common} TEST_FILTER "-*Long*.*:*Threaded*.*:${waiting}" PROPERTIES LABELS quick TIMEOUT ${patience} PROCESSORS 2)
+  if(waiting)
+    gtest_discover_tests(test-${name} ${common} TEST_FILTER "${waiting}" PROPERTIES LABELS quick TIMEOUT ${patience})
+  endif()
+  gtest_discover_tests(test-${name} ${common} TEST_FILTER "*Threaded*.*:-*Long*.*" PROPERTIES LABELS threaded TIMEOUT ${patience} PROCESSORS 2)
+  gtest_discover_tests(test-${name} ${common} TEST_FILTER "*Long*.*" PROPERTIES LABELS long TIMEOUT 1800 PROCESSORS 2)
 endfunction()
