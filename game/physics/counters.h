@@ -81,6 +81,8 @@ struct Counters {
     return disc_impacts + post_impacts + wall_impacts + bat_impacts + bat_bat_impacts + goals +
            thrust_changes + releases + hops + freezes + stops + turns;
   }
+  /// Those and the beginnings of rest contacts: all that can be recorded.
+  std::uint64_t recordable() const { return events() + rests; }
   /// Impacts of any kind.
   std::uint64_t impacts() const {
     return disc_impacts + post_impacts + wall_impacts + bat_impacts + bat_bat_impacts;

@@ -64,6 +64,7 @@ class Simulator {
   /// The world behind the exact engine, for those who need its closed forms; null for every other
   /// engine.
   virtual const World* exact_world() const { return nullptr; }
+  virtual World* exact_world() { return nullptr; }
 };
 
 /// Bodies in play that are where none can be: centre outside the field, or not a number.

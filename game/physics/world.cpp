@@ -72,6 +72,9 @@ void World::place(BodyId puck, const Vector2& position, const Vector2& velocity)
 std::optional<Goal> World::advance(Real until) {
   return slabs_ ? slabs_->advance(until) : engine_->advance(until);
 }
+std::optional<Goal> World::advance(Real until, EventBudget& budget) {
+  return engine_->advance(until, budget);
+}
 
 void World::record_events(bool is_wanted) { engine_->record().keep(is_wanted); }
 std::span<const Event> World::events() const { return engine_->record().events(); }

@@ -12,6 +12,7 @@
 #include "game/physics/change_log.h"
 #include "game/physics/counters.h"
 #include "game/physics/event.h"
+#include "game/physics/event_budget.h"
 #include "game/physics/flight/motion.h"
 #include "game/physics/real.h"
 #include "game/physics/simulator.h"
@@ -51,6 +52,10 @@ class World final : public Simulator {
   /// instant that it has been to is over, and what set_thrust(), place(), add() or remove() bring
   /// about there happens when it goes on.
   std::optional<Goal> advance(Real until) override;
+  /// As advance(until), but also ends after the event with which `budget` is exceeded, which it
+  /// must not have been before (asserted). Whatever is left of that instant comes when it goes on.
+  /// Tiles are not used.
+  std::optional<Goal> advance(Real until, EventBudget& budget);
 
   /// From now on keeps a record of every event, for observers; off at first. Never changes the
   /// motion.
@@ -124,6 +129,7 @@ class World final : public Simulator {
 
   std::unique_ptr<Simulator> copy() const override;
   const World* exact_world() const override { return this; }
+  World* exact_world() override { return this; }
 
  private:
   friend class Subdomain;

@@ -230,6 +230,28 @@ std::optional<Goal> Engine::advance(Real until) {
   return std::nullopt;
 }
 
+/// Apart from advance(Real), which everybody pays for.
+std::optional<Goal> Engine::advance(Real until, EventBudget& budget) {
+  assert(until >= clock_.now && until < infinity && !budget.is_exceeded());
+  assert(observers_.journal == nullptr);
+  if (clock_.is_played && until == clock_.now) return std::nullopt;
+  predict_pending();
+  clock_.is_played = false;
+  const Counters& counters = record_.counters();
+  for (std::uint32_t body = events_.first(until); body != NextEvents::none;
+       body = events_.first(until)) {
+    const Partner partner = events_[body].partner;
+    const std::uint64_t before = counters.recordable(), hops = counters.hops;
+    process(body, events_.time(body));
+    if (const std::uint64_t count = counters.recordable() - before; count > 0)
+      budget.charge({clock_.now, body, partner, count, counters.hops > hops});
+    if (goal_) return std::exchange(goal_, std::nullopt);
+    if (budget.is_exceeded()) return std::nullopt;
+  }
+  clock_.arrive(until);
+  return std::nullopt;
+}
+
 void Engine::process(std::uint32_t body, Real time) {
   clock_.reach(time);
   const NextEvent& slot = events_[body];

@@ -31,6 +31,7 @@
 #include "game/physics/engine/questions.h"
 #include "game/physics/engine/rest_contacts.h"
 #include "game/physics/event.h"
+#include "game/physics/event_budget.h"
 #include "game/physics/flight/impact_time.h"
 #include "game/physics/real.h"
 
@@ -68,6 +69,7 @@ class Engine {
   void set_thrust(std::uint32_t bat, const RealVector& acceleration);
   void place(std::uint32_t puck, const RealVector& position, const RealVector& velocity);
   std::optional<Goal> advance(Real until);
+  std::optional<Goal> advance(Real until, EventBudget& budget);
 
   WorldState state() const;
   /// Goes on from there, with the same bits.

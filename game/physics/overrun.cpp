@@ -1,0 +1,142 @@
+// A tally of the last events by body and by partner.
+#include "game/physics/overrun.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+namespace rink::physics::inline RINK_PRECISION {
+namespace {
+
+constexpr double no_room_path = 1e-6;  // of a body's size
+constexpr double light_ratio = 100.0;
+constexpr double pressed_share = 0.125;  // of a body's events that were hops
+constexpr double outstanding = 8.0;      // times the share of an average body
+
+struct Tally {
+  std::size_t events = 0, hops = 0;
+  std::map<Partner, std::size_t> with{};
+};
+
+/// Parts of the field are one partner.
+std::map<std::uint32_t, Tally> tallies_of(const std::vector<ChargedEvent>& events) {
+  std::map<std::uint32_t, Tally> tallies;
+  const auto count = [&](std::uint32_t body, Partner other, bool is_hop) {
+    Tally& tally = tallies[body];
+    ++tally.events;
+    if (is_hop) ++tally.hops;
+    ++tally.with[is_body(other) ? other : partner::none];
+  };
+  for (const ChargedEvent& event : events) {
+    count(event.body, event.partner, event.is_hop);
+    if (is_body(event.partner)) count(event.partner, event.body, event.is_hop);
+  }
+  return tallies;
+}
+
+Partner main_partner(const Tally& tally) {
+  return std::max_element(tally.with.begin(), tally.with.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+bool is_driven(const World& world, BodyId body) {
+  return world.thrust(body) != RealVector(0.0, 0.0);
+}
+
+bool is_pressed(const World& world, const BusyBody& busy, const Tally& tally) {
+  return static_cast<double>(tally.hops) >= pressed_share * static_cast<double>(tally.events) ||
+         is_driven(world, busy.body) || (busy.partner && is_driven(world, *busy.partner));
+}
+
+OverrunReason reason_of(const World& world, const BusyBody& busy, const Tally& tally) {
+  const auto size = static_cast<double>(world.half_extent(busy.body).minCoeff());
+  if (is_pressed(world, busy, tally)) return OverrunReason::pressed;
+  if (busy.free_path < no_room_path * size) return OverrunReason::no_room;
+  if (busy.mass_ratio >= light_ratio) return OverrunReason::light;
+  const double average = 2.0 / world.body_count();
+  return busy.share < outstanding * average ? OverrunReason::common : OverrunReason::fast;
+}
+
+BusyBody busy_body(const World& world, std::uint32_t body, const Tally& tally,
+                   const Overrun& overrun) {
+  const auto events = static_cast<double>(tally.events);
+  BusyBody busy{.body = {body}, .share = events / static_cast<double>(overrun.looked_at)};
+  Real speed = world.velocity({body}).norm();
+  if (const Partner other = main_partner(tally); is_body(other)) {
+    busy.partner = BodyId{other};
+    speed = std::max(speed, world.velocity({other}).norm());
+  }
+  for (const auto& [other, count] : tally.with)
+    if (const Real mass = is_body(other) ? world.mass({other}) : 0.0; std::isfinite(mass))
+      busy.mass_ratio = std::max(busy.mass_ratio, static_cast<double>(mass / world.mass({body})));
+  busy.free_path = static_cast<double>(speed * overrun.span) / events;
+  busy.reason = reason_of(world, busy, tally);
+  return busy;
+}
+
+std::string formatted(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string text_of(const BusyBody& busy) {
+  std::string text = "body " + std::to_string(busy.body.index) + " in " +
+                     formatted("%.3g", 100.0 * busy.share) + " % of them, ";
+  const std::string whom =
+      busy.partner ? "body " + std::to_string(busy.partner->index) : "the field";
+  switch (busy.reason) {
+    case OverrunReason::pressed:
+      return text + "pressed by thrust, mostly against " + whom;
+    case OverrunReason::no_room:
+      return text + "with no room: " + formatted("%.2g", busy.free_path) +
+             " m between two, mostly with " + whom;
+    case OverrunReason::light:
+      return text + "being light: others are " + formatted("%.3g", busy.mass_ratio) +
+             " times as heavy";
+    case OverrunReason::common:
+      return text + "no more than others";
+    case OverrunReason::fast:
+      return text + "being fast: " + formatted("%.2g", busy.free_path) +
+             " m between two, mostly with " + whom;
+  }
+  assert(false);
+  return text;
+}
+
+}  // namespace
+
+Overrun overrun_of(const World& world, const EventBudget& budget) {
+  assert(budget.is_exceeded());
+  const std::vector<ChargedEvent> events = budget.recent();
+  Overrun overrun{.time = world.now(),
+                  .events = budget.spent(),
+                  .events_per_s = budget.events_per_s(),
+                  .looked_at = events.size(),
+                  .span = events.back().time - events.front().time};
+  const std::map<std::uint32_t, Tally> tallies = tallies_of(events);
+  std::vector<std::pair<std::size_t, std::uint32_t>> order;
+  for (const auto& [body, tally] : tallies)
+    if (std::isfinite(world.mass({body}))) order.emplace_back(tally.events, body);
+  std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
+  order.resize(std::min(order.size(), Overrun::busiest_max));
+  for (const auto& [count, body] : order)
+    overrun.busiest.push_back(busy_body(world, body, tallies.at(body), overrun));
+  return overrun;
+}
+
+std::string text_of(const Overrun& overrun) {
+  std::string text = std::to_string(overrun.events) + " events within a simulated second where " +
+                     std::to_string(overrun.events_per_s) + " may be, at " +
+                     formatted("%.17g", static_cast<double>(overrun.time)) + " s; the last " +
+                     std::to_string(overrun.looked_at) + " took " +
+                     formatted("%.2g", static_cast<double>(overrun.span)) + " s";
+  for (const BusyBody& busy : overrun.busiest) text += "; " + text_of(busy);
+  return text;
+}
+
+}  // namespace rink::physics::inline RINK_PRECISION
