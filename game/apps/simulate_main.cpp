@@ -15,6 +15,7 @@
 #include "game/control/simulate_progress.h"
 #include "game/model/listed.h"
 #include "game/model/scene_file.h"
+#include "game/physics/overrun.h"
 #include "game/players/player_kinds.h"
 #include "game/version/version.h"
 
@@ -22,15 +23,16 @@ namespace {
 
 using namespace rink;
 
-constexpr int bad_input = 2;
+constexpr int bad_input = 2, over_budget = 3;
 constexpr double frames_max = 1e12;
 constexpr double until_max = 1e9;  // s, as in scenes
+constexpr std::uint64_t budget_max = 1'000'000'000'000;
 
 struct Options {
   std::string scene, keys, states, events, summary, record;
   std::vector<std::string> players;
   double until = 0.0;
-  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> seed, events_per_s;
   std::optional<std::uint32_t> bats;
   physics::SimulatorChoice engine;
   bool has_integrator = false, has_dt = false;
@@ -80,9 +82,10 @@ struct Outputs {
 
 /// Advances in strides of about a tenth of a second, so that progress is shown and events are
 /// written as they come. The strides do not affect the game. `played` is a Game or a Playing,
-/// `game` the game itself. Returns how long it took [s].
+/// `game` the game itself; it ends early if `budget` is exceeded. Returns how long it took [s].
 template <class Played>
-double play(Played& played, const game::Game& game, const Options& options, std::ofstream& events) {
+double play(Played& played, const game::Game& game, const Options& options,
+            std::optional<physics::EventBudget>& budget, std::ofstream& events) {
   constexpr double stride_least_s = 0.05, stride_most_s = 0.2;
   const double start_s = game::now_s();
   const auto passed_s = [&] { return game::now_s() - start_s; };
@@ -90,23 +93,25 @@ double play(Played& played, const game::Game& game, const Options& options, std:
   if (!options.events.empty()) played.record_events(true), game::write_events_heading(events);
   double stride = std::max(options.until / 1024.0, 1e-9), before_s = 0.0;
   do {
-    played.advance(std::min(options.until, game.now() + stride));
+    const double next = std::min(options.until, game.now() + stride);
+    if (budget) played.advance(next, *budget);
+    else played.advance(next);
     if (!options.events.empty()) game::write_events(events, played.events());
     const double after_s = passed_s();
     if (after_s - before_s < stride_least_s) stride *= 2.0;
     if (after_s - before_s > stride_most_s) stride = std::max(stride / 2.0, 1e-9 * options.until);
     before_s = after_s;
     progress.reached(game.now(), game.simulator().counters().events(), after_s);
-  } while (game.now() < options.until);
+  } while (game.now() < options.until && !game.is_cut_short());
   progress.clear();
   return passed_s();
 }
 
 void write_results(const Options& options, const game::Game& game, double wall_s,
-                   Outputs& outputs) {
+                   const std::optional<physics::EventBudget>& budget, Outputs& outputs) {
   if (!options.states.empty()) game::write_states(outputs.states, game);
   (options.summary.empty() ? std::cout : outputs.summary)
-      << game::summary_of(game, options.engine, wall_s) << '\n';
+      << game::summary_of(game, options.engine, wall_s, budget) << '\n';
   if (!std::cout.flush())
     throw game::SceneError("the standard output: cannot be written to its end");
   close(outputs.states, options.states);
@@ -122,26 +127,38 @@ void write_record(const Options& options, const game::Scene& scene, const game::
   game::KeyLog log = game::key_log_for(scene);
   log.scene_text = game::scene_text(options.scene);
   log.until = game.now();
-  if (options.engine.engine == "exact") log.hash = game.hash();
+  if (options.engine.engine == "exact" && !game.is_cut_short()) log.hash = game.hash();
   std::erase_if(events, [&](const game::InputEvent& event) { return event.time > game.now(); });
   log.events = std::move(events);
   game::write_key_log(record, log);
   close(record, options.record);
 }
 
-void simulate(const Options& options) {
+int status_after(const game::Game& game, const std::optional<physics::EventBudget>& budget) {
+  if (!game.is_cut_short()) return 0;
+  game::complain("stopped by --budget: ",
+                 physics::text_of(physics::overrun_of(game.world(), *budget)));
+  return over_budget;
+}
+
+int simulate(const Options& options) {
   const game::Scene scene = scene_of(options);
   Outputs outputs(options);
+  std::optional<physics::EventBudget> budget;
+  if (options.events_per_s) budget.emplace(*options.events_per_s);
   if (options.players.empty()) {
     game::Game game(scene, options.engine);
     const std::vector<game::InputEvent> keys = submit_keys(game, scene, options.keys);
-    write_results(options, game, play(game, game, options, outputs.events), outputs);
-    return write_record(options, scene, game, keys, outputs.record);
+    const double wall_s = play(game, game, options, budget, outputs.events);
+    write_results(options, game, wall_s, budget, outputs);
+    write_record(options, scene, game, keys, outputs.record);
+    return status_after(game, budget);
   }
   game::Playing playing(scene, options.players, scene.seed, options.until, options.engine);
-  write_results(options, playing.game(), play(playing, playing.game(), options, outputs.events),
-                outputs);
+  const double wall_s = play(playing, playing.game(), options, budget, outputs.events);
+  write_results(options, playing.game(), wall_s, budget, outputs);
   write_record(options, scene, playing.game(), playing.keys(), outputs.record);
+  return status_after(playing.game(), budget);
 }
 
 /// Throws if the chosen engine has a fault.
@@ -151,6 +168,9 @@ void require_engine(const Options& options) {
     throw game::SceneError(
         std::string(options.has_dt ? "--dt" : "--integrator") +
         " is for the engines paper and naive: the exact engine has neither frames nor integrators");
+  if (options.engine.engine != "exact" && options.events_per_s)
+    throw game::SceneError(
+        "--budget is for the exact engine: what the others cost is set by --dt, not by events");
   const double frames = options.until / options.engine.dt;
   if (options.engine.engine != "exact" && frames > frames_max)
     throw game::SceneError(
@@ -221,6 +241,11 @@ int main(int count, char** words) {
       .shows_default();
   flags.option("--dt", options.engine.dt, "length of a frame of the engines paper and naive [s]")
       .shows_default();
+  flags
+      .option("--budget", options.events_per_s,
+              "stop where more events than this come in a simulated second, and say which bodies "
+              "have them and why (default: no limit)")
+      .check(game::whole_number_from(1, budget_max));
   flags.option("--states", options.states,
                "write every entity's final state to this CSV file: kind,id,x,y,vx,vy");
   flags.option("--events", options.events,
@@ -232,15 +257,15 @@ int main(int count, char** words) {
       "Example: rink simulate crowd --until 10 --states states.csv\nExample: rink simulate crowd "
       "--until 10 --engine paper --integrator rk4 --dt 0.004\nExample: rink simulate match "
       "--players chaser,random --until 120 --seed 3 --record match.keys\nExit status: 0 done, 2 "
-      "bad scene, key log or flag.");
+      "bad scene, key log or flag, 3 stopped by --budget (results are those of "
+      "the instant reached).");
   return game::run_command(flags, count, words,
                            {.run =
                                 [&] {
                                   options.has_integrator = flags.is_given("--integrator");
                                   options.has_dt = flags.is_given("--dt");
                                   require_engine(options);
-                                  simulate(options);
-                                  return 0;
+                                  return simulate(options);
                                 },
                             .status_of = [](const std::exception&) { return bad_input; },
                             .hears_interrupts = false});

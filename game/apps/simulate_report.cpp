@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "game/model/report_schema.h"
+#include "game/physics/overrun.h"
 #include "im/basics/hexadecimal.h"
 
 namespace rink::game {
@@ -25,6 +26,22 @@ Json by_kind(physics::Counters counters) {
   for (std::size_t kind = 0; kind < physics::event_kind_names.size(); ++kind)
     kinds[physics::event_kind_names[kind]] = counters.of(static_cast<physics::EventKind>(kind));
   return kinds;
+}
+
+Json report_of(const Game& game, const physics::EventBudget& budget) {
+  Json report{{"events_per_s", budget.events_per_s()}, {"is_exceeded", budget.is_exceeded()}};
+  if (!budget.is_exceeded()) return report;
+  const physics::Overrun overrun = physics::overrun_of(game.world(), budget);
+  report.update({{"looked_at", overrun.looked_at}, {"span", overrun.span}});
+  for (const physics::BusyBody& busy : overrun.busiest)
+    report["busiest"].push_back(
+        {{"body", busy.body.index},
+         {"share", busy.share},
+         {"reason", physics::overrun_reason_names[static_cast<std::size_t>(busy.reason)]},
+         {"partner", busy.partner ? Json(busy.partner->index) : Json()},
+         {"free_path", busy.free_path},
+         {"mass_ratio", busy.mass_ratio}});
+  return report;
 }
 
 }  // namespace
@@ -51,7 +68,8 @@ void write_events(std::ostream& stream, std::span<const physics::Event> events) 
   }
 }
 
-std::string summary_of(const Game& game, const physics::SimulatorChoice& engine, double wall_s) {
+std::string summary_of(const Game& game, const physics::SimulatorChoice& engine, double wall_s,
+                       const std::optional<physics::EventBudget>& budget) {
   const physics::Simulator& simulator = game.simulator();
   const physics::Counters counters = simulator.counters();
   const Vector2 momentum = simulator.momentum();
@@ -79,6 +97,7 @@ std::string summary_of(const Game& game, const physics::SimulatorChoice& engine,
                   {"stale_events", counters.stale_events},
                   {"crossings", counters.crossings},
                   {"wall_s", wall_s}});
+  if (budget) summary["budget"] = report_of(game, *budget);
   return summary.dump(2);
 }
 

@@ -1,11 +1,13 @@
 // The output of rink simulate: states and events as CSV, and a summary as JSON.
 #pragma once
 
+#include <optional>
 #include <ostream>
 #include <span>
 #include <string>
 
 #include "game/control/game.h"
+#include "game/physics/event_budget.h"
 
 namespace rink::game {
 
@@ -20,7 +22,9 @@ void write_events_heading(std::ostream& stream);
 void write_events(std::ostream& stream, std::span<const physics::Event> events);
 
 /// Counts, energies, momentum, overlap, escapes, score and hash as one JSON object with its
-/// `schema`. `wall_s` is how long the run took.
-std::string summary_of(const Game& game, const physics::SimulatorChoice& engine, double wall_s);
+/// `schema`. `wall_s` is how long the run took. A `budget` says whether it was exceeded, by whom
+/// and why.
+std::string summary_of(const Game& game, const physics::SimulatorChoice& engine, double wall_s,
+                       const std::optional<physics::EventBudget>& budget);
 
 }  // namespace rink::game

@@ -58,7 +58,8 @@ Game::Game(const Game& other)
       over_(other.over_),
       face_offs_(other.face_offs_),
       score_(other.score_),
-      is_over_(other.is_over_) {
+      is_over_(other.is_over_),
+      is_cut_short_(other.is_cut_short_) {
   assert(simulator_ != nullptr);
   world_ = simulator_->exact_world();
 }
@@ -89,20 +90,29 @@ InputEvent Game::submit(InputEvent event) {
   return event;
 }
 
-void Game::advance(double until) {
+void Game::advance(double until) { play(until, nullptr); }
+
+bool Game::advance(double until, physics::EventBudget& budget) {
+  assert(world_ != nullptr && !budget.is_exceeded());
+  return play(until, &budget);
+}
+
+bool Game::play(double until, physics::EventBudget* budget) {
   assert(std::isfinite(until) && until >= now());
   spawned_.clear();
   removed_.clear();
   scored_.clear();
   simulator_->forget_events();
   do {
-    play_until(next_instant(until));
+    is_cut_short_ = !play_until(next_instant(until), budget);
+    if (is_cut_short_) return false;
     face_off_until(now());
     apply_inputs_until(now());
   } while (now() < until);
   assert(next_instant(std::numeric_limits<double>::infinity()) > now() &&
          "all that was due has been done");
   if constexpr (checks_whole_structures) check();
+  return true;
 }
 
 /// The earliest instant at which more than motion happens, at most `until`.
@@ -113,11 +123,18 @@ double Game::next_instant(double until) const {
 }
 
 /// A goal may bring the next instant forward, for its face-off is one.
-void Game::play_until(double until) {
-  while (const std::optional<physics::Goal> goal = simulator_->advance(until)) {
+bool Game::play_until(double until, physics::EventBudget* budget) {
+  const auto is_exceeded = [budget] { return budget != nullptr && budget->is_exceeded(); };
+  const auto move = [&] {
+    return budget != nullptr ? simulator_->exact_world()->advance(until, *budget)
+                             : simulator_->advance(until);
+  };
+  while (const std::optional<physics::Goal> goal = move()) {
     count_goal(*goal);
+    if (is_exceeded()) return false;
     until = next_instant(until);
   }
+  return !is_exceeded();
 }
 
 void Game::count_goal(const physics::Goal& goal) {

@@ -70,6 +70,12 @@ class Game {
   /// Plays up to and including `until` [s], not before now(). Once the match is over bats and pucks
   /// still move, but goals count no more and scored pucks stay out.
   void advance(double until);
+  /// As advance(until), on the exact engine (asserted), but also ends after the event with which
+  /// `budget` is exceeded, which it must not have been before (asserted): then it answers false.
+  /// Going on, with or without a budget, comes to the same bits as if it had not stopped.
+  bool advance(double until, physics::EventBudget& budget);
+  /// Whether the last `advance` ended so, perhaps with events of now() still to come.
+  bool is_cut_short() const { return is_cut_short_; }
 
   static constexpr double placement_retry = 0.1;  ///< s
 
@@ -156,7 +162,8 @@ class Game {
   };
 
   void spawn_bat(std::uint32_t player, const Vector2& position, const Vector2& velocity);
-  void play_until(double until);
+  bool play(double until, physics::EventBudget* budget);
+  bool play_until(double until, physics::EventBudget* budget);
   void count_goal(const physics::Goal& goal);
   void schedule(const FaceOff& due);
   void face_off_until(double instant);
@@ -177,7 +184,7 @@ class Game {
   double over_ = -1.0;  ///< the last instant of which more than motion has been played [s]
   std::vector<FaceOff> face_offs_;  ///< ordered by time, then puck
   Score score_;
-  bool is_over_ = false;
+  bool is_over_ = false, is_cut_short_ = false;
   std::vector<Entity> spawned_, removed_;
   std::vector<ScoredGoal> scored_;
 };

@@ -68,27 +68,31 @@ void Playing::record_events(bool is_wanted) {
   game_.record_events(is_wanted);
 }
 
-void Playing::play_until(double instant) {
-  game_.advance(instant);
+bool Playing::play_until(double instant, physics::EventBudget* budget) {
+  if (budget != nullptr) game_.advance(instant, *budget);
+  else game_.advance(instant);
   if (records_events_)
     happened_.insert(happened_.end(), game_.events().begin(), game_.events().end());
+  return !game_.is_cut_short();
 }
 
-void Playing::advance(double until) {
+bool Playing::play(double until, physics::EventBudget* budget) {
   happened_.clear();
   for (; !seats_.empty(); ++turn_) {
     Seat& seat = seats_[turn_ % seats_.size()];
     const double instant =
         static_cast<double>(turn_ / seats_.size()) * decision_period + seat.phase;
     if (instant > until) break;
-    if (game_.now() < instant)
-      play_until(instant);  // players that decide at one instant see the same state and press
-                            // together, as in the replay of the log
+    // Players that decide at one instant see the same state and press together, as in the replay of
+    // the log.
+    if ((game_.now() < instant || game_.is_cut_short()) && !play_until(instant, budget))
+      return false;
     assert(game_.now() == instant);
     decide(seat, instant);
   }
-  play_until(until);
+  if (!play_until(until, budget)) return false;
   if constexpr (checks_whole_structures) check();
+  return true;
 }
 
 void Playing::decide(Seat& seat, double instant) {

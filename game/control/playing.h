@@ -27,7 +27,9 @@ class Playing {
           double until, const physics::SimulatorChoice& engine = {});
 
   /// Plays up to and including `until` [s].
-  void advance(double until);
+  void advance(double until) { play(until, nullptr); }
+  /// As Game's.
+  bool advance(double until, physics::EventBudget& budget) { return play(until, &budget); }
 
   /// A key of `player`, whose kind is `hand` (asserted), at now(), or right after it if others have
   /// pressed theirs then.
@@ -53,7 +55,8 @@ class Playing {
     std::uint64_t decisions = 0;
   };
 
-  void play_until(double instant);
+  bool play(double until, physics::EventBudget* budget);
+  bool play_until(double instant, physics::EventBudget* budget);
   void decide(Seat& seat, double instant);
   void look_about(Seat& seat, const Vector2& from, double instant);
   void locate_pucks(double instant);

@@ -53,7 +53,7 @@ KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text,
   KeyLog log = key_log_for(scene);
   log.scene_text = std::move(scene_text);
   log.until = game.now();
-  log.hash = game.hash();
+  if (!game.is_cut_short()) log.hash = game.hash();  // a replay plays instants to their end
   log.events = std::move(events);
   std::erase_if(log.events, [&](const InputEvent& event) { return event.time > game.now(); });
   std::stable_sort(log.events.begin(), log.events.end(),

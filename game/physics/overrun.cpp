@@ -61,15 +61,18 @@ OverrunReason reason_of(const World& world, const BusyBody& busy, const Tally& t
   return busy.share < outstanding * average ? OverrunReason::common : OverrunReason::fast;
 }
 
+/// Who does not move at this instant may have done so at others: the fastest bounds them all.
+Real greatest_speed(const World& world, const std::map<std::uint32_t, Tally>& tallies) {
+  Real speed = 0.0;
+  for (const auto& [body, tally] : tallies) speed = std::max(speed, world.velocity({body}).norm());
+  return speed;
+}
+
 BusyBody busy_body(const World& world, std::uint32_t body, const Tally& tally,
-                   const Overrun& overrun) {
+                   const Overrun& overrun, Real speed) {
   const auto events = static_cast<double>(tally.events);
   BusyBody busy{.body = {body}, .share = events / static_cast<double>(overrun.looked_at)};
-  Real speed = world.velocity({body}).norm();
-  if (const Partner other = main_partner(tally); is_body(other)) {
-    busy.partner = BodyId{other};
-    speed = std::max(speed, world.velocity({other}).norm());
-  }
+  if (const Partner other = main_partner(tally); is_body(other)) busy.partner = BodyId{other};
   for (const auto& [other, count] : tally.with)
     if (const Real mass = is_body(other) ? world.mass({other}) : 0.0; std::isfinite(mass))
       busy.mass_ratio = std::max(busy.mass_ratio, static_cast<double>(mass / world.mass({body})));
@@ -93,7 +96,7 @@ std::string text_of(const BusyBody& busy) {
     case OverrunReason::pressed:
       return text + "pressed by thrust, mostly against " + whom;
     case OverrunReason::no_room:
-      return text + "with no room: " + formatted("%.2g", busy.free_path) +
+      return text + "with no room: at most " + formatted("%.2g", busy.free_path) +
              " m between two, mostly with " + whom;
     case OverrunReason::light:
       return text + "being light: others are " + formatted("%.3g", busy.mass_ratio) +
@@ -101,7 +104,7 @@ std::string text_of(const BusyBody& busy) {
     case OverrunReason::common:
       return text + "no more than others";
     case OverrunReason::fast:
-      return text + "being fast: " + formatted("%.2g", busy.free_path) +
+      return text + "being fast: up to " + formatted("%.2g", busy.free_path) +
              " m between two, mostly with " + whom;
   }
   assert(false);
@@ -124,8 +127,9 @@ Overrun overrun_of(const World& world, const EventBudget& budget) {
     if (std::isfinite(world.mass({body}))) order.emplace_back(tally.events, body);
   std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
   order.resize(std::min(order.size(), Overrun::busiest_max));
+  const Real speed = greatest_speed(world, tallies);
   for (const auto& [count, body] : order)
-    overrun.busiest.push_back(busy_body(world, body, tallies.at(body), overrun));
+    overrun.busiest.push_back(busy_body(world, body, tallies.at(body), overrun, speed));
   return overrun;
 }
 

@@ -29,8 +29,8 @@ struct BusyBody {
   BodyId body;
   double share = 0.0;  ///< of the events looked at; those of two bodies are counted for both
   std::optional<BodyId> partner{};  ///< whom most of them were with; nothing: a part of the field
-  double free_path = 0.0;           ///< that it or its partner, whoever is faster, goes between two
-                                    ///< of its events [m]
+  double free_path = 0.0;           ///< at most what it goes between two of its events, on average:
+                                    ///< at the speed of the fastest looked at [m]
   double mass_ratio = 0.0;          ///< of the heaviest that it met and that moves to itself; 0:
                                     ///< it met nobody
   OverrunReason reason = OverrunReason::common;

@@ -173,6 +173,45 @@ TEST_F(SimulateCommand, EndsWithStatus2AndOneLineOnBadInput) {
   EXPECT_EQ(simulate("match --until 1 --states " + file("no/such/folder.csv")), 2);
 }
 
+TEST_F(SimulateCommand, StopsAtItsBudgetAndSaysWhoSpentItAndWhy) {
+  std::ofstream scene(file("row.toml"));
+  scene << "[field]\nlength = 0.9375000000001\nwidth = 0.25\n";
+  for (int k = 0; k < 15; ++k)
+    scene << "[[puck]]\nposition = [" << 0.03125 * (2 * k + 1)
+          << ", 0.125]\nradius = 0.03125\nvelocity = [" << (k == 7 ? 50.0 : 0.0) << ", 0.0]\n";
+  scene.close();
+  EXPECT_EQ(simulate(file("row.toml") + " --until 1 --budget 20000 --states " + file("states.csv") +
+                     " --record " + file("keys")),
+            3);
+  EXPECT_THAT(said_, testing::StartsWith("rink simulate: stopped by --budget: 20001 events within "
+                                         "a simulated second where 20000 may be, at "));
+  EXPECT_THAT(said_, HasSubstr("with no room"));
+  EXPECT_EQ(std::ranges::count(said_, '\n'), 1);
+  EXPECT_THAT(printed_, HasSubstr("\"is_exceeded\": true"));
+  EXPECT_THAT(printed_, HasSubstr("\"reason\": \"no_room\""));
+  EXPECT_EQ(rows_of(file("states.csv")).size(), 15u);
+  EXPECT_FALSE(read_key_log(std::filesystem::path(file("keys"))).hash);
+}
+
+TEST_F(SimulateCommand, PlaysTheSameGameWithinItsBudget) {
+  const auto hash_of_printed = [this] { return printed_.substr(printed_.find("\"hash\""), 30); };
+  ASSERT_EQ(simulate("crowd --bats 5 --players chaser --until 1"), 0);
+  const std::string hash = hash_of_printed();
+  EXPECT_EQ(printed_.find("budget"), std::string::npos);
+  ASSERT_EQ(simulate("crowd --bats 5 --players chaser --until 1 --budget 1000000000000"), 0);
+  EXPECT_EQ(hash_of_printed(), hash);
+  EXPECT_THAT(printed_, HasSubstr("\"is_exceeded\": false"));
+}
+
+TEST_F(SimulateCommand, RefusesABudgetOfNothingOrForEnginesThatStep) {
+  for (const char* budget : {"0", "-1", "x", "0.5", "2000000000000"}) {
+    EXPECT_EQ(simulate(std::string("crowd --until 0 --budget ") + budget), 2) << budget;
+    EXPECT_THAT(said_, HasSubstr("--budget")) << budget;
+  }
+  EXPECT_EQ(simulate("crowd --until 0 --engine paper --budget 5"), 2);
+  EXPECT_THAT(said_, HasSubstr("--budget is for the exact engine"));
+}
+
 TEST(SceneDocumentation, ShowsASceneThatLoadsAndPlays) {
   const std::string page = test::text_of(test::source_folder() + "/docs/scenes.md");
   const std::size_t start = page.find("```toml\n") + 8;

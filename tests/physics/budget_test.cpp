@@ -73,7 +73,8 @@ TEST(Budget, NamesTheRowWithoutRoom) {
   ASSERT_EQ(overrun->busiest.size(), Overrun::busiest_max);
   for (const BusyBody& busy : overrun->busiest) {
     EXPECT_EQ(busy.reason, OverrunReason::no_room) << busy.body.index;
-    EXPECT_LT(busy.free_path, 1e-9);
+    EXPECT_LT(busy.free_path, 1e-12);
+    EXPECT_GT(busy.free_path, 0.0);
   }
   EXPECT_NE(text_of(*overrun).find("with no room"), std::string::npos) << text_of(*overrun);
 }
