@@ -19,6 +19,7 @@ std::uint32_t FederateTable::take_slot() {
 }
 
 std::uint32_t FederateTable::take_block() {
+  assert(has_block());
   if (free_blocks_.empty()) return next_block_++;
   const std::uint32_t block = free_blocks_.back();
   free_blocks_.pop_back();

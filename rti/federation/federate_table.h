@@ -30,8 +30,8 @@ class FederateTable {
   /// Who has joined.
   std::size_t joined_count() const { return joined_count_; }
 
-  /// A slot with a block of handles whose owner has not joined: it is sent nothing, and nobody
-  /// counts it.
+  /// A slot with a block of handles, of which one must be left, whose owner has not joined: it is
+  /// sent nothing, and nobody counts it.
   std::uint32_t add();
   std::uint32_t admit(ConnectionId connection, std::string_view name, std::string_view type);
   /// It is no longer there for others, who are yet to be told; `release` follows.
@@ -50,6 +50,7 @@ class FederateTable {
   }
 
   bool has_block() const { return !free_blocks_.empty() || next_block_ < object_block_max; }
+  /// One must be left.
   std::uint32_t take_block();
   /// None of its handles was ever used.
   void give_back(std::uint32_t block) {

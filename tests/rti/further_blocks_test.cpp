@@ -2,11 +2,14 @@
 // the RTI has given it a further one.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "rti/wire/declaration_messages.h"
 #include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
 #include "tests/rti/bare.h"
 #include "tests/rti/rig.h"
+#include "tests/rti/warden.h"
 
 namespace rink::rti::testing {
 namespace {
@@ -101,26 +104,28 @@ TEST(FurtherBlocks, LeaveTheLimitOfWhatIsThereAtOnce) {
   EXPECT_EQ(rig.execution().counters().drops[static_cast<std::size_t>(Violation::over_limit)], 1u);
 }
 
+/// Who enters from now on leaves a block behind that was used, `first` and all that follow.
+void use_up_all_blocks(Bare& bare, std::uint32_t first, ConnectionId connection) {
+  for (std::uint32_t block = first; block < object_block_max; ++block, ++connection) {
+    bare.enter(connection, "guest");
+    bare.execution.receive(
+        connection,
+        frame_of(PublishObjectClassMessage{vessel_number, both.bits},
+                 RegisterObjectMessage{block * object_block, vessel_number, ""}, ResignMessage{}));
+    bare.tick();
+  }
+}
+
 /// The handle behind the last of a block is the first of another's.
 TEST(FurtherBlocks, AreNotTakenFromOthersByWhoIsGivenNone) {
   Bare bare;
-  const PublishObjectClassMessage publish{vessel_number, both.bits};
   const auto come_and_go = [&](ObjectHandle object) {
     bare.execution.receive(1, frame_of(RegisterObjectMessage{object.value, vessel_number, ""},
                                        DeleteObjectMessage{object.value}));
   };
   bare.enter(1, "hoarder");
-  bare.execution.receive(1, frame_of(publish));
-  // Everybody else leaves a block behind that was used.
-  std::uint32_t block = 2;
-  for (ConnectionId connection = 2; block < object_block_max; ++block, ++connection) {
-    bare.enter(connection, "guest");
-    bare.execution.receive(
-        connection,
-        frame_of(publish, RegisterObjectMessage{block * object_block, vessel_number, ""},
-                 ResignMessage{}));
-    bare.tick();
-  }
+  bare.execution.receive(1, frame_of(PublishObjectClassMessage{vessel_number, both.bits}));
+  use_up_all_blocks(bare, 2, 2);
   for (std::uint32_t number = 0; number < object_block; ++number) {
     come_and_go({object_block + number});
     if (number % 4096 == 0) bare.tick();
@@ -131,6 +136,62 @@ TEST(FurtherBlocks, AreNotTakenFromOthersByWhoIsGivenNone) {
   bare.tick();
   EXPECT_EQ(bare.drops(Violation::over_limit), 1u);
   EXPECT_EQ(bare.execution.object_count(), 0u);
+}
+
+/// The RTI itself, which is the owner of management objects, is no exception.
+TEST(FurtherBlocks, AreNotTakenFromOthersByTheRti) {
+  Bare bare;
+  const ObjectHandle own = bare.witness.register_object_instance(vessel);
+  ASSERT_EQ(own.value, 0u) << "the handle that would come after the last of all";
+  use_up_all_blocks(bare, 1, 1);
+  bare.witness.subscribe_object_class_attributes(federate_class,
+                                                 harbour().attributes(federate_class));
+  bare.tick();
+  bare.tick();
+  EXPECT_EQ(bare.execution.object_count(), 1u) << "the witness's alone";
+  EXPECT_TRUE(bare.witness_heard.objects.empty());
+  EXPECT_TRUE(bare.witness.is_joined()) << bare.witness_heard.lost;
+}
+
+/// Each subscription after a time without registers the federation's object and one for each
+/// federate.
+TEST(FurtherBlocks, AreNotTakenByTheRtiOnceItHasUsedItsOwn) {
+  constexpr std::uint32_t federates = 100, reported = federates + 1, rti_block = federates;
+  Bare bare;
+  for (ConnectionId connection = 1; connection < federates; ++connection) {
+    bare.execution.connect(connection);
+    bare.execution.receive(connection, frame_of(join_of("f" + std::to_string(connection))));
+  }
+  bare.tick();
+  const auto look = [&] {
+    bare.witness.subscribe_object_class_attributes(federation_class,
+                                                   harbour().attributes(federation_class));
+    bare.tick();
+  };
+  const auto look_away = [&] {
+    bare.witness.unsubscribe_object_class(federation_class);
+    bare.tick();
+    ASSERT_EQ(bare.execution.object_count(), 0u);
+  };
+  look();
+  ASSERT_EQ(bare.execution.object_count(), reported);
+  look_away();
+  use_up_all_blocks(bare, rti_block + 1, federates);
+  std::uint32_t left = object_block - reported;
+  for (; left >= reported; left -= reported) {
+    look();
+    ASSERT_EQ(bare.execution.object_count(), reported);
+    look_away();
+  }
+  look();
+  EXPECT_EQ(bare.execution.object_count(), left) << "as many as there are handles";
+  ASSERT_EQ(bare.witness_heard.objects.size(), 1u);
+  EXPECT_EQ(bare.witness_heard.objects.begin()->first / object_block, rti_block);
+  look_away();
+  look();
+  EXPECT_EQ(bare.execution.object_count(), 0u);
+  EXPECT_TRUE(bare.witness_heard.objects.empty());
+  EXPECT_TRUE(bare.witness.is_joined()) << bare.witness_heard.lost;
 }
 
 }  // namespace

@@ -43,7 +43,6 @@ void ManagementObjects::timed(std::uint32_t slot, double period) {
 }
 
 void ManagementObjects::begin() {
-  if (!slot_) slot_ = basis_.federates.add();
   add(federation_, federation_class_);
   for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot)
     if (basis_.federates[slot].is_joined) add(reported_of(slot), federate_class_);
@@ -56,7 +55,9 @@ void ManagementObjects::end() {
 
 void ManagementObjects::add(ReportedObject& reported, ObjectClassHandle object_class) {
   reported = {};
-  reported.object = uses_.objects.register_own(*slot_, object_class);
+  if (!slot_ && basis_.federates.has_block()) slot_ = basis_.federates.add();
+  if (slot_) reported.object = uses_.objects.register_own(*slot_, object_class);
+  if (!reported.object) return;
   reported.is_due = true;
   if (&reported != &federation_)
     slots_[reported.object.value] = static_cast<std::uint32_t>(&reported - federates_.data());
@@ -93,7 +94,8 @@ void ManagementObjects::notify() {
     ask(each.object, each.attributes);
   if (!is_subscribed_) return;
   has_counted_ = false;
-  if (federation_.is_due || !federation_.asked.is_empty()) report_federation();
+  if (federation_.object && (federation_.is_due || !federation_.asked.is_empty()))
+    report_federation();
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot) {
     ReportedObject& reported = federates_[slot];
     if (!reported.object) continue;

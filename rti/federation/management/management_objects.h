@@ -66,6 +66,7 @@ class ManagementObjects {
   };
   void begin();
   void end();
+  /// Without a block of handles that is left, there is no object.
   void add(ReportedObject& reported, ObjectClassHandle object_class);
   void remove(ReportedObject& reported);
   /// They are reported whether they have changed or not.

@@ -95,6 +95,7 @@ ObjectHandle ObjectService::register_own(std::uint32_t slot, ObjectClassHandle o
   std::uint32_t& block = basis_.federates[slot].block;
   if (registered.count ==
       object_block) {  // those that come and go have used up all handles of the block
+    if (!basis_.federates.has_block()) return {};
     basis_.objects.close_block(block);
     block = basis_.federates.take_block();
     registered.count = 0;

@@ -41,7 +41,7 @@ class ObjectService {
   /// All federates that know it receive the removal, the one that deleted it too: until then it may
   /// receive updates.
   void remove(ObjectSlot object);
-  /// One of the RTI's own, whose slot never joined.
+  /// One of the RTI's own, whose slot never joined; none if no block of handles is left to give.
   ObjectHandle register_own(std::uint32_t slot, ObjectClassHandle object_class);
   /// In its present block.
   std::uint32_t registered(std::uint32_t slot) const {
