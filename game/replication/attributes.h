@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -134,7 +135,8 @@ bool exchange(Stream& stream, MatchState& state) {
 
 template <class Stream>
 bool exchange(Stream& stream, Position& position) {
-  return stream.number(position.x) && stream.number(position.y);
+  return stream.number(position.x) && stream.number(position.y) && std::isfinite(position.x) &&
+         std::isfinite(position.y);
 }
 
 template <class Stream>
@@ -146,7 +148,8 @@ bool exchange(Stream& stream, Snapshot& snapshot) {
 template <class Stream>
 bool exchange(Stream& stream, Shape& shape) {
   return stream.number(shape.kind) && stream.number(shape.team) &&
-         stream.number(shape.half_length) && stream.number(shape.half_width);
+         stream.number(shape.half_length) && stream.number(shape.half_width) &&
+         std::isfinite(shape.half_length) && std::isfinite(shape.half_width);
 }
 
 template <class Stream>
@@ -161,7 +164,8 @@ bool exchange(Stream& stream, Goals& goals) {
 
 template <class Stream>
 bool exchange(Stream& stream, Extent& extent) {
-  return stream.number(extent.length) && stream.number(extent.width);
+  return stream.number(extent.length) && stream.number(extent.width) && extent.length >= 0.0f &&
+         std::isfinite(extent.length) && extent.width >= 0.0f && std::isfinite(extent.width);
 }
 
 template <class Stream>
