@@ -30,22 +30,24 @@ void TimeService::left(std::uint32_t slot) {
   federates_[slot] = {};
 }
 
-Status TimeService::handle_regulation(std::uint32_t slot, Reader& reader) {
+template <class Message>
+Status TimeService::set_lookahead(std::uint32_t slot, Reader& reader,
+                                  bool (TimeManagement::*set)(std::uint32_t, double)) {
   TimeManagement& management = begin(slot);
-  EnableTimeRegulationMessage message;
+  Message message;
   if (!exchange(reader, message)) return Violation::malformed;
-  if (!management.enable_regulation(slot, message.seconds)) return Violation::untimely;
+  if (!(management.*set)(slot, message.seconds)) return Violation::untimely;
   federates_[slot].lookahead = message.seconds;
   return std::nullopt;
 }
 
+Status TimeService::handle_regulation(std::uint32_t slot, Reader& reader) {
+  return set_lookahead<EnableTimeRegulationMessage>(slot, reader,
+                                                    &TimeManagement::enable_regulation);
+}
+
 Status TimeService::handle_lookahead(std::uint32_t slot, Reader& reader) {
-  TimeManagement& management = begin(slot);
-  ModifyLookaheadMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  if (!management.modify_lookahead(slot, message.seconds)) return Violation::untimely;
-  federates_[slot].lookahead = message.seconds;
-  return std::nullopt;
+  return set_lookahead<ModifyLookaheadMessage>(slot, reader, &TimeManagement::modify_lookahead);
 }
 
 Status TimeService::handle_advance(std::uint32_t slot, Reader& reader) {

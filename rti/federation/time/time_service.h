@@ -66,6 +66,10 @@ class TimeService final : private TimeListener {
   };
 
   TimeManagement& begin(std::uint32_t slot);
+  /// As the federate's message says, unless `set` finds it untimely.
+  template <class Message>
+  Status set_lookahead(std::uint32_t slot, Reader& reader,
+                       bool (TimeManagement::*set)(std::uint32_t, double));
   Status keep(std::uint32_t slot);
   void make_room(std::uint32_t speaker);
   std::uint32_t find_culprit() const;
