@@ -27,6 +27,11 @@ ReceivedBody received_body(const EntityReplica& entity, double time) {
   return body;
 }
 
+/// Numbers that a trajectory may hold lead beyond all numbers after a while.
+bool is_anywhere(const ReceivedBody& body) {
+  return body.position.allFinite() && body.velocity.allFinite();
+}
+
 bool is_kind(const EntityReplica& entity, physics::BodyKind kind) {
   return entity.in_scope && entity.is_placed &&
          entity.shape.kind == static_cast<std::uint8_t>(kind);
@@ -68,8 +73,9 @@ std::size_t HostedScene::add_bats(const ReplicaSet& replicas, ReceivedRink& rece
   for (const EntityReplica& entity : replicas.entities()) {
     if (!is_kind(entity, physics::BodyKind::bat) || entity.shape.team >= received.bats.size())
       continue;
-    received.bats[entity.shape.team] = received_body(entity, received.time);
-    ++count;
+    ReceivedBody& bat = received.bats[entity.shape.team];
+    bat = received_body(entity, received.time);
+    if (is_anywhere(bat)) ++count;
   }
   return count;
 }
@@ -84,9 +90,9 @@ std::size_t HostedScene::add_pucks(const ReplicaSet& replicas, ReceivedRink& rec
     ReceivedBody body = received_body(*puck, received.time);
     const double x = body.position.x();
     body.is_in_play = x > 0.0 && x < scene_->world.field.length;
-    received.pucks.push_back(body);
+    if (is_anywhere(body)) received.pucks.push_back(body);
   }
-  return found.size();
+  return received.pucks.size();
 }
 
 }  // namespace rink::game

@@ -22,8 +22,8 @@ class HostedScene {
   const Scene* scene() const { return scene_ ? &*scene_ : nullptr; }
   /// All its things: bats, pucks, then posts.
   const std::vector<Thing>& things() const { return things_; }
-  /// The state at the newest stamp; nothing while a body is still missing, or for an instant that
-  /// no match reaches. `own`: the own bat, if there is one. It must be read.
+  /// The state at the newest stamp; nothing while a body is missing or nowhere, or for an instant
+  /// that no match reaches. `own`: the own bat, if there is one. It must be read.
   std::optional<ReceivedRink> received(const ReplicaSet& replicas, const EntityReplica* own) const;
 
  private:

@@ -9,22 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "game/net/fom_file.h"
 #include "game/replication/attributes.h"
-#include "game/replication/trajectory_codec.h"
 #include "rti/federation_execution.h"
+#include "tests/net/rink_model.h"
 
 namespace rink::game {
 namespace {
-
-const rti::Fom& rink_fom() {
-  static const rti::Fom fom = load_rink_fom(fom_file());
-  return fom;
-}
-const ObjectModel& rink_model() {
-  static const ObjectModel model(rink_fom());
-  return model;
-}
 
 /// Hears of matches, and answers to questions about the time.
 struct Listener final : rti::FederateAmbassador {
