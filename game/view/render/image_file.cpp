@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 
@@ -29,9 +30,18 @@ Image read_pixels(unsigned framebuffer, int width, int height) {
   return image;
 }
 
+/// By a stream, for stb's own writing to a file does not hear of a disk that is full.
 void write_png(const std::string& file, const Image& image) {
-  if (stbi_write_png(file.c_str(), image.width, image.height, image.channels, image.pixels.data(),
-                     image.width * image.channels) == 0)
+  std::string png;
+  const auto keep = [](void* kept, void* bytes, int size) {
+    static_cast<std::string*>(kept)->append(static_cast<const char*>(bytes),
+                                            static_cast<std::size_t>(size));
+  };
+  const bool is_coded =
+      stbi_write_png_to_func(keep, &png, image.width, image.height, image.channels,
+                             image.pixels.data(), image.width * image.channels) != 0;
+  std::ofstream stream(file, std::ios::binary);
+  if (!is_coded || !(stream << png << std::flush))
     throw std::runtime_error("cannot write the image '" + file + "'");
 }
 
