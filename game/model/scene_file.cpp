@@ -338,7 +338,9 @@ std::string scene_text(const std::string& scene) {
   const std::filesystem::path file = file_of(scene);
   std::ifstream stream(file);
   std::ostringstream text;
-  if (std::filesystem::is_directory(file) || !stream || !(text << stream.rdbuf()))
+  const bool is_empty = stream.peek() == std::ifstream::traits_type::eof() && !stream.bad();
+  if (std::filesystem::is_directory(file) || !stream.is_open() ||
+      !(is_empty || text << stream.rdbuf()))
     throw SceneError(file.string() + ": cannot be read: expected a scene file (TOML)");
   return text.str();
 }

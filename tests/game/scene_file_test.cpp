@@ -3,10 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <limits>
 
 #include "game/control/game.h"
 #include "tests/game/rink_scenes.h"
+#include "tests/temporary_folder.h"
 #include "tests/words.h"
 
 namespace rink::game {
@@ -363,6 +365,14 @@ TEST(SceneFile, NamesThePathThatCannotBeRead) {
   } catch (const SceneError& error) {
     EXPECT_THAT(error.what(), HasSubstr("no/such/scene.toml: cannot be read"));
   }
+}
+
+TEST(SceneFile, SaysOfAnEmptyFileWhatItLacks) {
+  const test::TemporaryFolder folder("scene");
+  const std::string file = (folder.path() / "empty.toml").string();
+  std::ofstream(file).flush();
+  EXPECT_THAT(refusal_of([&] { load_scene(file); }),
+              AllOf(HasSubstr("empty.toml:"), HasSubstr("[field]")));
 }
 
 TEST(SceneFile, FindsPresetsBesideTheBinaryAndNamesThemWhenAskedForAnother) {
