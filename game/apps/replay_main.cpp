@@ -2,6 +2,7 @@
 #include <chrono>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 
 #include "game/apps/command.h"
 #include "game/control/key_log_file.h"
@@ -29,7 +30,9 @@ int replay(const std::string& file) {
   }
   std::cout << "scene " << log.scene << ", seed " << log.seed << ", " << scene.bodies.bats.size()
             << " bats, " << log.events.size() << " keys, " << *log.until << " s: hash "
-            << hexadecimal(hash) << " as recorded (" << wall_s << " s)\n";
+            << hexadecimal(hash) << " as recorded (" << wall_s << " s)\n"
+            << std::flush;
+  if (!std::cout) throw std::runtime_error("the standard output: cannot be written to its end");
   return 0;
 }
 

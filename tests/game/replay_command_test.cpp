@@ -23,10 +23,12 @@ using test::text_of;
 class ReplayCommand : public ::testing::Test {
  protected:
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
-  /// The exit status of `rink COMMAND`; all that it says is in `said_`.
-  int run(const std::string& command) {
+  /// The exit status of `rink COMMAND`; all that it says is in `said_`, but for what goes to
+  /// another standard output.
+  int run(const std::string& command, const std::string& output = "&2") {
     const int status = std::system(
-        (test::binary_folder() + "/bin/rink-" + command + " >" + file("out") + " 2>&1").c_str());
+        (test::binary_folder() + "/bin/rink-" + command + " 2>" + file("out") + " >" + output)
+            .c_str());
     said_ = text_of(file("out"));
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -52,6 +54,12 @@ TEST_F(ReplayCommand, ComesToTheHashOfTheRecordedGame) {
   EXPECT_EQ(replay(), 0) << said_;
   EXPECT_THAT(said_, AllOf(HasSubstr("scene match, seed 3, 2 bats"),
                            HasSubstr(text.str() + " as recorded")));
+}
+
+TEST_F(ReplayCommand, SaysThatItsWordsCouldNotBeWritten) {
+  record();
+  EXPECT_EQ(run("replay " + file("keys"), "/dev/full"), 2);
+  EXPECT_THAT(said_, HasSubstr("the standard output: cannot be written to its end"));
 }
 
 TEST_F(ReplayCommand, NeedsNothingButTheLog) {
