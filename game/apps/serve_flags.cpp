@@ -16,6 +16,7 @@ void add_options(Flags& flags, ServeOptions& options) {
   flags.footer(std::string("Example: rink serve --scene crowd --clients 100 --scheme region "
                            "--duration 30 --report server.json\n\n") +
                exit_status_help);
+  flags.name("rink serve");
   flags.option("match", options.hosted,
                "host matches of this scene, one after the other, until interrupted: on-event, 60 "
                "ticks per second unless said otherwise (docs/play.md)");

@@ -84,6 +84,7 @@ void add_options(game::Flags& flags, Options& options) {
   flags.footer(std::string("Example: rink bots --connect 127.0.0.1:4711 --count 100 --seed 7 "
                            "--duration 30 --report bots.json\n\n") +
                game::exit_status_help);
+  flags.name("rink bots");
   flags.option("--connect", options.connect, "server, as ADDRESS:PORT").shows_default();
   flags.option("--transport", options.transport, "tcp, udp or shm: the same as the server's")
       .check(one_of({rti::socket_transport_names.begin(), rti::socket_transport_names.end()}))

@@ -361,7 +361,8 @@ int main(int count, char** words) {
   CompareOptions options;
   rink::game::Flags flags(
       "Runs every mode x scheme x policy x client count x seed of an experiment as a server and "
-      "its bots over loopback, and compares them.");
+      "its bots over loopback, and compares them.",
+      "rink compare");
   flags.version(rink::game::version_line("rink-compare"));
   add_options(flags, options);
   const auto run = [&]() -> int {

@@ -117,7 +117,8 @@ game::ExitStatus play(const Options& options) {
 int main(int count, char** words) {
   game::speak_as("rink-duel");
   game::Flags flags(
-      "Two bots who play hosted matches over TCP as people would: on what their own clients show.");
+      "Two bots who play hosted matches over TCP as people would: on what their own clients show.",
+      "rink duel");
   flags.version(game::version_line("rink-duel"));
   Options options;
   flags.option("--connect", options.connect, "host, as ADDRESS:PORT").shows_default();
