@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -24,7 +25,7 @@ class CellGrid {
   static constexpr std::uint32_t none = 0xffffffff;
   /// The sides of a cell, as a body leaves it.
   enum Direction : std::uint8_t { left, right, down, up };
-  struct Place {
+  struct alignas(4) Place {
     std::uint16_t column = 0xffff, row = 0xffff;
   };
 
@@ -34,18 +35,16 @@ class CellGrid {
 
   void insert(std::uint32_t body, double x, double y);
   void remove(std::uint32_t body) {
-    if (places_[body].column == Place{}.column) return;
-    std::uint32_t* cell = &cells_[cell_at(places_[body]) * stride_];
-    std::uint32_t* at = cell + 1;
-    while (*at != body) ++at;
-    assert(at <= cell + cell[0]);
-    *at = cell[cell[0]--];
-    places_[body] = Place{};
+    if (!is_listed(body)) return;
+    unlink(body);
+    set_place(body, Place{});
   }
+  /// Different threads may move different bodies as long as none is in a cell, or comes to one,
+  /// that another reads or writes.
   void move(std::uint32_t body, Direction direction) {
     Place place = places_[body];
     assert(is_listed(body));
-    remove(body);
+    unlink(body);
     const int step = (direction & 1) != 0 ? 1 : -1;
     std::uint16_t& index = direction <= right ? place.column : place.row;
     index = static_cast<std::uint16_t>(index + step);
@@ -60,6 +59,10 @@ class CellGrid {
   double side() const { return side_; }
   bool is_listed(std::uint32_t body) const { return places_[body].column != Place{}.column; }
   Place place(std::uint32_t body) const { return places_[body]; }
+  /// The same while others may move `body`: where it is or was.
+  Place place_meanwhile(std::uint32_t body) const {
+    return std::atomic_ref(const_cast<Place&>(places_[body])).load(std::memory_order_relaxed);
+  }
   std::uint32_t column_of(std::uint32_t body) const { return places_[body].column; }
   std::uint32_t row_of(std::uint32_t body) const { return places_[body].row; }
   /// Where a body leaves its cell downwards (`is_high` 0) and upwards (1) along an axis; infinite
@@ -160,9 +163,19 @@ class CellGrid {
     if (from[0] > few) std::copy_n(from + 1 + few, from[0] - few, list + few);
     return list + from[0];
   }
+  void set_place(std::uint32_t body, Place place) {
+    std::atomic_ref(places_[body]).store(place, std::memory_order_relaxed);
+  }
+  void unlink(std::uint32_t body) {
+    std::uint32_t* cell = &cells_[cell_at(places_[body]) * stride_];
+    std::uint32_t* at = cell + 1;
+    while (*at != body) ++at;
+    assert(at <= cell + cell[0]);
+    *at = cell[cell[0]--];
+  }
   void link(std::uint32_t body, Place place) {
     assert(place.column < columns_ && place.row < rows_);
-    places_[body] = place;
+    set_place(body, place);
     if (cells_[cell_at(place) * stride_] + 1 == stride_) widen();
     std::uint32_t* cell = &cells_[cell_at(place) * stride_];
     cell[++cell[0]] = body;

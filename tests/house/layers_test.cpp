@@ -50,7 +50,7 @@ const std::vector<Layer> layers{
      {"game/physics", "game/physics/bodies", "game/physics/engine", "game/physics/flight",
       "game/physics/paper", "game/physics/slabs"}},
     {"game/version", {"game/version"}},
-    {"game/process", {"game/process"}},
+    {"game/process", {"game/process", "game/physics"}},
     {"game/model", {"game/model", "game/physics", "game/physics/flight"}},
     {"game/peer", {"game/peer", "game/physics", "game/physics/flight"}},
     {"game/control", {"game/control", "game/players", "game/model", "game/physics"}},

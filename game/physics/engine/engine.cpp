@@ -103,8 +103,10 @@ void Engine::restore(WorldState state) {
   rebuild_from_state();
 }
 
-/// Predictions, grid and queue follow from the last-event states, whenever they are made.
+/// Predictions, grid and queue follow from the last-event states, whenever they are made. A goal
+/// that has not been told was undone.
 void Engine::rebuild_from_state() {
+  goal_.reset();
   places_.resize(bodies_.count());
   events_.restart(bodies_.count());
   look_ahead_.restart();

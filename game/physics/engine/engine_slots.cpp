@@ -106,7 +106,6 @@ void Engine::undo(const WorldMark& mark, const BeforeImages& before) {
   pending_.clear();
   bodies_.forget_touched();
   for (std::uint32_t body = 0; body < bodies_.count(); ++body) bodies_.changes().note(body);
-  goal_.reset();
   rebuild_from_state();
 }
 

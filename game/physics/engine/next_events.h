@@ -74,6 +74,8 @@ class NextEvents {
     return slots_[body].is_tied || (is_body(partner) && slots_[partner].is_tied) ||
            schedule_.is_followed_within(instant);
   }
+  /// From the next restart() on.
+  void keep_by(QueuePolicy policy) { policy_ = policy; }
   /// The windows, if events are kept by them.
   WindowQueue* windows() { return schedule_.windows(); }
   /// Who comes after the next one.

@@ -60,8 +60,15 @@ std::uint32_t Prediction::begin(std::uint32_t body) {
 
 std::uint32_t Prediction::predict_counting(std::uint32_t body) {
   const std::uint32_t count = begin(body);
+  if (bodies_.curved_count() > 0 && sees_curves(count)) return 0;
   counters_.predictions += count;
   return predict_straight_pairs<true>(body, candidates_.data(), count);
+}
+
+/// Among the first `count` of the candidates.
+bool Prediction::sees_curves(std::uint32_t count) const {
+  return std::any_of(candidates_.begin(), candidates_.begin() + count,
+                     [&](std::uint32_t other) { return bodies_[other].is(Body::curved); });
 }
 
 void Prediction::predict_field(std::uint32_t body) {

@@ -41,7 +41,8 @@ class Prediction {
     predict_pairs(body, grid_.collect_ahead(body, direction, room_for_candidates()));
   }
   /// Predicts a puck in straight flight where all are, but for telling the schedule. Returns how
-  /// many touch it now, itself included: never too few, hardly ever too many.
+  /// many touch it now, itself included: never too few, hardly ever too many; 0, and the prediction
+  /// is void, where somebody near is on a curve.
   std::uint32_t predict_counting(std::uint32_t body);
   /// Of a body that has just been moved to the next cell: in straight flight, the earliest impact
   /// in the others is known and stays the earliest.
@@ -54,6 +55,7 @@ class Prediction {
     return candidates_.data();
   }
   std::uint32_t begin(std::uint32_t body);
+  bool sees_curves(std::uint32_t count) const;
   void predict_field(std::uint32_t body);
   void predict_flight(std::uint32_t body);
   void predict_side_wall(std::uint32_t body);

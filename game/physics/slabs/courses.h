@@ -2,6 +2,7 @@
 // to undo it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,6 +45,7 @@ class Courses {
   void begin(std::uint32_t window) {
     window_ = window;
     replaced_.clear(), late_.clear();
+    square_max_ = 0.0;
   }
   /// Before or after the flight of `body` changes at `end`: it was `flight`, with `version`.
   void replace(std::uint32_t body, const Flight& flight, std::uint32_t version, Real end,
@@ -51,16 +53,24 @@ class Courses {
     const std::uint32_t earlier = latest.window == window_ ? latest.at : none;
     latest = {window_, number_ + count_ * static_cast<std::uint32_t>(replaced_.size())};
     replaced_.push_back({flight, end, body, version, earlier});
+    note_speed(flight);
+  }
+  /// Of the flight that follows.
+  void note_speed(const Flight& flight) {
+    square_max_ = std::max(square_max_, flight.vx * flight.vx + flight.vy * flight.vy);
   }
   void note_late(const Late& late) { late_.push_back(late); }
 
   std::span<const Replaced> replaced() const { return replaced_; }
   std::span<const Late> late() const { return late_; }
+  /// Of the greatest speed of all whose flight was replaced, before or after.
+  Real square_max() const { return square_max_; }
 
  private:
   std::uint32_t number_, count_, window_ = 0;
   std::vector<Replaced> replaced_;
   std::vector<Late> late_;
+  Real square_max_ = 0.0;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -35,6 +36,7 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   const Partner partner = slot.partner;
   const bool crosses = slot.crossing_time < slot.impact_time;
   const bool is_late = tile_.mark(body, crosses ? partner::none : partner, order.time);
+  if (!crosses && is_body(partner) && !tile_.put_back(partner, order.time)) solver_failed_ = true;
   const Counters before = parts_.record.counters();
   changed_.clear();
   time_ = order.time;
@@ -43,6 +45,7 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   parts_.observers.before = nullptr;
   const Counters& after = parts_.record.counters();
   orders_.resize(parts_.record.events().size(), order);
+  for (const std::uint32_t other : changed_) note_speed(other);
   const bool is_usual = after.hops == before.hops && after.freezes == before.freezes &&
                         after.rests == before.rests &&
                         after.joint_impacts == before.joint_impacts &&
@@ -52,6 +55,15 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   if (!is_late) return;
   if (crosses) tile_.note_late(body, order.time);
   for (const std::uint32_t other : changed_) tile_.note_late(other, order.time);
+}
+
+/// Who accelerates may be faster when the window ends.
+void LastPass::note_speed(std::uint32_t body) {
+  Flight flight = parts_.bodies[body];
+  const RealVector gain = parts_.bodies.law(body).acceleration * (shared_.end - shared_.begin);
+  flight.vx = std::abs(flight.vx) + std::abs(gain.x());
+  flight.vy = std::abs(flight.vy) + std::abs(gain.y());
+  tile_.courses().note_speed(flight);
 }
 
 void LastPass::keep(std::uint32_t body) {

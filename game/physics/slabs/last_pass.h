@@ -38,6 +38,7 @@ class LastPass final : public ChangeObserver {
 
  private:
   void process(std::uint32_t body, const EventOrder& order);
+  void note_speed(std::uint32_t body);
   void replace(std::uint32_t body, const Flight& flight, std::uint32_t version);
 
   Engine& engine_;

@@ -2,6 +2,7 @@
 #include "game/physics/slabs/slabs.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "game/physics/bodies/jams.h"
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/engine/rest_contacts.h"
+#include "game/physics/flight/impact_time.h"
 #include "game/physics/flight/straight_flight.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -18,65 +20,101 @@ namespace {
 /// Half of Clock::endless_events: fewer in a tile, and no instant of the field comes to that many
 /// but by chance.
 constexpr std::uint64_t at_once_max = Clock::endless_events / 2;
+/// The shortest window, in units of that in which a third of the pending events come.
+constexpr double least_window = 1.0 / 16.0;
 }  // namespace
 
 Slabs::Slabs(Engine& engine, const SlabPlan& plan)
     : engine_(engine), parts_(engine.parts()), plan_(plan) {
-  assert(plan.tile_cells >= 4 && plan.window > 0.0);
+  assert(plan.tile_cells >= 4 && plan.block_radius >= 0 && plan.window > 0.0);
 }
 
 std::optional<Goal> Slabs::advance(Real until) {
-  const Clock& clock = parts_.clock;
-  while (clock.now < until && is_in_free_flight()) {
+  if (may_divide() && parts_.events.windows() == nullptr) {
+    parts_.events.keep_by(QueuePolicy::windows);
+    engine_.rebuild_from_state();
+  }
+  while (parts_.clock.now < until && may_divide()) {
     engine_.predict_pending();
-    const Real now = clock.now, third = parts_.events.windows()->next_end(now) - now;
-    const Real end = std::min(until, now + third * Real(plan_.window));
-    if (!(end > now)) break;
-    begin_window(end);
-    if (play_window()) {
-      accept();
-      continue;
-    }
-    undo();
+    const Real end = next_end(until);
+    if (!is_worth_dividing(end)) break;
+    if (in_order_ == 0 && play_window(end)) continue;
+    if (in_order_ > 0) --in_order_;
     if (auto goal = engine_.advance(end)) return goal;
   }
   return engine_.advance(until);
 }
 
-bool Slabs::is_in_free_flight() const {
-  const WorldSpec& spec = parts_.spec;
-  return parts_.bodies.count() >= plan_.bodies_min && parts_.bodies.curved_count() == 0 &&
-         parts_.rests.rest_contacts().empty() && parts_.jams.table().frozen.empty() &&
-         parts_.observers.before == nullptr && parts_.observers.journal == nullptr &&
-         parts_.events.windows() != nullptr && counts_touching() && spec.puck_drag == 0.0 &&
-         spec.puck_friction == 0.0 && !spec.surface_friction && !spec.accounts_energy &&
-         !spec.allow_overlap && spec.field.goal_width == 0.0;
+Real Slabs::next_end(Real until) const {
+  const Real now = parts_.clock.now, third = parts_.events.windows()->next_end(now) - now;
+  return std::min(until, now + third * Real(plan_.window));
 }
 
-/// Who is put off and who is played on further should not meet before the window is over: where
-/// cells are hardly wider than discs, those of two neighbours nearly touch.
-int Slabs::block_radius() const {
-  return Real(parts_.places.grid().side()) < 1.5 * 2.0 * parts_.places.reach() ? 2 : 1;
+/// Each window looks at all that have an event.
+bool Slabs::is_worth_dividing(Real end) const {
+  const WindowQueue& queue = *parts_.events.windows();
+  const Real now = parts_.clock.now, third = queue.next_end(now) - now;
+  return end > now && end - now >= third * Real(least_window) &&
+         2 * queue.listed().size() >= plan_.bodies_min;
+}
+
+/// False, with nothing done, if it must be played in order.
+bool Slabs::play_window(Real end) {
+  begin_window(end);
+  play_passes();
+  const bool was_right = is_right();
+  be_patient(was_right && was_worth_it());
+  was_right ? accept() : undo();
+  return was_right;
+}
+
+bool Slabs::was_worth_it() const {
+  std::uint64_t events = last_pass_->played();
+  for (const auto& tile : tiles_) {
+    const Counters& part = tile->record().counters();
+    events += part.disc_impacts + part.crossings + part.stale_events;
+  }
+  return static_cast<double>(last_pass_->played()) <=
+         plan_.last_pass_max * static_cast<double>(events);
+}
+
+/// Where tiles are of no use it should cost little to find out.
+void Slabs::be_patient(bool was_good) {
+  constexpr std::uint32_t in_order_max = 64;
+  in_order_last_ = was_good ? 0 : std::min(in_order_max, 2 * in_order_last_ + 1);
+  in_order_ = in_order_last_ / 2;
+}
+
+/// Whether pucks are in straight flight unless something presses them, and impacts may be simple.
+bool Slabs::may_divide() const {
+  const WorldSpec& spec = parts_.spec;
+  return parts_.bodies.count() >= plan_.bodies_min && parts_.observers.before == nullptr &&
+         parts_.observers.journal == nullptr && spec.queue != QueuePolicy::heap &&
+         counts_touching() && spec.puck_drag == 0.0 && spec.puck_friction == 0.0 &&
+         !spec.surface_friction && !spec.accounts_energy && !spec.allow_overlap;
 }
 
 void Slabs::begin_window(Real end) {
   const std::uint32_t count = parts_.bodies.count();
   const CellGrid& grid = parts_.places.grid();
-  if (shared_.latest.size() != count || !last_pass_) {
+  if (shared_.latest.size() != count) {
     shared_.latest.assign(count, {});
+    const std::uint32_t workers = plan_.workers != nullptr ? plan_.workers->count() : 1;
+    last_pass_ = std::make_unique<LastPass>(engine_, shared_, workers, workers + 1);
     tiles_.clear();
-    tiles_.push_back(std::make_unique<Tile>(parts_, shared_, 0, 2));
-    last_pass_ = std::make_unique<LastPass>(engine_, shared_, 1, 2);
-    all_tiles_ = {&last_pass_->tile(), tiles_.front().get()};
+    all_tiles_ = {&last_pass_->tile()};
+    for (std::uint32_t worker = 0; worker < workers; ++worker) {
+      tiles_.push_back(std::make_unique<Tile>(parts_, shared_, worker, workers + 1));
+      all_tiles_.push_back(tiles_.back().get());
+    }
   }
   const std::size_t cells = std::size_t{grid.columns()} * grid.rows();
   if (shared_.played.size() != cells) shared_.played.assign(cells, -1.0);
   ++shared_.number;
   shared_.begin = parts_.clock.now, shared_.end = end;
-  shared_.block_radius = plan_.block_radius >= 0 ? plan_.block_radius : block_radius();
-  clock_before_ = parts_.clock, counters_before_ = parts_.record.counters();
+  shared_.block_radius = plan_.block_radius;
+  before_ = engine_.mark();
   events_before_ = parts_.record.events().size();
-  jam_count_before_ = parts_.jams.table().count;
   put_off_.clear();
   const bool is_kept = parts_.record.is_kept();
   for (const auto& tile : tiles_) tile->begin_window();
@@ -84,14 +122,13 @@ void Slabs::begin_window(Real end) {
   for (Tile* tile : all_tiles_) tile->record().keep(is_kept);
 }
 
-/// False if it must be played in order.
-bool Slabs::play_window() {
+void Slabs::play_passes() {
   ++slab_counters().windows;
   play_tiles();
+  list_awakened();  // or the queue would go on without them
   parts_.events.windows()->reopen(shared_.begin, shared_.end, put_off_);
   last_pass_->play();
   slab_counters().last_pass += last_pass_->played();
-  return is_right();
 }
 
 void Slabs::play_tiles() {
@@ -100,43 +137,63 @@ void Slabs::play_tiles() {
   WindowQueue& queue = *parts_.events.windows();
   for (const std::uint32_t body : queue.listed())
     if (queue.entries()[body].time <= shared_.end) due.push_back(body);
-  play_pass(0, 0, due, true);
-  for (const auto& [columns, rows] :
-       {std::pair(half, half), std::pair(half, 0), std::pair(0, half)}) {
+  play_pass({0, 0, true}, due);
+  for (const Pass& pass : {Pass{half, half, false}, Pass{half, 0, false}, Pass{0, half, false}}) {
     if (put_off_.empty()) return;
     due.swap(put_off_);
-    play_pass(columns, rows, due, false);
+    play_pass(pass, due);
   }
 }
 
-/// Tiles begin so many cells before the field does.
-void Slabs::play_pass(int shift_columns, int shift_rows, std::span<const std::uint32_t> bodies,
-                      bool is_first) {
+void Slabs::play_pass(const Pass& shifted, std::span<const std::uint32_t> bodies) {
   const CellGrid& grid = parts_.places.grid();
-  const int side = plan_.tile_cells, columns = static_cast<int>(grid.columns()),
-            rows = static_cast<int>(grid.rows());
-  const int across = (columns + shift_columns + side - 1) / side,
-            along = (rows + shift_rows + side - 1) / side;
-  lists_.resize(std::max(lists_.size(), static_cast<std::size_t>(across * along)));
+  Pass pass = shifted;
+  const auto tiles = [side = plan_.tile_cells](std::uint32_t cells, int shift) {
+    return (static_cast<int>(cells) + shift + side - 1) / side;
+  };
+  pass.across = tiles(grid.columns(), pass.shift_columns);
+  pass.along = tiles(grid.rows(), pass.shift_rows);
+  list_by_tile(pass, bodies);
+  const auto count = static_cast<std::uint32_t>(pass.across * pass.along);
+  if (tiles_.size() == 1 || bodies.size() < plan_.shared_min) {
+    for (std::uint32_t number = 0; number < count; ++number)
+      play_listed(pass, *tiles_.front(), number);
+  } else {
+    std::atomic<std::uint32_t> next = 0;
+    auto play = [&](std::uint32_t worker) {
+      for (std::uint32_t number = next++; number < count; number = next++)
+        play_listed(pass, *tiles_[worker], number);
+    };
+    run_on(*plan_.workers, play);
+  }
+  take_put_off();
+}
+
+void Slabs::list_by_tile(const Pass& pass, std::span<const std::uint32_t> bodies) {
+  const CellGrid& grid = parts_.places.grid();
+  const int side = plan_.tile_cells;
+  lists_.resize(std::max(lists_.size(), static_cast<std::size_t>(pass.across * pass.along)));
   for (auto& list : lists_) list.clear();
   const EventOrder* entries = parts_.events.windows()->entries();
   for (const std::uint32_t body : bodies) {
     if (!(entries[body].time <= shared_.end)) continue;
     assert(grid.is_listed(body));
-    const int column = (grid.place(body).column + shift_columns) / side,
-              row = (grid.place(body).row + shift_rows) / side;
-    lists_[static_cast<std::size_t>(row * across + column)].push_back(body);
+    const int column = (grid.place(body).column + pass.shift_columns) / side,
+              row = (grid.place(body).row + pass.shift_rows) / side;
+    lists_[static_cast<std::size_t>(row * pass.across + column)].push_back(body);
   }
-  for (int row = 0; row < along; ++row)
-    for (int column = 0; column < across; ++column) {
-      const CellRange range{std::max(0, column * side - shift_columns),
-                            std::max(0, row * side - shift_rows),
-                            std::min(columns, (column + 1) * side - shift_columns),
-                            std::min(rows, (row + 1) * side - shift_rows)};
-      tiles_.front()->play(range, lists_[static_cast<std::size_t>(row * across + column)],
-                           !is_first);
-    }
-  take_put_off();
+}
+
+/// By `tile`, the tile of that number.
+void Slabs::play_listed(const Pass& pass, Tile& tile, std::uint32_t number) {
+  const CellGrid& grid = parts_.places.grid();
+  const int side = plan_.tile_cells, columns = static_cast<int>(grid.columns()),
+            rows = static_cast<int>(grid.rows());
+  const int column = static_cast<int>(number) % pass.across * side - pass.shift_columns,
+            row = static_cast<int>(number) / pass.across * side - pass.shift_rows;
+  tile.play({std::max(0, column), std::max(0, row), std::min(columns, column + side),
+             std::min(rows, row + side)},
+            lists_[number], !pass.is_first);
 }
 
 void Slabs::take_put_off() {
@@ -157,9 +214,7 @@ const Courses::Replaced& Slabs::course_at(std::uint32_t at) const {
 
 Real Slabs::greatest_speed() const {
   Real square = 0.0;
-  for (Tile* tile : all_tiles_)
-    for (const Courses::Replaced& r : tile->courses().replaced())
-      square = std::max(square, r.flight.vx * r.flight.vx + r.flight.vy * r.flight.vy);
+  for (Tile* tile : all_tiles_) square = std::max(square, tile->courses().square_max());
   return std::sqrt(square);
 }
 
@@ -170,53 +225,123 @@ bool Slabs::is_right() const {
     if (tile->at_once_max() >= at_once_max) return false;
     for (const Courses::Late& late : tile->courses().late()) {
       if (speed < 0.0) speed = greatest_speed();
-      if (meets_replaced(late, speed)) return false;
+      if (meets_unseen(late, speed)) return false;
     }
   }
   return true;
 }
 
-/// Whether its course meets one that is over now, while both lasted.
-bool Slabs::meets_replaced(const Courses::Late& late, Real speed) const {
+/// Whether its course meets one that it was not compared with, as that was over or had gone on to
+/// cells out of sight.
+bool Slabs::meets_unseen(const Courses::Late& late, Real speed) const {
   const CellGrid& grid = parts_.places.grid();
   const auto radius = 2 + static_cast<std::uint32_t>(std::ceil(static_cast<double>(
                               speed * (shared_.end - late.from) / Real(grid.side()))));
   const std::uint32_t column = late.place.column, row = late.place.row;
+  const Real end = std::min(end_of(late), shared_.end);
   bool meets = false;
   grid.within({column - std::min(column, radius), row - std::min(row, radius), column + radius,
                row + radius},
               [&](std::uint32_t other) {
-                if (meets || other == late.body || shared_.latest[other].window != shared_.number)
-                  return;
-                for (std::uint32_t at = shared_.latest[other].at; at != Courses::none;) {
+                if (meets || other == late.body) return;
+                meets = meets_by(late, {other, parts_.bodies[other]}, end);
+                for (std::uint32_t at = latest_of(other); at != Courses::none && !meets;) {
                   const Courses::Replaced& r = course_at(at);
                   if (!(r.end > late.from)) return;
-                  const Real end = std::min(r.end, late.until);
-                  const auto time = disc_contact_time(late.flight, r.flight, end);
-                  if (time && *time < end) meets = true;
+                  meets = meets_by(late, {other, r.flight}, std::min(r.end, end));
                   at = r.earlier;
                 }
               });
   return meets;
 }
 
-void Slabs::accept() {
-  WindowQueue& queue = *parts_.events.windows();
-  Clock& clock = parts_.clock;
-  for (Tile* tile : all_tiles_) {
-    for (const std::uint32_t body : tile->awakened()) queue.list(body);
-    for (const Courses::Replaced& r : tile->courses().replaced())
-      parts_.bodies.changes().note(r.body);
-    slab_counters().late += tile->courses().late().size();
-    if (tile->clock().instant_begin > clock.instant_begin) {
-      clock.instant_begin = tile->clock().instant_begin;
-      clock.events_at_once = tile->clock().events_at_once;
-      clock.solver_failed = false;
-    }
+/// Asked as prediction asks, so that a meeting that it knows comes at the same bits. Laws of motion
+/// are the same all through a window.
+bool Slabs::meets_by(const Courses::Late& late, const Course& other, Real end) const {
+  const Bodies& bodies = parts_.bodies;
+  std::optional<Real> time;
+  if (!bodies[late.body].is(Body::curved) && !bodies[other.body].is(Body::curved)) {
+    time = disc_contact_time(late.flight, other.flight, end);
+  } else {
+    const Course own{late.body, late.flight};
+    const bool is_low = own.body < other.body;
+    const Motion low = motion_of(is_low ? own : other), high = motion_of(is_low ? other : own);
+    time = first_contact(RelativeMotion{low, high}, shape_of(bodies, late.body, other.body),
+                         std::max(low.time, high.time), end, offset_tolerance(parts_.spec));
   }
+  return time && *time < end;
+}
+
+Motion Slabs::motion_of(const Course& course) const {
+  Motion motion = parts_.bodies.motion(course.body);
+  const Flight& flight = course.flight;
+  motion.time = flight.time;
+  motion.position = {flight.x, flight.y}, motion.velocity = {flight.vx, flight.vy};
+  return motion;
+}
+
+/// The last one that was replaced in this window, or `none`.
+std::uint32_t Slabs::latest_of(std::uint32_t body) const {
+  const Courses::Latest& latest = shared_.latest[body];
+  return latest.window == shared_.number ? latest.at : Courses::none;
+}
+
+/// When the course was replaced, or would be.
+Real Slabs::end_of(const Courses::Late& late) const {
+  for (std::uint32_t at = latest_of(late.body); at != Courses::none; at = course_at(at).earlier) {
+    const Courses::Replaced& r = course_at(at);
+    if (r.flight.time == late.flight.time && r.flight.vx == late.flight.vx &&
+        r.flight.vy == late.flight.vy)
+      return std::min(late.until, r.end);
+  }
+  return late.until;
+}
+
+void Slabs::accept() {
+  for (Tile* tile : all_tiles_) slab_counters().late += tile->courses().late().size();
+  take_clock();
+  note_changes();
   add_counters();
   merge_events();
-  clock.arrive(shared_.end);
+  parts_.clock.arrive(shared_.end);
+}
+
+/// In order of their ids, whoever awakened them: the queue chooses the next window by its list.
+void Slabs::list_awakened() {
+  changed_.clear();
+  for (Tile* tile : all_tiles_)
+    changed_.insert(changed_.end(), tile->awakened().begin(), tile->awakened().end());
+  std::sort(changed_.begin(), changed_.end());
+  for (const std::uint32_t body : changed_) parts_.events.windows()->list(body);
+}
+
+/// Of the latest event of all.
+void Slabs::take_clock() {
+  Clock& clock = parts_.clock;
+  for (Tile* tile : all_tiles_) {
+    const Clock& own = tile->clock();
+    if (!is_later(own, clock)) continue;
+    if (own.instant_begin > clock.instant_begin) clock.solver_failed = false;
+    clock.instant_begin = own.instant_begin, clock.events_at_once = own.events_at_once;
+  }
+}
+
+/// In order of their ids, whoever changed them. Where many changed, to look at all is cheaper than
+/// to sort.
+void Slabs::note_changes() {
+  const std::uint32_t count = parts_.bodies.count();
+  std::size_t replaced = 0;
+  for (Tile* tile : all_tiles_) replaced += tile->courses().replaced().size();
+  if (32 * replaced > count) {
+    for (std::uint32_t body = 0; body < count; ++body)
+      if (shared_.latest[body].window == shared_.number) parts_.bodies.changes().note(body);
+    return;
+  }
+  changed_.clear();
+  for (Tile* tile : all_tiles_)
+    for (const Courses::Replaced& r : tile->courses().replaced()) changed_.push_back(r.body);
+  std::sort(changed_.begin(), changed_.end());
+  for (const std::uint32_t body : changed_) parts_.bodies.changes().note(body);
 }
 
 void Slabs::add_counters() {
@@ -264,11 +389,11 @@ void Slabs::undo() {
   for (Tile* tile : all_tiles_)
     for (const Courses::Replaced& r : tile->courses().replaced())
       if (r.earlier == Courses::none) parts_.bodies.take_back(r.body, r.flight, r.version);
-  parts_.rests.restore({});
-  parts_.jams.restore({}, jam_count_before_);
-  parts_.clock = clock_before_;
+  parts_.rests.restore(before_.rest_contacts);
+  parts_.jams.restore(before_.frozen, before_.jam_count);
+  parts_.clock = before_.clock;
   const SlabCounters slabs = slab_counters();
-  parts_.record.counters() = counters_before_;
+  parts_.record.counters() = before_.counters;
   slab_counters() = slabs;
   ++slab_counters().undone;
   parts_.record.replace_from(events_before_, {});

@@ -9,30 +9,41 @@
 // Prediction is a function of the two courses, symmetric to the bit, and knows no present; so two
 // courses meet at the same bits whoever asks, and whenever.
 //
-// Right or wrong. Let each body's own events come in order of time. Then a window is right if no
-// two of its courses meet while both last. Take the first event in which it differs from the plain
-// loop; until then all courses are equal. An event that the plain loop lacks cannot be, for its two
-// courses are there as well. One that the window lacks is a meeting of two courses that both last.
+// Right or wrong. Let each body's own events come in order of time, but for crossings that come
+// before an impact of theirs does: where that is processed the body is put back to its cell. Then a
+// window is right if no two of its courses meet while both last. Take the first event in which it
+// differs from the plain loop; until then all courses are equal. An event that the plain loop lacks
+// cannot be, for its two courses are there as well. One that the window lacks is a meeting of two
+// courses that both last.
 //
 // Tiles. They play a window alone, one after the other. They put off what touches a cell at their
 // edge or a blocked cell, and all but crossings, stale events and simple impacts: of two pucks in
-// free flight that give back all, with no third body within 1e-6 m and no other impact of theirs
-// within 1e-9 s. So whether an impact is alone at its instant, which the plain loop asks its whole
-// queue, does not matter to what a tile plays; chains of bodies that touch are left to the last
-// pass. Putting off blocks the cells within the block radius, at least the event's own, so that a
-// body's events keep their order. Tiles shifted by half their size along both axes, then along one
+// free flight that give back all, with no third body within 1e-6 m, none on a curve in sight, and
+// no other impact of theirs within 1e-9 s. So whether an impact is alone at its instant, which the
+// plain loop asks its whole queue, does not matter to what a tile plays; chains of bodies that
+// touch, bats and goals are left to the last pass. Putting off blocks the cells of the event's
+// bodies for all, so that a body's events keep their order, and those within the block radius for
+// impacts, which replace courses. Tiles shifted by half their size along both axes, then along one
 // and along the other, play what was put off; the last pass knows no tiles and all kinds of events.
+//
+// Threads. Tiles of one pass have no cell in common, and a body's record, next event and place are
+// written by the tile in whose cells it is; none comes to another tile, for crossings at edges are
+// put off. An event reads cells and bodies next to its own, which are the tile's own. Of a partner
+// elsewhere only the place is asked, which says that it is elsewhere whether it moves just then or
+// not. So nothing depends on who plays which tile, nor when.
 //
 // Check. Within one tile and pass events come in order, so only what was put off can be late: a
 // cell next to its own has seen a later event. Its courses, until their next events, are compared
-// with all replaced courses that end after it. Those belong to bodies that are listed within
-// vT/c cells and two, v being the greatest speed in the window, T what is left of it and c a cell's
-// side. A crossing marks both its cells, so nobody has left the neighbourhood unseen. The block
-// radius changes how much is put off and how often the check fails, never the result.
+// with all replaced courses that end after it, and with the present ones, for a crossing may have
+// taken somebody out of sight too early. They belong to bodies that are listed within vT/c cells
+// and two, v being the greatest speed in the window, T what is left of it and c a cell's side. A
+// crossing marks both its cells, so nobody has left the neighbourhood unseen. The block radius
+// changes how much is put off and how often the check fails, never the result.
 //
 // Undo. Where the check fails, or the last pass did what depends on more than the bodies concerned
-// (a joint impact, a hop, many events at one instant), what bodies were before is put back, and the
-// window is played in order. Predictions are made anew, which takes as long as to predict all.
+// (a joint impact, a hop, a rest contact, a goal, many events at one instant), what bodies were
+// before is put back, and the window is played in order. Predictions are made anew, which takes as
+// long as to predict all.
 //
 // Differences from the plain loop: counters of bookkeeping, and the most events at one instant,
 // which is counted by tile.
@@ -47,9 +58,12 @@
 
 #include "game/physics/bodies/before_images.h"
 #include "game/physics/bodies/clock.h"
+#include "game/physics/bodies/world_mark.h"
 #include "game/physics/counters.h"
 #include "game/physics/engine/engine.h"
 #include "game/physics/event.h"
+#include "game/physics/flight/motion.h"
+#include "game/physics/flight/straight_flight.h"
 #include "game/physics/real.h"
 #include "game/physics/slab_plan.h"
 #include "game/physics/slabs/last_pass.h"
@@ -68,20 +82,44 @@ class Slabs {
   std::optional<Goal> advance(Real until);
 
  private:
+  /// Tiles, which begin so many cells before the field does.
+  struct Pass {
+    int shift_columns, shift_rows;
+    bool is_first;
+    int across = 0, along = 0;  // tiles
+  };
+
+  struct Course {
+    std::uint32_t body;
+    Flight flight;
+  };
+
   SlabCounters& slab_counters() { return parts_.record.counters().slabs; }
-  bool is_in_free_flight() const;
-  int block_radius() const;
+  bool may_divide() const;
+  Real next_end(Real until) const;
+  bool is_worth_dividing(Real end) const;
+  bool play_window(Real end);
+  void be_patient(bool was_good);
+  bool was_worth_it() const;
   void begin_window(Real end);
-  bool play_window();
+  void play_passes();
   void play_tiles();
-  void play_pass(int shift_columns, int shift_rows, std::span<const std::uint32_t> bodies,
-                 bool is_first);
+  void play_pass(const Pass& pass, std::span<const std::uint32_t> bodies);
+  void list_by_tile(const Pass& pass, std::span<const std::uint32_t> bodies);
+  void play_listed(const Pass& pass, Tile& tile, std::uint32_t number);
   void take_put_off();
   bool is_right() const;
-  bool meets_replaced(const Courses::Late& late, Real speed) const;
+  bool meets_unseen(const Courses::Late& late, Real speed) const;
+  bool meets_by(const Courses::Late& late, const Course& other, Real end) const;
+  Motion motion_of(const Course& course) const;
+  std::uint32_t latest_of(std::uint32_t body) const;
+  Real end_of(const Courses::Late& late) const;
   const Courses::Replaced& course_at(std::uint32_t at) const;
   Real greatest_speed() const;
   void accept();
+  void list_awakened();
+  void take_clock();
+  void note_changes();
   void add_counters();
   void merge_events();
   void undo();
@@ -90,15 +128,16 @@ class Slabs {
   Engine::Parts parts_;
   SlabPlan plan_;
   SharedWindow shared_;
-  std::vector<std::unique_ptr<Tile>> tiles_;
+  std::vector<std::unique_ptr<Tile>> tiles_;  // one for each worker
   std::unique_ptr<LastPass> last_pass_;
   std::vector<Tile*> all_tiles_;  // that of the last pass, then the others
   std::vector<std::uint32_t> put_off_;
   std::vector<std::vector<std::uint32_t>> lists_;  // of a pass, by tile
-  Clock clock_before_;
-  Counters counters_before_;
+  std::vector<std::uint32_t> changed_;
+  WorldMark before_;  // the window
   std::size_t events_before_ = 0;
-  std::uint32_t jam_count_before_ = 0;
+  std::uint32_t in_order_ = 0,
+                in_order_last_ = 0;  // windows to be played in order: still, at first
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

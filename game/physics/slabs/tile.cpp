@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/engine/free_impact.h"
@@ -30,87 +31,138 @@ void Tile::begin_window() {
   at_once_max_ = 0;
 }
 
-std::uint8_t& Tile::blocked_at(int column, int row) {
-  const int width = range_.end_column - range_.first_column;
-  return blocked_[static_cast<std::size_t>(row - range_.first_row) *
-                      static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(column - range_.first_column)];
-}
-
 void Tile::play(const CellRange& range, std::span<const std::uint32_t> bodies, bool can_be_late) {
   if (bodies.empty()) return;
-  range_ = range, can_be_late_ = can_be_late, is_whole_ = false;
+  can_be_late_ = can_be_late, is_whole_ = false;
   latest_ = clock();
   clock_ = {};  // of another place: it begins anew
-  blocked_.assign(static_cast<std::size_t>((range.end_column - range.first_column) *
-                                           (range.end_row - range.first_row)),
-                  0);
+  open(range);
+  if (8 * bodies.size() >= blocked_.size()) fetch();
   const EventOrder* entries = events_.windows()->entries();
   bins_.open(shared_.begin, shared_.end, bodies.size());
   for (const std::uint32_t body : bodies) bins_.add(body, entries[body]);
   for (std::uint32_t body = bins_.first(entries); body != EventBins::none;
        body = bins_.first(entries)) {
-    const Place from = places_.grid().place(body), to = target_of(body);
-    if (may_play(from) && may_play(to) && play_event(body, entries[body].time)) continue;
+    const Encounter encounter = encounter_of(body, entries[body].time);
+    if (may_play(encounter) && play_event(encounter)) continue;
     bins_.drop_first();
-    put_off(body, from, to);
+    put_off(encounter);
   }
 }
 
 bool Tile::play_first_of_all(std::uint32_t body) {
   can_be_late_ = is_whole_ = true;
-  return play_event(body, events_.time(body));
+  return play_event(encounter_of(body, events_.time(body)));
 }
 
-/// The other cell that the event concerns.
-Tile::Place Tile::target_of(std::uint32_t body) const {
-  const NextEvent& slot = events_[body];
-  Place place = places_.grid().place(body);
-  if (slot.crossing_time < slot.impact_time) {
-    const int step = (slot.direction & 1) != 0 ? 1 : -1;
-    std::uint16_t& index = slot.direction <= CellGrid::right ? place.column : place.row;
-    index = static_cast<std::uint16_t>(index + step);
-    return place;
-  }
-  return is_body(slot.partner) ? places_.grid().place(slot.partner) : place;
-}
-
-/// Not at an edge, beyond which another tile plays, and not blocked.
-bool Tile::may_play(const Place& place) const {
+/// Closes the cells next to which another tile plays.
+void Tile::open(const CellRange& range) {
+  range_ = range;
+  blocked_.assign(std::size_t{range.columns()} * range.rows(), Blocked::for_nobody);
   const CellGrid& grid = places_.grid();
-  const int margin = std::max(1, shared_.block_radius);
-  const auto is_inside = [margin](int index, int first, int end, std::uint32_t count) {
-    return index >= first + (first > 0 ? margin : 0) &&
-           index < end - (end < static_cast<int>(count) ? margin : 0);
-  };
-  return is_inside(place.column, range_.first_column, range_.end_column, grid.columns()) &&
-         is_inside(place.row, range_.first_row, range_.end_row, grid.rows()) &&
-         const_cast<Tile*>(this)->blocked_at(place.column, place.row) == 0;
+  const int margin = std::max(1, shared_.block_radius), columns = static_cast<int>(grid.columns()),
+            rows = static_cast<int>(grid.rows());
+  const auto close = [&](const CellRange& cells) { block(cells, Blocked::for_all); };
+  if (range.first_column > 0)
+    close({range.first_column, range.first_row, range.first_column + margin, range.end_row});
+  if (range.end_column < columns)
+    close({range.end_column - margin, range.first_row, range.end_column, range.end_row});
+  if (range.first_row > 0)
+    close({range.first_column, range.first_row, range.end_column, range.first_row + margin});
+  if (range.end_row < rows)
+    close({range.first_column, range.end_row - margin, range.end_column, range.end_row});
 }
 
-void Tile::put_off(std::uint32_t body, const Place& from, const Place& to) {
-  put_off_.push_back(body);
-  block(from), block(to);
+/// Asks the processor for all that is in the tile, which the events will look at in any order.
+void Tile::fetch() const {
+  const EventOrder* entries = events_.windows()->entries();
+  places_.grid().within({static_cast<std::uint32_t>(range_.first_column),
+                         static_cast<std::uint32_t>(range_.first_row),
+                         static_cast<std::uint32_t>(range_.end_column - 1),
+                         static_cast<std::uint32_t>(range_.end_row - 1)},
+                        [&](std::uint32_t body) {
+                          __builtin_prefetch(&bodies_[body], 1);
+                          __builtin_prefetch(&events_[body], 1);
+                          __builtin_prefetch(&entries[body], 1);
+                        });
 }
 
-void Tile::block(const Place& place) {
-  const int radius = shared_.block_radius;
-  for (int row = std::max(range_.first_row, place.row - radius);
-       row < std::min(range_.end_row, place.row + radius + 1); ++row)
-    for (int column = std::max(range_.first_column, place.column - radius);
-         column < std::min(range_.end_column, place.column + radius + 1); ++column)
-      blocked_at(column, row) = 1;
+Tile::Place Tile::beyond(Place place, CellGrid::Direction direction) {
+  const int step = (direction & 1) != 0 ? 1 : -1;
+  std::uint16_t& index = direction <= CellGrid::right ? place.column : place.row;
+  index = static_cast<std::uint16_t>(index + step);
+  return place;
 }
 
-bool Tile::play_event(std::uint32_t body, Real time) {
+/// The next event of `body`.
+Tile::Encounter Tile::encounter_of(std::uint32_t body, Real time) const {
   const NextEvent& slot = events_[body];
-  const Partner p = slot.partner;
-  const bool crosses = slot.crossing_time < slot.impact_time;
-  if (!crosses && !is_body(p)) return false;
-  const bool is_stale = !crosses && bodies_[p].version != slot.partner_version;
-  const bool is_late_now =
-      can_be_late_ && (is_late(places_.grid().place(body), time) || is_late(target_of(body), time));
-  const Place from = places_.grid().place(body), to = is_stale ? from : target_of(body);
+  Encounter encounter{body,
+                      slot.partner,
+                      time,
+                      slot.crossing_time < slot.impact_time,
+                      places_.grid().place(body),
+                      places_.grid().place(body)};
+  if (encounter.crosses) {
+    encounter.to = beyond(encounter.from, slot.direction);
+  } else if (is_body(slot.partner)) {
+    encounter.to = places_.grid().place_meanwhile(slot.partner);
+  }
+  return encounter;
+}
+
+/// For what `place` is blocked; for all where it is not in the tile.
+Tile::Blocked Tile::blocked(const Place& place) const {
+  const auto column = static_cast<std::uint32_t>(place.column - range_.first_column),
+             row = static_cast<std::uint32_t>(place.row - range_.first_row);
+  return column < range_.columns() && row < range_.rows()
+             ? blocked_[row * range_.columns() + column]
+             : Blocked::for_all;
+}
+
+bool Tile::may_play(const Encounter& encounter) const {
+  const Blocked most = std::max(blocked(encounter.from), blocked(encounter.to));
+  return most == Blocked::for_nobody || (most == Blocked::for_impacts && !is_impact(encounter));
+}
+
+bool Tile::is_impact(const Encounter& encounter) const {
+  return !encounter.crosses &&
+         (!is_body(encounter.partner) ||
+          bodies_[encounter.partner].version == events_[encounter.body].partner_version);
+}
+
+/// Where its bodies are nothing happens until it is played, so that the events of each keep their
+/// order; and no course near them is replaced by another that they might not see.
+void Tile::put_off(const Encounter& encounter) {
+  put_off_.push_back(encounter.body);
+  const int radius = shared_.block_radius;
+  for (const Place& place : {encounter.from, encounter.to}) {
+    block({place.column - radius, place.row - radius, place.column + radius + 1,
+           place.row + radius + 1},
+          Blocked::for_impacts);
+    block({place.column, place.row, place.column + 1, place.row + 1}, Blocked::for_all);
+  }
+}
+
+/// As far as they are in the tile.
+void Tile::block(const CellRange& cells, Blocked whom) {
+  const int first_column = std::max(range_.first_column, cells.first_column),
+            end_column = std::min(range_.end_column, cells.end_column),
+            end_row = std::min(range_.end_row, cells.end_row);
+  for (int row = std::max(range_.first_row, cells.first_row); row < end_row; ++row)
+    for (int column = first_column; column < end_column; ++column) {
+      Blocked& cell =
+          blocked_[static_cast<std::uint32_t>(row - range_.first_row) * range_.columns() +
+                   static_cast<std::uint32_t>(column - range_.first_column)];
+      cell = std::max(cell, whom);
+    }
+}
+
+bool Tile::play_event(const Encounter& encounter) {
+  const auto& [body, p, time, crosses, from, target] = encounter;
+  if ((!crosses && !is_body(p)) || bodies_[body].is(Body::curved)) return false;
+  const bool is_stale = !crosses && !is_impact(encounter);
+  const bool is_late_now = can_be_late_ && (is_late(from, time) || is_late(target, time));
   if (is_stale) {
     ++record_.counters().stale_events;
     prediction_.look(body);
@@ -118,8 +170,10 @@ bool Tile::play_event(std::uint32_t body, Real time) {
   } else if (!(crosses ? cross(body) : collide(body, p, time))) {
     return false;
   }
-  mark_cell(from, time), mark_cell(to, time);
+  mark_cell(from, time);
+  if (!is_stale) mark_cell(target, time);
   if (!is_late_now) return true;
+  if (!is_stale && !crosses) mark_cell(places_.grid().place(p), time);
   note_late(body, time);
   if (!crosses && !is_stale) note_late(p, time);
   return true;
@@ -129,9 +183,33 @@ bool Tile::cross(std::uint32_t body) {
   const CellGrid::Direction direction = events_[body].direction;
   if (!places_.grid().has_room_beyond(body, direction)) return false;
   ++record_.counters().crossings;
+  courses_.note_speed(bodies_[body]);
   places_.move(body, direction);
   prediction_.look_beyond(body, direction);
   publish(body);
+  return true;
+}
+
+/// Somebody who has been taken to another cell by a later event than this is put back to where it
+/// is at `time`. False if that cannot be done here.
+bool Tile::put_back(std::uint32_t body, Real time) {
+  const Body& b = bodies_[body];
+  const CellGrid& grid = places_.grid();
+  if (b.is(Body::curved) || !grid.is_listed(body)) return true;
+  const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed,
+             y = b.y + b.vy * elapsed, slack = Real(1e-9 * grid.side());
+  const auto direction = [&](const Place& place) -> std::optional<CellGrid::Direction> {
+    if (x < grid.column_edge(place.column, false) - slack) return CellGrid::left;
+    if (x > grid.column_edge(place.column, true) + slack) return CellGrid::right;
+    if (y < grid.row_edge(place.row, false) - slack) return CellGrid::down;
+    if (y > grid.row_edge(place.row, true) + slack) return CellGrid::up;
+    return std::nullopt;
+  };
+  for (auto back = direction(grid.place(body)); back; back = direction(grid.place(body))) {
+    const bool is_ours = is_whole_ || blocked(beyond(grid.place(body), *back)) != Blocked::for_all;
+    if (!is_ours || !grid.has_room_beyond(body, *back)) return false;
+    places_.move(body, *back);
+  }
   return true;
 }
 
@@ -139,6 +217,7 @@ bool Tile::cross(std::uint32_t body) {
 bool Tile::collide(std::uint32_t body, std::uint32_t other, Real time) {
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
   const Body &a = bodies_[low], &b = bodies_[high];
+  if (can_be_late_ && !put_back(other, time)) return false;
   if (events_[low].is_tied || events_[high].is_tied || (a.flags | b.flags) != 0 ||
       a.kind != BodyKind::puck || b.kind != BodyKind::puck ||
       restitution_(a.material, b.material) != 1.0)
@@ -159,6 +238,7 @@ bool Tile::collide(std::uint32_t body, std::uint32_t other, Real time) {
   }
   courses_.replace(low, before_a, a.version - 1, time, shared_.latest[low]);
   courses_.replace(high, before_b, b.version - 1, time, shared_.latest[high]);
+  courses_.note_speed(a), courses_.note_speed(b);
   record_.note(EventKind::puck_puck, time, low, high);
   record_.counters().evaluations += (before_a.time < time) + (before_b.time < time);
   record_.counters().bodies_touched += 2;
@@ -172,9 +252,11 @@ void Tile::publish(std::uint32_t body) {
   if (is_whole_) return events_.schedule(body);
   WindowQueue& queue = *events_.windows();
   const EventOrder order = events_.order_of(body);
-  queue.entries()[body] = order;
+  EventOrder& entry = queue.entries()[body];
+  const bool had_none = !(entry.time < infinity);
+  entry = order;
   if (order.time <= shared_.end) bins_.add(body, order);
-  if (order.time < infinity && !queue.is_listed(body)) awakened_.push_back(body);
+  if (had_none && order.time < infinity && !queue.is_listed(body)) awakened_.push_back(body);
 }
 
 /// Whether somebody next to the cell has been played further.

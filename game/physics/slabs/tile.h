@@ -21,6 +21,9 @@ namespace rink::physics::inline RINK_PRECISION {
 /// Columns and rows of cells, the end excluded.
 struct CellRange {
   int first_column, first_row, end_column, end_row;
+
+  std::uint32_t columns() const { return static_cast<std::uint32_t>(end_column - first_column); }
+  std::uint32_t rows() const { return static_cast<std::uint32_t>(end_row - first_row); }
 };
 
 /// What all workers share. Different tiles never write the same body's, nor the same cell's.
@@ -36,6 +39,13 @@ struct SharedWindow {
                   static_cast<std::size_t>(column)];
   }
 };
+
+/// Of two clocks that have counted apart; where both have seen the same instant, whoever has
+/// counted more.
+inline bool is_later(const Clock& a, const Clock& b) {
+  return a.instant_begin != b.instant_begin ? a.instant_begin > b.instant_begin
+                                            : a.events_at_once > b.events_at_once;
+}
 
 /// A worker's tile: it plays one after the other. It knows free flight, and impacts of two pucks
 /// that are nobody else's business; all else it puts off.
@@ -58,32 +68,45 @@ class Tile {
   /// processed by somebody else; and after that how they go on.
   bool mark(std::uint32_t body, Partner partner, Real time);
   void note_late(std::uint32_t body, Real time);
+  bool put_back(std::uint32_t body, Real time);
 
   /// Since begin_window().
   std::vector<std::uint32_t>& put_off() { return put_off_; }
   std::span<const std::uint32_t> awakened() const { return awakened_; }
   Courses& courses() { return courses_; }
   /// At the latest event since then.
-  const Clock& clock() const {
-    return clock_.instant_begin > latest_.instant_begin ? clock_ : latest_;
-  }
+  const Clock& clock() const { return is_later(clock_, latest_) ? clock_ : latest_; }
   EventRecord& record() { return record_; }
   std::uint64_t at_once_max() const { return at_once_max_; }
 
  private:
   using Place = CellGrid::Place;
 
-  bool play_event(std::uint32_t body, Real time);
+  enum class Blocked : std::uint8_t { for_nobody, for_impacts, for_all };
+  /// An event of a body, its cell, and the other cell that the event concerns.
+  struct Encounter {
+    std::uint32_t body;
+    Partner partner;
+    Real time;
+    bool crosses;
+    Place from, to;
+  };
+
+  void open(const CellRange& range);
+  void fetch() const;
+  static Place beyond(Place place, CellGrid::Direction direction);
+  Encounter encounter_of(std::uint32_t body, Real time) const;
+  bool play_event(const Encounter& encounter);
   bool cross(std::uint32_t body);
   bool collide(std::uint32_t body, std::uint32_t other, Real time);
   void publish(std::uint32_t body);
-  Place target_of(std::uint32_t body) const;
-  bool may_play(const Place& place) const;
-  void put_off(std::uint32_t body, const Place& from, const Place& to);
-  void block(const Place& place);
+  Blocked blocked(const Place& place) const;
+  bool is_impact(const Encounter& encounter) const;
+  bool may_play(const Encounter& encounter) const;
+  void put_off(const Encounter& encounter);
+  void block(const CellRange& cells, Blocked whom);
   bool is_late(const Place& place, Real time);
   void mark_cell(const Place& place, Real time);
-  std::uint8_t& blocked_at(int column, int row);
 
   SharedWindow& shared_;
   Bodies& bodies_;
@@ -99,7 +122,7 @@ class Tile {
   EventBins bins_;
   CellRange range_{};
   bool can_be_late_ = false, is_whole_ = false;
-  std::vector<std::uint8_t> blocked_;  // by cell of the range
+  std::vector<Blocked> blocked_;  // by cell of the range
   std::vector<std::uint32_t> put_off_, awakened_;
 };
 

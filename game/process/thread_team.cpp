@@ -1,0 +1,53 @@
+// One lock, taken when a task begins and when a thread has ended it.
+#include "game/process/thread_team.h"
+
+#include <cassert>
+
+namespace rink::game {
+
+ThreadTeam::ThreadTeam(std::uint32_t count) {
+  assert(count > 0);
+  for (std::uint32_t worker = 1; worker < count; ++worker)
+    threads_.emplace_back([this, worker] { work(worker); });
+}
+
+ThreadTeam::~ThreadTeam() {
+  {
+    const std::lock_guard lock(mutex_);
+    assert(busy_count_ == 0);
+    is_over_ = true;
+  }
+  begun_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void ThreadTeam::run(void (*task)(void* context, std::uint32_t worker), void* context) {
+  assert(task != nullptr);
+  if (threads_.empty()) return task(context, 0);
+  {
+    const std::lock_guard lock(mutex_);
+    assert(busy_count_ == 0);  // one task at a time
+    task_ = task, context_ = context;
+    busy_count_ = static_cast<std::uint32_t>(threads_.size());
+    ++task_count_;
+  }
+  begun_.notify_all();
+  task(context, 0);
+  std::unique_lock lock(mutex_);
+  ended_.wait(lock, [this] { return busy_count_ == 0; });
+}
+
+void ThreadTeam::work(std::uint32_t worker) {
+  std::unique_lock lock(mutex_);
+  for (std::uint64_t seen = 0;;) {
+    begun_.wait(lock, [&] { return is_over_ || task_count_ != seen; });
+    if (is_over_) return;
+    seen = task_count_;
+    lock.unlock();
+    task_(context_, worker);
+    lock.lock();
+    if (--busy_count_ == 0) ended_.notify_one();
+  }
+}
+
+}  // namespace rink::game
