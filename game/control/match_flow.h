@@ -22,7 +22,6 @@ enum class MatchPhase : std::uint8_t {
   over,
   lost  ///< the connection or the match was lost: only callers set this
 };
-inline constexpr std::uint8_t match_phase_max = static_cast<std::uint8_t>(MatchPhase::lost);
 
 /// The state of a match, besides the game, that players and watchers receive.
 struct MatchState {

@@ -125,10 +125,6 @@ void add_bodies(StateHash& hash, const Bodies& bodies) {
 
 }  // namespace
 
-const char* team_name(Team team) {
-  return team == Team::left ? "left" : team == Team::right ? "right" : "none";
-}
-
 Scene with_seed(Scene scene, std::uint64_t seed) {
   scene.seed = seed;
   populate(scene);

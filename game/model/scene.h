@@ -34,9 +34,6 @@ class PlacementError : public SceneError {
 /// Left defends the goal at x = 0.
 enum class Team : std::uint8_t { left, right, none };
 
-/// The name in scene files: "left", "right" or "none".
-const char* team_name(Team team);
-
 struct Puck {
   std::string name;
   physics::PuckSpec body;

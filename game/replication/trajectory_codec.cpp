@@ -23,7 +23,6 @@ constexpr unsigned form_bits = 2, time_bits = 8, near_position_bits = 17, near_v
                    wide_position_bits = 24, wide_velocity_bits = 20;
 constexpr double near_origin =
     1.0;  // m: bodies out of play are up to so far outside the field, on the low side
-constexpr double time_window = (1u << time_bits) * trajectory_time_step;  // s: 16
 constexpr double time_ahead =
     0.5;  // s: a trajectory may start so far after the time by which it is read
 constexpr double time_max = 1e12;  // s: beyond, multiples of the step are no longer exact

@@ -174,6 +174,4 @@ void Interface::finish(const Canvas& canvas, bool is_seen) {
   glBindVertexArray(0);
 }
 
-bool Interface::wants_text() const { return ImGui::GetIO().WantTextInput; }
-
 }  // namespace rink::view

@@ -30,11 +30,8 @@ class Interface {
   /// Draws widgets and texts over the canvas, if it is visible.
   void finish(const Canvas& canvas, bool is_seen);
 
-  /// True while widgets take the keyboard for a text.
-  bool wants_text() const;
-  /// Makes the widgets' text larger until the next call; 1 is a line of a menu.
+  /// Smaller than a line of a menu, and larger.
   ImFont* small_font() const { return fonts_[0]; }
-  ImFont* menu_font() const { return fonts_[1]; }
   ImFont* title_font() const { return fonts_[2]; }
   /// Pixels per 720th of the window's height, the unit of menus.
   float unit() const { return unit_; }

@@ -21,13 +21,12 @@ class Progress {
     expected_of_ = std::move(cell_s), expected_s_ = all_s;
   }
 
-  /// Cell number `finished_count() + 1` starts.
+  /// The cell after those that have finished starts.
   void starts(const Cell& cell);
   /// The cell ended after `took_s` [s]. An invalid one is always named with its reason.
   void finished(const RunRecord& record, double took_s);
   /// Clears the line that is overwritten in place.
   void clear();
-  std::size_t finished_count() const { return finished_count_; }
   /// The time that the cells not yet finished will take [s].
   double left_s() const;
 

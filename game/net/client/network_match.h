@@ -67,7 +67,6 @@ class NetworkMatch final : public MatchSource {
   static ClientSettings client_settings(const NetworkMatchSettings& settings);
   void receive(double now_s);
   bool read_scene();
-  void follow_state(double instant);
   void press_keys(double instant);
   void predict(double now_s);
   void move_delay(double dt);

@@ -49,7 +49,6 @@ class FederateRegions {
   ObjectClassHandle require_own(ObjectHandle object) const;
   void send_class(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs,
                   RegionAction action);
-  void commit_ranges(RegionHandle region);
   template <class Send>
   void for_each_message(std::span<const AttributeRegions> pairs, Send send);
   void write_numbers(std::span<const RegionHandle> regions);

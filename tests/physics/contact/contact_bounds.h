@@ -24,9 +24,6 @@ class Watch {
     count_work();
     world_.set_thrust(bat, acceleration);
   }
-  void set_thrust_of_all(const Vector2& acceleration) {
-    for (const BodyId bat : bats_) set_thrust(bat, acceleration);
-  }
 
   /// Advances by `duration` [s] and looks every `interval` [s], and at the end.
   void run(double duration, double interval = 0.1) {

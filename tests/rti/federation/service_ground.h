@@ -77,12 +77,6 @@ struct ServiceGround {
   }
   std::uint32_t number_of(ObjectSlot object) const { return ground.objects[object].handle.value; }
   JoinedFederate& federate(std::uint32_t slot) { return ground.federates[slot]; }
-  template <class Message>
-  std::size_t count_said_to(std::uint32_t slot) {
-    std::size_t count = 0;
-    for_each_said_to<Message>(federate(slot), [&](const Message&) { ++count; });
-    return count;
-  }
 
   ToldFilter* filter;  ///< of the ground's
   FederationGround ground;
