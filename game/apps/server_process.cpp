@@ -22,6 +22,11 @@ using Json = nlohmann::ordered_json;
 /// The due instant in stamps before the start, when nothing is due yet.
 constexpr double not_started_s = 0.0;
 
+/// Who takes turns, or keeps to logical time, waits for the whole tick.
+std::uint64_t events_per_s_of(const ServeOptions& options) {
+  return options.pace == "realtime" && !options.is_time_managed ? options.events_per_s : 0;
+}
+
 }  // namespace
 
 ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
@@ -40,6 +45,7 @@ ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
                 .replay = played.replay,
                 .hosting = hosting_of(options),
                 .key_limit_per_s = options.key_limit_per_s,
+                .events_per_s = events_per_s_of(options),
                 .always_relevant = relevant_kinds_of(played.scene, options.always),
                 .begun = played.begun ? &*played.begun : nullptr},
                federation_of(options, played.scene, federation,
@@ -70,10 +76,10 @@ std::optional<Hosting> ServerProcess::hosting_of(const ServeOptions& options) {
 }
 
 double ServerProcess::simulated_now() const {
-  return start_s_ == 0.0
-             ? begin_s_
-             : (options_.pace == "synchronous" ? server_.game().now()
-                                               : begin_s_ + std::max(0.0, now_s() - start_s_));
+  return start_s_ == 0.0 ? begin_s_
+                         : (options_.pace == "synchronous"
+                                ? server_.game().now()
+                                : begin_s_ + std::max(0.0, now_s() - start_s_) - behind_s_);
 }
 
 void ServerProcess::exchange_until(double until_s) {
@@ -120,9 +126,10 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   const double period_s = 1.0 / options_.rate_hz,
                elapsed_s = static_cast<double>(number) * period_s;
   const double simulated_s =
-      options_.hosted.empty() ? begin_s_ + elapsed_s : server_.follow_match(elapsed_s);
+      options_.hosted.empty() ? begin_s_ + elapsed_s - behind_s_ : server_.follow_match(elapsed_s);
   const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + elapsed_s;
   const TickCosts tick = serving_.tick(simulated_s, due_s);
+  fall_behind(elapsed_s, simulated_s);
   keep_records();
   report_flood();
   if (!is_counted) return;
@@ -132,6 +139,15 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   costs_.send_max_s = std::max(costs_.send_max_s, tick.send_s);
   ++costs_.ticks;
   if (now_s() <= due_s + period_s) ++costs_.ticks_on_time;
+}
+
+/// Real time does not wait for a tick that was cut short, and nothing is made up for in a rush.
+void ServerProcess::fall_behind(double elapsed_s, double simulated_s) {
+  if (const auto complaint = server_.budget().take_complaint()) warn("--budget: ", *complaint);
+  const double played_s = server_.game().now();
+  if (played_s >= simulated_s) return;
+  if (server_.hosted()) server_.hosted()->fall_behind(elapsed_s, played_s);
+  else behind_s_ += simulated_s - played_s;
 }
 
 void ServerProcess::run() {
@@ -222,6 +238,9 @@ Json ServerProcess::report() const {
   std::string why_invalid = server_.error();
   if (is_interrupted) why_invalid = "interrupted";
   if (why_invalid.empty() && costs_.ticks == 0) why_invalid = "no tick was measured";
+  const TickBudgetCounters& budget = server_.budget().counters();
+  if (why_invalid.empty() && budget.ticks_cut_short > 0)
+    why_invalid = "the physics exceeded --budget, and the game fell behind";
   Json report{{report::mode, "client-server"},
               {report::scheme, options_.scheme},
               {report::policy, options_.policy},
@@ -241,6 +260,8 @@ Json ServerProcess::report() const {
               {"burst_bytes_max", stagger_.burst_bytes_max()},
               {report::server_rss_bytes, resident_bytes()},
               {report::evidence_bytes, serving_.evidence_bytes()},
+              {"ticks_cut_short", budget.ticks_cut_short},
+              {"behind_s", budget.wanted_s - budget.played_s},
               {report::measured_s, costs_.span_s},
               {report::valid, why_invalid.empty()},
               {report::why_invalid, why_invalid}};

@@ -62,6 +62,7 @@ class ServerProcess {
   void await_turns();
   void tick(std::uint64_t number, bool is_counted);
   void end_span();
+  void fall_behind(double elapsed_s, double simulated_s);
   void keep_records();
   void report_flood();
 
@@ -75,6 +76,7 @@ class ServerProcess {
   Server& server_;
   MatchRecords records_;
   double start_s_ = 0.0;
+  double behind_s_ = 0.0;  ///< simulated time that real time has lost to the physics' budget
   bool is_flood_reported_ = false;
   Costs costs_;
 };

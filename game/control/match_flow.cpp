@@ -121,6 +121,13 @@ void MatchFlow::ask_rematch(std::uint32_t player, double now_s) {
   if constexpr (checks_whole_structures) check();
 }
 
+void MatchFlow::fall_behind(double now_s, double simulated_s) {
+  if (!runs()) return;
+  assert(simulated_s <= simulated_at(state_, now_s));
+  state_.clock_real_s = now_s;
+  state_.clock_simulated_s = simulated_s;
+}
+
 void MatchFlow::win(Team winner, double now_s) {
   assert(winner != Team::none);
   assert((state_.phase == MatchPhase::playing || state_.phase == MatchPhase::countdown ||

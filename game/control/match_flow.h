@@ -68,6 +68,9 @@ class MatchFlow {
   void pause(bool is_wanted, double now_s);
   /// Has effect once the match is over. When both have asked the next match begins.
   void ask_rematch(std::uint32_t player, double now_s);
+  /// The game has come no further than `simulated_s` [s], for it has too many events; players go on
+  /// counting from there.
+  void fall_behind(double now_s, double simulated_s);
   /// `winner`, a team that has an end, has scored the last goal of the game.
   void win(Team winner, double now_s);
 

@@ -77,6 +77,33 @@ TEST(ServeLimits, AFloodOfKeysIsNotFeltAndWhoSendsItIsNamed) {
   EXPECT_THAT(held.ended.words, HasSubstr("key changes above --key-limit were not felt"));
 }
 
+TEST(ServeLimits, AGameWithMoreEventsThanItsBudgetGoesOnMoreSlowlyAndSaysWhy) {
+  const test::TemporaryFolder folder("serve-budget");
+  std::ofstream scene(folder / "row.toml");  // pucks without room from wall to wall
+  scene << "[field]\nlength = 0.9375000000001\nwidth = 0.25\n";
+  for (int k = 0; k < 15; ++k)
+    scene << "[[puck]]\nposition = [" << 0.03125 * (2 * k + 1)
+          << ", 0.125]\nradius = 0.03125\nvelocity = [" << (k == 7 ? 50.0 : 0.0) << ", 0.0]\n";
+  scene.close();
+  const std::string report = (folder / "report.json").string();
+  Process server(test::binary_folder() + "/bin/rink-serve",
+                 {"--scene", (folder / "row.toml").string(), "--port", "0", "--duration", "0.5",
+                  "--budget", "20000", "--report", report},
+                 {});
+  for (int i = 0; i < 2000 && !server.ending(); ++i) server.attend(10ms);
+  ASSERT_TRUE(server.ending()) << "it hangs";
+  EXPECT_EQ(server.ending()->exit_status, 0);
+  const std::string words = server.stderr_tail();
+  EXPECT_THAT(words, HasSubstr("--budget: 20001 events within a simulated second"));
+  EXPECT_THAT(words, HasSubstr("with no room"));
+  EXPECT_THAT(words, HasSubstr("more slowly, by at most 166 events a tick"));
+  EXPECT_THAT(words, HasSubstr("of its pace: 10 ticks were cut short"));
+  const auto result = nlohmann::json::parse(std::ifstream(report), nullptr, false);
+  EXPECT_EQ(result.at("ticks_cut_short"), 15) << "all but that of 0 s";
+  EXPECT_NEAR(result.at("behind_s").get<double>(), 0.5, 1e-3);
+  EXPECT_EQ(result.at("valid"), false);
+}
+
 TEST(ServeLimits, AreAsWideAsTheyAreSaidToBe) {
   const Held held =
       held_by({"--key-limit", "0", "--rate-limit", "100000", "--frame-limit", "1000"}, send_frames);

@@ -39,6 +39,8 @@ class HostedMatch {
   Game begin(const Game& last);
   /// The time to which the game, now at `played` [s], must be simulated.
   double goal(double now_s, double played) const;
+  /// At `now_s` the game has come no further than `played` [s]: it goes on from there.
+  void fall_behind(double now_s, double played) { flow_.fall_behind(now_s, played); }
   /// Ends the match if its game was won.
   void judge(const Game& game);
 

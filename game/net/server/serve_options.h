@@ -26,7 +26,10 @@ struct ServeOptions {
   double spread = 0.0;
   double threshold = threshold_default;                          ///< m
   double rate_limit_bytes_per_s = 0.0, frame_limit_per_s = 0.0;  ///< of each client; 0: none
-  double key_limit_per_s = key_limit_default;                    ///< of each player; 0: none
+  /// Of the physics in real time. More than a core plays in a second, so that only what would hang
+  /// is slowed.
+  std::uint64_t events_per_s = 2'000'000;
+  double key_limit_per_s = key_limit_default;  ///< of each player; 0: none
 };
 
 }  // namespace rink::game

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "game/net/interest_codec.h"
 #include "game/replication/names.h"
@@ -24,6 +25,7 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
       turns_({.tick_s = settings.tick_s,
               .is_synchronous = settings.is_synchronous,
               .is_time_managed = settings.is_time_managed}),
+      budget_({.events_per_s = settings.events_per_s, .tick_s = settings.tick_s}),
       always_relevant_(settings.always_relevant.value_or(relevant_kinds_of(scene))) {
   assert(!settings.hosting || (!is_replay_ && !settings.is_time_managed && !settings.begun));
   if (settings.hosting) hosted_.emplace(*settings.hosting, scene);
@@ -149,12 +151,14 @@ void Server::receive_key(std::uint32_t player, bool is_down, rti::Bytes paramete
   if (event) submit(*event);
 }
 
-void Server::simulate(double until) {
-  game_.advance(until);
+double Server::simulate(double until) {
+  const bool has_arrived = budget_.advance(game_, until);
   turns_.stepped();
-  keys_.feel_until(until);
+  // Keys of the very instant in which it was cut short are not felt yet.
+  keys_.feel_until(has_arrived ? until : std::nextafter(game_.now(), -1.0));
   seats_.begin_turns();
   if (hosted_) hosted_->judge(game_);
+  return game_.now();
 }
 
 void Server::publish(const rti::Stamp& stamp) {

@@ -18,6 +18,7 @@
 #include "game/net/server/players/key_intake.h"
 #include "game/net/server/players/seats.h"
 #include "game/net/server/players/server_turns.h"
+#include "game/net/server/tick_budget.h"
 #include "game/replication/publisher.h"
 #include "rti/ambassador.h"
 
@@ -49,6 +50,8 @@ struct ServerSettings {
   /// beyond that are counted and acknowledged, so that the player does not wait for them, but not
   /// applied.
   double key_limit_per_s = key_limit_default;
+  /// Events of the physics that are played in time, per simulated second; 0: any (tick_budget.h).
+  std::uint64_t events_per_s = 0;
   std::optional<RelevantKinds> always_relevant{};  ///< absent: relevant_kinds_of(scene)
   /// A game of the scene from which the server's continues instead of beginning (a copy, made at
   /// once), with the keys of `replay` after its now(). Not with `hosting` (asserted).
@@ -92,8 +95,11 @@ class Server : public rti::FederateAmbassador {
   /// True once after something was said that should not wait for the next tick.
   bool take_urgent() { return board_ && board_->take_urgent(); }
 
-  /// Advances the game to `until` [s], applying every key at exactly its stamped time.
-  void simulate(double until);
+  /// Advances the game to `until` [s], applying every key at exactly its stamped time, or less far
+  /// where the budget is spent. Returns the time reached [s].
+  double simulate(double until);
+  TickBudget& budget() { return budget_; }
+  const TickBudget& budget() const { return budget_; }
   /// Publishes all changes with the stamp.
   void publish(const rti::Stamp& stamp);
   /// Publishes flights from now on, and moves regions only for new ones; call it before the server
@@ -157,6 +163,7 @@ class Server : public rti::FederateAmbassador {
   Seats seats_;
   KeyIntake keys_;
   ServerTurns turns_;
+  TickBudget budget_;
   std::optional<HostedMatch> hosted_;
   std::optional<MatchBoard> board_;  ///< of a hosted match, once the server has joined
   Inspections inspections_;

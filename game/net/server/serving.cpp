@@ -60,14 +60,13 @@ void Serving::exchange(double longest_wait_s) {
 TickCosts Serving::tick(double simulated_s, double due_s) {
   TickCosts costs;
   Stopwatch watch(now_s_);
-  server_.simulate(simulated_s);
+  const double played_s = server_.simulate(simulated_s);
   watch.add_to(costs.physics_s);
-  send(simulated_s, due_s, costs);
+  send(played_s, due_s, costs);
   for (const Inspections::Question& each : server_.inspections().take())
     server_.send_interest(each.federate, interest_report(server_, execution_, each.object));
   if (recorder_)
-    recorder_->look(server_, execution_,
-                    {simulated_s, costs.physics_s, costs.filter_s, costs.send_s});
+    recorder_->look(server_, execution_, {played_s, costs.physics_s, costs.filter_s, costs.send_s});
   host_.advance_clock(now_s_());
   return costs;
 }

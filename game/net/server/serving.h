@@ -45,9 +45,9 @@ class Serving {
   /// once, not with the tick, so that keys are stamped when they arrive.
   void exchange(double longest_wait_s);
 
-  /// One tick: plays up to `simulated_s` [s], publishes, matches and flushes. `due_s` [s] is the
-  /// instant on the owner's clock at which it was due, 0 before the start; clients get it as the
-  /// stamp's tag, unless they play hosted matches.
+  /// One tick: plays up to `simulated_s` [s], or as far as the server's budget lets it, publishes,
+  /// matches and flushes. `due_s` [s] is the instant on the owner's clock at which it was due, 0
+  /// before the start; clients get it as the stamp's tag, unless they play hosted matches.
   TickCosts tick(double simulated_s, double due_s);
 
   /// Watches every tick from now on.

@@ -105,8 +105,8 @@ TEST_F(VirtualRunTest, EndsInTheStateOfTheSameCellOverRealSockets) {
     const nlohmann::json over_sockets = report(cell, who);
     // What their clocks, pace and memory say of themselves.
     const std::set<std::string> of_processes{
-        "cpu_share",       "evidence_bytes", "histogram_ns_per_record",
-        "burst_bytes_max", "pace",           "send_us_max",
+        "behind_s",        "cpu_share",       "evidence_bytes", "histogram_ns_per_record",
+        "ticks_cut_short", "burst_bytes_max", "pace",           "send_us_max",
         "spread",          "time_managed"};
     for (const auto& [key, value] : over_sockets.items())
       EXPECT_TRUE(of_processes.contains(key) || mine.contains(key))

@@ -40,6 +40,16 @@ TEST(AHostedMatch, StandsStillUntilItsCountdownIsOver) {
   EXPECT_EQ(evening.game.now(), last_on(tick_grid, 0.7501));
 }
 
+TEST(AHostedMatch, GoesOnFromWhereAGameThatHasTooMuchToDoHasCome) {
+  Evening evening;
+  evening.follow(4.75);
+  evening.match.fall_behind(5.0, evening.game.now());
+  EXPECT_EQ(evening.match.simulated(5.0), evening.game.now());
+  EXPECT_EQ(evening.match.simulated(5.5), evening.game.now() + 0.5);
+  evening.follow(5.5);
+  EXPECT_EQ(evening.game.now(), last_on(tick_grid, 1.25));
+}
+
 TEST(AHostedMatch, FeelsKeysFromTheCountdownOn) {
   const Evening evening;
   EXPECT_TRUE(evening.match.are_keys_felt());
