@@ -54,6 +54,7 @@ BodyConstants BodyConstants::of(const BodyState& state) {
 
 Validator::Validator(const physics::World& world)
     : puck_drag_(world.spec().puck_drag),
+      glide_max_(physics::Subdomain::glide_max(world)),
       reach_(2.0 * (world.spec().field.length + world.spec().field.width)),
       material_count_(world.spec().restitution.material_count()) {
   for (std::uint32_t body = 0; body < world.body_count(); ++body) {
@@ -91,9 +92,12 @@ std::string Validator::fault_of(const Handover::Body& body, double now) const {
   if (!is_driven)
     return named("hands over body", body.number,
                  "with an acceleration, drag or spin that is no number or too large");
-  const bool is_counted = s.impacts_begin <= now && s.last_hop <= now && s.repeats_instant <= now &&
-                          std::isfinite(s.impacts_begin) && std::isfinite(s.last_hop) &&
-                          std::isfinite(s.repeats_instant) && !std::isnan(s.rest_time);
+  // Only what glides has a hop that goes on.
+  const double hop_max = physics::Subdomain::is_frozen(s) ? now + glide_max_ : now;
+  const bool is_counted = s.impacts_begin <= now && s.last_hop <= hop_max &&
+                          s.repeats_instant <= now && std::isfinite(s.impacts_begin) &&
+                          std::isfinite(s.last_hop) && std::isfinite(s.repeats_instant) &&
+                          !std::isnan(s.rest_time);
   if (!is_counted)
     return named("hands over body", body.number, "with times that are no numbers or still to come");
   if (!physics::Subdomain::is_possible(s, static_cast<std::uint32_t>(constants_of_.size())))

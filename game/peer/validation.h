@@ -57,6 +57,7 @@ class Validator {
   bool is_place(const Vector2& place) const;
 
   double puck_drag_ = 0.0;  ///< 1/s
+  double glide_max_ = 0.0;  ///< s
   double reach_ = 0.0;      ///< no coordinate lies farther from the field's corner [m]
   std::size_t material_count_ = 0;
   std::vector<BodyConstants> constants_;     ///< each once: a scene has few

@@ -77,7 +77,13 @@ bool Subdomain::is_possible(const BodyState& state, std::uint32_t body_count) {
          (!is_jammed || state.jam < body_count);
 }
 
+double Subdomain::glide_max(const World& world) {
+  return static_cast<double>(physics::glide_max(world.spec()));
+}
+
 bool Subdomain::is_out_of_play(const BodyState& state) { return (state.flags & Body::gone) != 0; }
+
+bool Subdomain::is_frozen(const BodyState& state) { return (state.flags & Body::frozen) != 0; }
 
 bool Subdomain::is_held_along(const BodyState& state, int axis) {
   assert(axis == 0 || axis == 1);

@@ -50,7 +50,11 @@ class Subdomain {
   /// Whether some world could have it in this state as far as flags and numbers say, in a game of
   /// `body_count` bodies.
   static bool is_possible(const BodyState& state, std::uint32_t body_count);
+  /// How long after now() BodyState::last_hop may lie, at most [s].
+  static double glide_max(const World& world);
   static bool is_out_of_play(const BodyState& state);
+  /// Whether it is in a jam, at rest or gliding.
+  static bool is_frozen(const BodyState& state);
   /// Whether it is in a rest contact along axis 0 or 1.
   static bool is_held_along(const BodyState& state, int axis);
   /// As it was when the window began.

@@ -94,7 +94,7 @@ class World final : public Simulator {
   bool is_removed(BodyId body) const;
   bool is_resting(BodyId body) const;  ///< at rest, and will be until something else acts on it
   bool is_held(
-      BodyId body) const;  ///< in rest contact along some axis, or part of a jam in equilibrium
+      BodyId body) const;  ///< in rest contact along some axis, or part of a pressed cluster
 
   /// Whether a disc (or rectangle) centred there would lie inside the field and overlap no body at
   /// now(); touching is free.

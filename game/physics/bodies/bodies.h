@@ -166,6 +166,12 @@ inline Motion motion_at(const Bodies& bodies, std::uint32_t body, Real time) {
   return bodies.motion(body).at(time);
 }
 
+/// Whether it is at rest, and will be until something acts on it.
+inline bool is_still(const Bodies& bodies, std::uint32_t body) {
+  return bodies.velocity(body) == RealVector(0.0, 0.0) &&
+         bodies.law(body).acceleration == RealVector(0.0, 0.0);
+}
+
 /// At its last event.
 inline RealVector acceleration_of(const Bodies& bodies, Partner p) {
   if (bodies.is_fixed(p)) return {0.0, 0.0};

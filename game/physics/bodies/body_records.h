@@ -66,7 +66,8 @@ struct RepeatCount {
 
 /// How densely impacts follow each other; part of the physical history.
 struct ImpactCounts {
-  Real window_start = -1.0, last_hop = -1.0;
+  Real window_start = -1.0;
+  Real last_hop = -1.0;  // the end of the glide that began with it
   std::uint32_t impacts = 0, hops = 0;
   RepeatCount repeats;  // impacts where bodies may start in overlap, attempts at rest of pucks
                         // that friction slows

@@ -18,7 +18,8 @@ constexpr std::uint32_t impacts_max = 24;      // of impacts at any speed, where
 constexpr std::uint32_t repeats_max = 100;
 /// Impacts within roundings of the clock: more than an elastic series takes, masses 1e12 apart.
 constexpr std::uint32_t jammed_min = 10'000;
-constexpr std::uint32_t rests_max = 8;  // at one instant
+constexpr std::uint32_t rests_max = 8;      // at one instant
+constexpr std::uint32_t restless_min = 16;  // impacts within contact_time
 
 }  // namespace
 
@@ -81,6 +82,11 @@ void ImpactHistory::note_hop(std::span<const std::uint32_t> members, Real time) 
     if (observers_.journal != nullptr)
       observers_.journal->mix_digest(body, 0x80000000u | counts.hops);
   }
+}
+
+bool ImpactHistory::is_restless(const Contact& c) const {
+  return impact_counts_[c.body].impacts >= restless_min ||
+         (!bodies_.is_fixed(c.partner) && impact_counts_[c.partner].impacts >= restless_min);
 }
 
 void ImpactHistory::count_meeting(const Contact& c, Real instant_begin) {

@@ -45,6 +45,12 @@ class ImpactHistory {
   void note_hop(std::span<const std::uint32_t> members, Real time);
   /// In the present series, the last one included.
   std::uint32_t hops(std::uint32_t body) const { return impact_counts_[body].hops; }
+  /// When the last one was, or when the glide ends that it began [s].
+  Real last_hop(std::uint32_t body) const { return impact_counts_[body].last_hop; }
+  /// The last hop goes on until `end` [s].
+  void hop_until(std::uint32_t body, Real end) { impact_counts_[body].last_hop = end; }
+  /// Whether glides seem to end as soon as they begin.
+  bool is_restless(const Contact& contact) const;
   void forget_hops(std::uint32_t body) { impact_counts_[body].hops = 0; }
 
   /// Counts the impacts of both at an instant that began at `instant_begin`.

@@ -18,17 +18,35 @@ void Jams::write(std::uint32_t body, const BodyState& state) {
   if ((state.flags & Body::frozen) != 0) table_.frozen.push_back(body);
 }
 
-void Jams::stop(std::span<const std::uint32_t> members) {
+void Jams::enlist(std::span<const std::uint32_t> members) {
   assert(!members.empty());
   ++table_.count;
   const std::uint32_t jam = *std::min_element(
       members.begin(), members.end());  // nobody is in two, so that it names the jam in every world
   for (const std::uint32_t body : members) {
-    bodies_.set_velocity(body, RealVector(0.0, 0.0));
+    assert(!bodies_[body].is(Body::frozen));
     bodies_.set_flags(body, Body::frozen);
     table_.numbers[body] = jam;
     table_.frozen.push_back(body);
+  }
+}
+
+void Jams::stop(std::span<const std::uint32_t> members) {
+  enlist(members);
+  for (const std::uint32_t body : members) {
+    bodies_.set_velocity(body, RealVector(0.0, 0.0));
     for (int axis = 0; axis < 2; ++axis) bodies_.set_law(body, axis, 0.0, bodies_.own_drag(body));
+  }
+}
+
+void Jams::glide(std::span<const std::uint32_t> members, std::span<const RealVector> accelerations,
+                 Real end) {
+  assert(members.size() == accelerations.size());
+  enlist(members);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    history_.hop_until(members[i], end);
+    for (int axis = 0; axis < 2; ++axis)
+      bodies_.set_law(members[i], axis, accelerations[i][axis], bodies_.own_drag(members[i]));
   }
 }
 
@@ -46,7 +64,8 @@ void Jams::wake(std::uint32_t body, Real time) {
     frozen[i] = frozen.back();
     frozen.pop_back();
     bodies_.clear_flags(member, Body::frozen);
-    history_.forget_hops(member);
+    if (is_still(bodies_, member)) history_.forget_hops(member);
+    history_.hop_until(member, std::min(time, history_.last_hop(member)));
     bodies_.rebase(member, time);
     for (int axis = 0; axis < 2; ++axis)
       bodies_.set_law(member, axis, bodies_.build(member).thrust[axis], bodies_.own_drag(member));

@@ -1,4 +1,5 @@
-// Pressed clusters in equilibrium: their members stand still until one of them is woken.
+// Pressed clusters in equilibrium: their members stand still, or move on together, until one of
+// them is woken.
 #pragma once
 
 #include <cassert>
@@ -47,6 +48,10 @@ class Jams {
 
   /// Stops `members` where they are, for as long as nothing else acts on them.
   void stop(std::span<const std::uint32_t> members);
+  /// Lets `members` move on under `accelerations` [m/s^2], in the same order, up to `end` [s] or
+  /// until something else acts on one of them.
+  void glide(std::span<const std::uint32_t> members, std::span<const RealVector> accelerations,
+             Real end);
   /// Ends the equilibrium of the jam that `body` is part of, if it is in one: all its members yield
   /// to their thrust again.
   void wake(std::uint32_t body, Real time);
@@ -59,6 +64,8 @@ class Jams {
   }
 
  private:
+  void enlist(std::span<const std::uint32_t> members);
+
   Bodies& bodies_;
   ImpactHistory& history_;
   JamTable table_;

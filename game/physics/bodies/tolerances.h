@@ -22,4 +22,7 @@ inline Real offset_tolerance(const WorldSpec& spec) {
 /// Pressed contacts that close more slowly come to rest [m/s].
 inline Real rest_speed(const WorldSpec& spec) { return 20.0 * Real(spec.contact_time); }
 
+/// A pressed cluster glides no longer than that [s].
+inline Real glide_max(const WorldSpec& spec) { return 16.0 * Real(spec.contact_time); }
+
 }  // namespace rink::physics::inline RINK_PRECISION

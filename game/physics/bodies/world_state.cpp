@@ -156,7 +156,9 @@ bool is_sound(const WorldState& state) {
   const BodyTable& table = state.bodies;
   const auto count = static_cast<std::uint32_t>(table.bodies.size());
   for (std::uint32_t body = 0; body < count; ++body)
-    if (!is_sound(table.bodies[body], table.shapes[body], table.laws[body], state)) return false;
+    if (!is_sound(table.bodies[body], table.shapes[body], table.laws[body], state) ||
+        !std::isfinite(state.impact_counts[body].last_hop))
+      return false;
   const auto is_partner = [&](Partner p) {
     return p < count || (p >= partner::field_parts && p <= partner::halfway);
   };

@@ -24,6 +24,9 @@ struct Touch {
   Real wanted = 0.0;        ///< least speed of separation afterwards [m/s]
   Real impulse = 0.0;       ///< of the solution at hand [kg m/s]
   bool has_pushed = false;  ///< in any step of an impact
+  Real gap = 0.0;           ///< m
+  Real reach =
+      0.0;  ///< from the point about which the normal turns [m]; 0 if it keeps its direction
 };
 
 /// Bodies that can move, by place, and the contacts among them.

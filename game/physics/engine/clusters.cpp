@@ -13,6 +13,8 @@ constexpr std::size_t cluster_max = 256;
 constexpr double glancing_part = 16.0;     // of contact_time
 constexpr std::uint32_t long_series = 64;  // of hops
 constexpr double loose_gaps = 8.0;
+constexpr std::size_t gliding_max = 96;    // contacts
+constexpr double glide_turn = 1.0 / 64.0;  // of a normal during a glide [rad]
 /// The least speed at which a hop parts contacts, relative to the speeds around: less than a few
 /// roundings would be none. Its energy, 1e-24 of what there is, is below rounding.
 constexpr Real parting_min = 1e-12 * fineness;
@@ -28,11 +30,17 @@ Clusters::Clusters(const WorldSpec& spec, const Uses& uses)
       record_(uses.record),
       puck_friction_(spec.puck_friction),
       contact_time_(spec.contact_time),
+      glide_max_(glide_max(spec)),
       rest_speed_(rest_speed(spec)) {}
 
 bool Clusters::hop(const Contact& c, Real approach, Real pressing, Real time) {
   const Limits limits{cluster_gap, std::max<Real>(rest_speed_, 2.0 * approach)};
   gather(c, limits, time);
+  return hop_gathered({c, approach, pressing}, limits, time);
+}
+
+bool Clusters::hop_gathered(const Closing& closing, const Limits& limits, Real time) {
+  const auto& [c, approach, pressing] = closing;
   const Real thrust = thrust_max();
   Real given_back = 1.0;
   for (const Touch& contact : problem_.touches)
@@ -56,7 +64,7 @@ bool Clusters::hop(const Contact& c, Real approach, Real pressing, Real time) {
     problem_.velocities[place] = bodies_.velocity(members_[place]);
   if (thrust == 0.0 && problem_.speed() < still_speed())
     std::fill(problem_.velocities.begin(), problem_.velocities.end(), RealVector(0.0, 0.0));
-  else part(pressure, pressing, thrust);
+  else if (!glide(c, thrust, time)) part(pressure, pressing, thrust);
   for (std::size_t place = 0; place < members_.size(); ++place)
     bodies_.set_velocity(members_[place], problem_.velocities[place]);
   return true;
@@ -67,16 +75,87 @@ void Clusters::part(Real pressure, Real pressing, Real thrust) {
   const Real driven = std::max(
                  least, std::clamp<Real>(0.5 * pressure * contact_time_, 0.0, 0.5 * rest_speed_)),
              sum = driven * static_cast<Real>(problem_.touches.size());
-  Real mass = 0.0;
-  for (const std::uint32_t body : members_) mass += bodies_.build(body).mass;
   const Real glancing = glancing_speed(thrust, pressing, speed);
   const bool is_glancing = glancing > driven;
   const Real separation = is_glancing      ? glancing
                           : pressure > 0.0 ? driven
                                            : std::max(least, 0.5 * turning() * contact_time_);
-  const Real gain_max = is_glancing ? 0.5 * mass * glancing * glancing : 0.5 * mass * sum * sum;
+  const Real gain_max = 0.5 * mass() * (is_glancing ? glancing * glancing : sum * sum);
   record_.counters().hop_energy +=
       std::max(0.0, static_cast<double>(solver_.part(problem_, separation, gain_max)));
+}
+
+void Clusters::go_on(std::uint32_t body, Real time) {
+  assert(bodies_[body].is(Body::frozen));
+  const Contact c{body, partner::none, {}};
+  const Limits limits{cluster_gap, rest_speed_};
+  rests_.rouse(body, time);
+  gather(c, limits, time);
+  if (has_turning()) hop_gathered({c, 0.0, 0.0}, limits, time);
+}
+
+/// Whether a contact's normal turns: faces alone come to rest on each other, without events.
+bool Clusters::has_turning() const {
+  return std::any_of(problem_.touches.begin(), problem_.touches.end(),
+                     [](const Touch& touch) { return touch.reach > 0.0; });
+}
+
+Real Clusters::mass() const {
+  Real sum = 0.0;
+  for (const std::uint32_t body : members_) sum += bodies_.build(body).mass;
+  return sum;
+}
+
+/// Lets the cluster move on in contact, under constant forces: one event, where hops would follow
+/// each other every `contact_time`. Answers whether it could.
+bool Clusters::glide(const Contact& c, Real thrust, Real time) {
+  if (!(thrust > 0.0) || bodies_.is_slowed() || !has_turning() ||
+      problem_.touches.size() > gliding_max || history_.is_restless(c))
+    return false;
+  velocities_ = problem_.velocities;
+  Glide glide = glide_of(thrust);
+  const Real sum = glide.opening * static_cast<Real>(problem_.touches.size()),
+             gain = solver_.part(problem_, glide.opening, 0.5 * mass() * sum * sum);
+  glide.duration = std::min(glide.duration, glide_of(thrust).duration);
+  drives_.clear();
+  for (const std::uint32_t body : members_)
+    drives_.push_back({bodies_.build(body).thrust, bodies_.own_drag(body)});
+  const bool is_jammed =
+      std::any_of(problem_.touches.begin(), problem_.touches.end(),
+                  [&](const Touch& touch) { return touch.wanted < glide.opening; });
+  if (is_jammed || !glide_solver_.solve(problem_, drives_, glide))
+    return problem_.velocities = velocities_, false;
+  for (std::size_t place = 0; place < members_.size(); ++place)
+    bodies_.set_velocity(members_[place], problem_.velocities[place]);
+  jams_.glide(members_, glide_solver_.accelerations(), time + glide.duration);
+  record_.counters().hop_energy +=
+      static_cast<double>(std::max<Real>(0.0, gain) + glide_solver_.work_max());
+  return true;
+}
+
+/// As long as normals keep their directions within `glide_turn`, and no contact leaves its face.
+/// The opening makes room for what constant forces do to a gap on the way, (t/T)^2 (1 - t/T) of the
+/// third derivative times T^3/6, the normals turning as fast as they do at the end.
+Glide Clusters::glide_of(Real thrust) const {
+  Real rate = 0.0, nearest = infinity, drag = 0.0;
+  for (const Touch& touch : problem_.touches) {
+    if (!(touch.reach > 0.0)) continue;
+    const RealVector there =
+        touch.other == fixed_place ? RealVector(0.0, 0.0) : problem_.velocities[touch.other];
+    const RealVector velocity = problem_.velocities[touch.body] - there;
+    rate =
+        std::max(rate, std::abs(touch.normal.x() * velocity.y() - touch.normal.y() * velocity.x()) /
+                           touch.reach);
+    nearest = std::min(nearest, touch.reach);
+  }
+  for (const std::uint32_t body : members_) drag = std::max(drag, bodies_.own_drag(body));
+  const Real duration = std::clamp<Real>(
+      std::min({glide_turn / rate, std::sqrt(2.0 * glide_turn * nearest / thrust), face_time_}),
+      contact_time_, glide_max_);
+  rate += thrust * duration / nearest;
+  const Real opening = (3.0 * rate + drag) * thrust * duration * duration / 6.0;
+  return {duration, std::max(Real(parting_min) * problem_.speed(),
+                             std::min<Real>(opening, 0.5 * rest_speed_))};
 }
 
 void Clusters::stop_around(const Contact& c, Real time) {
@@ -152,21 +231,44 @@ void Clusters::add_contact(std::uint32_t place, Partner p, const Limits& limits,
   const RealVector there =
       bodies_.is_fixed(p) ? RealVector(0.0, 0.0) : motion_at(bodies_, p, time).velocity;
   if (std::abs(c.gap.normal.dot(bodies_.velocity(body) - there)) > limits.speed) return;
-  if (bodies_.is_fixed(p)) {
-    problem_.touches.push_back({place, fixed_place, c.gap.normal, detection_.restitution(body, p)});
-    return;
-  }
+  Touch touch{place, fixed_place, c.gap.normal, detection_.restitution(body, p)};
+  touch.gap = c.gap.distance, touch.reach = reach_of(c);
+  if (is_body(p)) limit_by_face(c, time);
+  if (bodies_.is_fixed(p)) return problem_.touches.push_back(touch);
   const bool is_known = std::find(members_.begin(), members_.end(), p) != members_.end();
   if (!is_known && members_.size() >= cluster_max) return;
-  const std::uint32_t other = place_of(p, time);
-  if (other > place)
-    problem_.touches.push_back({place, other, c.gap.normal, detection_.restitution(body, p)});
+  touch.other = place_of(p, time);
+  if (touch.other > place) problem_.touches.push_back(touch);
+}
+
+/// How far the point is about which the normal turns [m]; 0 for a face.
+Real Clusters::reach_of(const Contact& c) const {
+  if (c.gap.face < 0) return c.gap.line.norm();
+  if (is_body(c.partner)) {
+    const RoundedBox shape = shape_of(bodies_, c.body, c.partner);
+    return shape.half_extent[1 - c.gap.face] > 0.0 ? Real(0.0) : shape.radius + c.gap.distance;
+  }
+  return c.partner >= partner::edge_left_low ? bodies_[c.body].radius + c.gap.distance : Real(0.0);
+}
+
+/// No glide goes beyond the end of a face.
+void Clusters::limit_by_face(const Contact& c, Real time) {
+  if (c.gap.face < 0) return;
+  const int along = 1 - c.gap.face;
+  const Motion here = motion_at(bodies_, c.body, time), there = motion_at(bodies_, c.partner, time);
+  const Real extent = shape_of(bodies_, c.body, c.partner).half_extent[along],
+             speed = here.velocity[along] - there.velocity[along],
+             offset = here.position[along] - there.position[along];
+  if (extent > 0.0 && speed != 0.0)
+    face_time_ =
+        std::min(face_time_, (extent - std::copysign(offset, offset * speed)) / std::abs(speed));
 }
 
 /// Everybody connected with the contact within the limits, in an order that depends on ids alone.
 void Clusters::gather(const Contact& c, const Limits& limits, Real time) {
   members_.clear();
   problem_.clear();
+  face_time_ = infinity;
   place_of(c.body, time);
   if (!bodies_.is_fixed(c.partner)) place_of(c.partner, time);
   for (std::uint32_t place = 0; place < members_.size(); ++place)

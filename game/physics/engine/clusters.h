@@ -12,6 +12,7 @@
 #include "game/physics/bodies/jams.h"
 #include "game/physics/bodies/partner.h"
 #include "game/physics/contact/contact_problem.h"
+#include "game/physics/contact/glide_solver.h"
 #include "game/physics/contact/separation_solver.h"
 #include "game/physics/engine/contact_detection.h"
 #include "game/physics/engine/rest_contacts.h"
@@ -40,6 +41,8 @@ class Clusters {
   /// done to velocities, if an ordinary impact serves: nothing presses, and nothing is lost or the
   /// contact is alone.
   bool hop(const Contact& contact, Real approach, Real pressing, Real time);
+  /// After a glide of the body, which comes to its end: all that still hangs together hops anew.
+  void go_on(std::uint32_t body, Real time);
   /// Stops all that hangs together with the contact, for as long as nothing else acts on it.
   void stop_around(const Contact& contact, Real time);
 
@@ -49,12 +52,25 @@ class Clusters {
     Real gap, speed;
   };
 
+  /// How fast a contact closes, and how that is pressed [m/s^2].
+  struct Closing {
+    const Contact& contact;
+    Real approach, pressing;
+  };
+
+  bool hop_gathered(const Closing& closing, const Limits& limits, Real time);
+  bool has_turning() const;
   void gather(const Contact& contact, const Limits& limits, Real time);
   std::uint32_t place_of(std::uint32_t body, Real time);
   void add_contact(std::uint32_t place, Partner partner, const Limits& limits, Real time);
   bool freeze();
   bool freeze_loosely(const Contact& contact, Real time);
   void part(Real pressure, Real pressing, Real thrust);
+  bool glide(const Contact& contact, Real thrust, Real time);
+  Glide glide_of(Real thrust) const;
+  Real reach_of(const Contact& contact) const;
+  void limit_by_face(const Contact& contact, Real time);
+  Real mass() const;
   bool is_rattling(Real approach) const;
   Real thrust_max() const;
   Real turning() const;
@@ -67,11 +83,15 @@ class Clusters {
   Jams& jams_;
   RestContacts& rests_;
   EventRecord& record_;
-  double puck_friction_;            // m/s^2
-  Real contact_time_, rest_speed_;  // s, m/s
+  double puck_friction_;                        // m/s^2
+  Real contact_time_, glide_max_, rest_speed_;  // s, s, m/s
   std::vector<std::uint32_t> members_;
   ContactProblem problem_;  // theirs, in the same order
   SeparationSolver solver_;
+  GlideSolver glide_solver_;
+  std::vector<Drive> drives_;           // of the members
+  std::vector<RealVector> velocities_;  // theirs, before a glide was tried
+  Real face_time_ = 0.0;  // until the first of them reaches the end of another one's face [s]
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

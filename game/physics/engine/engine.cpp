@@ -24,6 +24,7 @@ Engine::Engine(const WorldSpec& spec)
       prediction_(spec_, {.clock = clock_,
                           .bodies = bodies_,
                           .grid = places_.grid(),
+                          .history = history_,
                           .rests = rests_,
                           .events = events_,
                           .counters = record_.counters()}),
@@ -267,7 +268,8 @@ void Engine::process(std::uint32_t body, Real time) {
     observers_.journal->begin_event(time, std::min(body, p), std::max(body, p));
   count_event(time);
   if (p == partner::goal_line) score(body, time);
-  else if (p == partner::release) rests_.release(body, time);
+  else if (p == partner::release)
+    bodies_[body].is(Body::frozen) ? impact_.go_on(body, time) : rests_.release(body, time);
   else if (p == partner::stop) stop(body, time);
   else if (p == partner::mouth_in || p == partner::mouth_out) {
     rests_.rebase_group(body, time);

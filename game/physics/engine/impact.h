@@ -41,6 +41,8 @@ class Impact {
 
   /// `is_crowded`: other impacts may come at this instant.
   void collide(std::uint32_t body, Partner partner, Real time, bool is_crowded);
+  /// The glide of the body's cluster has come to its end.
+  void go_on(std::uint32_t body, Real time) { clusters_.go_on(body, time); }
 
  private:
   void collide_ordered(std::uint32_t body, Partner partner, Real time, bool is_crowded);

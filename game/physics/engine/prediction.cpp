@@ -15,6 +15,7 @@ Prediction::Prediction(const WorldSpec& spec, const Uses& uses)
       clock_(uses.clock),
       bodies_(uses.bodies),
       grid_(uses.grid),
+      history_(uses.history),
       rests_(uses.rests),
       events_(uses.events),
       counters_(uses.counters),
@@ -77,6 +78,8 @@ void Prediction::predict_field(std::uint32_t body) {
     offer(body, bodies_.rest_time(body), partner::stop);
   if (b.is(Body::held))
     rests_.for_each_end(body, [&](Real time) { offer(body, time, partner::release); });
+  if (b.is(Body::frozen) && !is_still(bodies_, body))
+    offer(body, history_.last_hop(body), partner::release);
   if ((b.flags & Body::curved) != 0) predict_curved_walls(body);
   else predict_flight(body);
   if (b.mouth != Body::no_mouth) predict_mouth(body);
@@ -259,7 +262,9 @@ void Prediction::predict_pair(std::uint32_t body, std::uint32_t other) {
 }
 
 void Prediction::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
-  if ((bodies_[body].flags & bodies_[other].flags & Body::frozen) != 0) return;
+  if ((bodies_[body].flags & bodies_[other].flags & Body::frozen) != 0 && is_still(bodies_, body) &&
+      is_still(bodies_, other))
+    return;
   if ((bodies_[body].flags & Body::held) != 0 && rests_.are_joined(body, other)) return;
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
   const Motion a = bodies_.motion(low), b = bodies_.motion(high);

@@ -6,6 +6,7 @@
 
 #include "game/physics/bodies/bodies.h"
 #include "game/physics/bodies/clock.h"
+#include "game/physics/bodies/impact_history.h"
 #include "game/physics/bodies/partner.h"
 #include "game/physics/body.h"
 #include "game/physics/cell_grid.h"
@@ -24,6 +25,7 @@ class Prediction {
     const Clock& clock;
     const Bodies& bodies;
     const CellGrid& grid;
+    const ImpactHistory& history;
     const RestContacts& rests;
     NextEvents& events;
     Counters& counters;
@@ -83,6 +85,7 @@ class Prediction {
   const Clock& clock_;
   const Bodies& bodies_;
   const CellGrid& grid_;
+  const ImpactHistory& history_;
   const RestContacts& rests_;
   NextEvents& events_;
   Counters& counters_;

@@ -18,8 +18,8 @@ Tile::Tile(const Engine::Parts& engine, SharedWindow& shared, std::uint32_t numb
       events_(engine.events),
       restitution_(engine.spec.restitution),
       rest_speed_(rest_speed(engine.spec)),
-      prediction_(engine.spec, {clock_, engine.bodies, engine.places.grid(), engine.rests,
-                                engine.events, record_.counters()}),
+      prediction_(engine.spec, {clock_, engine.bodies, engine.places.grid(), engine.history,
+                                engine.rests, engine.events, record_.counters()}),
       courses_(number, count) {}
 
 void Tile::begin_window() {

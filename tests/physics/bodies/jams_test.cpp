@@ -59,6 +59,29 @@ TEST(Jams, YieldToTheirThrustAgainOnceOneOfThemIsWoken) {
   }
 }
 
+/// And keep their hops, for the glide was one of them.
+TEST(Jams, GlideAsTheyAreToldUntilOneOfThemIsWoken) {
+  LooseBodies loose(rink_of(10, 4));
+  add_row(loose, 3, 6.0);
+  const Members members{2, 0, 1};
+  loose.history.note_hop(members, 0.0);
+  const std::vector<RealVector> accelerations{{0.0, 2.0}, {0.0, 0.0}, {0.0, 1.0}};
+  loose.jams.glide(members, accelerations, 0.75);
+  for (const std::uint32_t body : members) {
+    const Motion later = motion_at(loose.bodies, body, 0.5);
+    const double across = body == 2 ? 2.0 : body == 1 ? 1.0 : 0.0;
+    EXPECT_EQ(later.position, Vector2(1.5 + body, 2.0 + 0.125 * across));
+    EXPECT_EQ(later.velocity, Vector2(1.0, 0.5 * across));
+    EXPECT_EQ(loose.history.last_hop(body), 0.75);
+  }
+  loose.jams.wake(0, 0.5);
+  for (const std::uint32_t body : members) {
+    EXPECT_EQ(loose.bodies.law(body).acceleration, Vector2(6.0, 0.0));
+    EXPECT_EQ(loose.history.last_hop(body), 0.5);
+    EXPECT_EQ(loose.history.hops(body), 1u);
+  }
+}
+
 TEST(Jams, WakeAloneAndLeaveOtherJamsStanding) {
   LooseBodies loose(rink_of(10, 4));
   add_row(loose, 6, 6.0);
